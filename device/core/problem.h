@@ -1,0 +1,73 @@
+// The one error type: what happened, where, why, and what to do about it.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+
+namespace axisgate {
+
+// Stable: clients match on these names. Their order and meaning never change; new ones are appended.
+enum class Reason {
+  unspecified,
+  // the request itself
+  invalid_request,
+  unknown_device,
+  unknown_axis,
+  unknown_unit,
+  out_of_range,
+  outside_travel,
+  too_fast,
+  not_representable,
+  malformed_line,
+  unknown_command,
+  incomplete_transaction,
+  not_found,
+  // the state of the device
+  axis_busy,
+  not_excited,
+  limit_detected,
+  emergency_stopped,
+  device_error,
+  wrong_mode,
+  left_over_setting,
+  position_unknown,
+  device_refused,
+  identity_mismatch,
+  // the line
+  link_down,
+  not_sent,
+  reply_timed_out,
+  line_fault,
+  completion_outstanding,
+  // the gateway
+  deadline_passed,
+  queue_full,
+  stopped,
+  target_not_reached,
+  outcome_unknown,
+  compacted,
+  internal,
+};
+
+// "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.
+std::string_view name(Reason reason);
+
+struct Problem {
+  Reason reason = Reason::unspecified;
+  std::string message;      // one sentence for a person: what, where, why
+  std::string hint;         // what to do; may be empty
+  std::optional<int> axis;  // 1..3, where one axis is meant
+  std::string sent;         // the line concerned, without terminator; may be empty
+  std::string wire_reply;   // the device's answer, unescaped; may be empty
+};
+
+template <class T>
+using Result = tl::expected<T, Problem>;
+
+inline tl::unexpected<Problem> fail(Reason reason, std::string message, std::string hint = {}) {
+  return tl::unexpected<Problem>(Problem{reason, std::move(message), std::move(hint), {}, {}, {}});
+}
+
+}  // namespace axisgate

@@ -1,0 +1,149 @@
+// One SHRC-203 as callers see it: the public face of this folder.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/core/quantity.h"
+#include "device/shrc203/event.h"
+#include "device/shrc203/motion.h"
+#include "device/shrc203/profile.h"
+#include "device/shrc203/state.h"
+
+namespace axisgate::shrc203 {
+
+// Who asks, and until when the asking counts. `not_after` bounds when a motion may start and how long a question may
+// wait; it never stops what has started.
+struct RequestContext {
+  std::string who;
+  std::string request_id;
+  TimePoint not_after{};
+};
+
+// S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.
+struct SpeedProfile {
+  Quantity minimum;
+  Quantity maximum;
+  int acceleration_ms = 100;
+};
+
+struct AxisMove {
+  int axis = 0;
+  Quantity distance;  // a target, or a way when the request is relative
+  std::optional<SpeedProfile> profile;
+};
+
+struct MoveRequest {
+  std::vector<AxisMove> moves;  // each axis once
+  bool relative = false;
+  RequestContext context;
+};
+
+// Mechanical origin return (manual 60) HRT:) or return to the logical origin (62) ZRT:).
+struct HomeRequest {
+  AxisSet axes;  // empty: all controllable axes
+  RequestContext context;
+};
+
+// One stretch of a path. Several axes: a straight line, always relative on the wire. One axis: relative or absolute.
+struct Segment {
+  std::vector<AxisMove> moves;  // the same axes in every segment
+  bool relative = true;
+  std::optional<Quantity> speed;  // path speed of a line (its lower axis's S), or one axis's maximum speed F
+  std::optional<int> acceleration_ms;
+};
+
+struct PathRequest {
+  static constexpr std::size_t kSegmentsMax = 100'000;
+  std::vector<Segment> segments;
+  RequestContext context;
+};
+
+struct StopReport {
+  struct Axis {
+    int axis = 0;
+    std::string wire_reply;  // OK, NG, or empty: no answer, or none that can be believed
+    bool named = false;      // an axis without excitation is not named: L: would be refused (manual 65))
+    std::optional<bool> ready;
+    std::optional<std::int64_t> position_pulses;
+  };
+  std::vector<Axis> axes;
+  std::optional<Problem> problem;  // outcome_unknown, link_down, left_over_setting ...
+};
+
+struct ExecuteRequest {
+  std::vector<std::string> lines;  // one transaction: nobody else's motion comes between
+  RequestContext context;
+};
+
+// A transaction's news, in order: each line's reply, then each completion it caused, then the end.
+struct ExecuteEvent {
+  enum class Kind { reply, completion, ended };
+  Kind kind = Kind::reply;
+  std::size_t line = 0;    // index into the request's lines
+  std::string answer;      // the field asked for, OK, NG ...
+  std::string sent;        // what was really sent
+  std::string wire_reply;  // what really came
+  int axis = 0;            // a completion's
+  std::optional<Problem> problem;
+};
+
+// Not thread safe: every member is called on the device's strand. Callbacks are called on it too, after the call that
+// took them has returned or from within it, once each (ExecuteEvents until `ended`).
+class Controller : public LineMachine {
+ public:
+  Controller(Profile profile, ByteLink& link, EventSink& events);
+  ~Controller() override;
+
+  void link_up(TimePoint now) override;
+  void link_down(TimePoint now, std::string_view why) override;
+  void receive(std::string_view bytes, TimePoint now) override;
+  void advance(TimePoint now) override;
+  std::optional<TimePoint> next_deadline() const override;
+
+  const Profile& profile() const;
+  const State& state() const;
+
+  // The state, read again from the device when it is older than `max_age`.
+  using OnState = std::function<void(Result<State>)>;
+  void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done);
+
+  // Answers once the motion has started (state running or already beyond), or with the problem that kept it from it.
+  using OnStarted = std::function<void(Result<Motion>)>;
+  void move(MoveRequest request, TimePoint now, OnStarted started);
+  void home(HomeRequest request, TimePoint now, OnStarted started);
+  void return_to_origin(HomeRequest request, TimePoint now, OnStarted started);
+  void run_path(PathRequest request, TimePoint now, OnStarted started);
+  // The same checks as above, and nothing is sent.
+  Result<void> check(const MoveRequest& request) const;
+  Result<void> check(const PathRequest& request) const;
+
+  // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.
+  using OnStopped = std::function<void(StopReport)>;
+  void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done);
+  void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done);
+
+  using OnDone = std::function<void(Result<void>)>;
+  void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done);
+
+  using OnExecute = std::function<void(const ExecuteEvent&)>;
+  void execute(ExecuteRequest request, TimePoint now, OnExecute event);
+
+  // The newest kMotionsKept motions; unfinished ones are always kept.
+  static constexpr std::size_t kMotionsKept = 1000;
+  std::vector<Motion> motions() const;  // oldest first
+  std::optional<Motion> find_motion(MotionId id) const;
+  void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done);
+
+  std::size_t queued(Lane lane) const;
+
+ private:
+  class Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace axisgate::shrc203

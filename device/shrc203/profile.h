@@ -1,0 +1,38 @@
+// What the gateway is told about one SHRC-203: from the configuration, checked before the daemon starts.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "device/core/quantity.h"
+#include "device/core/time.h"
+#include "device/shrc203/axes.h"
+
+namespace axisgate::shrc203 {
+
+struct AxisProfile {
+  std::string name;                        // shown beside the number; may be empty
+  Unit unit = Unit::micrometers;           // how positions are shown, and what a bare number in a request means
+  std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame; checked before anything is sent
+  std::optional<Quantity> travel_maximum;
+  std::optional<Quantity> maximum_speed;  // per second
+};
+
+// How far one axis's business concerns the others, where the manual does not say (device/shrc203/README.md).
+enum class Scope { axis, controller };
+
+struct Profile {
+  std::string name = "stage";
+  std::array<AxisProfile, kAxisCount> axes;
+  std::string model = "SHRC-203";  // what *IDN? must say
+  std::string serial_number;       // empty: any unit is accepted, and then stays the one until the daemon ends
+  Scope busy_scope = Scope::controller;
+  Scope prebuffer_scope = Scope::controller;
+  int baud = 38400;                                       // for the time that a line takes
+  Duration reply_limit = std::chrono::milliseconds(500);  // from the last byte sent to the reply's last byte
+  Duration idle_poll = std::chrono::seconds(1);
+  Duration moving_poll = std::chrono::milliseconds(100);
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,53 @@
+// The readings of the manual's silent places (device/shrc203/README.md lists them with the place), the first value of
+// each being the default; and the device's settings at power-on.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/problem.h"
+
+namespace axisgate::shrc203::simulator {
+
+struct OptionName {
+  std::string_view name;
+  std::span<const std::string_view> values;
+};
+
+// Every option that can be drawn or set by name.
+std::span<const OptionName> option_names();
+
+struct AxisSetup {
+  std::int64_t nm_per_pulse_e6 = 10'000'000;  // millionths of a nm: 10 nm a pulse
+  std::int64_t travel_minus_pulses = -2'000'000;
+  std::int64_t travel_plus_pulses = 2'000'000;
+  std::int64_t minimum_speed = 1000;   // S, pulses/s
+  std::int64_t maximum_speed = 50000;  // F, pulses/s
+  int acceleration_ms = 100;           // R
+};
+
+class Options {
+ public:
+  Options();
+
+  // NAME=VALUE of option_names(); unknown names and values are refused, naming the possible ones.
+  Result<void> set(std::string_view name, std::string_view value);
+  std::string_view get(std::string_view name) const;
+  bool is(std::string_view name, std::string_view value) const { return get(name) == value; }
+  std::string describe() const;  // "busy_scope=axis ..." with every option, to replay a run
+
+  // manual 44): 1+2+3 and so on as the digit of ?:AXIS.
+  int axis_setting = 6;
+  std::string serial_number = "2106001001";
+  std::string firmware = "V2.00.000";
+  std::array<AxisSetup, 3> axes;
+
+ private:
+  std::vector<std::string_view> chosen_;
+};
+
+}  // namespace axisgate::shrc203::simulator

@@ -1,0 +1,51 @@
+// A SHRC-203 without its hardware: parses with its own code, so that a mistake in the command table cannot agree with
+// itself. Written from the manual; where the manual is silent, `Options` chooses the reading.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/shrc203/simulator/options.h"
+
+namespace axisgate::shrc203::simulator {
+
+// The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time runs only by the `now` given.
+class Simulator : public LineMachine {
+ public:
+  Simulator(Options options, ByteLink& line);
+  ~Simulator() override;
+
+  // A host opened or closed the line. The device does not notice; an unfinished input line is forgotten.
+  void link_up(TimePoint now) override;
+  void link_down(TimePoint now, std::string_view why) override;
+  void receive(std::string_view bytes, TimePoint now) override;
+  void advance(TimePoint now) override;
+  std::optional<TimePoint> next_deadline() const override;
+
+  // What a person standing at the device could do or see.
+  std::int64_t position(int axis) const;  // pulses, at the time of the last call
+  bool busy(int axis) const;
+  void set_excitation(int axis, bool on, TimePoint now);
+  void press_emergency(TimePoint now);
+  void set_mode(std::string_view mode, TimePoint now);  // "HOST", "MANUAL", ...
+  void set_inputs(int pattern);                         // IN1..IN6, 0..63
+  void power_cycle(TimePoint now);
+  void set_limit(int axis, int direction, bool on, TimePoint now);  // a limit sensor; direction +1 is CW
+
+  // For tests: how often an axis was set in motion since construction, and every line received, oldest first.
+  int starts(int axis) const;
+  const std::vector<std::string>& received() const;
+
+ private:
+  class Device;
+  std::unique_ptr<Device> device_;
+};
+
+}  // namespace axisgate::shrc203::simulator

@@ -1,0 +1,61 @@
+// What is known of one controller, published whole at every change.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "device/core/quantity.h"
+#include "device/core/time.h"
+#include "device/shrc203/axes.h"
+
+namespace axisgate::shrc203 {
+
+enum class LinkState {
+  down,        // no line, or nobody answers
+  connecting,  // open; the handshake runs
+  up,          // the configured controller answers
+  doubtful,    // the barrier runs after a time limit or garbage
+};
+std::string_view name(LinkState state);
+
+// Manual 14 of Q:S, bits numbered from 1 as there.
+struct AxisStatusBits {
+  std::uint32_t raw = 0;
+
+  bool bit(int number) const { return (raw >> (number - 1)) & 1u; }
+  bool emergency() const { return bit(6); }
+  bool limit_error() const { return bit(8); }
+  bool any_error() const;  // bits 3 to 10, 13 and 15: the motion did not end well
+  bool cw_limit() const { return bit(20); }
+  bool ccw_limit() const { return bit(21); }
+};
+
+struct AxisState {
+  bool controllable = false;
+  std::optional<std::int64_t> position_pulses;  // command counter, as last read
+  std::optional<bool> busy;
+  std::optional<bool> excited;
+  bool homed = false;  // by this gateway since the device epoch began
+  AxisStatusBits status;
+  std::optional<Scale> scale;
+  std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses per second, as last read or set
+  std::optional<int> acceleration_ms;                        // R
+};
+
+struct State {
+  LinkState link = LinkState::down;
+  std::string link_problem;  // for a person; empty when up
+  std::string vendor, model, serial_number, firmware;
+  std::string mode, format;
+  std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
+  std::array<AxisState, kAxisCount> axes;
+  bool moving_unknown = false;  // the line was lost while something moved and nothing was read since
+  TimePoint read{};             // when the positions were last read
+  AxisSet controllable() const;
+  AxisState& axis(int number) { return axes[static_cast<std::size_t>(number - 1)]; }
+  const AxisState& axis(int number) const { return axes[static_cast<std::size_t>(number - 1)]; }
+};
+
+}  // namespace axisgate::shrc203
