@@ -14,10 +14,11 @@ enum class Unit { pulses, nanometers, micrometers, millimeters, degrees };
 // "pulse", "nm", "um", "mm", "deg".
 std::string_view symbol(Unit unit);
 
-// Accepts the symbols above and the spellings people use: p, pulses, µm, degree, degrees, °.
+// Accepts the symbols above and the spellings people use: p, pls, pulses, µm, degree, degrees, °. Otherwise
+// unknown_unit.
 Result<Unit> parse_unit(std::string_view text);
 
-// value = digits * 10^-decimals. At most 18 digits.
+// value = digits * 10^-decimals, with at most 18 digits and decimals from 0 to 18.
 struct Decimal {
   std::int64_t digits = 0;
   int decimals = 0;
@@ -25,7 +26,9 @@ struct Decimal {
   friend bool operator==(const Decimal&, const Decimal&) = default;
 };
 
-// Sign, digits, one optional point. No exponent, no blanks.
+// An optional sign, digits, one optional point with digits after it. No exponent, no blanks. Zeros at the end of the
+// fraction are dropped, so that equal numbers compare equal. Otherwise invalid_request, or out_of_range for a number
+// that does not fit a Decimal.
 Result<Decimal> parse_decimal(std::string_view text);
 std::string to_string(Decimal value);
 
@@ -35,8 +38,8 @@ struct Quantity {
   Unit unit = Unit::pulses;
 };
 
-// "5mm", "-200um", "+1000", "2mm/s" (the "/s" must then be present in both or in neither of the uses it is compared in;
-// parse_speed requires nothing but tolerates it). Without a unit `fallback` is taken.
+// A number and its unit without blanks: "5mm", "-200um", "+1000". Without a unit `fallback` is taken. parse_speed takes
+// "2mm/s", "2mm" or "2"; parse_quantity refuses a "/s".
 Result<Quantity> parse_quantity(std::string_view text, Unit fallback);
 Result<Quantity> parse_speed(std::string_view text, Unit fallback);
 
@@ -50,11 +53,16 @@ struct Scale {
   friend bool operator==(const Scale&, const Scale&) = default;
 };
 
-// Whole pulses, exactly. not_representable names the nearest representable values; unknown_unit is returned for
-// degrees on a linear axis and lengths on a rotary one.
+// The most that a command carries either way (manual 67) M:).
+inline constexpr std::int64_t kPulsesMax = 999'999'999;
+
+// Whole pulses, exactly. Otherwise not_representable, naming the nearest representable values; out_of_range beyond
+// +-kPulsesMax; unknown_unit for degrees on a linear axis and lengths on a rotary one; device_error when the scale is
+// not above zero. A scale is not looked at for a quantity in pulses.
 Result<std::int64_t> to_pulses(const Quantity& quantity, const Scale& scale);
 
-// Exactly; e.g. 500000 pulses of 10 nm are "5" mm. Trailing zeros are dropped.
+// Exactly; e.g. 500000 pulses of 10 nm are "5" mm. Zeros at the end of the fraction are dropped. Otherwise unknown_unit
+// and device_error as above, or out_of_range when it does not fit a Decimal.
 Result<Decimal> from_pulses(std::int64_t pulses, Unit unit, const Scale& scale);
 
 }  // namespace axisgate

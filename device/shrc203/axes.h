@@ -40,10 +40,10 @@ class AxisSet {
   std::uint8_t bits_ = 0;
 };
 
-std::string to_string(AxisSet axes);  // "axis 1", "axes 1 and 3", for people
+std::string to_string(AxisSet axes);  // "axis 1", "axes 1 and 3", "no axis", for people
 
 // Commands: 1 2 3, A=1+2, B=1+3, C=2+3, D=1+2+3 (manual 3) and everywhere an `a` is sent). W is "all controllable axes"
-// and depends on the unit, so the gateway never sends it.
+// and depends on the unit, so the gateway never sends it. command_letter wants at least one axis.
 char command_letter(AxisSet axes);
 std::optional<AxisSet> from_command_letter(char letter, AxisSet controllable);
 

@@ -141,8 +141,9 @@ class Controller : public LineMachine {
 
   std::size_t queued(Lane lane) const;
 
+  class Impl;  // controller_impl.h: this folder's own business
+
  private:
-  class Impl;
   std::unique_ptr<Impl> impl_;
 };
 

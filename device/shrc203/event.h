@@ -50,7 +50,7 @@ struct ExchangeEnded {
   Outcome outcome = Outcome::ok;
   Duration latency{};  // from the write to the reply's last byte
 };
-std::string_view name(ExchangeEnded::Outcome outcome);
+std::string_view name(ExchangeEnded::Outcome outcome);  // "ok", "ok_d", "timed_out", ..., as metric labels have it
 
 struct BarrierEntered {
   std::string why;

@@ -18,7 +18,7 @@ enum class LinkState {
   up,          // the configured controller answers
   doubtful,    // the barrier runs after a time limit or garbage
 };
-std::string_view name(LinkState state);
+std::string_view name(LinkState state);  // "DOWN", "CONNECTING", ...
 
 // Manual 14 of Q:S, bits numbered from 1 as there.
 struct AxisStatusBits {

@@ -23,11 +23,17 @@ std::span<const OptionName> option_names();
 
 struct AxisSetup {
   std::int64_t nm_per_pulse_e6 = 10'000'000;  // millionths of a nm: 10 nm a pulse
+  // Where the limit sensors and the mechanical origin are, seen from the place at power-on.
   std::int64_t travel_minus_pulses = -2'000'000;
   std::int64_t travel_plus_pulses = 2'000'000;
+  std::int64_t origin_pulses = -100'000;
   std::int64_t minimum_speed = 1000;   // S, pulses/s
   std::int64_t maximum_speed = 50000;  // F, pulses/s
   int acceleration_ms = 100;           // R
+  // The same of the origin return (manual 94) B:).
+  std::int64_t origin_minimum_speed = 5000;
+  std::int64_t origin_maximum_speed = 500000;
+  int origin_acceleration_ms = 100;
 };
 
 class Options {
@@ -36,7 +42,7 @@ class Options {
 
   // NAME=VALUE of option_names(); unknown names and values are refused, naming the possible ones.
   Result<void> set(std::string_view name, std::string_view value);
-  std::string_view get(std::string_view name) const;
+  std::string_view get(std::string_view name) const;  // empty for an unknown name
   bool is(std::string_view name, std::string_view value) const { return get(name) == value; }
   std::string describe() const;  // "busy_scope=axis ..." with every option, to replay a run
 

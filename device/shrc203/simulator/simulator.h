@@ -16,7 +16,8 @@
 
 namespace axisgate::shrc203::simulator {
 
-// The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time runs only by the `now` given.
+// The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time runs only by the `now` given;
+// events that became due before it happen in their order, each at its own time. Not thread safe.
 class Simulator : public LineMachine {
  public:
   Simulator(Options options, ByteLink& line);
@@ -36,10 +37,11 @@ class Simulator : public LineMachine {
   void press_emergency(TimePoint now);
   void set_mode(std::string_view mode, TimePoint now);  // "HOST", "MANUAL", ...
   void set_inputs(int pattern);                         // IN1..IN6, 0..63
-  void power_cycle(TimePoint now);
+  void power_cycle(TimePoint now);  // as RESET: does, the stages stay where they are; a second of silence
   void set_limit(int axis, int direction, bool on, TimePoint now);  // a limit sensor; direction +1 is CW
 
-  // For tests: how often an axis was set in motion since construction, and every line received, oldest first.
+  // For tests: how often an axis was set in motion since construction (each segment of a chain counts), and the lines
+  // received, oldest first: the last 100,000 at least.
   int starts(int axis) const;
   const std::vector<std::string>& received() const;
 

@@ -1,0 +1,74 @@
+#include "clients/axisctl/connection.h"
+
+#include <fmt/format.h>
+
+#include <random>
+#include <utility>
+
+#include "clients/axisctl/failure.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+std::shared_ptr<grpc::Channel> open_channel(const std::string& target) {
+  grpc::ChannelArguments arguments;
+  arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+  // gRPC itself would wait up to two minutes before it looks for a restarted daemon again.
+  arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 250);
+  arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 250);
+  arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5000);
+  return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+}
+
+Failure without_details(const grpc::Status& status, const std::string& target) {
+  switch (status.error_code()) {
+    case grpc::StatusCode::UNAVAILABLE:
+      return {kUnavailable, "UNAVAILABLE", fmt::format("no daemon answers at {}: {}", target, status.error_message()),
+              "start one with `axisgated`, or name another with --target"};
+    case grpc::StatusCode::DEADLINE_EXCEEDED:
+      return {kDeadline, "DEADLINE_EXCEEDED", fmt::format("the daemon at {} did not answer in time", target),
+              "what was asked may still happen: look with `axisctl status`"};
+    case grpc::StatusCode::UNIMPLEMENTED:
+      return {kRefused, "UNIMPLEMENTED", fmt::format("what answers at {} does not know this call", target),
+              "is it axisgated, and of this version?"};
+    default:
+      return {kMotionFailed, fmt::format("GRPC_{}", static_cast<int>(status.error_code())), status.error_message(),
+              "see the daemon's log"};
+  }
+}
+
+}  // namespace
+
+Connection::Connection(std::string target)
+    : target_(std::move(target)),
+      channel_(open_channel(target_)),
+      devices(v1::DeviceService::NewStub(channel_)),
+      stage(v1::StageService::NewStub(channel_)),
+      events(v1::EventService::NewStub(channel_)),
+      commands(v1::CommandService::NewStub(channel_)) {}
+
+void Connection::check(const grpc::Status& status) const {
+  if (status.ok()) return;
+  const v1::Problem problem = problem_of(status);
+  if (problem.reason() == v1::REASON_UNSPECIFIED) throw without_details(status, target_);
+  throw to_failure(problem);
+}
+
+v1::Problem problem_of(const grpc::Status& status) {
+  v1::ErrorStatus details;
+  v1::Problem problem;
+  if (!details.ParseFromString(status.error_details())) return problem;
+  for (const google::protobuf::Any& detail : details.details()) {
+    if (detail.UnpackTo(&problem)) return problem;
+  }
+  return v1::Problem();
+}
+
+v1::CallContext new_call_context() {
+  std::random_device random;
+  v1::CallContext context;
+  context.set_request_id(fmt::format("axisctl-{:08x}{:08x}", random(), random()));
+  return context;
+}
+
+}  // namespace axisgate::axisctl

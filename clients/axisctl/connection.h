@@ -1,0 +1,63 @@
+// The way to the daemon. Every failed call becomes a Failure that says what to do.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "axisgate/v1/command.grpc.pb.h"
+#include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/event.grpc.pb.h"
+#include "axisgate/v1/stage.grpc.pb.h"
+
+namespace axisgate::axisctl {
+
+// Starting a motion may first wait for its turn, at most 5 s (CallContext.not_after).
+inline constexpr std::chrono::seconds kQuestionLimit{5};
+inline constexpr std::chrono::seconds kStartLimit{10};
+// An axis at full speed may take a second to slow down, and the daemon watches until it stands.
+inline constexpr std::chrono::seconds kStopLimit{30};
+
+class Connection {
+ public:
+  // "unix:/path" or "host:port". Shares nothing with other connections of this process, so that a stop never waits
+  // behind a stream.
+  explicit Connection(std::string target);
+
+  // A call with a deadline. Throws Failure.
+  template <class Stub, class Request, class Response>
+  Response call(const std::unique_ptr<Stub>& stub,
+                grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), const Request& request,
+                std::chrono::seconds limit) const {
+    grpc::ClientContext context;
+    context.set_deadline(std::chrono::system_clock::now() + limit);
+    Response response;
+    check((stub.get()->*method)(&context, request, &response));
+    return response;
+  }
+
+  // Throws Failure unless the call ended well.
+  void check(const grpc::Status& status) const;
+
+  const std::string& target() const { return target_; }
+
+ private:
+  const std::string target_;
+  const std::shared_ptr<grpc::Channel> channel_;
+
+ public:
+  const std::unique_ptr<v1::DeviceService::Stub> devices;
+  const std::unique_ptr<v1::StageService::Stub> stage;
+  const std::unique_ptr<v1::EventService::Stub> events;
+  const std::unique_ptr<v1::CommandService::Stub> commands;
+};
+
+// What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.
+v1::Problem problem_of(const grpc::Status& status);
+
+// A context with a new request id.
+v1::CallContext new_call_context();
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,142 @@
+// devices, status, position, clear, commands: what there is, and how it is.
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include <optional>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+v1::Device read_now(const Session& session, const std::string& name) {
+  v1::GetDeviceRequest request;
+  request.set_name(name);
+  request.mutable_max_age();
+  return session.connection
+      .call(session.connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit)
+      .device();
+}
+
+std::string link_text(const v1::Device& device) {
+  return device.link_problem().empty() ? link_name(device.link())
+                                       : fmt::format("{}: {}", link_name(device.link()), device.link_problem());
+}
+
+// yes, no, or ? where nobody knows.
+std::string_view known(bool is_known, bool value) { return !is_known ? "?" : value ? "yes" : "no"; }
+
+std::string axis_text(const v1::Axis& axis) {
+  if (!axis.controllable()) return fmt::format("axis {}  {}  not controllable", axis.number(), label(axis));
+  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}", axis.number(), label(axis),
+                     position_text(axis), known(axis.has_busy(), axis.busy()),
+                     known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits());
+}
+
+void print_status(const v1::Device& device) {
+  print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
+  print_line(fmt::format("controller  {} {} {}  serial number {}  mode {}  format {}  epoch {}", device.vendor(),
+                         device.model(), device.firmware(), device.serial_number(), device.mode(), device.format(),
+                         device.device_epoch()));
+  for (const v1::Axis& axis : device.axes()) print_line(axis_text(axis));
+  if (device.moving_unknown()) print_line("MOVING UNKNOWN: the line was lost while something moved");
+  if (!device.has_age()) print_line("never read");
+}
+
+v1::ListCommandsResponse command_table(const Session& session) {
+  v1::ListCommandsRequest request;
+  request.set_device(chosen_device(session).name());
+  return session.connection.call(session.connection.commands, &v1::CommandService::Stub::ListCommands, request,
+                                 kQuestionLimit);
+}
+
+void print_command(const v1::Command& command, bool with_parameters) {
+  print_line(fmt::format("{:<8} {:<28} {}", command.name(), command.format(), command.description()));
+  if (!with_parameters) return;
+  for (const std::string& parameter : command.parameters()) print_line("         " + parameter);
+  print_line(fmt::format("         manual {}{}", command.section(), command.moves() ? "; may set axes moving" : ""));
+}
+
+}  // namespace
+
+int devices(const Session& session) {
+  const v1::ListDevicesResponse answer = session.connection.call(
+      session.connection.devices, &v1::DeviceService::Stub::ListDevices, v1::ListDevicesRequest(), kQuestionLimit);
+  for (const v1::Device& device : answer.devices()) {
+    if (session.options.json) {
+      print_json(device);
+    } else {
+      print_line(fmt::format("{}  {}  {}", last_part(device.name()), device.kind(), link_text(device)));
+    }
+  }
+  return kDone;
+}
+
+int status(const Session& session) {
+  v1::Device device = chosen_device(session);
+  std::optional<Failure> failure;
+  try {
+    device = read_now(session, device.name());
+  } catch (const Failure& unreadable) {
+    failure = unreadable;  // what is known is shown all the same
+  }
+  if (session.options.json) {
+    print_json(device);
+  } else {
+    print_status(device);
+  }
+  if (failure) throw *failure;
+  return kDone;
+}
+
+int position(const Session& session) {
+  const v1::Device device = read_now(session, chosen_device(session).name());
+  for (const v1::Axis& axis : device.axes()) {
+    if (!axis.controllable()) continue;
+    if (session.options.json) {
+      print_json(axis);
+    } else {
+      print_line(fmt::format("{}  {}", label(axis), position_text(axis)));
+    }
+  }
+  return kDone;
+}
+
+int clear(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  v1::ClearErrorsRequest request;
+  *request.mutable_context() = new_call_context();
+  request.set_name(device.name());
+  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
+  const v1::ClearErrorsResponse response = session.connection.call(
+      session.connection.devices, &v1::DeviceService::Stub::ClearErrors, request, kQuestionLimit);
+  if (session.options.json) {
+    print_json(response);
+  } else {
+    print_line("cleared; after an emergency stop the motors may be off: axisctl status");
+  }
+  return kDone;
+}
+
+int commands(const Session& session) {
+  const std::string& wanted = session.options.command;
+  bool found = false;
+  const v1::ListCommandsResponse table = command_table(session);
+  for (const v1::Command& command : table.commands()) {
+    if (!wanted.empty() && command.name() != wanted) continue;
+    found = true;
+    if (session.options.json) {
+      print_json(command);
+    } else {
+      print_command(command, !wanted.empty());
+    }
+  }
+  if (found || wanted.empty()) return kDone;
+  throw Failure{kUsage, "UNKNOWN_COMMAND", fmt::format("the table has no command \"{}\"", wanted),
+                "axisctl commands lists them"};
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,50 @@
+#include "clients/axisctl/failure.h"
+
+#include <utility>
+
+namespace axisgate::axisctl {
+namespace {
+
+int exit_code(v1::Reason reason) {
+  switch (reason) {
+    case v1::REASON_LINK_DOWN:
+    case v1::REASON_NOT_SENT:
+    case v1::REASON_REPLY_TIMED_OUT:
+    case v1::REASON_LINE_FAULT:
+    case v1::REASON_COMPLETION_OUTSTANDING:
+      return kUnavailable;
+    case v1::REASON_DEADLINE_PASSED:
+      return kDeadline;
+    case v1::REASON_UNSPECIFIED:
+    case v1::REASON_STOPPED:
+    case v1::REASON_TARGET_NOT_REACHED:
+    case v1::REASON_OUTCOME_UNKNOWN:
+    case v1::REASON_INTERNAL:
+      return kMotionFailed;
+    default:
+      return kRefused;
+  }
+}
+
+}  // namespace
+
+Failure usage(std::string message, std::string hint) {
+  return {kUsage, "INVALID_REQUEST", std::move(message), std::move(hint)};
+}
+
+std::string short_name(v1::Reason reason) {
+  constexpr std::string_view prefix = "REASON_";
+  const std::string& name = v1::Reason_Name(reason);
+  // A newer daemon may know reasons that have no name here.
+  return name.empty() ? "REASON " + std::to_string(reason) : name.substr(prefix.size());
+}
+
+Failure to_failure(const v1::Problem& problem) {
+  return {exit_code(problem.reason()), short_name(problem.reason()), problem.message(), problem.hint()};
+}
+
+Failure to_usage(const Problem& problem) {
+  return {kUsage, std::string(name(problem.reason)), problem.message, problem.hint};
+}
+
+}  // namespace axisgate::axisctl

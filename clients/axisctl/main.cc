@@ -1,0 +1,54 @@
+// axisctl: the command line of axisgated.
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/options.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+int run(const Options& options) {
+  const Session session{options, Connection(options.target)};
+  switch (options.verb) {
+    case Verb::devices:
+      return devices(session);
+    case Verb::status:
+      return status(session);
+    case Verb::position:
+      return position(session);
+    case Verb::home:
+      return home(session);
+    case Verb::move:
+      return move(session);
+    case Verb::path:
+      return path(session);
+    case Verb::stop:
+      return stop(session);
+    case Verb::estop:
+      return emergency_stop(session);
+    case Verb::clear:
+      return clear(session);
+    case Verb::exec:
+      return execute(session);
+    case Verb::watch:
+      return watch(session);
+    case Verb::commands:
+      return commands(session);
+  }
+  return kUsage;
+}
+
+}  // namespace
+}  // namespace axisgate::axisctl
+
+int main(int argument_count, char** arguments) {
+  using namespace axisgate::axisctl;
+  const std::variant<Options, int> parsed = parse_options(argument_count, arguments);
+  if (const int* exit_code = std::get_if<int>(&parsed)) return *exit_code;
+  try {
+    return run(std::get<Options>(parsed));
+  } catch (const Failure& failure) {
+    print_failure(failure);
+    return failure.exit_code;
+  }
+}

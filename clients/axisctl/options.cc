@@ -1,0 +1,159 @@
+// The one unit that includes CLI11, which takes eight seconds to compile.
+#include "clients/axisctl/options.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <utility>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
+#include "server/default_socket.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+constexpr const char* kFooter = R"(
+Amounts have a unit: pulse, nm, um, mm, deg; without one they are in the axis's own. AXIS is a number or the
+axis's configured name. Examples:
+  axisctl move 1=+5mm 2=-200um --relative
+  axisctl path square.txt              one segment a line: 1=1mm 2=-500um speed=2mm/s   # comment
+  axisctl exec 'M:1+P1000' 'G:1'       one transaction
+  axisctl --json watch --from 1
+
+Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; 2 wrong usage; 3 refused (bad
+request or the device's state); 4 unavailable (no daemon, or the line is down); 5 deadline passed.
+
+Not a safety function: the wired emergency stop remains yours.)";
+
+void add_waiting(CLI::App& verb, Options& options) {
+  verb.add_flag("--no-wait", options.no_wait, "return once started instead of at the outcome");
+}
+
+void add_speed(CLI::App& verb, Options& options) {
+  verb.add_option("--speed", options.speed, "maximum speed, as 2mm/s; a path's speed for lines that name none")
+      ->type_name("SPEED");
+  verb.add_option("--acceleration-ms", options.acceleration_ms, "time from the lowest to the highest speed")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("MS");
+}
+
+void add_axes(CLI::App& verb, Options& options) {
+  verb.add_option("AXES", options.axes, "numbers or names; none: all axes")->delimiter(',')->type_name("");
+}
+
+CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
+  CLI::App* added = app.add_subcommand(name, description);
+  added->fallthrough();
+  added->callback([&options, verb] { options.verb = verb; });
+  return added;
+}
+
+void add_motion_verbs(CLI::App& app, Options& options) {
+  CLI::App* home = add_verb(app, options, Verb::home, "home", "find the mechanical origin of the axes");
+  add_axes(*home, options);
+  home->add_flag("--logical", options.logical, "return to the logical origin instead");
+  add_waiting(*home, options);
+
+  CLI::App* move = add_verb(app, options, Verb::move, "move", "move axes to positions, or by ways");
+  move->add_option("AXIS=AMOUNT", options.places, "as 1=+5mm 2=-200um")->required()->type_name("");
+  move->add_flag("--relative", options.relative, "the amounts are ways from where the axes are");
+  add_speed(*move, options);
+  add_waiting(*move, options);
+
+  CLI::App* path = add_verb(app, options, Verb::path, "path", "run segments one after another without a halt");
+  path->add_option("FILE", options.file, "one segment a line; - is the standard input")->required()->type_name("");
+  path->add_flag("--absolute", options.absolute, "the amounts are positions, not ways");
+  add_speed(*path, options);
+  add_waiting(*path, options);
+
+  add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop"), options);
+  add_verb(app, options, Verb::estop, "estop", "stop all axes at once and latch; `clear` releases");
+}
+
+void add_questions(CLI::App& app, Options& options) {
+  add_verb(app, options, Verb::devices, "devices", "the configured devices");
+  add_verb(app, options, Verb::status, "status", "line, controller and axes");
+  add_verb(app, options, Verb::position, "position", "where the axes are, read now");
+}
+
+void add_other_verbs(CLI::App& app, Options& options) {
+  add_axes(*add_verb(app, options, Verb::clear, "clear", "clear limit, overflow and emergency errors"), options);
+  CLI::App* exec = add_verb(app, options, Verb::exec, "exec", "send the controller's own commands as one transaction");
+  exec->add_option("LINE", options.lines, "as '?:P1'")->required()->type_name("");
+  CLI::App* watch = add_verb(app, options, Verb::watch, "watch", "print every event with its revision");
+  watch->add_option("--from", options.from_revision, "the first revision wanted; none: from now on")
+      ->type_name("REVISION");
+  CLI::App* commands = add_verb(app, options, Verb::commands, "commands", "the table of the controller's commands");
+  commands->add_option("COMMAND", options.command, "one command with its parameters, as M:")->type_name("");
+}
+
+// "/path" for people; gRPC wants "unix:/path".
+std::string address(std::string target) {
+  if (target.empty()) target = default_socket_to_connect();
+  return target.front() == '/' ? "unix:" + target : target;
+}
+
+std::string resource(const std::string& device) {
+  constexpr std::string_view prefix = "devices/";
+  return device.empty() || device.rfind(prefix, 0) == 0 ? device : std::string(prefix) + device;
+}
+
+int show_help(CLI::App& app, const std::string& verb) {
+  app.clear();  // or CLI11 would show the help of the verb `help`
+  if (verb.empty()) {
+    print_line(app.help());
+    return kDone;
+  }
+  try {
+    print_line(app.get_subcommand(verb)->help("axisctl"));
+    return kDone;
+  } catch (const CLI::OptionNotFound&) {
+    print_failure(usage("there is no verb \"" + verb + '"', "axisctl help lists them"));
+    return kUsage;
+  }
+}
+
+int refuse(const CLI::App& app, const CLI::ParseError& error) {
+  std::string message = error.what();
+  if (app.get_subcommands().empty()) {
+    const std::vector<std::string> words = app.remaining();
+    message = words.empty() ? "no verb was given" : '"' + words.front() + "\" is not a verb";
+  }
+  print_failure(usage(message, "axisctl help lists the verbs and their options"));
+  return kUsage;
+}
+
+}  // namespace
+
+std::variant<Options, int> parse_options(int argument_count, char** arguments) {
+  Options options;
+  std::string help_verb;
+  CLI::App app{"Moves stages and watches them through axisgated.", "axisctl"};
+  app.require_subcommand(1);
+  app.add_option("--target", options.target, "the daemon: a socket's path or HOST:PORT; none: the local one")
+      ->type_name("ADDRESS");
+  app.add_option("--device", options.device, "none: the only one")->type_name("NAME");
+  app.add_flag("--json", options.json, "print one JSON object a line");
+  app.get_formatter()->label("SUBCOMMAND", "VERB");
+  app.get_formatter()->label("Subcommands", "Verbs");
+  app.get_formatter()->label("REQUIRED", "");
+  add_questions(app, options);
+  add_motion_verbs(app, options);
+  add_other_verbs(app, options);
+  CLI::App* help = app.add_subcommand("help", "this, or about one verb");
+  help->add_option("VERB", help_verb)->type_name("");
+  app.footer(kFooter);  // last, or every verb's help would repeat it
+  try {
+    app.parse(argument_count, arguments);
+  } catch (const CLI::CallForHelp& call) {
+    return app.exit(call);
+  } catch (const CLI::ParseError& error) {
+    return refuse(app, error);
+  }
+  if (help->parsed()) return show_help(app, help_verb);
+  options.target = address(std::move(options.target));
+  options.device = resource(options.device);
+  return options;
+}
+
+}  // namespace axisgate::axisctl

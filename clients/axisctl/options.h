@@ -1,0 +1,37 @@
+// What was typed.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace axisgate::axisctl {
+
+enum class Verb { devices, status, position, home, move, path, stop, estop, clear, exec, watch, commands };
+
+struct Options {
+  std::string target;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
+  std::string device;  // "devices/stage"; empty: the only one
+  bool json = false;
+  Verb verb = Verb::devices;
+
+  std::vector<std::string> axes;               // home, stop, clear: numbers or names
+  std::vector<std::string> places;             // move: "1=+5mm"
+  std::vector<std::string> lines;              // exec
+  std::string file;                            // path; "-" is the standard input
+  std::string command;                         // commands: one row only
+  std::string speed;                           // move, path; empty: as the axis is set
+  int acceleration_ms = 0;                     // move, path; 0: as the axis is set
+  bool relative = false;                       // move
+  bool absolute = false;                       // path
+  bool logical = false;                        // home
+  bool no_wait = false;                        // home, move, path
+  std::optional<std::uint64_t> from_revision;  // watch
+};
+
+// The options, or the exit code with which to leave at once: help was shown, or the usage was wrong and that was said.
+std::variant<Options, int> parse_options(int argument_count, char** arguments);
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,85 @@
+#include "clients/axisctl/outcome.h"
+
+#include <fmt/format.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
+  std::vector<std::string> ends;
+  for (const v1::AxisResult& result : motion.results()) {
+    if (!result.has_command_pulses()) continue;
+    const v1::Axis& axis = find_axis(device, std::to_string(result.axis()));
+    ends.push_back(fmt::format("{} {}", label(axis), position_text(axis, result.command_pulses())));
+  }
+  return fmt::format("{}", fmt::join(ends, ", "));
+}
+
+Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
+  Failure failure = axisctl::to_failure(motion.problem());
+  failure.exit_code = kMotionFailed;
+  if (!motion.has_problem()) failure = {kMotionFailed, state_name(motion.state()), "the motion did not succeed", ""};
+  if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now at " + ends;
+  return failure;
+}
+
+extern "C" void leave_motion_running(int) {
+  constexpr char text[] = "\naxisctl: the motion goes on; to stop it: axisctl stop\n";
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, sizeof text - 1);
+  ::_exit(128 + SIGINT);
+}
+
+}  // namespace
+
+v1::Motion await_outcome(const Session& session, const std::string& motion) {
+  grpc::ClientContext context;
+  v1::WatchMotionRequest request;
+  request.set_name(motion);
+  const auto reader = session.connection.stage->WatchMotion(&context, request);
+  v1::WatchMotionResponse response;
+  while (reader->Read(&response)) {
+  }
+  const grpc::Status status = reader->Finish();
+  if (status.ok() && response.motion().state() >= v1::MOTION_STATE_SUCCEEDED) return response.motion();
+  throw Failure{kMotionFailed, "OUTCOME_UNKNOWN",
+                fmt::format("the daemon was lost while motion {} ran: {}", last_part(motion), status.error_message()),
+                "it may be moving still: look with `axisctl status`, do not simply repeat it"};
+}
+
+int report_outcome(const Session& session, const v1::Device& device, const v1::Motion& motion) {
+  if (session.options.json) {
+    v1::WatchMotionResponse outcome;
+    *outcome.mutable_motion() = motion;
+    print_json(outcome);
+  }
+  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(device, motion);
+  if (!session.options.json) print_line("done: " + ends_text(device, motion));
+  return kDone;
+}
+
+int report_started(const Session& session, const v1::Motion& motion) {
+  if (session.options.json) {
+    v1::WatchMotionResponse started;
+    *started.mutable_motion() = motion;
+    print_json(started);
+  } else {
+    print_line(fmt::format("started: motion {}", last_part(motion.name())));
+  }
+  return kDone;
+}
+
+void say_on_interrupt_that_motion_goes_on() {
+  struct sigaction action = {};
+  action.sa_handler = leave_motion_running;
+  sigaction(SIGINT, &action, nullptr);
+}
+
+}  // namespace axisgate::axisctl

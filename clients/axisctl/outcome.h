@@ -1,0 +1,23 @@
+// What becomes of a motion, told to a person and as an exit code.
+#pragma once
+
+#include <string>
+
+#include "clients/axisctl/motion_follower.h"
+#include "clients/axisctl/session.h"
+
+namespace axisgate::axisctl {
+
+// Waits for the outcome; throws Failure when the daemon can no longer be asked.
+v1::Motion await_outcome(const Session& session, const std::string& motion);
+
+// Prints where the axes are, or throws the Failure that the outcome is.
+int report_outcome(const Session& session, const v1::Device& device, const v1::Motion& motion);
+
+// A motion that was started and is not waited for.
+int report_started(const Session& session, const v1::Motion& motion);
+
+// From now on Ctrl-C says that the motion goes on, before it ends axisctl with exit code 130.
+void say_on_interrupt_that_motion_goes_on();
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,43 @@
+// What people type as amounts, axes and paths. Decimals stay text from the keyboard to the daemon: they are exact
+// there.
+#pragma once
+
+#include <istream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/stage.pb.h"
+#include "device/core/quantity.h"
+
+namespace axisgate::axisctl {
+
+// Everything here throws Failure for what it cannot read.
+
+// By number, or by configured name.
+const v1::Axis& find_axis(const v1::Device& device, std::string_view number_or_name);
+
+// Numbers, in the order given.
+std::vector<int> find_axes(const v1::Device& device, const std::vector<std::string>& numbers_or_names);
+
+v1::Distance to_distance(const Quantity& quantity);
+v1::Speed to_speed(const Quantity& quantity);
+
+// "2mm/s"; a bare number is in the axis's unit.
+v1::Speed parse_speed_for(const v1::Axis& axis, std::string_view text);
+
+// "1=+5mm"; a bare number is in the axis's unit.
+v1::AxisDistance parse_place(const v1::Device& device, std::string_view text);
+
+struct PathOptions {
+  std::string speed;  // for the lines that name none; empty: as the axes are set
+  int acceleration_ms = 0;
+  bool absolute = false;
+};
+
+// "1=1mm 2=-500um speed=2mm/s": one segment. Nothing but a comment is no segment.
+std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions& options, std::istream& input,
+                                    const std::string& file_name);
+
+}  // namespace axisgate::axisctl

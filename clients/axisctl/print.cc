@@ -1,0 +1,160 @@
+#include "clients/axisctl/print.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/json_util.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+namespace axisgate::axisctl {
+namespace {
+
+// Names and messages may quote a device; no byte of it may steer a terminal or break the line.
+std::string on_one_line(std::string_view text) {
+  std::string clean(text);
+  std::replace_if(
+      clean.begin(), clean.end(), [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7f; },
+      ' ');
+  return clean;
+}
+
+void write(std::FILE* stream, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), stream);
+  std::fputc('\n', stream);
+  std::fflush(stream);
+}
+
+// A newer daemon may know values that have no name here.
+std::string without_prefix(const std::string& name, std::string_view prefix, int number) {
+  return name.empty() ? fmt::format("({})", number) : name.substr(prefix.size());
+}
+
+std::string kind_name(v1::MotionKind kind) {
+  std::string name = without_prefix(v1::MotionKind_Name(kind), "MOTION_KIND_", kind);
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c == '_' ? '-' : char(std::tolower(c)); });
+  return name;
+}
+
+std::string describe_motion(const v1::Motion& motion) {
+  std::string text =
+      fmt::format("motion {} ({}) {}", last_part(motion.name()), kind_name(motion.kind()), state_name(motion.state()));
+  if (motion.has_problem()) {
+    text += fmt::format(": {}: {}", short_name(motion.problem().reason()), motion.problem().message());
+  }
+  return text;
+}
+
+std::string describe_progress(const v1::PathProgress& progress) {
+  switch (progress.step()) {
+    case v1::PathProgress::STEP_SENT:
+      return fmt::format("segment {} sent: {}", progress.segment(), progress.wire_reply());
+    case v1::PathProgress::STEP_STARTED:
+      return fmt::format("segment {} started", progress.segment());
+    case v1::PathProgress::STEP_DONE:
+      return fmt::format("segment {} done", progress.segment());
+    case v1::PathProgress::STEP_UNDERRUN:
+      return fmt::format("segment {} came too late: the stage halted before it", progress.segment());
+    default:
+      return fmt::format("segment {}", progress.segment());
+  }
+}
+
+std::string describe_link(const v1::LinkChange& link) {
+  return link.why().empty() ? fmt::format("line {}", link_name(link.state()))
+                            : fmt::format("line {}: {}", link_name(link.state()), link.why());
+}
+
+std::string describe_stop(const v1::StopRequested& stop) {
+  return fmt::format("{} of axes {} asked for by {}", stop.emergency() ? "emergency stop" : "stop",
+                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "somebody" : stop.who());
+}
+
+}  // namespace
+
+void print_line(std::string_view text) { write(stdout, text); }
+
+void print_json(const google::protobuf::Message& message) {
+  google::protobuf::util::JsonPrintOptions options;
+  options.always_print_primitive_fields = true;
+  options.preserve_proto_field_names = true;
+  std::string json;
+  if (!google::protobuf::util::MessageToJsonString(message, &json, options).ok()) {
+    throw Failure{kMotionFailed, "INTERNAL", "the daemon sent text that is not UTF-8", "leave out --json"};
+  }
+  print_line(json);
+}
+
+void print_failure(const Failure& failure) {
+  std::string line = fmt::format("axisctl: {}: {}", failure.reason, failure.message);
+  if (!failure.hint.empty()) line += fmt::format(" ({})", failure.hint);
+  write(stderr, on_one_line(line));
+}
+
+std::string label(const v1::Axis& axis) { return axis.name().empty() ? std::to_string(axis.number()) : axis.name(); }
+
+Unit core_unit(v1::Unit unit) {
+  switch (unit) {
+    case v1::UNIT_NANOMETERS:
+      return Unit::nanometers;
+    case v1::UNIT_MICROMETERS:
+      return Unit::micrometers;
+    case v1::UNIT_MILLIMETERS:
+      return Unit::millimeters;
+    case v1::UNIT_DEGREES:
+      return Unit::degrees;
+    default:
+      return Unit::pulses;
+  }
+}
+
+std::string position_text(const v1::Axis& axis) {
+  if (!axis.position().empty()) return fmt::format("{} {}", axis.position(), symbol(core_unit(axis.unit())));
+  if (axis.has_position_pulses()) return fmt::format("{} pulse", axis.position_pulses());
+  return "unknown";
+}
+
+std::string position_text(const v1::Axis& axis, std::int64_t pulses) {
+  const Unit unit = core_unit(axis.unit());
+  if (const Result<Decimal> per_pulse = parse_decimal(axis.per_pulse())) {
+    const Result<Decimal> position = from_pulses(pulses, unit, Scale{*per_pulse, axis.rotary()});
+    if (position) return fmt::format("{} {}", to_string(*position), symbol(unit));
+  }
+  return fmt::format("{} pulse", pulses);
+}
+
+std::string positions_text(const v1::Device& device) {
+  std::vector<std::string> parts;
+  for (const v1::Axis& axis : device.axes()) {
+    if (axis.controllable()) parts.push_back(fmt::format("{} {}", label(axis), position_text(axis)));
+  }
+  return fmt::format("{}", fmt::join(parts, ", "));
+}
+
+std::string describe(const v1::Event& event) {
+  switch (event.fact_case()) {
+    case v1::Event::kMotion:
+      return on_one_line(describe_motion(event.motion()));
+    case v1::Event::kCompletion:
+      return fmt::format("axis {} completed", event.completion().axis());
+    case v1::Event::kPathProgress:
+      return on_one_line(describe_progress(event.path_progress()));
+    case v1::Event::kLink:
+      return on_one_line(describe_link(event.link()));
+    case v1::Event::kStopRequested:
+      return on_one_line(describe_stop(event.stop_requested()));
+    case v1::Event::FACT_NOT_SET:
+      break;
+  }
+  return "an event that this axisctl does not know";
+}
+
+std::string state_name(v1::MotionState state) {
+  return without_prefix(v1::MotionState_Name(state), "MOTION_STATE_", state);
+}
+
+std::string link_name(v1::LinkState state) { return without_prefix(v1::LinkState_Name(state), "LINK_STATE_", state); }
+
+std::string_view last_part(std::string_view resource) { return resource.substr(resource.rfind('/') + 1); }
+
+}  // namespace axisgate::axisctl

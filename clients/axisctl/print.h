@@ -1,0 +1,48 @@
+// Everything that axisctl writes.
+#pragma once
+
+#include <google/protobuf/message.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/event.pb.h"
+#include "clients/axisctl/failure.h"
+#include "device/core/quantity.h"
+
+namespace axisgate::axisctl {
+
+// A line on the standard output, flushed at once: a reader at a pipe sees it when it happens.
+void print_line(std::string_view text);
+
+// The same, one JSON object with the field names of proto/axisgate/v1.
+void print_json(const google::protobuf::Message& message);
+
+// "axisctl: REASON: message (hint)" on the standard error, one line.
+void print_failure(const Failure& failure);
+
+// "x" of "1 x", or "1" of an axis without a name.
+std::string label(const v1::Axis& axis);
+
+Unit core_unit(v1::Unit unit);
+
+// "2.5 mm"; in pulses where the scale is not known; "unknown" where the position is not.
+std::string position_text(const v1::Axis& axis);
+std::string position_text(const v1::Axis& axis, std::int64_t pulses);
+
+// "x 2.5 mm, y 0 mm", the controllable axes.
+std::string positions_text(const v1::Device& device);
+
+// "segment 3 sent: OK_D", "axis 1 completed", "motion 5 (move) RUNNING" ...
+std::string describe(const v1::Event& event);
+
+// "RUNNING" of MOTION_STATE_RUNNING: an enum value without the name of its enum.
+std::string state_name(v1::MotionState state);
+std::string link_name(v1::LinkState state);
+
+// "5" of "devices/stage/motions/5".
+std::string_view last_part(std::string_view resource);
+
+}  // namespace axisgate::axisctl

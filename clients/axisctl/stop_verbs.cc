@@ -1,0 +1,68 @@
+// stop and estop: say of every axis what is known, never more.
+#include <fmt/format.h>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+std::string describe(const v1::Device& device, const v1::AxisStop& stop) {
+  const v1::Axis& axis = find_axis(device, std::to_string(stop.axis()));
+  std::string text = fmt::format("{}: ", label(axis));
+  if (!stop.named()) {
+    text += "not asked to stop, its motor is off";
+  } else if (stop.wire_reply().empty()) {
+    text += "no answer";
+  } else {
+    text += "answered " + stop.wire_reply();
+  }
+  text += !stop.has_ready() ? ", not seen since" : stop.ready() ? ", stands still" : ", STILL MOVING";
+  if (stop.has_position_pulses()) text += " at " + position_text(axis, stop.position_pulses());
+  return text;
+}
+
+template <class Response>
+int report(const Session& session, const v1::Device& device, const Response& response) {
+  if (session.options.json) {
+    print_json(response);
+  } else {
+    for (const v1::AxisStop& stop : response.axes()) print_line(describe(device, stop));
+  }
+  if (response.has_problem()) throw to_failure(response.problem());
+  for (const v1::AxisStop& stop : response.axes()) {
+    if (!stop.has_ready() || !stop.ready()) {
+      throw Failure{kMotionFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not seen to stand still", stop.axis()),
+                    "look at the stage"};
+    }
+  }
+  return kDone;
+}
+
+}  // namespace
+
+int stop(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  v1::StopRequest request;
+  *request.mutable_context() = new_call_context();
+  request.set_device(device.name());
+  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
+  return report(session, device,
+                session.connection.call(session.connection.stage, &v1::StageService::Stub::Stop, request, kStopLimit));
+}
+
+int emergency_stop(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  v1::EmergencyStopRequest request;
+  *request.mutable_context() = new_call_context();
+  request.set_device(device.name());
+  const v1::EmergencyStopResponse response =
+      session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit);
+  const int exit_code = report(session, device, response);
+  if (!session.options.json) print_line("latched: nothing moves until `axisctl clear`; the motors may be off then");
+  return exit_code;
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,21 @@
+// The verbs. Each returns its exit code or throws Failure.
+#pragma once
+
+#include "clients/axisctl/session.h"
+
+namespace axisgate::axisctl {
+
+int devices(const Session& session);
+int status(const Session& session);
+int position(const Session& session);
+int clear(const Session& session);
+int commands(const Session& session);
+int home(const Session& session);
+int move(const Session& session);
+int path(const Session& session);
+int stop(const Session& session);
+int emergency_stop(const Session& session);
+int execute(const Session& session);
+int watch(const Session& session);
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,178 @@
+#include "device/core/quantity.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "device/core/escape.h"
+
+namespace axisgate {
+namespace {
+
+// 18 digits of a value times the powers of ten of units and decimals do not fit into 64 bits.
+__extension__ typedef __int128 Wide;
+
+struct Spelling {
+  std::string_view text;
+  Unit unit;
+};
+
+constexpr Spelling kSpellings[] = {
+    {"pulse", Unit::pulses},        {"pulses", Unit::pulses},       {"p", Unit::pulses},
+    {"pls", Unit::pulses},          {"nm", Unit::nanometers},       {"um", Unit::micrometers},
+    {"\u00b5m", Unit::micrometers}, {"\u03bcm", Unit::micrometers}, {"mm", Unit::millimeters},
+    {"deg", Unit::degrees},         {"degree", Unit::degrees},      {"degrees", Unit::degrees},
+    {"\u00b0", Unit::degrees},
+};
+
+std::string quoted(std::string_view text) { return '"' + escaped(text) + '"'; }
+
+std::string shown(Decimal value, Unit unit) { return to_string(value).append(symbol(unit)); }
+
+std::string shown(const Scale& scale) {
+  return scale.rotary ? to_string(from_pulses(1, Unit::degrees, scale).value_or(Decimal{})) + " deg"
+                      : to_string(scale.per_pulse) + " nm";
+}
+
+// The power of ten between a unit and what Scale::per_pulse counts: nanometres, or millionths of a degree.
+int scale_units_exponent(Unit unit) {
+  switch (unit) {
+    case Unit::pulses:
+    case Unit::nanometers:
+      return 0;
+    case Unit::micrometers:
+      return 3;
+    case Unit::millimeters:
+    case Unit::degrees:
+      return 6;
+  }
+  return 0;
+}
+
+std::optional<Wide> times_power_of_ten(Wide value, int exponent) {
+  for (; exponent > 0; --exponent) {
+    if (__builtin_mul_overflow(value, 10, &value)) return std::nullopt;
+  }
+  return value;
+}
+
+Result<void> check_unit(Unit unit, const Scale& scale) {
+  if (unit == Unit::pulses) return {};
+  if (unit == Unit::degrees && !scale.rotary) {
+    return fail(Reason::unknown_unit, "an angle (deg) was given for an axis that moves in a straight line",
+                "Use nm, um, mm or pulse on this axis.");
+  }
+  if (unit != Unit::degrees && scale.rotary) {
+    return fail(Reason::unknown_unit, "a length (" + std::string(symbol(unit)) + ") was given for an axis that turns",
+                "Use deg or pulse on this axis.");
+  }
+  if (scale.per_pulse.digits <= 0) {
+    return fail(Reason::device_error,
+                "the axis has no usable scale: one pulse is " + to_string(scale.per_pulse) + " nm",
+                "Check the controller's memory switches BASE RATE and DIVIDE; positions in pulses still work.");
+  }
+  return {};
+}
+
+std::string range_hint(Unit unit, const Scale& scale) {
+  const Result<Decimal> limit = from_pulses(kPulsesMax, unit, scale);
+  if (unit == Unit::pulses || !limit) return "Ask for less.";
+  return "At " + shown(scale) + " a pulse that is " + shown(*limit, unit) + " either way.";
+}
+
+tl::unexpected<Problem> out_of_range(const Quantity& quantity, const Scale& scale) {
+  return fail(
+      Reason::out_of_range,
+      quoted(shown(quantity.value, quantity.unit)) + " is beyond the 999,999,999 pulses that a command can carry",
+      range_hint(quantity.unit, scale));
+}
+
+tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale& scale, std::int64_t below) {
+  const auto nearest = [&](std::int64_t count) {
+    return shown(from_pulses(count, quantity.unit, scale).value_or(Decimal{}), quantity.unit);
+  };
+  const std::string size = quantity.unit == Unit::pulses ? "" : " of " + shown(scale);
+  return fail(Reason::not_representable,
+              quoted(shown(quantity.value, quantity.unit)) + " is not a whole number of pulses" + size +
+                  "; the nearest are " + nearest(below) + " and " + nearest(below + 1),
+              "Ask for one of these: the gateway never rounds.");
+}
+
+}  // namespace
+
+std::string_view symbol(Unit unit) {
+  switch (unit) {
+    case Unit::pulses:
+      return "pulse";
+    case Unit::nanometers:
+      return "nm";
+    case Unit::micrometers:
+      return "um";
+    case Unit::millimeters:
+      return "mm";
+    case Unit::degrees:
+      return "deg";
+  }
+  return "pulse";
+}
+
+Result<Unit> parse_unit(std::string_view text) {
+  for (const Spelling& spelling : kSpellings) {
+    if (text == spelling.text) return spelling.unit;
+  }
+  return fail(Reason::unknown_unit, quoted(text) + " is not a unit", "Use pulse, nm, um, mm or deg.");
+}
+
+Result<Quantity> parse_quantity(std::string_view text, Unit fallback) {
+  if (text.ends_with("/s")) {
+    return fail(Reason::invalid_request, quoted(text) + " is a speed where a distance or position is wanted",
+                "Leave out the \"/s\".");
+  }
+  const std::size_t end = std::min(text.find_first_not_of("+-.0123456789"), text.size());
+  const Result<Decimal> value = parse_decimal(text.substr(0, end));
+  if (!value) {
+    Problem problem = value.error();
+    if (problem.reason == Reason::invalid_request) problem.message = quoted(text) + " is not a number with a unit";
+    return tl::make_unexpected(problem);
+  }
+  if (end == text.size()) return Quantity{*value, fallback};
+  return parse_unit(text.substr(end)).map([&](Unit unit) { return Quantity{*value, unit}; });
+}
+
+Result<Quantity> parse_speed(std::string_view text, Unit fallback) {
+  if (text.ends_with("/s")) text.remove_suffix(2);
+  return parse_quantity(text, fallback);
+}
+
+Result<std::int64_t> to_pulses(const Quantity& quantity, const Scale& scale) {
+  if (auto fits = check_unit(quantity.unit, scale); !fits) return tl::make_unexpected(fits.error());
+  const Decimal per_pulse = quantity.unit == Unit::pulses ? Decimal{1, 0} : scale.per_pulse;
+  const int exponent = scale_units_exponent(quantity.unit) + per_pulse.decimals - quantity.value.decimals;
+  const std::optional<Wide> numerator = times_power_of_ten(quantity.value.digits, exponent);
+  const std::optional<Wide> denominator = times_power_of_ten(per_pulse.digits, -exponent);
+  // An overflowing numerator is beyond 10^38 / 10^18 pulses; a denominator cannot overflow within Decimal's limits.
+  if (!numerator || !denominator) return out_of_range(quantity, scale);
+  const Wide remainder = *numerator % *denominator;
+  const Wide below = *numerator / *denominator - (remainder < 0 ? 1 : 0);
+  const Wide above = below + (remainder != 0 ? 1 : 0);
+  if (below < -kPulsesMax || above > kPulsesMax) return out_of_range(quantity, scale);
+  if (remainder != 0) return not_representable(quantity, scale, static_cast<std::int64_t>(below));
+  return static_cast<std::int64_t>(below);
+}
+
+Result<Decimal> from_pulses(std::int64_t pulses, Unit unit, const Scale& scale) {
+  if (auto fits = check_unit(unit, scale); !fits) return tl::make_unexpected(fits.error());
+  const Decimal per_pulse = unit == Unit::pulses ? Decimal{1, 0} : scale.per_pulse;
+  Wide digits = Wide{pulses} * per_pulse.digits;
+  int decimals = per_pulse.decimals + scale_units_exponent(unit);
+  for (; decimals > 0 && digits % 10 == 0; --decimals) digits /= 10;
+  constexpr Wide kEnd = 1'000'000'000'000'000'000;
+  if (digits <= -kEnd || digits >= kEnd || decimals > 18) {
+    return fail(Reason::out_of_range,
+                std::to_string(pulses) + " pulses of " + to_string(per_pulse) + " have more than 18 digits in " +
+                    std::string(symbol(unit)),
+                "Ask for the position in pulses.");
+  }
+  return Decimal{static_cast<std::int64_t>(digits), decimals};
+}
+
+}  // namespace axisgate

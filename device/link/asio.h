@@ -1,0 +1,24 @@
+// The one place that includes Boost.Asio. Version 1.74 uses std::exchange without including <utility>, which C++20
+// compilers notice: hence the order.
+#pragma once
+
+// clang-format off
+#include <utility>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/dispatch.hpp>
+#include <boost/asio/error.hpp>
+#include <boost/asio/executor_work_guard.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/posix/stream_descriptor.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <boost/asio/strand.hpp>
+// clang-format on
+
+namespace axisgate {
+
+// All that concerns one line runs on one strand, so that nothing on it needs a lock.
+using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
+
+}  // namespace axisgate

@@ -1,0 +1,37 @@
+#include "device/link/machine_host.h"
+
+#include <chrono>
+#include <utility>
+
+namespace axisgate {
+
+void MachineHost::post(std::function<void(TimePoint now)> request) {
+  boost::asio::post(strand_, [self = shared_from_this(), request = std::move(request)] {
+    self->call([&](LineMachine&, TimePoint now) { request(now); });
+  });
+}
+
+void MachineHost::detach() {
+  machine_ = nullptr;
+  armed_.reset();
+  deadline_timer_.cancel();
+}
+
+void MachineHost::arm() {
+  // settle() may have detached the machine.
+  const auto deadline = machine_ == nullptr ? std::nullopt : machine_->next_deadline();
+  if (deadline == armed_) return;
+  armed_ = deadline;
+  if (!deadline) {
+    deadline_timer_.cancel();
+    return;
+  }
+  deadline_timer_.expires_at(std::chrono::steady_clock::time_point(deadline->time_since_epoch()));
+  deadline_timer_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
+    if (error) return;
+    self->armed_.reset();
+    self->call([](LineMachine& machine, TimePoint now) { machine.advance(now); });
+  });
+}
+
+}  // namespace axisgate

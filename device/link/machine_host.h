@@ -1,0 +1,56 @@
+// What every shell around a LineMachine needs: calls on one strand with the clock's time, and one timer that always
+// stands at the machine's next deadline.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "device/core/line_machine.h"
+#include "device/link/asio.h"
+#include "device/link/clock.h"
+
+namespace axisgate {
+
+// Held by shared pointers only: handlers that wait in the io_context keep it alive. All members on the strand, except
+// attach(), strand() and post().
+class MachineHost : public std::enable_shared_from_this<MachineHost> {
+ public:
+  virtual ~MachineHost() = default;
+  MachineHost(const MachineHost&) = delete;
+  MachineHost& operator=(const MachineHost&) = delete;
+
+  void attach(LineMachine& machine) { machine_ = &machine; }
+  void post(std::function<void(TimePoint now)> request);
+  const Strand& strand() const { return strand_; }
+
+ protected:
+  explicit MachineHost(Strand strand) : strand_(std::move(strand)), deadline_timer_(strand_) {}
+
+  bool attached() const { return machine_ != nullptr; }
+
+  // The machine is never called again.
+  void detach();
+
+  // The only way into the machine: afterwards what it asked for is done and its deadline is looked at again.
+  template <class Call>
+  void call(Call&& call) {
+    if (machine_ == nullptr) return;
+    call(*machine_, monotonic_now());
+    settle();
+    arm();
+  }
+
+  // Does what the machine asked for in the call just ended.
+  virtual void settle() = 0;
+
+ private:
+  void arm();
+
+  Strand strand_;
+  boost::asio::steady_timer deadline_timer_;
+  std::optional<TimePoint> armed_;
+  LineMachine* machine_ = nullptr;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,36 @@
+// Who comes and goes at a pseudo terminal's other end, in order.
+#pragma once
+
+#include <cstdint>
+
+#include "device/core/problem.h"
+#include "device/link/descriptor.h"
+#include "device/link/pty.h"
+
+namespace axisgate {
+
+// The master alone tells whether somebody is there, but not that one client left and the next came between two looks;
+// inotify does. Equal events that follow each other are merged by the kernel, so with several clients at once the
+// count is a guess: everybody_left() puts it right.
+class PtyWatch {
+ public:
+  struct Visits {
+    int came = 0;             // clients that came when none was there
+    bool last_wrote = false;  // the last of these has written
+  };
+
+  static Result<PtyWatch> open(const Pty& pty);
+
+  int descriptor() const { return events_.get(); }  // readable when drain() has news
+  Visits drain();                                   // since the last call
+  void everybody_left() { clients_ = 0; }
+
+ private:
+  explicit PtyWatch(Descriptor events) : events_(std::move(events)) {}
+  void count(std::uint32_t event, Visits& visits);
+
+  Descriptor events_;
+  int clients_ = 0;
+};
+
+}  // namespace axisgate

@@ -1,0 +1,192 @@
+#include "device/link/runner.h"
+
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstdint>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "device/link/descriptor.h"
+#include "device/link/machine_host.h"
+
+namespace axisgate {
+
+using boost::system::error_code;
+
+// A handler of a closed descriptor may still be queued when the next one is open: it carries the generation it was
+// started in and does nothing when that has passed.
+class Runner::Line : public MachineHost {
+ public:
+  Line(Strand strand, Opener opener)
+      : MachineHost(std::move(strand)),
+        opener_(std::move(opener)),
+        descriptor_(this->strand()),
+        reopen_timer_(this->strand()) {}
+
+  void open();
+  void adopt(Descriptor opened);
+  void shut();
+  void write(std::string_view bytes);
+  void reopen(Duration wait);
+
+ private:
+  std::shared_ptr<Line> self() { return std::static_pointer_cast<Line>(shared_from_this()); }
+  void settle() override;
+  void start_reading();
+  void on_read(const error_code& error, std::size_t count);
+  void send_queued();
+  void wait_for_room();
+  void lose(std::string_view why);
+  void close();
+
+  Opener opener_;
+  boost::asio::posix::stream_descriptor descriptor_;
+  boost::asio::steady_timer reopen_timer_;
+  std::uint64_t generation_ = 0;
+  std::array<char, 4096> incoming_{};
+  std::string queued_;
+  bool socket_ = false;
+  bool waiting_for_room_ = false;
+  bool overflowed_ = false;
+};
+
+void Runner::Line::open() {
+  if (!attached() || !opener_) return;
+  const Result<int> opened = opener_();
+  if (opened) return adopt(Descriptor(*opened));
+  const Problem& problem = opened.error();
+  lose(problem.hint.empty() ? problem.message : problem.message + ". " + problem.hint);
+}
+
+void Runner::Line::adopt(Descriptor opened) {
+  if (!attached()) return;
+  close();
+  error_code error;
+  descriptor_.assign(opened.get(), error);
+  if (error) return lose("the line cannot be waited for: " + error.message());
+  struct stat status {};
+  socket_ = ::fstat(opened.release(), &status) == 0 && S_ISSOCK(status.st_mode);
+  const auto generation = generation_;
+  call([](LineMachine& machine, TimePoint now) { machine.link_up(now); });
+  if (generation == generation_) start_reading();
+}
+
+void Runner::Line::shut() {
+  detach();
+  close();
+}
+
+void Runner::Line::close() {
+  ++generation_;
+  error_code ignored;
+  descriptor_.close(ignored);
+  reopen_timer_.cancel();
+  queued_.clear();
+  waiting_for_room_ = false;
+  overflowed_ = false;
+}
+
+void Runner::Line::lose(std::string_view why) {
+  close();
+  call([&](LineMachine& machine, TimePoint now) { machine.link_down(now, why); });
+}
+
+void Runner::Line::write(std::string_view bytes) {
+  if (!descriptor_.is_open()) return;
+  if (queued_.size() + bytes.size() > kOutputBytesMax) {
+    overflowed_ = true;  // told to the machine when it has returned
+    return;
+  }
+  queued_ += bytes;
+}
+
+void Runner::Line::reopen(Duration wait) {
+  // Closing a port with bytes that flow control holds back would block for as long as the driver waits for them.
+  if (descriptor_.is_open() && ::isatty(descriptor_.native_handle())) {
+    ::tcflush(descriptor_.native_handle(), TCIOFLUSH);
+  }
+  close();
+  reopen_timer_.expires_after(wait);
+  reopen_timer_.async_wait([self = self(), generation = generation_](const error_code& error) {
+    if (!error && generation == self->generation_) self->open();
+  });
+}
+
+void Runner::Line::settle() {
+  if (overflowed_) return lose("the line takes no bytes: its output queue is full");
+  send_queued();
+}
+
+void Runner::Line::start_reading() {
+  descriptor_.async_read_some(boost::asio::buffer(incoming_),
+                              [self = self(), generation = generation_](const error_code& error, std::size_t count) {
+                                if (generation == self->generation_) self->on_read(error, count);
+                              });
+}
+
+void Runner::Line::on_read(const error_code& error, std::size_t count) {
+  if (error == boost::asio::error::eof) return lose("the line was closed at its other end");
+  if (error) return lose("reading from the line failed: " + error.message());
+  const auto generation = generation_;
+  call([&](LineMachine& machine, TimePoint now) { machine.receive({incoming_.data(), count}, now); });
+  if (generation == generation_) start_reading();
+}
+
+void Runner::Line::send_queued() {
+  while (!queued_.empty() && !waiting_for_room_) {
+    // A socket whose other end is gone must answer EPIPE, not end the process by SIGPIPE.
+    const int line = descriptor_.native_handle();
+    const ssize_t sent = socket_ ? ::send(line, queued_.data(), queued_.size(), MSG_NOSIGNAL)
+                                 : ::write(line, queued_.data(), queued_.size());
+    if (sent >= 0) {
+      queued_.erase(0, static_cast<std::size_t>(sent));
+    } else if (errno == EAGAIN) {
+      wait_for_room();
+    } else if (errno != EINTR) {
+      return lose("writing to the line failed: " + std::generic_category().message(errno));
+    }
+  }
+}
+
+void Runner::Line::wait_for_room() {
+  waiting_for_room_ = true;
+  descriptor_.async_wait(boost::asio::posix::stream_descriptor::wait_write,
+                         [self = self(), generation = generation_](const error_code&) {
+                           if (generation != self->generation_) return;
+                           self->waiting_for_room_ = false;
+                           self->send_queued();
+                         });
+}
+
+Runner::Runner(Strand strand, Opener opener) : line_(std::make_shared<Line>(std::move(strand), std::move(opener))) {}
+
+Runner::~Runner() { line_->shut(); }
+
+void Runner::attach(LineMachine& machine) { line_->attach(machine); }
+
+void Runner::start() {
+  boost::asio::dispatch(line_->strand(), [line = line_] { line->open(); });
+}
+
+void Runner::shutdown() {
+  boost::asio::dispatch(line_->strand(), [line = line_] { line->shut(); });
+}
+
+void Runner::adopt(int descriptor) {
+  boost::asio::dispatch(line_->strand(),
+                        [line = line_, opened = Descriptor(descriptor)]() mutable { line->adopt(std::move(opened)); });
+}
+
+void Runner::post(std::function<void(TimePoint now)> request) { line_->post(std::move(request)); }
+
+void Runner::write(std::string_view bytes) { line_->write(bytes); }
+
+void Runner::reopen(Duration wait) { line_->reopen(wait); }
+
+}  // namespace axisgate

@@ -1,0 +1,59 @@
+// Drives one LineMachine over a file descriptor: the thin shell between the sans-I/O core and the operating system.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/link/asio.h"
+
+namespace axisgate {
+
+// Returns an open, non-blocking descriptor, which the caller then owns, or the problem for people. Called on the
+// strand; must not block for long.
+using Opener = std::function<Result<int>()>;
+
+// Threads: write() and reopen() belong to the machine, which calls them from within its own members, on the strand.
+// Everything else may be called from any thread. The machine is only ever called on the strand.
+// Lifetime: the machine and the io_context outlive the Runner's last call into the machine. Destroy a Runner on its
+// strand or when no thread runs its io_context any more; handlers still queued then do nothing.
+class Runner : public ByteLink {
+ public:
+  // Bytes that may wait for a line that takes none. One more, and the line counts as lost.
+  static constexpr std::size_t kOutputBytesMax = 64 * 1024;
+
+  // Without an opener the line comes from adopt() alone: the device's end of a line that its host opens.
+  explicit Runner(Strand strand, Opener opener = {});
+  ~Runner() override;
+  Runner(const Runner&) = delete;
+  Runner& operator=(const Runner&) = delete;
+
+  // Before start(), once.
+  void attach(LineMachine& machine);
+
+  // Opens the line. The machine hears link_up, or link_down with the reason; then, and after every later loss, it is
+  // for the machine to call reopen() with its own backoff.
+  void start();
+
+  // Closes the line, without discarding what the kernel still has to send, and never calls the machine again.
+  // Takes effect at once on the strand, else as soon as the strand is free.
+  void shutdown();
+
+  // Takes over a descriptor in place of the present one. The machine hears link_up.
+  void adopt(int descriptor);
+
+  // Runs `request` on the strand, never from within post(); what it made the machine write goes out and the machine's
+  // deadline is looked at again afterwards. Dropped after shutdown().
+  void post(std::function<void(TimePoint now)> request);
+
+  void write(std::string_view bytes) override;
+  void reopen(Duration wait) override;
+
+ private:
+  class Line;
+  std::shared_ptr<Line> line_;
+};
+
+}  // namespace axisgate

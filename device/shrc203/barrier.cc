@@ -1,0 +1,95 @@
+#include "device/shrc203/barrier.h"
+
+#include "device/shrc203/codec.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+// A line that never falls silent is as good as none.
+constexpr Duration kSilenceWaitMax = std::chrono::seconds(5);
+
+// ?:CMD answers with a command; no reply of the table looks like one.
+bool looks_like_command(std::string_view line) { return parse_command(line).has_value(); }
+
+}  // namespace
+
+Barrier::Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed,
+                 std::function<void(std::string_view)> write)
+    : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), owed_(owed), write_(std::move(write)) {}
+
+void Barrier::start(TimePoint now) { begin(line_in_doubt_.empty() ? Step::identity : Step::echo, now); }
+
+void Barrier::restart(TimePoint now) {
+  if (step_ == Step::echo) ++owed_.echoes;
+  if (step_ == Step::identity) ++owed_.identities;
+  // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
+  begin(Step::identity, now);
+}
+
+void Barrier::begin(Step step, TimePoint now) {
+  step_ = step;
+  probes_ = 0;
+  if (step == Step::silence) {
+    deadline_ = now + limits_.silence;
+    silence_limit_ = now + kSilenceWaitMax;
+  } else {
+    probe(now);
+  }
+}
+
+void Barrier::probe(TimePoint now) {
+  ++probes_;
+  write_(step_ == Step::echo ? "?:CMD" : "*IDN?");
+  deadline_ = now + limits_.reply;
+}
+
+bool Barrier::is_echo(std::string_view line) const { return line == line_in_doubt_ || looks_like_command(line); }
+
+bool Barrier::on_line(std::string_view line, TimePoint now) {
+  if (step_ == Step::echo && is_echo(line)) {
+    // A repeated ?:CMD is answered with the ?:CMD before it.
+    if (line == line_in_doubt_) received_ = true;
+    if (line != line_in_doubt_ && line != "?:CMD") received_ = false;
+    begin(Step::identity, now);
+    return true;
+  }
+  if (step_ == Step::identity) {
+    if (auto identity = parse_identity(line)) {
+      identity_ = std::move(identity);
+      begin(Step::silence, now);
+      return true;
+    }
+  }
+  const bool owed = pay_owed(owed_, line);
+  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + limits_.silence;
+  return owed;
+}
+
+void Barrier::advance(TimePoint now) {
+  if (state_ != State::probing || now < deadline_) return;
+  if (step_ == Step::silence) {
+    state_ = now < silence_limit_ ? State::passed : State::failed;
+    return;
+  }
+  if (step_ == Step::echo) ++owed_.echoes;
+  if (step_ == Step::identity) ++owed_.identities;
+  if (probes_ >= kProbesMax) {
+    state_ = State::failed;
+  } else {
+    probe(now);
+  }
+}
+
+bool pay_owed(OwedAnswers& owed, std::string_view line) {
+  if (owed.identities > 0 && parse_identity(line)) {
+    --owed.identities;
+    return true;
+  }
+  if (owed.echoes > 0 && looks_like_command(line)) {
+    --owed.echoes;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace axisgate::shrc203

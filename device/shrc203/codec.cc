@@ -1,0 +1,56 @@
+#include "device/shrc203/codec.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::size_t kLineCharactersMax = 200;
+
+Result<void> check_characters(std::string_view text) {
+  const bool printable = std::ranges::all_of(text, [](char c) { return c >= ' ' && c <= '~'; });
+  if (printable && !text.empty() && text.size() <= kLineCharactersMax) return {};
+  if (text.empty()) return fail(Reason::malformed_line, "the line is empty", "give one command, such as ?:V");
+  if (!printable) {
+    return fail(Reason::malformed_line,
+                "the line holds a character that is not printable ASCII (CR, LF and NUL are never sent from a field)",
+                "give each command as a line of its own, without terminator");
+  }
+  return fail(Reason::malformed_line, fmt::format("the line is longer than {} characters", kLineCharactersMax));
+}
+
+}  // namespace
+
+AxisSet Command::axes(AxisSet controllable) const {
+  const auto letter = arguments.first("a");
+  if (row->scope == CommandScope::controller && !letter) return controllable;
+  if (!letter) return controllable;
+  return from_command_letter(letter->front(), controllable).value_or(controllable);
+}
+
+Command make_command(std::string_view name, const Arguments& arguments) {
+  const CommandRow& row = command_row(name);
+  auto line = encode(row, arguments);
+  if (!line) std::abort();
+  return {&row, arguments, *std::move(line)};
+}
+
+Command make_command(std::string_view name, AxisSet axes) { return make_command(name, Arguments().axes(axes)); }
+
+Result<Command> parse_command(std::string_view text) {
+  if (auto good = check_characters(text); !good) return tl::unexpected(good.error());
+  for (const CommandRow& row : command_table()) {
+    auto arguments = decode(row, text);
+    if (!arguments) continue;
+    if (!*arguments) return tl::unexpected(arguments->error());
+    auto line = encode(row, **arguments);
+    return Command{&row, **std::move(arguments), *std::move(line)};
+  }
+  return fail(Reason::unknown_command, fmt::format("\"{}\" is no command that the gateway knows", text),
+              "`axisctl commands` lists them with their parameters");
+}
+
+}  // namespace axisgate::shrc203

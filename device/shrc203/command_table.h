@@ -1,0 +1,83 @@
+// The one table of the controller's commands. Encoding, validation, reply parsing, scheduling, the generic Execute, the
+// command line's help and the tests read these rows; nothing else in the gateway knows how a command is written.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "device/core/lane.h"
+#include "device/core/time.h"
+
+namespace axisgate::shrc203 {
+
+// One letter of the manual's command format.
+struct Parameter {
+  enum class Kind {
+    choice,   // one of the words of `choices`, separated by blanks
+    integer,  // minimum to maximum
+    decimal,  // digits with an optional point; minimum to maximum apply to whole pulses only, by the unit before it
+    text,     // anything printable
+  };
+  std::string_view letter;   // as the manual writes it: a, m, u, y, spds ...
+  std::string_view meaning;  // for people
+  Kind kind = Kind::choice;
+  std::string_view choices = {};
+  std::int64_t minimum = 0;
+  std::int64_t maximum = 0;
+  std::string_view unit = {};
+};
+
+// How this row's answer is kept apart from a completion, which is a bare 1, 2 or 3.
+enum class Separation {
+  grammar,   // the answer is never a bare axis number
+  all_axes,  // asked for all axes and the wanted fields picked, so that the answer has commas
+  waits,     // not sent while a possible completion lies within the answer's range
+};
+
+// What the manual demands for the command to be accepted.
+struct Needs {
+  bool ready = false;     // "In the case of Busy ... NG"
+  bool excited = false;   // "... or the motor excitation is OFF"
+  bool no_limit = false;  // "... or the limit sensor is detected"
+  bool any_mode = false;  // usable off HOST too (manual 4., last note)
+};
+
+// Which of the settings that a G may start (manual 85)) the command writes.
+enum class Register { none, m, a, k, e, j, mp, ap, kp, ep, wt, wi };
+
+enum class Effect {
+  question,        // changes nothing
+  setting,         // changes a setting; nothing moves
+  motion_setting,  // writes a Register that a G starts
+  motion,          // sets the stage moving when accepted
+  stop,
+};
+
+enum class CommandScope { controller, axes };
+
+struct CommandRow {
+  std::string_view name;    // "MP:", as the documents of this folder name it
+  std::string_view format;  // see pattern.h; letters in <> are `parameters`
+  std::string_view description;
+  int section;  // of the manual
+  std::span<const Parameter> parameters;
+  std::string_view reply;  // see reply.h
+  Effect effect = Effect::question;
+  Lane lane = Lane::question;
+  CommandScope scope = CommandScope::controller;
+  Separation separation = Separation::grammar;
+  Needs needs = {};
+  Register reg = Register::none;
+  bool completes = false;     // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
+  Duration reply_limit = {};  // zero: the profile's
+
+  constexpr bool moves() const { return effect == Effect::motion; }
+};
+
+std::span<const CommandRow> command_table();
+
+// The row of that name. The name must exist: names are written in this folder's code only.
+const CommandRow& command_row(std::string_view name);
+
+}  // namespace axisgate::shrc203

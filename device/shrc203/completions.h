@@ -1,0 +1,58 @@
+// Which axis numbers may come over the line by themselves, and until when. Design: a notice is never taken for a reply.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "device/core/time.h"
+#include "device/shrc203/axes.h"
+
+namespace axisgate::shrc203 {
+
+class Completions {
+ public:
+  // How long after READY was seen a completion may still arrive.
+  static constexpr Duration kAfterReady = std::chrono::milliseconds(200);
+  // How soon after a start READY may still tell of the time before it.
+  static constexpr Duration kStartSettles = std::chrono::milliseconds(150);
+
+  // After a connect nobody knows what was left running: every axis may complete.
+  void connected();
+
+  // The first byte of HRT:, ZRT: or a G after a prebuffer setting is about to be written.
+  void started(AxisSet axes, TimePoint now);
+
+  // The start was answered NG by a line that can be trusted: nothing will complete.
+  void refused(AxisSet axes);
+
+  // An axis number came, one for each start, more in a chain.
+  void arrived(int axis);
+
+  // A reading told these axes to be READY.
+  void ready(AxisSet axes, TimePoint now);
+  void busy(AxisSet axes);
+
+  AxisSet possible(TimePoint now) const;
+  bool possible(int axis, TimePoint now) const { return possible(now).has(axis); }
+
+  // Axes of which a completion may still come and has not: nothing may start on them, or the late number of one motion
+  // would look like the next one's.
+  AxisSet outstanding(TimePoint now) const;
+
+  // When possible() will next lose an axis by the passing of time.
+  std::optional<TimePoint> next_change(TimePoint now) const;
+
+ private:
+  struct Axis {
+    bool possible = false;
+    bool arrived = false;
+    std::optional<TimePoint> started;  // nothing: before the connect
+    std::optional<TimePoint> until;  // set by READY
+  };
+  Axis& axis(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
+  const Axis& axis(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }
+
+  std::array<Axis, kAxisCount> axes_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,202 @@
+#include "device/shrc203/controller.h"
+
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+
+Controller::Impl::Impl(Profile profile, ByteLink& link, EventSink& events)
+    : profile_(std::move(profile)),
+      events_(events),
+      line_(profile_, link, executor_, *this),
+      gate_(executor_, profile_.busy_scope),
+      wake_poll_(executor_),
+      tick_(executor_) {
+  executor_.spawn(poll());
+}
+
+Controller::Impl::~Impl() = default;
+
+void Controller::Impl::settle() { executor_.run(); }
+
+std::optional<TimePoint> Controller::Impl::next_deadline() const {
+  std::optional<TimePoint> next;
+  for (const auto& at : {line_.next_deadline(now_), executor_.next_deadline(), gate_.next_deadline()}) {
+    if (at && (!next || *at < *next)) next = at;
+  }
+  return next;
+}
+
+void Controller::Impl::line_connected(const Identity& identity, TimePoint) {
+  ++connection_;
+  executor_.spawn(handshake(identity, connection_));
+}
+
+void Controller::Impl::line_lost(const std::string& why, TimePoint) {
+  ++connection_;
+  settled_ = false;
+  registers_.forget();
+  state_.link = LinkState::down;
+  state_.link_problem = why;
+  for (auto& axis : state_.axes) {
+    axis.position_pulses.reset();
+    axis.busy.reset();
+  }
+  for (const auto& [id, live] : live_) {
+    if (!live->inside_gate) continue;
+    live->line_lost = true;
+    live->line_problem = why;
+    state_.moving_unknown = state_.moving_unknown || live->motion.state != MotionState::queued;
+    live->news.notify();
+  }
+  gate_.withdraw([](MotionId) { return true; },
+                 {Reason::not_sent,
+                  "the line to the controller was lost before the motion was sent: " + why,
+                  "try again when the device is up",
+                  {},
+                  {},
+                  {}});
+  emit(LinkChanged{LinkState::down, why});
+  publish_state();
+}
+
+void Controller::Impl::barrier_entered(const std::string& why, TimePoint) {
+  settled_ = false;
+  if (state_.link == LinkState::up) state_.link = LinkState::doubtful;
+  emit(BarrierEntered{why});
+}
+
+void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
+  if (state_.link != LinkState::doubtful) return;
+  if (identity.serial_number != state_.serial_number || identity.model != state_.model) {
+    line_.give_up("another controller answers: " + identity.model + " " + identity.serial_number, now_);
+    return;
+  }
+  state_.link = LinkState::up;
+}
+
+void Controller::Impl::completion_seen(int axis, bool doubtful, TimePoint now) {
+  line_.completions().arrived(axis);
+  LiveMotionPtr owner;
+  for (const auto& [id, live] : live_) {
+    if (live->inside_gate && live->motion.axes.has(axis) && live->motion.state != MotionState::queued) owner = live;
+  }
+  emit(CompletionSeen{axis, owner ? owner->motion.id : 0});
+  if (!owner) return;
+  owner->completed.add(axis);
+  for (auto& result : owner->motion.results) {
+    if (result.axis == axis) result.completion_seen = true;
+  }
+  owner->completions.push_back({axis, doubtful, now});
+  owner->woken = owner->woken || owner->completed == owner->motion.axes;
+  if (owner->on_completion) owner->on_completion(axis);
+  owner->news.notify();
+}
+
+void Controller::Impl::line_event(const Event& event, TimePoint) { emit(event); }
+
+Controller::Controller(Profile profile, ByteLink& link, EventSink& events)
+    : impl_(std::make_unique<Impl>(std::move(profile), link, events)) {}
+Controller::~Controller() = default;
+
+void Controller::link_up(TimePoint now) {
+  impl_->at(now, [&] {
+    impl_->state_.link = LinkState::connecting;
+    impl_->emit(LinkChanged{LinkState::connecting, "the line is open"});
+    impl_->line_.link_up(now);
+  });
+}
+
+void Controller::link_down(TimePoint now, std::string_view why) {
+  impl_->at(now, [&] { impl_->line_.link_down(now, why); });
+}
+
+void Controller::receive(std::string_view bytes, TimePoint now) {
+  impl_->at(now, [&] { impl_->line_.receive(bytes, now); });
+}
+
+void Controller::advance(TimePoint now) {
+  impl_->at(now, [&] {
+    impl_->line_.advance(now);
+    impl_->gate_.expire(now);
+    impl_->executor_.advance(now);
+  });
+}
+
+std::optional<TimePoint> Controller::next_deadline() const { return impl_->next_deadline(); }
+const Profile& Controller::profile() const { return impl_->profile_; }
+const State& Controller::state() const { return impl_->state_; }
+
+void Controller::refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) {
+  impl_->at(now, [&] { impl_->executor_.spawn(impl_->refresh(max_age, context, std::move(done))); });
+}
+
+void Controller::move(MoveRequest request, TimePoint now, OnStarted started) {
+  impl_->at(now, [&] { impl_->move(std::move(request), std::move(started)); });
+}
+
+void Controller::home(HomeRequest request, TimePoint now, OnStarted started) {
+  impl_->at(now, [&] { impl_->home(MotionKind::home, std::move(request), std::move(started)); });
+}
+
+void Controller::return_to_origin(HomeRequest request, TimePoint now, OnStarted started) {
+  impl_->at(now, [&] { impl_->home(MotionKind::return_to_origin, std::move(request), std::move(started)); });
+}
+
+void Controller::run_path(PathRequest request, TimePoint now, OnStarted started) {
+  impl_->at(now, [&] { impl_->run_path(std::move(request), std::move(started)); });
+}
+
+Result<void> Controller::check(const MoveRequest& request) const {
+  const auto plan =
+      plan_move(request.moves, request.relative, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+  if (!plan) return tl::unexpected(plan.error());
+  return {};
+}
+
+Result<void> Controller::check(const PathRequest& request) const {
+  const auto plan = plan_path(request, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+  if (!plan) return tl::unexpected(plan.error());
+  return {};
+}
+
+void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
+  impl_->at(now, [&] { impl_->stop(axes, false, context, std::move(done)); });
+}
+
+void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
+  impl_->at(now, [&] { impl_->stop(AxisSet::all(), true, context, std::move(done)); });
+}
+
+void Controller::clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) {
+  impl_->at(now, [&] { impl_->executor_.spawn(impl_->clear_errors(axes, context, std::move(done))); });
+}
+
+void Controller::execute(ExecuteRequest request, TimePoint now, OnExecute event) {
+  impl_->at(now, [&] { impl_->execute(std::move(request), std::move(event)); });
+}
+
+std::vector<Motion> Controller::motions() const {
+  std::vector<Motion> all(impl_->ended_.begin(), impl_->ended_.end());
+  for (const auto& [id, live] : impl_->live_) all.push_back(live->motion);
+  return all;
+}
+
+std::optional<Motion> Controller::find_motion(MotionId id) const {
+  if (const auto live = impl_->live_.find(id); live != impl_->live_.end()) return live->second->motion;
+  for (const auto& motion : impl_->ended_) {
+    if (motion.id == id) return motion;
+  }
+  return {};
+}
+
+void Controller::cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) {
+  impl_->at(now, [&] { impl_->cancel(id, context, std::move(done)); });
+}
+
+std::size_t Controller::queued(Lane lane) const {
+  return impl_->line_.queued(lane) + (lane == Lane::motion ? impl_->gate_.waiting() : 0);
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,187 @@
+// The inside of Controller: what its procedures share. Each procedure is a coroutine in a file of its own:
+//
+//   handshake.cc  who is there, after a connect         reading.cc  positions, registers, why NG
+//   move.cc       set, go, watch                        home.cc     origin returns
+//   path.cc       the double buffer's chain             stop.cc     L: and L:E
+//   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
+#pragma once
+
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/core/task.h"
+#include "device/shrc203/controller.h"
+#include "device/shrc203/line.h"
+#include "device/shrc203/motion_gate.h"
+#include "device/shrc203/plan.h"
+#include "device/shrc203/registers.h"
+
+namespace axisgate::shrc203 {
+
+// A motion and what its procedure needs to know of it.
+struct LiveMotion {
+  LiveMotion(Executor& executor, Motion record, RequestContext from)
+      : motion(std::move(record)), context(std::move(from)), news(executor) {}
+
+  Motion motion;
+  RequestContext context;
+  Signal news;  // a completion of its axes, a stop, the loss of the line
+  Controller::OnStarted on_started;
+  bool stop_requested = false;
+  std::string stopped_by;
+  bool woken = false;  // every axis number has come, or a stop
+  bool line_lost = false;
+  std::string line_problem;
+  bool inside_gate = false;
+
+  struct Completion {
+    int axis = 0;
+    bool doubtful = false;
+    TimePoint at{};
+  };
+  std::deque<Completion> completions;  // not yet looked at by the procedure
+  AxisSet completed;                   // axes whose number has come at least once
+  std::function<void(int axis)> on_completion;
+  std::function<void()> on_success;  // before the outcome is told
+};
+using LiveMotionPtr = std::shared_ptr<LiveMotion>;
+
+struct StopJob {
+  AxisSet axes;
+  bool emergency = false;
+  bool answered = false;  // its L: has been answered: a later stop is another one
+  RequestContext context;
+  std::vector<Controller::OnStopped> done;
+  StopReport report;
+};
+using StopJobPtr = std::shared_ptr<StopJob>;
+
+class Controller::Impl : public LineListener {
+ public:
+  Impl(Profile profile, ByteLink& link, EventSink& events);
+  ~Impl() override;
+
+  // Every call from outside begins with the time and ends by letting the tasks go on.
+  template <class Call>
+  void at(TimePoint now, Call call) {
+    now_ = now;
+    call();
+    settle();
+  }
+  void settle();
+  std::optional<TimePoint> next_deadline() const;
+
+  void line_connected(const Identity& identity, TimePoint now) override;
+  void line_lost(const std::string& why, TimePoint now) override;
+  void barrier_entered(const std::string& why, TimePoint now) override;
+  void barrier_passed(const Identity& identity, TimePoint now) override;
+  void completion_seen(int axis, bool doubtful, TimePoint now) override;
+  void line_event(const Event& event, TimePoint now) override;
+
+  // handshake.cc
+  Task<void> handshake(Identity identity, std::uint64_t connection);
+  Task<bool> wait_for_host_mode(std::uint64_t connection);
+  Task<bool> wait_until_all_ready(std::uint64_t connection);
+  Task<bool> read_settings(std::uint64_t connection);
+  Task<void> poll();
+  Task<void> follow_mode();
+
+  // reading.cc
+  Task<ExchangeResult> ask(std::string_view question, Lane lane, std::string caller, bool in_handshake = false);
+  Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
+  Task<Result<void>> read_registers(std::string caller);
+  Task<Result<void>> read_speeds(std::string caller);
+  Task<Problem> explain_refusal(std::string sent, AxisSet axes, std::string caller);
+  Task<void> refresh(Duration max_age, RequestContext context, OnState done);
+  bool apply_positions(const Reply& reply);
+  void publish_state();
+
+  // watch.cc
+  LiveMotionPtr create_motion(MotionKind kind, AxisSet axes, RequestContext context, OnStarted started);
+  void set_state(LiveMotion& live, MotionState state);
+  void end_motion(LiveMotionPtr live, MotionState outcome, std::optional<Problem> problem);
+  void mark_running(LiveMotionPtr live);
+  Task<Result<void>> enter_gate(LiveMotionPtr live);
+  Task<Result<void>> prepare(LiveMotionPtr live, Register reg);
+  Task<Result<void>> clear_left_overs(LiveMotionPtr live, Register reg);
+  Task<void> watch(LiveMotionPtr live, bool start_in_doubt);
+  Task<void> wait_for_end(LiveMotionPtr live, TimePoint limit);
+  // What watch() has seen so far. READY away from the target counts when two readings agree.
+  struct EndCheck {
+    TimePoint begun{};
+    bool start_in_doubt = false;
+    bool ready = false;
+    Positions positions{};
+  };
+  void judge(LiveMotionPtr live, EndCheck& check);
+  bool at_targets(const LiveMotion& live) const;
+  std::optional<Problem> error_of(const LiveMotion& live) const;
+  bool anything_moves() const;
+
+  // move.cc, home.cc
+  void move(MoveRequest request, OnStarted started);
+  Task<void> run_move(LiveMotionPtr live, MoveRequest request);
+  Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
+  Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
+  void note_speeds(const MovePlan& plan);
+  ExchangeRequest motion_request(const LiveMotion& live, Command command, Lane lane) const;
+  Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
+  enum class Start { accepted, in_doubt };
+  Task<Result<Start>> go(LiveMotionPtr live, AxisSet completes);
+  void home(MotionKind kind, HomeRequest request, OnStarted started);
+  Task<void> run_home(LiveMotionPtr live);
+
+  // path.cc
+  void run_path(PathRequest request, OnStarted started);
+  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request);
+
+  // stop.cc
+  void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);
+  Task<void> run_stop(StopJobPtr job);
+  Task<void> write_stop(StopJobPtr job);
+  Task<ExchangeResult> write_stop_line(StopJobPtr job, Command command);
+  Task<void> wait_for_standstill(StopJobPtr job);
+  Task<bool> prebuffer_is_empty(StopJobPtr job);
+  void flush_motions(AxisSet axes, const RequestContext& context, bool emergency);
+  void cancel(MotionId id, const RequestContext& context, OnDone done);
+
+  // execute.cc
+  void execute(ExecuteRequest request, OnExecute event);
+  Task<void> run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event);
+  void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
+  Task<void> clear_errors(AxisSet axes, RequestContext context, OnDone done);
+
+  TimePoint default_limit(TimePoint asked, Duration otherwise) const {
+    return asked == TimePoint{} ? now_ + otherwise : asked;
+  }
+  void emit(const Event& event) { events_.on_event(event, now_); }
+
+  Profile profile_;
+  EventSink& events_;
+  TimePoint now_{};
+  Executor executor_;
+  Line line_;
+  State state_;
+  Registers registers_;
+  MotionGate gate_;
+  std::map<MotionId, LiveMotionPtr> live_;  // without an outcome yet
+  std::deque<Motion> ended_;
+  MotionId last_motion_ = 0;
+  std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one
+  std::vector<StopJobPtr> stops_;
+  Signal wake_poll_;
+  Signal tick_;           // never notified: to wait for a time
+  bool settled_ = false;  // the last reading was READY and nothing has happened since
+};
+
+// Lines that begin a motion wait this long for it to begin, when the caller sets no limit.
+inline constexpr Duration kMotionLimit = std::chrono::seconds(5);
+inline constexpr Duration kQuestionLimit = std::chrono::seconds(20);
+// Inside a transaction an exchange waits for a barrier at most.
+inline constexpr Duration kStepLimit = std::chrono::seconds(30);
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,27 @@
+#include "device/shrc203/event.h"
+
+namespace axisgate::shrc203 {
+
+std::string_view name(ExchangeEnded::Outcome outcome) {
+  switch (outcome) {
+    case ExchangeEnded::Outcome::ok:
+      return "ok";
+    case ExchangeEnded::Outcome::ok_d:
+      return "ok_d";
+    case ExchangeEnded::Outcome::ng:
+      return "ng";
+    case ExchangeEnded::Outcome::ng_i:
+      return "ng_i";
+    case ExchangeEnded::Outcome::data:
+      return "data";
+    case ExchangeEnded::Outcome::timed_out:
+      return "timed_out";
+    case ExchangeEnded::Outcome::garbled:
+      return "garbled";
+    case ExchangeEnded::Outcome::link_lost:
+      return "link_lost";
+  }
+  return "garbled";
+}
+
+}  // namespace axisgate::shrc203

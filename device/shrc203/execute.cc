@@ -1,0 +1,356 @@
+// A caller's own lines as one transaction: checked by the table, and nobody else's motion between them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::size_t kLinesMax = 100;
+
+// A motion setting left without a start would run on somebody else's; a start without one would run what is there.
+Result<void> check_transaction(const std::vector<Command>& commands) {
+  bool set = false;
+  for (const Command& command : commands) {
+    const auto& row = *command.row;
+    if (row.effect == Effect::motion_setting) set = true;
+    const bool is_start = row.name == "G" || row.name == "G:";
+    if (row.effect == Effect::stop && commands.size() > 1) {
+      return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
+                  "send it by itself, or use `axisctl stop`");
+    }
+    if (is_start && !set) {
+      return fail(Reason::incomplete_transaction, fmt::format("{} alone would start whatever was set before", row.name),
+                  "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
+    }
+  }
+  const auto start =
+      std::ranges::find_if(commands, [](const Command& c) { return c.row->name.starts_with("G") && c.row->moves(); });
+  if (set && start == commands.end()) {
+    return fail(Reason::incomplete_transaction,
+                "a motion that is set and not started would run on somebody else's start",
+                "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
+  }
+  return {};
+}
+
+bool needs_gate(const std::vector<Command>& commands) {
+  return std::ranges::any_of(commands, [](const Command& command) {
+    return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
+           command.row->name != "BEC:";
+  });
+}
+
+AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable) {
+  AxisSet axes;
+  for (const Command& command : commands) {
+    if (command.row->moves() || command.row->effect == Effect::motion_setting) {
+      axes = axes | command.axes(controllable);
+    }
+  }
+  return axes & controllable;
+}
+
+bool completes(const std::vector<Command>& commands) {
+  return std::ranges::any_of(commands, [](const Command& command) {
+    return command.row->completes &&
+           (command.row->effect == Effect::motion_setting || command.row->scope == CommandScope::axes) &&
+           !command.row->name.starts_with("G");
+  });
+}
+
+Unit unit_of(std::string_view letter) {
+  if (letter == "N") return Unit::nanometers;
+  if (letter == "U") return Unit::micrometers;
+  if (letter == "M") return Unit::millimeters;
+  if (letter == "D") return Unit::degrees;
+  return Unit::pulses;
+}
+
+// The ways or targets that a setter names, as a request of ours, for the same checks of travel.
+std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
+  std::vector<AxisMove> moves;
+  const auto axes = command.axes(controllable).list();
+  std::int64_t sign = 1;
+  Unit unit = Unit::pulses;
+  for (const auto& [letter, value] : command.arguments.values()) {
+    if (letter == "m") sign = value == "-" ? -1 : 1;
+    if (letter == "u") unit = unit_of(value);
+    if (letter != "y" || moves.size() >= axes.size()) continue;
+    Decimal amount = *parse_decimal(value);
+    amount.digits *= sign;
+    moves.push_back({axes[moves.size()], {amount, unit}, {}});
+  }
+  return moves;
+}
+
+// Asked for all axes, so that the answer has commas; the fields of the axes that were meant are picked.
+Command as_sent(const Command& command) {
+  if (command.row->separation != Separation::all_axes || !command.arguments.first("a")) return command;
+  Arguments without;
+  for (const auto& [letter, value] : command.arguments.values()) {
+    if (letter != "a") without.add(letter, value);
+  }
+  return make_command(command.row->name, without);
+}
+
+std::string picked(const Command& asked, const Reply& reply, AxisSet controllable) {
+  if (reply.kind != Reply::Kind::data || as_sent(asked).line == asked.line) return reply.text;
+  const AxisSet wanted = asked.axes(controllable);
+  const bool whole = reply.fields.size() == kAxisCount;
+  std::string answer;
+  std::size_t place = 0;
+  for (const int axis : (whole ? AxisSet::all() : controllable).list()) {
+    if (place >= reply.fields.size()) break;
+    const auto& field = reply.fields[place++];
+    if (!wanted.has(axis)) continue;
+    if (!answer.empty()) answer += ',';
+    answer += field;
+  }
+  return answer;
+}
+
+// One caller's transaction.
+class Transaction {
+ public:
+  Transaction(Controller::Impl& owner, ExecuteRequest request, std::vector<Command> commands,
+              Controller::OnExecute tell)
+      : impl_(owner), request_(std::move(request)), commands_(std::move(commands)), tell_(std::move(tell)) {}
+
+  Task<void> run();
+
+ private:
+  Task<Result<void>> begin();
+  Task<bool> send_all();
+  Task<bool> send(std::size_t index);
+  Result<void> check_travel();
+  ExchangeRequest request_for(const Command& command);
+  void end(std::optional<Problem> problem);
+
+  Controller::Impl& impl_;
+  ExecuteRequest request_;
+  std::vector<Command> commands_;
+  Controller::OnExecute tell_;
+  LiveMotionPtr live_;
+  bool started_ = false;
+  bool start_in_doubt_ = false;
+};
+
+void Transaction::end(std::optional<Problem> problem) {
+  ExecuteEvent event;
+  event.kind = ExecuteEvent::Kind::ended;
+  event.problem = std::move(problem);
+  tell_(event);
+}
+
+Result<void> Transaction::check_travel() {
+  Positions at = positions_of(impl_.state_);
+  for (const Command& command : commands_) {
+    if (command.row->effect != Effect::motion_setting) continue;
+    const bool relative = command.row->reg != Register::a && command.row->reg != Register::ap;
+    const auto moves = moves_of(command, impl_.state_.controllable());
+    if (moves.empty()) continue;
+    const auto plan = plan_move(moves, relative, at, impl_.profile_, impl_.state_);
+    if (!plan) return tl::unexpected(plan.error());
+    for (const auto& one : plan->axes) at[static_cast<std::size_t>(one.axis - 1)] = one.target;
+    for (auto& result : live_->motion.results) {
+      for (const auto& one : plan->axes) {
+        if (one.axis == result.axis) result.target_pulses = one.target;
+      }
+    }
+  }
+  const bool home = std::ranges::any_of(
+      commands_, [](const Command& command) { return command.row->moves() && !command.row->name.starts_with("G"); });
+  for (auto& result : live_->motion.results) {
+    if (home) result.target_pulses = 0;
+    if (!result.target_pulses) result.target_pulses = impl_.state_.axis(result.axis).position_pulses;
+  }
+  return {};
+}
+
+Task<Result<void>> Transaction::begin() {
+  auto ready = co_await impl_.enter_gate(live_);
+  if (!ready || live_->motion.axes.empty()) co_return ready;
+  Register reg = Register::none;
+  for (const Command& command : commands_) {
+    if (command.row->reg != Register::none) reg = command.row->reg;
+  }
+  ready = co_await impl_.prepare(live_, reg);
+  if (!ready) co_return ready;
+  co_return check_travel();
+}
+
+ExchangeRequest Transaction::request_for(const Command& command) {
+  ExchangeRequest request;
+  request.command = as_sent(command);
+  request.lane = live_ ? Lane::motion : command.row->effect == Effect::question ? Lane::question : Lane::motion;
+  request.caller = request_.context.who;
+  request.not_after = request_.context.not_after;
+  request.motion = live_ ? live_->motion.id : 0;
+  if (command.row->moves() && completes(commands_)) request.completes = live_->motion.axes;
+  return request;
+}
+
+Task<bool> Transaction::send(std::size_t index) {
+  const Command& command = commands_[index];
+  auto request = request_for(command);
+  ExecuteEvent event;
+  event.line = index;
+  event.sent = request.command.line;
+  auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
+  const auto result = co_await pending;
+  if (command.row->moves()) {
+    started_ = started_ || result.accepted();
+    start_in_doubt_ = start_in_doubt_ || result.in_doubt();
+  }
+  if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
+  if (result.problem) {
+    end(result.problem);
+    co_return false;
+  }
+  event.wire_reply = result.reply->text;
+  event.answer = picked(command, *result.reply, impl_.state_.controllable());
+  tell_(event);
+  if (command.row->effect == Effect::question || result.accepted()) co_return true;
+  auto why =
+      co_await impl_.explain_refusal(command.line, command.axes(impl_.state_.controllable()), request_.context.who);
+  end(std::move(why));
+  co_return false;
+}
+
+Task<bool> Transaction::send_all() {
+  for (std::size_t index = 0; index < commands_.size(); ++index) {
+    if (live_ && live_->stop_requested && !started_) {
+      end(Problem{Reason::stopped, "stopped by " + live_->stopped_by, {}, {}, {}, {}});
+      co_return false;
+    }
+    const bool sent = co_await send(index);
+    if (!sent) co_return false;
+  }
+  co_return true;
+}
+
+Task<void> Transaction::run() {
+  if (needs_gate(commands_)) {
+    const AxisSet axes = axes_moved(commands_, impl_.state_.controllable());
+    live_ = impl_.create_motion(MotionKind::execute, axes, request_.context, {});
+    const auto begun = co_await begin();
+    if (!begun) {
+      end(begun.error());
+      impl_.end_motion(live_, begun.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
+                       begun.error());
+      co_return;
+    }
+    live_->on_completion = [this](int axis) {
+      ExecuteEvent event;
+      event.kind = ExecuteEvent::Kind::completion;
+      event.axis = axis;
+      tell_(event);
+    };
+  }
+  const bool all = co_await send_all();
+  if (!live_) {
+    if (all) end({});
+    co_return;
+  }
+  const bool wait = all && completes(commands_);
+  if (all && !wait) {
+    end({});
+    live_->on_completion = {};
+  }
+  impl_.registers_.forget();
+  if (started_ || start_in_doubt_) {
+    co_await impl_.watch(live_, start_in_doubt_);
+  } else {
+    const auto reread = co_await impl_.read_speeds(request_.context.who);
+    impl_.end_motion(live_, all && reread ? MotionState::succeeded : MotionState::failed, {});
+    impl_.registers_.forget();
+  }
+  if (wait) end(live_->motion.state == MotionState::succeeded ? std::nullopt : live_->motion.problem);
+  live_->on_completion = {};
+}
+
+}  // namespace
+
+void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
+  const auto refuse = [&event](Problem problem) {
+    ExecuteEvent ended;
+    ended.kind = ExecuteEvent::Kind::ended;
+    ended.problem = std::move(problem);
+    event(ended);
+  };
+  std::vector<Command> commands;
+  for (const auto& line : request.lines) {
+    auto command = parse_command(line);
+    if (!command) return refuse(command.error());
+    commands.push_back(*std::move(command));
+  }
+  if (commands.empty() || commands.size() > kLinesMax) {
+    return refuse({Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax), {}, {}, {}, {}});
+  }
+  if (const auto good = check_transaction(commands); !good) return refuse(good.error());
+  if (state_.controllable().empty() || state_.link == LinkState::down) {
+    if (commands.front().row->effect != Effect::stop) {
+      return refuse(
+          {Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up", {}, {}, {}});
+    }
+  }
+  request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
+  if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
+  executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
+}
+
+Task<void> Controller::Impl::run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event) {
+  Transaction transaction(*this, std::move(request), std::move(commands), std::move(event));
+  co_await transaction.run();
+}
+
+void Controller::Impl::execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event) {
+  const bool emergency = command.row->name == "L:E";
+  stop(command.axes(state_.controllable()), emergency, request.context,
+       [event = std::move(event), line = command.line](const StopReport& report) {
+         ExecuteEvent reply;
+         reply.sent = line;
+         for (const auto& axis : report.axes) {
+           if (!axis.wire_reply.empty()) reply.wire_reply = axis.wire_reply;
+         }
+         reply.answer = reply.wire_reply;
+         if (!reply.answer.empty()) event(reply);
+         ExecuteEvent ended;
+         ended.kind = ExecuteEvent::Kind::ended;
+         ended.problem = report.problem;
+         event(ended);
+       });
+}
+
+Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, OnDone done) {
+  ExchangeRequest request;
+  const AxisSet named = axes.empty() ? state_.controllable() : axes;
+  if (named.empty()) {
+    done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
+    co_return;
+  }
+  request.command = make_command("BEC:", named);
+  request.lane = Lane::motion;
+  request.caller = context.who;
+  request.not_after = default_limit(context.not_after, kQuestionLimit);
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto result = co_await pending;
+  settled_ = false;
+  if (result.problem) {
+    done(tl::unexpected(*result.problem));
+    co_return;
+  }
+  const auto read = co_await read_positions(Lane::question, context.who);
+  if (!result.accepted()) {
+    done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
+  } else if (!read) {
+    done(tl::unexpected(read.error()));
+  } else {
+    done({});
+  }
+}
+
+}  // namespace axisgate::shrc203

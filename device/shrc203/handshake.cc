@@ -1,0 +1,180 @@
+// Who is there after a connect, and the poll that keeps the state fresh afterwards.
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kBusyPoll = std::chrono::milliseconds(100);
+constexpr Duration kModePoll = std::chrono::seconds(1);
+constexpr Duration kQuiet = std::chrono::milliseconds(10);
+constexpr int kTries = 3;
+const std::string kGateway = "gateway";
+
+bool is_data(const ExchangeResult& result) {
+  return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
+}
+
+}  // namespace
+
+Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connection) {
+  const bool wrong_model = identity.model != profile_.model;
+  const bool wrong_serial = !profile_.serial_number.empty() && identity.serial_number != profile_.serial_number;
+  if (wrong_model || wrong_serial) {
+    line_.give_up(fmt::format("{} {} answers, but {} {} is configured", identity.model, identity.serial_number,
+                              profile_.model, profile_.serial_number),
+                  now_);
+    co_return;
+  }
+  state_.vendor = identity.vendor;
+  state_.model = identity.model;
+  state_.serial_number = identity.serial_number;
+  state_.firmware = identity.firmware;
+  const bool host = co_await wait_for_host_mode(connection);
+  if (!host) co_return;
+  const bool ready = co_await wait_until_all_ready(connection);
+  if (!ready) co_return;
+  const bool read = co_await read_settings(connection);
+  if (!read || connection != connection_) {
+    if (connection == connection_) line_.give_up("the handshake failed", now_);
+    co_return;
+  }
+  ++state_.device_epoch;
+  for (auto& axis : state_.axes) axis.homed = false;
+  registers_.forget();
+  state_.link = LinkState::up;
+  state_.link_problem.clear();
+  emit(LinkChanged{LinkState::up, ""});
+  line_.open(state_.controllable(), now_);
+  wake_poll_.notify();
+  publish_state();
+}
+
+// The front panel chooses the mode and the dialect; neither is ever switched back from here.
+Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
+  int failures = 0;
+  while (connection == connection_ && failures < kTries) {
+    const auto mode = co_await ask("?:MODE", Lane::question, kGateway, true);
+    if (connection != connection_) co_return false;
+    if (!is_data(mode)) {
+      ++failures;
+      continue;
+    }
+    state_.mode = mode.reply->text;
+    if (state_.mode == "HOST") {
+      const auto format = co_await ask("?:FMT", Lane::question, kGateway, true);
+      if (connection != connection_) co_return false;
+      state_.format = is_data(format) ? format.reply->text : "";
+      if (state_.format == "SHOT_FC") co_return true;
+      if (!is_data(format)) ++failures;
+    }
+    state_.link_problem = state_.mode != "HOST"
+                              ? fmt::format("the controller is in {} mode; HOST is needed", state_.mode)
+                              : fmt::format("the command format is {}; SHOT_FC is needed", state_.format);
+    publish_state();
+    auto wait = tick_.wait_until(now_ + kModePoll);
+    co_await wait;
+  }
+  if (connection == connection_) line_.give_up("the handshake failed: no answer to ?:MODE", now_);
+  co_return false;
+}
+
+// Nobody knows what was left running, so every axis number may still come (design: until the first !:S that is all R
+// and 200 ms of quiet).
+Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
+  int failures = 0;
+  while (connection == connection_ && failures < kTries) {
+    const auto ready = co_await ask("!:S", Lane::question, kGateway, true);
+    if (connection != connection_) co_return false;
+    if (!is_data(ready)) {
+      ++failures;
+      continue;
+    }
+    const bool busy = ready.reply->text.find('B') != std::string::npos;
+    if (!busy) {
+      line_.completions().ready(AxisSet::all(), now_);
+      auto quiet = tick_.wait_until(now_ + Completions::kAfterReady + kQuiet);
+      co_await quiet;
+      co_return connection == connection_;
+    }
+    line_.completions().busy(AxisSet::all());
+    state_.link_problem = "something moves that the gateway did not start; waiting until it stands";
+    const auto read = co_await read_positions(Lane::question, kGateway, true);
+    if (!read) publish_state();
+    auto wait = tick_.wait_until(now_ + kBusyPoll);
+    co_await wait;
+  }
+  if (connection == connection_) line_.give_up("the handshake failed: no answer to !:S", now_);
+  co_return false;
+}
+
+Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
+  ExchangeResult axes, serial, scale, speeds, excitation;
+  struct Step {
+    std::string_view question;
+    ExchangeResult* answer;
+  };
+  for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:SN", &serial}, Step{"?:P", &scale}, Step{"?:D", &speeds},
+                          Step{"?:C", &excitation}}) {
+    for (int attempt = 0; attempt < kTries && !is_data(*step.answer); ++attempt) {
+      if (connection != connection_) co_return false;
+      *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
+    }
+    if (!is_data(*step.answer)) co_return false;
+  }
+  const auto controllable = from_axis_setting(axes.reply->text);
+  if (!controllable || serial.reply->text != state_.serial_number) co_return false;
+  for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
+  const auto count = static_cast<std::size_t>(controllable->count());
+  const auto field = [&](const ExchangeResult& answer, int number) -> std::string {
+    const auto& fields = answer.reply->fields;
+    if (fields.size() == kAxisCount) return fields[static_cast<std::size_t>(number - 1)];
+    if (fields.size() != count) return {};
+    std::size_t place = 0;
+    for (const int other : controllable->list()) {
+      if (other == number) break;
+      ++place;
+    }
+    return fields[place];
+  };
+  for (const int number : controllable->list()) {
+    auto& axis = state_.axis(number);
+    const auto per_pulse = parse_decimal(field(scale, number));
+    const auto speed = parse_speed_setting(field(speeds, number));
+    if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
+    axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
+    axis.minimum_speed = speed->minimum;
+    axis.maximum_speed = speed->maximum;
+    axis.acceleration_ms = speed->acceleration_ms;
+    axis.excited = field(excitation, number) == "1";
+  }
+  const auto positions = co_await read_positions(Lane::question, kGateway, true);
+  co_return positions.has_value();
+}
+
+// Polling is the net below the completions: slow when nothing moves.
+Task<void> Controller::Impl::poll() {
+  while (true) {
+    const bool fast = anything_moves();
+    auto wait = wake_poll_.wait_until(now_ + (fast ? profile_.moving_poll : profile_.idle_poll));
+    co_await wait;
+    if (state_.link != LinkState::up) continue;
+    const TimePoint read_before = state_.read;
+    const Duration interval = anything_moves() ? profile_.moving_poll : profile_.idle_poll;
+    if (now_ - read_before < interval) continue;  // somebody has just asked
+    const auto read = co_await read_positions(Lane::poll, kGateway);
+    if (!read) publish_state();
+  }
+}
+
+// A refused Q: means that somebody has changed the mode at the front panel (hazard: the front panel leaves HOST).
+Task<void> Controller::Impl::follow_mode() {
+  const auto mode = co_await ask("?:MODE", Lane::question, kGateway);
+  if (!is_data(mode) || mode.reply->text == state_.mode) co_return;
+  state_.mode = mode.reply->text;
+  if (state_.mode == "HOST") co_return;
+  line_.give_up(fmt::format("the controller is in {} mode; HOST is needed", state_.mode), now_);
+}
+
+}  // namespace axisgate::shrc203

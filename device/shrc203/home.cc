@@ -1,0 +1,61 @@
+// Origin returns, mechanical (HRT:) and logical (ZRT:): one line sets them going, one number an axis ends them.
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+
+void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted started) {
+  const AxisSet axes = request.axes.empty() ? state_.controllable() : request.axes;
+  if (axes.empty() || !state_.controllable().contains(axes)) {
+    started(fail(state_.controllable().empty() ? Reason::link_down : Reason::unknown_axis,
+                 state_.controllable().empty()
+                     ? "the device is not up: " + state_.link_problem
+                     : fmt::format("{} cannot all be controlled on this unit", to_string(axes)),
+                 "see `axisctl status`"));
+    return;
+  }
+  for (const auto& [id, live] : live_) {
+    const bool same = live->motion.kind == kind && live->motion.axes.touches(axes);
+    if (!same) continue;
+    started(fail(Reason::axis_busy,
+                 fmt::format("{}: motion {} of {} is already under way there", to_string(live->motion.axes), id,
+                             live->motion.who),
+                 "wait for its outcome"));
+    return;
+  }
+  auto live = create_motion(kind, axes, request.context, std::move(started));
+  executor_.spawn(run_home(live));
+}
+
+Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
+  auto ready = co_await enter_gate(live);
+  if (ready) ready = co_await prepare(live, Register::none);
+  if (!ready) {
+    end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
+               ready.error());
+    co_return;
+  }
+  const bool mechanical = live->motion.kind == MotionKind::home;
+  for (auto& result : live->motion.results) result.target_pulses = 0;
+  auto request = motion_request(*live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes), Lane::motion);
+  request.completes = live->motion.axes;
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto result = co_await pending;
+  if (result.refused()) {
+    const auto why = co_await explain_refusal(mechanical ? "HRT:" : "ZRT:", live->motion.axes, live->context.who);
+    end_motion(live, MotionState::failed, why);
+    co_return;
+  }
+  if (!result.accepted() && !result.in_doubt()) {
+    end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, *result.problem);
+    co_return;
+  }
+  if (result.accepted()) mark_running(live);
+  co_await watch(live, result.in_doubt());
+  if (!mechanical || live->motion.state != MotionState::succeeded) co_return;
+  for (const int axis : live->motion.axes.list()) state_.axis(axis).homed = true;
+  publish_state();
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,397 @@
+#include "device/shrc203/line.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/core/escape.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kBackoffMin = std::chrono::milliseconds(250);
+constexpr Duration kBackoffMax = std::chrono::seconds(5);
+constexpr Duration kSilenceMin = std::chrono::milliseconds(50);
+constexpr std::size_t kReplyBytesMax = 64;  // the longest reply of this table: Q:SPC with three long coordinates
+
+Problem problem_of(Reason reason, std::string message, std::string_view sent) {
+  return {reason, std::move(message), {}, {}, std::string(sent), {}};
+}
+
+ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
+  switch (kind) {
+    case Reply::Kind::ok:
+      return ExchangeEnded::Outcome::ok;
+    case Reply::Kind::ok_d:
+      return ExchangeEnded::Outcome::ok_d;
+    case Reply::Kind::ng:
+      return ExchangeEnded::Outcome::ng;
+    case Reply::Kind::ng_i:
+      return ExchangeEnded::Outcome::ng_i;
+    case Reply::Kind::data:
+      break;
+  }
+  return ExchangeEnded::Outcome::data;
+}
+
+}  // namespace
+
+Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener)
+    : profile_(profile), link_(link), executor_(executor), listener_(listener), backoff_(kBackoffMin) {}
+
+void Line::link_up(TimePoint now) {
+  port_open_ = true;
+  reopening_at_once_ = false;
+  state_ = LinkState::connecting;
+  handshake_passed_ = false;
+  framer_.clear();
+  owed_ = {};
+  completions_.connected();
+  barrier_ = make_barrier({});
+  send_stops_now(now);
+  barrier_->start(now);
+}
+
+void Line::link_down(TimePoint now, std::string_view why) {
+  if (port_open_) {
+    give_up(std::string(why), now);
+    return;
+  }
+  reopening_at_once_ = false;
+  listener_.line_lost(std::string(why), now);
+  link_.reopen(backoff_);
+  backoff_ = std::min(backoff_ * 2, kBackoffMax);
+}
+
+void Line::give_up(const std::string& why, TimePoint now) {
+  port_open_ = false;
+  handshake_passed_ = false;
+  state_ = LinkState::down;
+  barrier_.reset();
+  framer_.clear();
+  const Problem lost = problem_of(Reason::link_down, "the line to the controller is down: " + why, {});
+  if (doubted_waiting_) {
+    for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
+    doubted_waiting_.reset();
+    doubted_.reset();
+  }
+  if (in_flight_) {
+    finish({.written = true, .reply = {}, .problem = lost}, ExchangeEnded::Outcome::link_lost, now);
+  }
+  withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, lost);
+  listener_.line_lost(why, now);
+  link_.reopen(backoff_);
+  backoff_ = std::min(backoff_ * 2, kBackoffMax);
+}
+
+void Line::open(AxisSet controllable, TimePoint now) {
+  controllable_ = controllable;
+  handshake_passed_ = true;
+  state_ = LinkState::up;
+  backoff_ = kBackoffMin;
+  pump(now);
+}
+
+OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
+  OneShot<ExchangeResult> answer(executor_);
+  const bool is_stop = request.lane == Lane::stop;
+  if (!port_open_ && !is_stop) {
+    const Problem down = problem_of(Reason::link_down, "the line to the controller is down", request.command.line);
+    answer.deliver({.written = false, .reply = {}, .problem = down});
+    return answer;
+  }
+  if (request.command.row->effect == Effect::question) {
+    WaitingPtr same;
+    queue_.for_each([&](const WaitingPtr& waiting) {
+      const auto& other = waiting->request;
+      if (other.command.line == request.command.line && other.lane == request.lane &&
+          other.handshake == request.handshake) {
+        same = waiting;
+      }
+    });
+    if (same) {
+      same->request.not_after = std::max(same->request.not_after, request.not_after);
+      same->answers.push_back(answer);
+      return answer;
+    }
+  }
+  const Lane lane = request.lane;
+  const std::string caller = request.caller;
+  auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}});
+  if (!queue_.push(lane, caller, waiting)) {
+    const Problem full{
+        Reason::queue_full,
+        fmt::format("the {} lane already holds {} requests", name(lane), LaneQueue<WaitingPtr>::kLaneMax),
+        "try again when fewer wait",
+        {},
+        waiting->request.command.line,
+        {}};
+    answer.deliver({.written = false, .reply = {}, .problem = full});
+    return answer;
+  }
+  if (is_stop && !port_open_ && !reopening_at_once_) {
+    // A line that answers nothing may still carry a Stop.
+    reopening_at_once_ = true;
+    link_.reopen(Duration::zero());
+  }
+  if (is_stop && barrier_) send_stops_now(now);
+  pump(now);
+  return answer;
+}
+
+void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem) {
+  queue_.drain([&](const WaitingPtr& waiting) { return chosen(waiting->request); },
+               [&](const WaitingPtr& waiting) {
+                 Problem told = problem;
+                 told.sent = waiting->request.command.line;
+                 for (auto& answer : waiting->answers) {
+                   answer.deliver({.written = false, .reply = {}, .problem = told});
+                 }
+               });
+}
+
+void Line::expire(TimePoint now) {
+  const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
+  queue_.drain(late, [&](const WaitingPtr& waiting) {
+    const bool outstanding = conflicts(*waiting->request.command.row, now);
+    const Problem problem{
+        outstanding ? Reason::completion_outstanding : Reason::deadline_passed,
+        outstanding ? "an axis number may still come over the line, and could not be told from this command's answer"
+                    : "the time allowed for this command ran out before the line was free",
+        outstanding ? "ask again once the motion has ended" : "allow more time, or try again",
+        {},
+        waiting->request.command.line,
+        {}};
+    for (auto& answer : waiting->answers) answer.deliver({.written = false, .reply = {}, .problem = problem});
+  });
+}
+
+bool Line::conflicts(const CommandRow& row, TimePoint now) const {
+  const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
+  if (row.separation != Separation::waits && !asked_alone) return false;
+  const auto range = bare_number_range(row);
+  if (!range) return false;
+  for (const int axis : completions_.possible(now).list()) {
+    if (axis >= range->minimum && axis <= range->maximum) return true;
+  }
+  return false;
+}
+
+bool Line::may_send(const ExchangeRequest& request, TimePoint now) const {
+  if (!handshake_passed_ && !request.handshake && request.lane != Lane::stop) return false;
+  return !conflicts(*request.command.row, now);
+}
+
+void Line::pump(TimePoint now) {
+  if (!port_open_ || in_flight_ || barrier_) return;
+  expire(now);
+  auto next = queue_.take([&](const WaitingPtr& waiting) { return may_send(waiting->request, now); });
+  if (next) send(std::move(*next), now);
+}
+
+void Line::send(WaitingPtr waiting, TimePoint now) {
+  const auto& request = waiting->request;
+  const auto limit =
+      request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
+  const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
+  if (!request.completes.empty()) completions_.started(request.completes, now);
+  write_line(request.command.line);
+  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire};
+}
+
+// Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
+void Line::send_stops_now(TimePoint now) {
+  if (!port_open_ || !barrier_) return;
+  bool any = false;
+  queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },
+               [&](const WaitingPtr& waiting) {
+                 any = true;
+                 write_line(waiting->request.command.line);
+                 const Problem problem{Reason::outcome_unknown,
+                                       "the stop was written while the line was being resynchronised; its answer "
+                                       "cannot be believed",
+                                       "look at the positions",
+                                       {},
+                                       waiting->request.command.line,
+                                       {}};
+                 for (auto& answer : waiting->answers)
+                   answer.deliver({.written = true, .reply = {}, .problem = problem});
+               });
+  if (any && state_ != LinkState::connecting) barrier_->restart(now);
+}
+
+void Line::write_line(std::string_view line) {
+  std::string bytes(line);
+  bytes += "\r\n";
+  link_.write(bytes);
+}
+
+void Line::receive(std::string_view bytes, TimePoint now) {
+  framer_.push(bytes);
+  while (auto line = framer_.next()) on_line(*line, now);
+  pump(now);
+}
+
+void Line::on_line(const LineFramer::Line& line, TimePoint now) {
+  if (!line.overlong && on_axis_number(line.text, now)) return;
+  if (barrier_) {
+    if (!barrier_->on_line(line.text, now)) unexpected(line.text, now);
+    barrier_moved(now);
+    return;
+  }
+  if (!in_flight_) {
+    if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
+    return;
+  }
+  const auto& row = *in_flight_->waiting->request.command.row;
+  auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
+  if (reply) {
+    on_reply(std::move(*reply), now);
+    return;
+  }
+  if (pay_owed(owed_, line.text)) return;
+  const auto& sent = in_flight_->waiting->request.command.line;
+  Problem garbage{Reason::line_fault,
+                  fmt::format("\"{}\" was answered by \"{}\", which is no answer to it", sent, escaped(line.text)),
+                  {},
+                  {},
+                  sent,
+                  line.text};
+  const std::string why = garbage.message;
+  enter_barrier({.written = true, .reply = {}, .problem = std::move(garbage)}, ExchangeEnded::Outcome::garbled, why,
+                now);
+}
+
+// True: the text was an axis number, and has been dealt with as a completion.
+bool Line::on_axis_number(std::string_view text, TimePoint now) {
+  if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
+  const int axis = text[0] - '0';
+  const bool possible = completions_.possible(axis, now);
+  if (in_flight_ && !possible) {
+    const auto& row = *in_flight_->waiting->request.command.row;
+    if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
+  }
+  listener_.completion_seen(axis, !possible || barrier_ != nullptr, now);
+  return true;
+}
+
+void Line::on_reply(Reply reply, TimePoint now) {
+  const auto& request = in_flight_->waiting->request;
+  const auto outcome = outcome_of(reply.kind);
+  if (reply.kind == Reply::Kind::ng_i) {
+    Problem fault{Reason::line_fault,
+                  fmt::format("the controller received a character that \"{}\" does not hold (NG_I): the line is "
+                              "disturbed",
+                              request.command.line),
+                  "check the cable and the line settings",
+                  {},
+                  request.command.line,
+                  reply.text};
+    const std::string why = fault.message;
+    enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault)}, outcome, why, now);
+    return;
+  }
+  if (reply.kind == Reply::Kind::ng) completions_.refused(request.completes);
+  finish({.written = true, .reply = std::move(reply), .problem = {}}, outcome, now);
+}
+
+void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
+  const InFlight done = std::move(*in_flight_);
+  in_flight_.reset();
+  const auto& request = done.waiting->request;
+  ExchangeEnded ended{
+      request.command.row->name, request.command.line, result.reply ? result.reply->text : "", request.lane, outcome,
+      now - done.written};
+  listener_.line_event(ended, now);
+  for (auto& answer : done.waiting->answers) answer.deliver(result);
+}
+
+void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why,
+                         TimePoint now) {
+  doubted_waiting_ = in_flight_->waiting;
+  doubted_ = std::move(doubted);
+  ExchangeEnded ended{doubted_waiting_->request.command.row->name,
+                      doubted_waiting_->request.command.line,
+                      doubted_->reply ? doubted_->reply->text : "",
+                      doubted_waiting_->request.lane,
+                      outcome,
+                      now - in_flight_->written};
+  in_flight_.reset();
+  listener_.line_event(ended, now);
+  state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
+  listener_.barrier_entered(why, now);
+  barrier_ = make_barrier(doubted_waiting_->request.command.line);
+  barrier_->start(now);
+  send_stops_now(now);
+}
+
+void Line::barrier_moved(TimePoint now) {
+  if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
+  if (barrier_->state() == Barrier::State::failed) {
+    give_up("no answer to three probes", now);
+    return;
+  }
+  const Identity identity = *barrier_->identity();
+  // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
+  owed_.echoes = 0;
+  barrier_.reset();
+  const bool connecting = !handshake_passed_ && !doubted_waiting_;
+  if (doubted_waiting_) {
+    for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
+    doubted_waiting_.reset();
+    doubted_.reset();
+  }
+  if (handshake_passed_) state_ = LinkState::up;
+  if (connecting) {
+    listener_.line_connected(identity, now);
+  } else {
+    listener_.barrier_passed(identity, now);
+  }
+  pump(now);
+}
+
+void Line::advance(TimePoint now) {
+  if (barrier_) {
+    barrier_->advance(now);
+    barrier_moved(now);
+  } else if (in_flight_ && now >= in_flight_->limit) {
+    const auto& sent = in_flight_->waiting->request.command.line;
+    Problem late{Reason::reply_timed_out, fmt::format("\"{}\" was not answered in time", sent), {}, {}, sent, {}};
+    const std::string why = late.message;
+    enter_barrier({.written = true, .reply = {}, .problem = std::move(late)}, ExchangeEnded::Outcome::timed_out, why,
+                  now);
+  }
+  expire(now);
+  pump(now);
+}
+
+std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
+  std::optional<TimePoint> next;
+  const auto sooner = [&next](TimePoint at) {
+    if (!next || at < *next) next = at;
+  };
+  if (barrier_) sooner(barrier_->next_deadline());
+  if (in_flight_) sooner(in_flight_->limit);
+  if (const auto change = completions_.next_change(now)) sooner(*change);
+  queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
+  return next;
+}
+
+void Line::unexpected(std::string_view text, TimePoint now) {
+  listener_.line_event(UnexpectedLine{std::string(text)}, now);
+}
+
+Duration Line::time_of(std::size_t bytes) const {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(bytes) * 10 * 1'000'000'000 / profile_.baud);
+}
+
+Barrier::Limits Line::barrier_limits() const {
+  return {profile_.reply_limit + time_of(kReplyBytesMax), std::max(kSilenceMin, 3 * time_of(kReplyBytesMax))};
+}
+
+std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt) {
+  return std::make_unique<Barrier>(std::move(line_in_doubt), barrier_limits(), owed_,
+                                   [this](std::string_view line) { write_line(line); });
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,137 @@
+// The controller's line: one exchange in flight, completions told apart from replies, and the barrier after doubt.
+//
+//   closed ──link_up──► connecting ──open()──► open ◄──► (exchange in flight) ──time limit, garbage──► doubtful ──►
+//   open
+//      ▲                    │                                                                     │
+//      └────────────────────┴──────── three probes unanswered: flushed, closed, reopened ─────────┘
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/lane_queue.h"
+#include "device/core/line_framer.h"
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/core/task.h"
+#include "device/shrc203/barrier.h"
+#include "device/shrc203/codec.h"
+#include "device/shrc203/completions.h"
+#include "device/shrc203/event.h"
+#include "device/shrc203/motion.h"
+#include "device/shrc203/profile.h"
+#include "device/shrc203/reply.h"
+
+namespace axisgate::shrc203 {
+
+struct ExchangeRequest {
+  Command command;
+  Lane lane = Lane::question;
+  std::string caller;
+  TimePoint not_after{};   // not written later than this
+  MotionId motion = 0;     // the motion it belongs to
+  AxisSet completes;       // the axes whose numbers may come once it is written
+  bool handshake = false;  // may be sent before open()
+};
+
+struct ExchangeResult {
+  bool written = false;            // false: the controller has certainly not seen it
+  std::optional<Reply> reply;      // set when an answer was matched
+  std::optional<Problem> problem;  // why there is no answer that can be believed; also set for NG_I
+
+  bool accepted() const { return reply && reply->accepted() && !problem; }
+  bool refused() const { return reply && reply->kind == Reply::Kind::ng; }
+  // Written, and nobody knows what the controller made of it.
+  bool in_doubt() const { return written && problem.has_value(); }
+};
+
+class LineListener {
+ public:
+  virtual ~LineListener() = default;
+  // The identity has been told and the line fell silent: the handshake may run.
+  virtual void line_connected(const Identity& identity, TimePoint now) = 0;
+  virtual void line_lost(const std::string& why, TimePoint now) = 0;
+  virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
+  virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
+  // `doubtful`: not expected now, or seen in a barrier.
+  virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
+  virtual void line_event(const Event& event, TimePoint now) = 0;
+};
+
+class Line {
+ public:
+  Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener);
+
+  void link_up(TimePoint now);
+  void link_down(TimePoint now, std::string_view why);
+  void receive(std::string_view bytes, TimePoint now);
+  void advance(TimePoint now);
+  std::optional<TimePoint> next_deadline(TimePoint now) const;
+
+  // co_await yields an ExchangeResult, always. Identical questions that wait in one lane share an exchange.
+  OneShot<ExchangeResult> exchange(ExchangeRequest request, TimePoint now);
+
+  // Ends all waiting exchanges for which chosen(request) holds, unwritten, with `problem`.
+  void withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem);
+
+  void open(AxisSet controllable, TimePoint now);       // the handshake has passed
+  void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
+
+  LinkState state() const { return state_; }
+  Completions& completions() { return completions_; }
+  std::size_t queued(Lane lane) const { return queue_.size(lane); }
+
+ private:
+  struct Waiting {
+    ExchangeRequest request;
+    std::vector<OneShot<ExchangeResult>> answers;
+  };
+  using WaitingPtr = std::shared_ptr<Waiting>;
+  struct InFlight {
+    WaitingPtr waiting;
+    TimePoint written, limit;
+  };
+
+  void pump(TimePoint now);
+  void send(WaitingPtr waiting, TimePoint now);
+  void send_stops_now(TimePoint now);
+  void write_line(std::string_view line);
+  bool may_send(const ExchangeRequest& request, TimePoint now) const;
+  bool conflicts(const CommandRow& row, TimePoint now) const;
+  void expire(TimePoint now);
+
+  void on_line(const LineFramer::Line& line, TimePoint now);
+  bool on_axis_number(std::string_view text, TimePoint now);
+  void on_reply(Reply reply, TimePoint now);
+  void finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now);
+  void enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why, TimePoint now);
+  void barrier_moved(TimePoint now);
+  void unexpected(std::string_view text, TimePoint now);
+  Duration time_of(std::size_t bytes) const;
+  Barrier::Limits barrier_limits() const;
+  std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt);
+
+  const Profile& profile_;
+  ByteLink& link_;
+  Executor& executor_;
+  LineListener& listener_;
+  LinkState state_ = LinkState::down;
+  bool port_open_ = false;
+  bool reopening_at_once_ = false;
+  Duration backoff_;
+  LineFramer framer_;
+  Completions completions_;
+  AxisSet controllable_;
+  bool handshake_passed_ = false;
+  LaneQueue<WaitingPtr> queue_;
+  std::optional<InFlight> in_flight_;
+  std::unique_ptr<Barrier> barrier_;
+  std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
+  WaitingPtr doubted_waiting_;
+  OwedAnswers owed_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,41 @@
+#include "device/shrc203/motion.h"
+
+namespace axisgate::shrc203 {
+
+std::string_view name(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::move:
+      return "move";
+    case MotionKind::home:
+      return "home";
+    case MotionKind::return_to_origin:
+      return "return-to-origin";
+    case MotionKind::path:
+      return "path";
+    case MotionKind::execute:
+      return "execute";
+  }
+  return "unspecified";
+}
+
+std::string_view name(MotionState state) {
+  switch (state) {
+    case MotionState::queued:
+      return "QUEUED";
+    case MotionState::running:
+      return "RUNNING";
+    case MotionState::stopping:
+      return "STOPPING";
+    case MotionState::succeeded:
+      return "SUCCEEDED";
+    case MotionState::stopped:
+      return "STOPPED";
+    case MotionState::failed:
+      return "FAILED";
+    case MotionState::unknown:
+      return "UNKNOWN";
+  }
+  return "UNKNOWN";
+}
+
+}  // namespace axisgate::shrc203

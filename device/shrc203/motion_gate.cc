@@ -1,0 +1,58 @@
+#include "device/shrc203/motion_gate.h"
+
+#include <algorithm>
+
+namespace axisgate::shrc203 {
+
+OneShot<Result<void>> MotionGate::enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after) {
+  OneShot<Result<void>> answer(executor_);
+  const AxisSet wanted = busy_scope_ == Scope::controller ? AxisSet::all() : axes;
+  if (!queue_.push(Lane::motion, caller, Entry{id, wanted, not_after, answer})) {
+    answer.deliver(fail(Reason::queue_full, "too many motions wait for this controller already",
+                        "try again when some have ended"));
+    return answer;
+  }
+  admit();
+  return answer;
+}
+
+void MotionGate::leave(MotionId id) {
+  inside_.erase(id);
+  admit();
+}
+
+void MotionGate::withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem) {
+  queue_.drain([&](const Entry& entry) { return chosen(entry.id); },
+               [&](Entry entry) { entry.answer.deliver(tl::unexpected<Problem>(problem)); });
+}
+
+void MotionGate::expire(TimePoint now) {
+  queue_.drain([now](const Entry& entry) { return entry.not_after < now; },
+               [](Entry entry) {
+                 entry.answer.deliver(fail(Reason::deadline_passed,
+                                           "other motions kept the stage busy until the time allowed had passed",
+                                           "allow more time (not_after), or try again"));
+               });
+}
+
+std::optional<TimePoint> MotionGate::next_deadline() const {
+  std::optional<TimePoint> next;
+  queue_.for_each([&](const Entry& entry) {
+    const TimePoint at = entry.not_after + Duration(1);
+    if (!next || at < *next) next = at;
+  });
+  return next;
+}
+
+void MotionGate::admit() {
+  while (true) {
+    AxisSet taken;
+    for (const auto& [id, axes] : inside_) taken = taken | axes;
+    auto entry = queue_.take([taken](const Entry& waiting) { return !taken.touches(waiting.axes); });
+    if (!entry) return;
+    inside_[entry->id] = entry->axes;
+    entry->answer.deliver({});
+  }
+}
+
+}  // namespace axisgate::shrc203

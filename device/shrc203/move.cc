@@ -1,0 +1,235 @@
+// Moves: set, go, watch. Set and go are one step; nothing is ever sent twice that could move the stage.
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr int kSetTries = 3;
+
+bool any_speed(const MovePlan& plan) {
+  for (const auto& axis : plan.axes) {
+    if (axis.speed) return true;
+  }
+  return false;
+}
+
+// MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
+Command prebuffer_setter(const MovePlan& plan, const State& state) {
+  Arguments arguments;
+  arguments.axes(plan.set());
+  for (const auto& axis : plan.axes) arguments.pulses(axis.amount);
+  if (any_speed(plan)) {
+    for (const auto& axis : plan.axes) {
+      const auto& known = state.axis(axis.axis);
+      const SpeedSetting speed = axis.speed.value_or(SpeedSetting{
+          known.minimum_speed.value_or(1), known.maximum_speed.value_or(1), known.acceleration_ms.value_or(1)});
+      arguments.speeds(speed.minimum, speed.maximum, speed.acceleration_ms);
+    }
+  }
+  return make_command(plan.relative ? "MP:" : "AP:", arguments);
+}
+
+Command execution_setter(const MovePlan& plan) {
+  Arguments arguments;
+  arguments.axes(plan.set());
+  for (const auto& axis : plan.axes) arguments.pulses(axis.amount);
+  return make_command(plan.relative ? "M:" : "A:", arguments);
+}
+
+std::string_view question_of(Register reg) {
+  switch (reg) {
+    case Register::mp:
+      return "?:MP";
+    case Register::ap:
+      return "?:AP";
+    case Register::kp:
+      return "?:KP";
+    case Register::m:
+      return "?:M";
+    default:
+      return "?:A";
+  }
+}
+
+// Whether a register holds what `setter` wrote, or nothing, or something else.
+enum class Held { as_set, nothing, other };
+
+Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
+  std::vector<std::int64_t> wanted;
+  for (const auto& [letter, value] : setter.arguments.values()) {
+    if (letter == "y") wanted.push_back(*parse_integer(value));
+    if (letter == "m") wanted.push_back(value == "-" ? -1 : 1);
+  }
+  std::size_t next = 0;
+  bool all = true, none = true;
+  const bool shared = setter.row->reg == Register::kp;
+  if (shared && reply.text == "NS") return Held::nothing;
+  const AxisSet axes = setter.axes(controllable);
+  if (shared && reply.fields[0] != std::string(1, command_letter(axes))) return Held::other;
+  std::size_t place = 1;
+  for (const int axis : axes.list()) {
+    const auto amount = shared ? (place < reply.fields.size() ? parse_integer(reply.fields[place++]) : std::nullopt)
+                               : amount_of(reply, axis, controllable);
+    const std::int64_t value = wanted[next] * wanted[next + 1];
+    next += 2;
+    all = all && amount == value;
+    none = none && !amount;
+  }
+  return all ? Held::as_set : none ? Held::nothing : Held::other;
+}
+
+}  // namespace
+
+void Controller::Impl::move(MoveRequest request, OnStarted started) {
+  const auto plan = plan_move(request.moves, request.relative, anything_moves() ? Positions{} : positions_of(state_),
+                              profile_, state_);
+  if (!plan) {
+    started(tl::unexpected(plan.error()));
+    return;
+  }
+  auto live = create_motion(MotionKind::move, plan->set(), request.context, std::move(started));
+  executor_.spawn(run_move(live, std::move(request)));
+}
+
+Task<void> Controller::Impl::run_move(LiveMotionPtr live, MoveRequest request) {
+  const auto entered = co_await enter_gate(live);
+  if (!entered) {
+    end_motion(live, entered.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
+               entered.error());
+    co_return;
+  }
+  const bool others_run = gate_.others_inside(live->motion.id);
+  const bool by_prebuffer = !others_run || profile_.prebuffer_scope == Scope::axis;
+  const Register reg =
+      by_prebuffer ? (request.relative ? Register::mp : Register::ap) : (request.relative ? Register::m : Register::a);
+  const auto ready = co_await prepare(live, reg);
+  if (!ready) {
+    end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
+               ready.error());
+    co_return;
+  }
+  const auto plan = plan_move(request.moves, request.relative, positions_of(state_), profile_, state_);
+  if (!plan) {
+    end_motion(live, MotionState::failed, plan.error());
+    co_return;
+  }
+  for (std::size_t i = 0; i < plan->axes.size(); ++i) live->motion.results[i].target_pulses = plan->axes[i].target;
+  co_await set_go_watch(live, *plan, by_prebuffer);
+}
+
+Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer) {
+  if (!by_prebuffer && any_speed(plan)) {
+    const auto speeds = co_await set_speeds(live, plan);
+    if (!speeds) {
+      end_motion(live, MotionState::failed, speeds.error());
+      co_return;
+    }
+  }
+  auto setter = by_prebuffer ? prebuffer_setter(plan, state_) : execution_setter(plan);
+  const auto set = co_await set_and_confirm(live, setter, Lane::motion);
+  if (!set) {
+    registers_.forget();
+    end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, set.error());
+    co_return;
+  }
+  note_speeds(plan);
+  const auto start = co_await go(live, by_prebuffer ? live->motion.axes : AxisSet());
+  if (!start) {
+    registers_.forget();
+    end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, start.error());
+    co_return;
+  }
+  co_await watch(live, *start == Start::in_doubt);
+}
+
+// The speeds given with MP:, AP: and KP: overwrite D: (manual 68)).
+void Controller::Impl::note_speeds(const MovePlan& plan) {
+  for (const auto& axis : plan.axes) {
+    if (!axis.speed) continue;
+    auto& known = state_.axis(axis.axis);
+    known.minimum_speed = axis.speed->minimum;
+    known.maximum_speed = axis.speed->maximum;
+    known.acceleration_ms = axis.speed->acceleration_ms;
+  }
+}
+
+Task<Result<void>> Controller::Impl::set_speeds(LiveMotionPtr live, MovePlan plan) {
+  Arguments arguments;
+  AxisSet axes;
+  for (const auto& axis : plan.axes) {
+    if (axis.speed) axes.add(axis.axis);
+  }
+  arguments.axes(axes);
+  for (const auto& axis : plan.axes) {
+    if (axis.speed) arguments.speeds(axis.speed->minimum, axis.speed->maximum, axis.speed->acceleration_ms);
+  }
+  auto request = motion_request(*live, make_command("D:", arguments), Lane::motion);
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto result = co_await pending;
+  if (result.accepted()) co_return Result<void>();
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  auto why = co_await explain_refusal("D:", axes, live->context.who);
+  co_return tl::unexpected(std::move(why));
+}
+
+ExchangeRequest Controller::Impl::motion_request(const LiveMotion& live, Command command, Lane lane) const {
+  ExchangeRequest request;
+  request.command = std::move(command);
+  request.lane = lane;
+  request.caller = live.context.who;
+  request.not_after = live.motion.state == MotionState::queued ? live.context.not_after : now_ + kStepLimit;
+  request.motion = live.motion.id;
+  return request;
+}
+
+// A set starts nothing, so one whose answer was lost is looked up, and sent again when it did not arrive.
+Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Command setter, Lane lane) {
+  Problem problem;
+  for (int attempt = 0; attempt < kSetTries; ++attempt) {
+    if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+    auto pending = line_.exchange(motion_request(*live, setter, lane), now_);
+    const auto result = co_await pending;
+    if (result.accepted()) co_return *result.reply;
+    if (result.refused()) {
+      auto why = co_await explain_refusal(setter.line, live->motion.axes, live->context.who);
+      co_return tl::unexpected(std::move(why));
+    }
+    if (!result.in_doubt() || live->line_lost) co_return tl::unexpected(*result.problem);
+    problem = *result.problem;
+    const auto question = question_of(setter.row->reg);
+    const auto answer = co_await ask(question, lane, live->context.who);
+    if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) continue;
+    const Held found = held(*answer.reply, setter, state_.controllable());
+    if (found == Held::as_set) co_return Reply{Reply::Kind::ok, "OK", {}};
+    if (found == Held::other) {
+      co_return fail(Reason::line_fault, fmt::format("{} was received wrongly and nothing was started", setter.line),
+                     "check the cable and the line settings");
+    }
+  }
+  co_return tl::unexpected(std::move(problem));
+}
+
+// `completes` are the axes whose numbers will come. Sent once, whatever becomes of its answer.
+Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, AxisSet completes) {
+  if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+  auto request = motion_request(*live, make_command("G:", live->motion.axes), Lane::motion);
+  request.completes = completes;
+  live->completed = {};
+  live->completions.clear();
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto result = co_await pending;
+  if (result.accepted()) {
+    mark_running(live);
+    co_return Start::accepted;
+  }
+  if (result.refused()) {
+    auto why = co_await explain_refusal("G:", live->motion.axes, live->context.who);
+    co_return tl::unexpected(std::move(why));
+  }
+  if (result.in_doubt()) co_return Start::in_doubt;
+  co_return tl::unexpected(*result.problem);
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,295 @@
+// A path: segment 1 is set and started, each later one is put into the prebuffer as soon as its predecessor has left
+// it.
+//
+//   set 1 ── go ── set 2 (OK_D) ── 1 ends: 2 runs, set 3 (OK_D) ── ... ── n ends, READY: the sum must be exact
+//
+// OK where OK_D was due means that the chain had ended (an underrun): the path goes on from READY. Whatever is in doubt
+// is settled at READY too, where the command counters tell how far the path has come.
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kEarly = std::chrono::milliseconds(5);    // a segment's end may be heard so much too soon
+constexpr Duration kLate = std::chrono::milliseconds(100);   // how late before the prebuffer is asked
+constexpr Duration kSegmentLost = std::chrono::seconds(10);  // a segment that has not ended by then never will
+constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
+
+class PathRun {
+ public:
+  PathRun(Controller::Impl& owner, LiveMotionPtr motion, PathPlan plan)
+      : impl_(owner), live_(std::move(motion)), plan_(std::move(plan)) {
+    const bool line = plan_.axes.count() > 1;
+    const bool relative = plan_.segments.front().move.relative;
+    reg_ = line ? Register::kp : relative ? Register::mp : Register::ap;
+  }
+
+  Register reg() const { return reg_; }
+  Task<void> run();
+
+ private:
+  int count() const { return static_cast<int>(plan_.segments.size()); }
+  const SegmentPlan& segment(int number) const { return plan_.segments[static_cast<std::size_t>(number - 1)]; }
+  Command setter(int number) const;
+  void tell(PathProgress::Step step, int number, std::string reply = {});
+  bool over() const { return is_outcome(live_->motion.state); }
+  void give_up(MotionState outcome, Problem problem) { impl_.end_motion(live_, outcome, std::move(problem)); }
+
+  Task<bool> start(int number);   // set and go, from READY
+  Task<bool> refill(int number);  // false: the chain has ended, or is in doubt
+  Task<bool> wait_for_segment_end();
+  Task<bool> prebuffer_left();
+  Task<void> resume_from_ready();
+  Task<bool> wait_for_ready();
+  bool completion_counts(const LiveMotion::Completion& completion);
+
+  Controller::Impl& impl_;
+  LiveMotionPtr live_;
+  PathPlan plan_;
+  Register reg_;
+  int running_ = 0;     // the segment that moves
+  int sent_ = 0;        // the last one that the controller accepted
+  int clock_axis_ = 0;  // the first axis to answer in segment 1; the others' numbers are not counted
+  int missed_ = 0;      // ends that were asked for because their number had not come; it may still
+  TimePoint segment_began_{};
+};
+
+Command PathRun::setter(int number) const {
+  const MovePlan& move = segment(number).move;
+  Arguments arguments;
+  arguments.axes(move.set());
+  for (const auto& axis : move.axes) arguments.pulses(axis.amount);
+  if (const auto& speed = move.axes.front().speed) {
+    arguments.speeds(speed->minimum, speed->maximum, speed->acceleration_ms);
+  }
+  return make_command(name(reg_), arguments);
+}
+
+void PathRun::tell(PathProgress::Step step, int number, std::string reply) {
+  if (step == PathProgress::Step::done) live_->motion.segments_done = number;
+  if (step == PathProgress::Step::underrun) ++live_->motion.underruns;
+  impl_.emit(PathProgress{live_->motion.id, step, number, std::move(reply)});
+}
+
+Task<void> PathRun::run() {
+  const bool started = co_await start(1);
+  if (!started) co_return;
+  while (!over() && !live_->stop_requested && !live_->line_lost) {
+    if (sent_ < count()) {
+      const bool chained = co_await refill(sent_ + 1);
+      if (over() || live_->stop_requested || live_->line_lost) break;
+      if (!chained) {
+        co_await resume_from_ready();
+        continue;
+      }
+    }
+    if (running_ == sent_) break;  // the last segment runs: READY will end it
+    const bool ended = co_await wait_for_segment_end();
+    if (!ended) break;
+    tell(PathProgress::Step::done, running_);
+    ++running_;
+    segment_began_ = impl_.now_;
+    tell(PathProgress::Step::started, running_);
+  }
+  if (over()) co_return;
+  live_->on_success = [this] { tell(PathProgress::Step::done, count()); };
+  co_await impl_.watch(live_, false);
+}
+
+Task<bool> PathRun::start(int number) {
+  const auto set = co_await impl_.set_and_confirm(live_, setter(number), Lane::path_refill);
+  if (!set) {
+    give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, set.error());
+    co_return false;
+  }
+  impl_.note_speeds(segment(number).move);
+  tell(PathProgress::Step::sent, number, set->text);
+  const auto gone = co_await impl_.go(live_, plan_.axes);
+  if (!gone) {
+    give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, gone.error());
+    co_return false;
+  }
+  running_ = sent_ = number;
+  segment_began_ = impl_.now_;
+  live_->completions.clear();
+  if (*gone == Controller::Impl::Start::in_doubt) {
+    co_await resume_from_ready();
+    co_return !over();
+  }
+  tell(PathProgress::Step::started, number);
+  co_return true;
+}
+
+Task<bool> PathRun::refill(int number) {
+  auto pending = impl_.line_.exchange(impl_.motion_request(*live_, setter(number), Lane::path_refill), impl_.now_);
+  const auto result = co_await pending;
+  if (result.accepted()) {
+    impl_.note_speeds(segment(number).move);
+    tell(PathProgress::Step::sent, number, result.reply->text);
+    if (result.reply->kind == Reply::Kind::ok_d) {
+      sent_ = number;
+      co_return true;
+    }
+    tell(PathProgress::Step::underrun, number);
+    co_return false;
+  }
+  if (result.refused()) {
+    const auto why = co_await impl_.explain_refusal(setter(number).line, plan_.axes, live_->context.who);
+    const bool standing = co_await wait_for_ready();
+    if (standing && !over()) give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, why);
+  }
+  co_return false;
+}
+
+// The number that ends a segment is believed when it comes neither too soon nor out of a barrier, and none is missing.
+bool PathRun::completion_counts(const LiveMotion::Completion& completion) {
+  if (clock_axis_ == 0) clock_axis_ = completion.axis;
+  return completion.axis == clock_axis_;
+}
+
+Task<bool> PathRun::wait_for_segment_end() {
+  const SegmentPlan& now_running = segment(running_);
+  TimePoint ask_at = segment_began_ + now_running.longest + kLate;
+  const TimePoint lost_at = ask_at + kSegmentLost;
+  while (!live_->stop_requested && !live_->line_lost) {
+    while (live_->completions.empty() && impl_.now_ < ask_at && !live_->stop_requested && !live_->line_lost) {
+      auto news = live_->news.wait_until(ask_at);
+      co_await news;
+    }
+    if (!live_->completions.empty()) {
+      const auto completion = live_->completions.front();
+      live_->completions.pop_front();
+      if (!completion_counts(completion)) continue;
+      const bool early = completion.at < segment_began_ + now_running.shortest - kEarly;
+      if (!early && !completion.doubtful && missed_ == 0) co_return true;
+      if (missed_ > 0 && !completion.doubtful) --missed_;
+    } else {
+      ++missed_;
+    }
+    const bool left = co_await prebuffer_left();
+    if (left) co_return true;
+    if (impl_.now_ >= lost_at) {
+      give_up(MotionState::unknown, Problem{Reason::outcome_unknown,
+                                            fmt::format("segment {} did not end in the time it needs", running_),
+                                            "look at the positions, and stop the axes",
+                                            {},
+                                            {},
+                                            {}});
+      co_return false;
+    }
+    if (impl_.now_ >= ask_at) {
+      --missed_;
+      ask_at = impl_.now_ + kLate;
+    }
+  }
+  co_return false;
+}
+
+// Whether the segment that waited in the prebuffer has gone over into execution.
+Task<bool> PathRun::prebuffer_left() {
+  const std::string_view question = reg_ == Register::kp ? "?:KP" : reg_ == Register::mp ? "?:MP" : "?:AP";
+  const auto answer = co_await impl_.ask(question, Lane::path_refill, live_->context.who);
+  if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) co_return false;
+  if (reg_ == Register::kp) co_return answer.reply->text == "NS";
+  co_return !amount_of(*answer.reply, plan_.axes.lowest(), impl_.state_.controllable()).has_value();
+}
+
+Task<bool> PathRun::wait_for_ready() {
+  int ready = 0;
+  Positions last;
+  while (ready < 2 && !live_->line_lost) {
+    const auto read = co_await impl_.read_positions(Lane::motion, live_->context.who);
+    bool busy = !read.has_value();
+    for (const int axis : plan_.axes.list()) busy = busy || impl_.state_.axis(axis).busy.value_or(true);
+    const Positions here = positions_of(impl_.state_);
+    ready = busy ? 0 : here == last ? ready + 1 : 1;
+    last = here;
+    if (ready >= 2) break;
+    auto pause = impl_.tick_.wait_until(impl_.now_ + kReadyPoll);
+    co_await pause;
+  }
+  co_return !live_->line_lost;
+}
+
+// The counters at READY say which segment was the last to run; the path goes on with the next.
+Task<void> PathRun::resume_from_ready() {
+  auto pause = impl_.tick_.wait_until(impl_.now_ + 3 * kReadyPoll);
+  co_await pause;
+  const bool standing = co_await wait_for_ready();
+  if (!standing || live_->stop_requested) co_return;
+  const auto error = impl_.error_of(*live_);
+  if (error) {
+    give_up(MotionState::failed, *error);
+    co_return;
+  }
+  int done = -1, matches = 0;
+  for (int candidate = std::max(0, running_ - 1); candidate <= std::min(sent_ + 1, count()); ++candidate) {
+    const auto& end = candidate == 0 ? plan_.begin : segment(candidate).end;
+    bool here = true;
+    for (const int axis : plan_.axes.list()) {
+      here = here && impl_.state_.axis(axis).position_pulses == end[static_cast<std::size_t>(axis - 1)];
+    }
+    if (!here) continue;
+    ++matches;
+    done = candidate;
+  }
+  if (matches != 1) {
+    give_up(MotionState::unknown, Problem{Reason::outcome_unknown,
+                                          "the path came to rest at a place that does not tell which segments ran",
+                                          "look at the positions before moving on",
+                                          {},
+                                          {},
+                                          {}});
+    co_return;
+  }
+  for (int number = std::max(1, live_->motion.segments_done + 1); number <= done; ++number) {
+    tell(PathProgress::Step::done, number);
+  }
+  running_ = sent_ = done;
+  missed_ = 0;
+  clock_axis_ = 0;
+  if (done == count()) {
+    impl_.end_motion(live_, MotionState::succeeded, {});
+    co_return;
+  }
+  co_await start(done + 1);
+}
+
+}  // namespace
+
+void Controller::Impl::run_path(PathRequest request, OnStarted started) {
+  const auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  if (!plan) {
+    started(tl::unexpected(plan.error()));
+    return;
+  }
+  auto live = create_motion(MotionKind::path, plan->axes, request.context, std::move(started));
+  live->motion.segments_total = static_cast<int>(plan->segments.size());
+  executor_.spawn(run_path_motion(live, std::move(request)));
+}
+
+Task<void> Controller::Impl::run_path_motion(LiveMotionPtr live, PathRequest request) {
+  auto ready = co_await enter_gate(live);
+  const bool line = live->motion.axes.count() > 1;
+  const Register reg = line ? Register::kp : request.segments.front().relative ? Register::mp : Register::ap;
+  if (ready) ready = co_await prepare(live, reg);
+  if (!ready) {
+    end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
+               ready.error());
+    co_return;
+  }
+  auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  if (!plan) {
+    end_motion(live, MotionState::failed, plan.error());
+    co_return;
+  }
+  for (auto& result : live->motion.results) {
+    result.target_pulses = plan->segments.back().end[static_cast<std::size_t>(result.axis - 1)];
+  }
+  PathRun run(*this, live, *std::move(plan));
+  co_await run.run();
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,178 @@
+// Questions of the gateway's own: positions, registers, speeds, and why the controller said NG.
+#include <fmt/format.h>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+// Faster than this no axis runs (manual 89) D:); a reading beyond it is read again before it is believed.
+constexpr double kPulsesPerSecondMax = 1'000'000;
+constexpr std::int64_t kJumpMargin = 10'000;
+
+Problem unreadable(std::string_view question, const ExchangeResult& result) {
+  return {Reason::device_refused,          fmt::format("{} was answered by {}", question, result.reply->text),
+          "look at the controller's mode", {},
+          std::string(question),           result.reply->text};
+}
+
+}  // namespace
+
+Task<ExchangeResult> Controller::Impl::ask(std::string_view question, Lane lane, std::string caller,
+                                           bool in_handshake) {
+  ExchangeRequest request;
+  request.command = make_command(question);
+  request.lane = lane;
+  request.caller = std::move(caller);
+  request.not_after = now_ + kStepLimit;
+  request.handshake = in_handshake;
+  auto pending = line_.exchange(std::move(request), now_);
+  auto result = co_await pending;
+  co_return result;
+}
+
+Task<Result<void>> Controller::Impl::read_positions(Lane lane, std::string caller, bool in_handshake) {
+  const Arguments in_pulses = Arguments().add("u", "P").add("c", "C");
+  for (int attempt = 0; attempt < 2; ++attempt) {
+    ExchangeRequest request;
+    request.command = make_command("Q:S", in_pulses);
+    request.lane = lane;
+    request.caller = caller;
+    request.not_after = now_ + kStepLimit;
+    request.handshake = in_handshake;
+    auto pending = line_.exchange(std::move(request), now_);
+    const auto result = co_await pending;
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (result.reply->kind != Reply::Kind::data) {
+      if (!in_handshake) executor_.spawn(follow_mode());
+      co_return tl::unexpected(unreadable("Q:SPC", result));
+    }
+    // The second reading is believed whatever it says: origin returns and presets make true jumps.
+    const Positions before = positions_of(state_);
+    const TimePoint read_before = state_.read;
+    const auto readings = parse_positions(*result.reply, state_.controllable());
+    bool jumps = false;
+    for (std::size_t i = 0; readings && i < kAxisCount; ++i) {
+      if (!before[i] || !(*readings)[i].valid) continue;
+      const double seconds = std::chrono::duration<double>(now_ - read_before).count();
+      const auto way = (*readings)[i].pulses - *before[i];
+      jumps = jumps || static_cast<double>(way < 0 ? -way : way) >
+                           seconds * kPulsesPerSecondMax + static_cast<double>(kJumpMargin);
+    }
+    if (jumps && attempt == 0) continue;
+    if (apply_positions(*result.reply)) co_return Result<void>();
+  }
+  co_return fail(Reason::line_fault, "the positions read make no sense", "check the cable and the line settings");
+}
+
+bool Controller::Impl::apply_positions(const Reply& reply) {
+  const auto readings = parse_positions(reply, state_.controllable());
+  if (!readings) return false;
+  AxisSet ready, busy;
+  for (const int number : AxisSet::all().list()) {
+    const auto& reading = (*readings)[static_cast<std::size_t>(number - 1)];
+    auto& axis = state_.axis(number);
+    if (!reading.valid) continue;
+    axis.position_pulses = reading.pulses;
+    axis.status = reading.status;
+    axis.busy = reading.busy;
+    (reading.busy ? busy : ready).add(number);
+  }
+  line_.completions().ready(ready | (AxisSet::all() - state_.controllable()), now_);
+  line_.completions().busy(busy);
+  state_.read = now_;
+  if (busy.empty()) state_.moving_unknown = false;
+  publish_state();
+  return true;
+}
+
+Task<Result<void>> Controller::Impl::read_registers(std::string caller) {
+  registers_.begin_reading();
+  for (const auto question : Registers::questions()) {
+    const auto result = co_await ask(question, Lane::motion, caller);
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable(question, result));
+    registers_.take(question, *result.reply, state_.controllable());
+  }
+  registers_.end_reading();
+  co_return Result<void>();
+}
+
+Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
+  const auto result = co_await ask("?:D", Lane::motion, std::move(caller));
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:D", result));
+  const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
+  std::size_t place = 0;
+  for (const int number : named.list()) {
+    const auto speed = parse_speed_setting(result.reply->fields[place++]);
+    if (!speed || !state_.controllable().has(number)) continue;
+    auto& axis = state_.axis(number);
+    axis.minimum_speed = speed->minimum;
+    axis.maximum_speed = speed->maximum;
+    axis.acceleration_ms = speed->acceleration_ms;
+  }
+  co_return Result<void>();
+}
+
+Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, std::string caller) {
+  Problem problem{
+      Reason::device_refused, "the controller refused the command (NG)", "look at `axisctl status`", {}, sent, "NG"};
+  const auto read = co_await read_positions(Lane::motion, caller);
+  if (!read) co_return problem;
+  for (const int number : axes.list()) {
+    const auto& axis = state_.axis(number);
+    const auto because = [&](Reason reason, std::string what, std::string hint) {
+      problem.reason = reason;
+      problem.axis = number;
+      problem.message = fmt::format("the controller refused the command (NG): axis {} {}", number, what);
+      problem.hint = std::move(hint);
+    };
+    if (axis.status.emergency()) {
+      because(Reason::emergency_stopped, "is in emergency stop", "clear it with `axisctl clear` once it is safe");
+      co_return problem;
+    }
+    if (axis.status.limit_error()) {
+      because(Reason::limit_detected, "has met its limit", "clear it with `axisctl clear`, then move away from it");
+      co_return problem;
+    }
+    if (axis.busy.value_or(false)) {
+      because(Reason::axis_busy, "is moving", "wait until it stands, or stop it");
+      co_return problem;
+    }
+  }
+  const auto excitation = co_await ask("?:C", Lane::motion, caller);
+  if (excitation.reply && excitation.reply->fields.size() == static_cast<std::size_t>(state_.controllable().count())) {
+    std::size_t place = 0;
+    for (const int number : state_.controllable().list()) {
+      state_.axis(number).excited = excitation.reply->fields[place++] == "1";
+      if (*state_.axis(number).excited || !axes.has(number)) continue;
+      problem.reason = Reason::not_excited;
+      problem.axis = number;
+      problem.message = fmt::format("the controller refused the command (NG): the motor of axis {} is off", number);
+      problem.hint = fmt::format("switch it on: axisctl exec C:{}1", number);
+      co_return problem;
+    }
+  }
+  co_return problem;
+}
+
+Task<void> Controller::Impl::refresh(Duration max_age, RequestContext context, OnState done) {
+  const TimePoint limit = default_limit(context.not_after, kQuestionLimit);
+  if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
+    done(state_);  // said truthfully in it
+    co_return;
+  }
+  if (state_.read == TimePoint{} || now_ - state_.read > max_age) {
+    const auto read = co_await read_positions(Lane::question, context.who);
+    if (!read && now_ > limit) {
+      done(tl::unexpected(read.error()));
+      co_return;
+    }
+  }
+  done(state_);
+}
+
+void Controller::Impl::publish_state() { emit(StateChanged{}); }
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,140 @@
+#include "device/shrc203/registers.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+struct Question {
+  std::string_view name;
+  Register reg;
+};
+
+constexpr Question kQuestions[] = {
+    {"?:M", Register::m},   {"?:A", Register::a},   {"?:K", Register::k},   {"?:E", Register::e},
+    {"?:J", Register::j},   {"?:MP", Register::mp}, {"?:AP", Register::ap}, {"?:KP", Register::kp},
+    {"?:EP", Register::ep}, {"?:WT", Register::wt}, {"?:WI", Register::wi},
+};
+
+constexpr Register kCleared[] = {Register::m, Register::a, Register::k, Register::e};
+constexpr Register kLasting[] = {Register::j,  Register::mp, Register::ap, Register::kp,
+                                 Register::ep, Register::wt, Register::wi};
+
+// The place of an axis among a reply's fields: all three, or the controllable ones only.
+std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet controllable) {
+  std::size_t place = 0;
+  const auto named = reply.fields.size() == kAxisCount ? AxisSet::all() : controllable;
+  if (!named.has(axis) || reply.fields.size() != static_cast<std::size_t>(named.count())) return {};
+  for (const int other : named.list()) {
+    if (other == axis) return place;
+    ++place;
+  }
+  return {};
+}
+
+// ?:K and its like name their axes: K, KP by the first field, E, EP by the second (manual 22) to 25)).
+AxisSet interpolation_axes(const Reply& reply, Register reg) {
+  const std::size_t place = reg == Register::e || reg == Register::ep ? 1 : 0;
+  if (reply.fields.size() <= place || reply.fields[place].size() != 1) return AxisSet::all();
+  return from_command_letter(reply.fields[place][0], AxisSet::all()).value_or(AxisSet::all());
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& Registers::questions() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> list;
+    for (const auto& question : kQuestions) list.push_back(question.name);
+    return list;
+  }();
+  return names;
+}
+
+void Registers::begin_reading() {
+  known_ = false;
+  set_.clear();
+}
+
+void Registers::take(std::string_view question, const Reply& reply, AxisSet controllable) {
+  Register reg = Register::none;
+  for (const auto& known : kQuestions) {
+    if (known.name == question) reg = known.reg;
+  }
+  const bool shared = reg == Register::k || reg == Register::e || reg == Register::kp || reg == Register::ep;
+  if (shared) {
+    if (reply.text != "NS") set_[reg] = interpolation_axes(reply, reg);
+    return;
+  }
+  AxisSet set;
+  for (const int axis : controllable.list()) {
+    const auto place = field_of(reply, axis, controllable);
+    if (!place || reply.fields[*place] != "NS") set.add(axis);
+  }
+  if (!set.empty()) set_[reg] = set;
+}
+
+AxisSet Registers::set_in(Register reg) const {
+  const auto found = set_.find(reg);
+  return found == set_.end() ? AxisSet() : found->second;
+}
+
+bool Registers::any() const { return !clearable().empty() || !lasting().empty(); }
+
+AxisSet Registers::clearable() const {
+  AxisSet all;
+  for (const Register reg : kCleared) all = all | set_in(reg);
+  return all;
+}
+
+AxisSet Registers::lasting() const {
+  AxisSet all;
+  for (const Register reg : kLasting) all = all | set_in(reg);
+  return all;
+}
+
+void Registers::cleared(AxisSet axes) {
+  for (const Register reg : kCleared) {
+    const AxisSet rest = set_in(reg) - axes;
+    if (rest.empty()) {
+      set_.erase(reg);
+    } else {
+      set_[reg] = rest;
+    }
+  }
+}
+
+std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet controllable) {
+  const auto place = field_of(reply, axis, controllable);
+  if (!place) return {};
+  return parse_integer(reply.fields[*place]);
+}
+
+std::string_view name(Register reg) {
+  switch (reg) {
+    case Register::none:
+      return "";
+    case Register::m:
+      return "M:";
+    case Register::a:
+      return "A:";
+    case Register::k:
+      return "K:";
+    case Register::e:
+      return "E:";
+    case Register::j:
+      return "J:";
+    case Register::mp:
+      return "MP:";
+    case Register::ap:
+      return "AP:";
+    case Register::kp:
+      return "KP:";
+    case Register::ep:
+      return "EP:";
+    case Register::wt:
+      return "WT:";
+    case Register::wi:
+      return "WI:";
+  }
+  return "";
+}
+
+}  // namespace axisgate::shrc203

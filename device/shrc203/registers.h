@@ -1,0 +1,49 @@
+// The settings that a G may start (manual 85)): what is left over in them would run on somebody else's G.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "device/shrc203/axes.h"
+#include "device/shrc203/command_table.h"
+#include "device/shrc203/reply.h"
+
+namespace axisgate::shrc203 {
+
+class Registers {
+ public:
+  // The questions that tell of them all, in the order in which they are asked.
+  static const std::vector<std::string_view>& questions();
+
+  // After a connect, foreign traffic, a set or a go in doubt, a stop: nobody knows.
+  void forget() { known_ = false; }
+  bool known() const { return known_; }
+
+  // Takes the answers to questions(), all given.
+  void begin_reading();
+  void take(std::string_view question, const Reply& reply, AxisSet controllable);
+  void end_reading() { known_ = true; }
+
+  // The axes on which one of these is set.
+  AxisSet set_in(Register reg) const;
+  bool any() const;
+
+  // Left over in what GC: deletes (manual 87)): M, A, E and K.
+  AxisSet clearable() const;
+  // Left over in what no command is documented to clear: the prebuffers, WT:, WI: and J:.
+  AxisSet lasting() const;
+  void cleared(AxisSet axes);
+
+ private:
+  bool known_ = false;
+  std::map<Register, AxisSet> set_;
+};
+
+// The amounts that an axis question (?:MP ...) tells, by axis; nothing for NS.
+std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet controllable);
+
+std::string_view name(Register reg);
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,98 @@
+// One simulated axis: the stage and its sensors, the command counter, and what it is doing just now.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "device/core/time.h"
+#include "device/shrc203/simulator/motion_profile.h"
+#include "device/shrc203/simulator/options.h"
+#include "device/shrc203/simulator/units.h"
+
+namespace axisgate::shrc203::simulator {
+
+class Axis {
+ public:
+  // At rest, settling after the last pulse, or waiting (manual 57) WT:, 58) WI:).
+  enum class Phase { idle, moving, settling, waiting };
+  enum class LegEnd { next_leg, target, limit };
+
+  static constexpr std::int64_t kDefaultDivide = 200;
+
+  explicit Axis(const AxisSetup& setup);
+
+  // Everything as at power-on, but the stage stays where it is.
+  void power_on(TimePoint now);
+
+  // --- the counter (pulses) -------------------------------------------------------------------------------------
+  std::int64_t coordinate(TimePoint now) const { return place_at(now) - zero_; }
+  void preset(std::int64_t coordinate);  // manual 45) PSET:
+  void set_logical_origin();             // manual 63) R:
+  void clear_logical_origin();           // manual 64) RC:
+  void set_mechanical_origin();
+
+  // --- settings -------------------------------------------------------------------------------------------------
+  Pitch pitch() const { return {base_nanometers_e6_, divide_}; }
+  std::int64_t divide() const { return divide_; }
+  void set_divide(std::int64_t divide);  // the counter keeps its number of pulses
+
+  Speed speed;         // manual 89) D:
+  Speed origin_speed;  // manual 94) B:
+  bool excited = true;
+  bool open_loop = true;     // manual 51) F:
+  bool emergency = false;    // bit 6 of the status
+  bool limit_error = false;  // bit 8
+
+  // --- sensors --------------------------------------------------------------------------------------------------
+  bool limit_sensor(int direction, TimePoint now) const;
+  bool any_limit_sensor(TimePoint now) const { return limit_sensor(1, now) || limit_sensor(-1, now); }
+  bool origin_sensor(TimePoint now) const;
+  void force_limit(int direction, bool on, TimePoint now);  // stops what moves into it
+
+  // --- motion: each starts now, from an idle axis -----------------------------------------------------------------
+  void move(std::int64_t amount, TimePoint now);
+  void follow(std::int64_t amount, const MotionProfile& path, TimePoint now);  // its part of a straight line
+  void jog(int direction, TimePoint now);
+  void return_to_origin(TimePoint now);
+  void wait(std::optional<TimePoint> until);
+
+  void decelerate(TimePoint now);  // to S, then at rest; at once when no faster
+  void halt(TimePoint now);        // no further pulse
+  LegEnd end_leg(TimePoint now);   // at next_event() while moving; then settle(), rest() or another leg
+  void settle(TimePoint until);
+  void rest();
+
+  Phase phase() const { return phase_; }
+  bool stepped() const { return stepped_; }  // whether the last motion had any path to cover
+  std::optional<TimePoint> next_event() const { return event_; }
+
+ private:
+  struct Leg {
+    MotionProfile path;
+    std::int64_t amount = 0;
+    TimePoint start{};
+    Speed slope;
+  };
+
+  std::int64_t place_at(TimePoint now) const;
+  std::int64_t in_pulses(std::int64_t setup_pulses) const;
+  std::int64_t room(int direction) const;  // pulses left up to the limit sensor
+  void start_leg(MotionProfile path, std::int64_t amount, const Speed& slope, TimePoint now);
+
+  AxisSetup setup_;
+  std::int64_t base_nanometers_e6_;
+  std::int64_t divide_ = kDefaultDivide;
+  std::int64_t place_ = 0;            // of the stage at the leg's start, from where it stood when it was built
+  std::int64_t zero_ = 0;             // the place that reads 0
+  std::int64_t mechanical_zero_ = 0;  // the same without R:
+  bool forced_plus_ = false, forced_minus_ = false;
+
+  Phase phase_ = Phase::idle;
+  Leg leg_;
+  bool leg_meets_limit_ = false;
+  std::optional<std::int64_t> creep_to_;  // the last leg of an origin return
+  bool stepped_ = false;
+  std::optional<TimePoint> event_;
+};
+
+}  // namespace axisgate::shrc203::simulator

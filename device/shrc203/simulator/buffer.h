@@ -1,0 +1,63 @@
+// The execution buffer and the prebuffer (manual 2): what the setting commands leave behind for a G.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include "device/shrc203/simulator/axis_set.h"
+#include "device/shrc203/simulator/motion_profile.h"
+#include "device/shrc203/simulator/units.h"
+
+namespace axisgate::shrc203::simulator {
+
+enum class Kind { relative, absolute, line, arc, jog, wait_time, wait_input, origin_return, logical_return };
+
+// E:0 to E:5 (manual 71) to 76)). Points in pulses, in the order of the command.
+struct Arc {
+  int shape = 0;
+  int direction = 0;
+  std::optional<int> turns;
+  std::optional<Number> angle;
+  std::vector<std::int64_t> points;
+};
+
+struct Setting {
+  Kind kind = Kind::relative;
+  Axes axes;
+  // Per axis: pulses to go, the coordinate to go to, the sign of a jog, tenths of a second, or the inputs waited for.
+  std::array<std::int64_t, kAxes> values{};
+  std::array<std::optional<Speed>, kAxes> speeds;  // of MP: and the like; they overwrite D: when it starts
+  std::optional<Arc> arc;
+  char letter = ' ';  // the axis letter of a line or arc as it was sent
+
+  bool is_prebuffer = false;  // set by a command of section 2: its end sends the axis number
+  bool chains = false;        // starts by itself when its axes are free
+
+  bool indivisible() const { return kind == Kind::line || kind == Kind::arc; }
+  Setting only(int axis) const;
+};
+
+class Buffer {
+ public:
+  // What others held of the setting's axes is overwritten.
+  void put(Setting setting);
+
+  // A line or an arc that uses one of the axes goes as a whole.
+  void give_up(const Axes& axes);
+  void clear() { settings_.clear(); }
+
+  // Cuts what concerns named and other axes in two, except a line or an arc.
+  void split(const Axes& axes);
+
+  const Setting* find(Kind kind, int axis) const;
+  const Setting* find(Kind kind) const;
+  std::vector<Setting>& settings() { return settings_; }
+  const std::vector<Setting>& settings() const { return settings_; }
+
+ private:
+  std::vector<Setting> settings_;  // no two share an axis
+};
+
+}  // namespace axisgate::shrc203::simulator

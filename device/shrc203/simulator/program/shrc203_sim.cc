@@ -1,0 +1,136 @@
+// shrc203-sim: the simulated SHRC-203 behind a pseudo terminal, for a gateway or any other program to open.
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/link/pty_line.h"
+#include "device/shrc203/simulator/options.h"
+#include "device/shrc203/simulator/paced_line.h"
+#include "device/shrc203/simulator/simulator.h"
+
+namespace axisgate {
+namespace {
+
+namespace simulator = shrc203::simulator;
+
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;
+
+struct Arguments {
+  std::string pty;
+  double speed = 1;
+  int baud = 0;
+  int reply_delay_ms = 0;
+  std::vector<std::string> options;
+  bool list_options = false;
+};
+
+int complain(int exit_code, const Problem& problem) {
+  const char* const end = problem.message.ends_with('.') ? "" : ".";
+  fmt::print(stderr, "shrc203-sim: {}{}{}{}\n", problem.message, end, problem.hint.empty() ? "" : " ", problem.hint);
+  return exit_code;
+}
+
+void describe(CLI::App& program, Arguments& arguments) {
+  auto* pty = program.add_option("--pty", arguments.pty, "Symbolic link to make to the simulator's terminal");
+  program.add_option("--speed", arguments.speed, "The simulator's time runs this many times as fast")
+      ->check(CLI::Range(0.001, 10000.0))
+      ->capture_default_str();
+  program.add_option("--baud", arguments.baud, "Pace of the bytes both ways, ten bits a byte; 0 passes them at once")
+      ->check(CLI::Range(0, 4'000'000))
+      ->capture_default_str();
+  program.add_option("--reply-delay", arguments.reply_delay_ms, "Milliseconds from a command's end to its reply")
+      ->check(CLI::Range(0, 60'000))
+      ->capture_default_str();
+  program.add_option("--option", arguments.options, "NAME=VALUE: a reading of the manual; may be repeated")
+      ->allow_extra_args(false);
+  program.add_flag("--list-options", arguments.list_options, "Print every option and its values, and end")
+      ->excludes(pty);
+}
+
+void list_options() {
+  fmt::print("Each option's first value is its default.\n");
+  for (const simulator::OptionName& option : simulator::option_names()) {
+    fmt::print("{}={}\n", option.name, fmt::join(option.values, "|"));
+  }
+}
+
+Result<simulator::Options> choose_options(const std::vector<std::string>& settings) {
+  simulator::Options options;
+  for (const std::string& setting : settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos) {
+      return fail(Reason::invalid_request, fmt::format("--option {}: expected NAME=VALUE", setting),
+                  "--list-options prints them.");
+    }
+    const auto set = options.set(setting.substr(0, equals), setting.substr(equals + 1));
+    if (!set) return tl::unexpected(set.error());
+  }
+  return options;
+}
+
+Result<std::shared_ptr<PtyLine>> open_line(const Strand& strand, const std::string& link) {
+  auto pty = open_pty(link);
+  if (!pty) return tl::unexpected(pty.error());
+  auto watch = PtyWatch::open(*pty);
+  if (!watch) return tl::unexpected(watch.error());
+  return std::make_shared<PtyLine>(strand, std::move(*pty), std::move(*watch));
+}
+
+int run(const Arguments& arguments, const simulator::Options& options) {
+  boost::asio::io_context context(1);
+  // Before the link exists, so that whoever sees it can end this program in good order.
+  boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
+  auto opened = open_line(boost::asio::make_strand(context), arguments.pty);
+  if (!opened) return complain(kExitFailed, opened.error());
+  PtyLine& line = **opened;
+
+  const simulator::Pacing pacing{arguments.baud, std::chrono::milliseconds(arguments.reply_delay_ms), arguments.speed};
+  simulator::PacedLine device(pacing, line, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+    return std::make_unique<simulator::Simulator>(options, inside);
+  });
+  line.attach(device);
+  line.start();
+  signals.async_wait([&](const boost::system::error_code&, int) { line.shutdown(); });
+
+  const std::string pace = arguments.baud == 0 ? "bytes not paced" : fmt::format("{} baud", arguments.baud);
+  fmt::print("SHRC-203 simulator on {} ({}), {}, speed {}, reply delay {} ms\n", arguments.pty, line.pty().device(),
+             pace, arguments.speed, arguments.reply_delay_ms);
+  std::fflush(stdout);
+  context.run();
+  return 0;
+}
+
+int main_program(int count, char** words) {
+  CLI::App program("A simulated SIGMAKOKI SHRC-203 stage controller on a pseudo terminal.", "shrc203-sim");
+  Arguments arguments;
+  describe(program, arguments);
+  try {
+    program.parse(count, words);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    return complain(kExitUsage, {Reason::invalid_request, error.what(), "See --help.", {}, {}, {}});
+  }
+  if (arguments.list_options) {
+    list_options();
+    return 0;
+  }
+  if (arguments.pty.empty()) {
+    return complain(kExitUsage, {Reason::invalid_request, "--pty LINK is required", "See --help.", {}, {}, {}});
+  }
+  const auto options = choose_options(arguments.options);
+  if (!options) return complain(kExitUsage, options.error());
+  return run(arguments, *options);
+}
+
+}  // namespace
+}  // namespace axisgate
+
+int main(int count, char** words) { return axisgate::main_program(count, words); }

@@ -1,0 +1,49 @@
+// Everything that a command can see or change.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "device/core/time.h"
+#include "device/shrc203/simulator/axis.h"
+#include "device/shrc203/simulator/axis_set.h"
+#include "device/shrc203/simulator/motions.h"
+#include "device/shrc203/simulator/options.h"
+
+namespace axisgate::shrc203::simulator {
+
+struct Rig {
+  explicit Rig(Options chosen);
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
+
+  Axis& axis(int number) { return axes[index_of(number)]; }
+  const Axis& axis(int number) const { return axes[index_of(number)]; }
+
+  // "In the case of Busy": of these axes, or of any, as busy_scope has it.
+  bool is_free(const Axes& named) const;
+  bool is_excited(const Axes& named) const;
+  bool can_move(const Axes& named) const;  // excited, awake, no emergency stop
+
+  std::optional<std::int64_t> to_pulses(Number number, char unit, int axis_number) const;
+
+  // Settings go back to what the memory switches say; the stages stay where they are.
+  void power_on();
+
+  const Options options;
+  const Axes controllable;
+  std::array<Axis, kAxes> axes;
+  Motions motions;
+  TimePoint now{};
+  std::string mode;
+  bool hit_format = false;
+  bool sleeping = false;
+  bool lights = true;
+  bool beep = true;
+  int outputs = 0;
+  int inputs = 0;
+  bool command_error = false;
+  std::string previous_line;
+};
+
+}  // namespace axisgate::shrc203::simulator

@@ -1,0 +1,79 @@
+#include "device/shrc203/simulator/simulator.h"
+
+#include <utility>
+
+#include "device/shrc203/simulator/machine.h"
+
+namespace axisgate::shrc203::simulator {
+
+class Simulator::Device : public Machine {
+ public:
+  using Machine::Machine;
+
+  // Something happened beside the line: what follows from it at once is told now.
+  void settle_consequences() {
+    rig().motions.process(rig().now);
+    send_completions();
+  }
+};
+
+Simulator::Simulator(Options options, ByteLink& line) : device_(std::make_unique<Device>(std::move(options), line)) {}
+
+Simulator::~Simulator() = default;
+
+void Simulator::link_up(TimePoint now) {
+  device_->advance(now);
+  device_->forget_unfinished_line();
+}
+
+void Simulator::link_down(TimePoint now, std::string_view) {
+  device_->advance(now);
+  device_->forget_unfinished_line();
+}
+
+void Simulator::receive(std::string_view bytes, TimePoint now) { device_->receive(bytes, now); }
+void Simulator::advance(TimePoint now) { device_->advance(now); }
+std::optional<TimePoint> Simulator::next_deadline() const { return device_->rig().motions.next_event(); }
+
+std::int64_t Simulator::position(int axis) const { return device_->rig().axis(axis).coordinate(device_->rig().now); }
+
+bool Simulator::busy(int axis) const { return device_->rig().motions.busy(axis); }
+
+void Simulator::set_excitation(int axis, bool on, TimePoint now) {
+  device_->advance(now);
+  if (on) {
+    device_->rig().axis(axis).excited = true;
+  } else {
+    device_->rig().motions.lose_excitation(axis, now);
+  }
+  device_->settle_consequences();
+}
+
+void Simulator::press_emergency(TimePoint now) {
+  device_->advance(now);
+  device_->rig().motions.emergency_stop(now);
+}
+
+void Simulator::set_mode(std::string_view mode, TimePoint now) {
+  device_->advance(now);
+  device_->rig().mode = mode;
+}
+
+void Simulator::set_inputs(int pattern) {
+  device_->rig().inputs = pattern;
+  device_->rig().motions.inputs_are(pattern, device_->rig().now);
+  device_->settle_consequences();
+}
+
+void Simulator::power_cycle(TimePoint now) { device_->reboot(now); }
+
+void Simulator::set_limit(int axis, int direction, bool on, TimePoint now) {
+  device_->advance(now);
+  device_->rig().axis(axis).force_limit(direction, on, now);
+  device_->settle_consequences();
+}
+
+int Simulator::starts(int axis) const { return device_->rig().motions.starts(axis); }
+const std::vector<std::string>& Simulator::received() const { return device_->received(); }
+
+}  // namespace axisgate::shrc203::simulator

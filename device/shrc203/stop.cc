@@ -1,0 +1,192 @@
+// Stop goes first: L: and L:E, and what follows from them. Not a safety function.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr int kStopTries = 3;
+constexpr Duration kWriteLimit = std::chrono::seconds(10);       // how long a stop may wait for a line to be open
+constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
+constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
+
+// Motions that a stop of `axes` ends.
+bool concerns(const LiveMotion& live, AxisSet axes) { return live.motion.axes.touches(axes); }
+
+}  // namespace
+
+void Controller::Impl::stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done) {
+  const AxisSet known = state_.controllable().empty() ? AxisSet::all() : state_.controllable();
+  const AxisSet named = axes.empty() ? known : axes & known;
+  emit(StopRequested{named, emergency, context.who});
+  flush_motions(named, context, emergency);
+  for (const auto& pending : stops_) {
+    if (!pending->answered && pending->emergency == emergency && pending->axes.contains(named)) {
+      pending->done.push_back(std::move(done));
+      return;
+    }
+  }
+  auto job = std::make_shared<StopJob>();
+  job->axes = named;
+  job->emergency = emergency;
+  job->context = context;
+  job->done.push_back(std::move(done));
+  for (const int axis : named.list()) job->report.axes.push_back({axis, {}, false, {}, {}});
+  stops_.push_back(job);
+  executor_.spawn(run_stop(job));
+}
+
+// The queue of motion on these axes is emptied: what was not written never will be.
+void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context, bool emergency) {
+  AxisSet all = emergency ? AxisSet::all() : axes;
+  std::vector<MotionId> stopped;
+  for (const auto& [id, live] : live_) {
+    if (!concerns(*live, all)) continue;
+    live->stop_requested = true;
+    live->stopped_by = context.who;
+    live->woken = true;
+    stopped.push_back(id);
+    if (live->motion.state == MotionState::running) set_state(*live, MotionState::stopping);
+    live->news.notify();
+  }
+  const auto is_stopped = [&stopped](MotionId id) { return std::ranges::find(stopped, id) != stopped.end(); };
+  const Problem problem{Reason::stopped,
+                        fmt::format("a stop by {} came before the motion was sent", context.who),
+                        "ask again if the motion is still wanted",
+                        {},
+                        {},
+                        {}};
+  gate_.withdraw(is_stopped, problem);
+  line_.withdraw([&](const ExchangeRequest& request) { return is_stopped(request.motion); }, problem);
+  settled_ = false;
+}
+
+Task<void> Controller::Impl::run_stop(StopJobPtr job) {
+  co_await write_stop(job);
+  job->answered = true;
+  registers_.forget();
+  const bool line_works = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
+  if (line_works) co_await wait_for_standstill(job);
+  std::erase(stops_, job);
+  for (auto& done : job->done) done(job->report);
+}
+
+Task<ExchangeResult> Controller::Impl::write_stop_line(StopJobPtr job, Command command) {
+  ExchangeRequest request;
+  request.command = std::move(command);
+  request.lane = Lane::stop;
+  request.caller = job->context.who;
+  request.not_after = now_ + kWriteLimit;
+  auto pending = line_.exchange(std::move(request), now_);
+  auto result = co_await pending;
+  co_return result;
+}
+
+// A stop can be written twice without harm, so one that was not answered is written again.
+Task<void> Controller::Impl::write_stop(StopJobPtr job) {
+  AxisSet named = job->axes;
+  for (const int axis : job->axes.list()) {
+    if (!job->emergency && !state_.axis(axis).excited.value_or(true)) named.remove(axis);
+  }
+  if (named.empty()) named = job->axes;  // what is known of the excitation may be old: let the controller say
+  const Command all = job->emergency ? make_command("L:E") : make_command("L:", named);
+  ExchangeResult result;
+  for (int attempt = 0; attempt < kStopTries; ++attempt) {
+    result = co_await write_stop_line(job, all);
+    if (result.reply || !result.written) break;
+  }
+  job->report.problem = result.problem;
+  for (auto& axis : job->report.axes) {
+    axis.named = named.has(axis.axis);
+    if (axis.named && result.reply) axis.wire_reply = result.reply->text;
+  }
+  if (!result.refused() || job->emergency || named.count() < 2) co_return;
+  for (auto& axis : job->report.axes) {
+    if (!axis.named) continue;
+    const auto one = co_await write_stop_line(job, make_command("L:", AxisSet::of(axis.axis)));
+    axis.wire_reply = one.reply ? one.reply->text : "";
+  }
+}
+
+Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
+  const TimePoint limit = now_ + kStandstillLimit;
+  bool ready = false, once_more = true;
+  while (now_ < limit && state_.link != LinkState::down) {
+    const auto read = co_await read_positions(Lane::motion, job->context.who);
+    ready = read.has_value();
+    for (auto& axis : job->report.axes) {
+      if (!read) continue;
+      axis.ready = !state_.axis(axis.axis).busy.value_or(true);
+      axis.position_pulses = state_.axis(axis.axis).position_pulses;
+      ready = ready && *axis.ready;
+    }
+    if (ready) {
+      const bool empty = co_await prebuffer_is_empty(job);
+      if (empty || !once_more) break;
+      // A kept segment may start by itself: look again, and stop it once more.
+      once_more = false;
+      ready = false;
+      const Command again = job->emergency ? make_command("L:E") : make_command("L:", job->axes);
+      const auto stopped = co_await write_stop_line(job, again);
+      if (!stopped.written) break;
+    }
+    auto pause = tick_.wait_until(now_ + kStandstillPoll);
+    co_await pause;
+  }
+  if (ready && job->report.problem && job->report.problem->reason == Reason::outcome_unknown) {
+    job->report.problem.reset();  // the state seen is the outcome
+  } else if (!ready && !job->report.problem) {
+    job->report.problem = Problem{Reason::outcome_unknown,
+                                  "the axes were not seen to stand still",
+                                  "use the wired emergency stop if they move",
+                                  {},
+                                  {},
+                                  {}};
+  }
+}
+
+// Whether L: clears the prebuffer is not documented (manual 65), 87)); what it left would run on the next start.
+Task<bool> Controller::Impl::prebuffer_is_empty(StopJobPtr job) {
+  for (const std::string_view question : {"?:MP", "?:AP", "?:KP", "?:EP"}) {
+    const auto answer = co_await ask(question, Lane::motion, job->context.who);
+    if (!answer.reply || answer.problem) co_return true;  // cannot be told; the registers stay unknown
+    if (answer.reply->text.find_first_of("0123456789") == std::string::npos) continue;
+    job->report.problem = Problem{
+        Reason::left_over_setting,
+        fmt::format("the axes were stopped, but {} tells that a prebuffer setting is left in the controller", question),
+        "reset the controller (RESET: or power) before moving these axes",
+        {},
+        {},
+        answer.reply->text};
+    co_return false;
+  }
+  if (job->report.problem && job->report.problem->reason == Reason::left_over_setting) job->report.problem.reset();
+  co_return true;
+}
+
+void Controller::Impl::cancel(MotionId id, const RequestContext& context, OnDone done) {
+  const auto found = live_.find(id);
+  if (found == live_.end()) {
+    const bool ended = std::ranges::any_of(ended_, [id](const Motion& motion) { return motion.id == id; });
+    done(ended ? Result<void>()
+               : fail(Reason::not_found, fmt::format("there is no motion {}", id), "see `axisctl status`"));
+    return;
+  }
+  const LiveMotionPtr live = found->second;
+  if (live->inside_gate) {
+    stop(live->motion.axes, false, context, [done](const StopReport& report) {
+      done(report.problem ? Result<void>(tl::unexpected(*report.problem)) : Result<void>());
+    });
+    return;
+  }
+  live->stop_requested = true;
+  live->stopped_by = context.who;
+  gate_.withdraw([id](MotionId waiting) { return waiting == id; },
+                 {Reason::stopped, "cancelled by " + context.who + " before it was sent", {}, {}, {}, {}});
+  done({});
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,278 @@
+// Motions from their record to their outcome.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/shrc203/controller_impl.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+// Positions may still be the old ones for 0.1 s after a start; a READY elsewhere than at the target counts as the end
+// only after that, and when two readings agree.
+constexpr Duration kStartDoubt = std::chrono::milliseconds(300);
+constexpr Duration kConfirmAfter = std::chrono::milliseconds(60);
+// A gateway that does not hear the end of a motion for this long has lost it.
+constexpr int kReadFailuresMax = 20;
+
+}  // namespace
+
+LiveMotionPtr Controller::Impl::create_motion(MotionKind kind, AxisSet axes, RequestContext context,
+                                              OnStarted started) {
+  Motion motion;
+  motion.id = ++last_motion_;
+  motion.kind = kind;
+  motion.axes = axes;
+  for (const int axis : axes.list()) motion.results.push_back({axis, {}, {}, false});
+  motion.who = context.who;
+  motion.request_id = context.request_id;
+  motion.created = now_;
+  context.not_after = default_limit(context.not_after, kMotionLimit);
+  auto live = std::make_shared<LiveMotion>(executor_, std::move(motion), std::move(context));
+  live->on_started = std::move(started);
+  live_[live->motion.id] = live;
+  emit(MotionChanged{live->motion});
+  return live;
+}
+
+void Controller::Impl::set_state(LiveMotion& live, MotionState state) {
+  live.motion.state = state;
+  emit(MotionChanged{live.motion});
+}
+
+void Controller::Impl::mark_running(LiveMotionPtr live) {
+  if (live->motion.state != MotionState::queued) return;
+  live->motion.started = now_;
+  settled_ = false;
+  set_state(*live, live->stop_requested ? MotionState::stopping : MotionState::running);
+  wake_poll_.notify();
+  if (auto started = std::exchange(live->on_started, {})) started(live->motion);
+}
+
+void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::optional<Problem> problem) {
+  if (is_outcome(live->motion.state)) return;
+  const bool never_started = live->motion.state == MotionState::queued;
+  if (outcome == MotionState::succeeded && live->on_success) live->on_success();
+  live->motion.ended = now_;
+  live->motion.problem = std::move(problem);
+  for (auto& result : live->motion.results) result.command_pulses = state_.axis(result.axis).position_pulses;
+  settled_ = outcome == MotionState::succeeded;
+  if (!settled_ && !(never_started && live->motion.problem)) registers_.forget();
+  set_state(*live, outcome);
+  if (auto started = std::exchange(live->on_started, {})) {
+    if (never_started && live->motion.problem && outcome != MotionState::unknown) {
+      started(tl::unexpected(*live->motion.problem));
+    } else {
+      started(live->motion);
+    }
+  }
+  live_.erase(live->motion.id);
+  ended_.push_back(live->motion);
+  while (ended_.size() > kMotionsKept) ended_.pop_front();
+  if (live->inside_gate) gate_.leave(live->motion.id);
+  live->inside_gate = false;
+}
+
+Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live) {
+  auto entry = gate_.enter(live->motion.id, live->motion.axes, live->context.who, live->context.not_after);
+  const auto entered = co_await entry;
+  if (!entered) co_return entered;
+  live->inside_gate = true;
+  if (live->stop_requested) {
+    co_return fail(Reason::stopped, "a stop by " + live->stopped_by + " came before the motion was sent");
+  }
+  co_return Result<void>();
+}
+
+// Before anything is set: the axes stand, no late axis number can come, and nothing is left over in the registers.
+Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
+  if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
+    co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
+  }
+  const AxisSet axes = live->motion.axes;
+  while (!settled_ || !(line_.completions().outstanding(now_) & axes).empty()) {
+    const auto read = co_await read_positions(Lane::motion, live->context.who);
+    if (!read) co_return read;
+    bool busy = false;
+    for (const int axis : axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
+    if (!busy && (line_.completions().outstanding(now_) & axes).empty()) break;
+    if (now_ >= live->context.not_after) {
+      co_return fail(Reason::axis_busy, "the axes did not come to rest in the time allowed", "wait, or stop them");
+    }
+    auto pause = tick_.wait_until(now_ + kConfirmAfter);
+    co_await pause;
+    if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+  }
+  if (!registers_.known() || registers_.any()) {
+    const auto cleared = co_await clear_left_overs(live, reg);
+    if (!cleared) co_return cleared;
+  }
+  const auto problem = error_of(*live);
+  if (problem) co_return tl::unexpected(*problem);
+  co_return Result<void>();
+}
+
+// `reg` is about to be written on all the motion's axes: what it holds there is overwritten (manual 2. 2)).
+Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Register reg) {
+  const auto read = co_await read_registers(live->context.who);
+  if (!read) co_return read;
+  if (!registers_.clearable().empty()) {
+    ExchangeRequest request;
+    request.command = make_command("GC:", registers_.clearable() & state_.controllable());
+    request.lane = Lane::motion;
+    request.caller = live->context.who;
+    request.not_after = now_ + kStepLimit;
+    request.motion = live->motion.id;
+    auto pending = line_.exchange(std::move(request), now_);
+    const auto cleared = co_await pending;
+    if (!cleared.accepted()) {
+      registers_.forget();
+      co_return fail(Reason::left_over_setting,
+                     "a motion that somebody set and never started is still in the controller, and GC: did not "
+                     "delete it",
+                     "see that all motors are excited and nothing moves, then try again");
+    }
+    registers_.cleared(AxisSet::all());
+  }
+  AxisSet lasting;
+  for (const Register kept :
+       {Register::j, Register::mp, Register::ap, Register::kp, Register::ep, Register::wt, Register::wi}) {
+    const AxisSet set = registers_.set_in(kept);
+    const bool overwritten = kept == reg && live->motion.axes.contains(set);
+    if (!overwritten) lasting = lasting | set;
+  }
+  const bool concerns =
+      profile_.prebuffer_scope == Scope::controller ? !lasting.empty() : lasting.touches(live->motion.axes);
+  if (concerns) {
+    co_return fail(Reason::left_over_setting,
+                   fmt::format("a prebuffer or jog setting is left over on {} and would run with the next start; no "
+                               "command is documented to clear it",
+                               to_string(lasting)),
+                   "reset the controller (RESET: or power), then home it");
+  }
+  co_return Result<void>();
+}
+
+bool Controller::Impl::at_targets(const LiveMotion& live) const {
+  return std::ranges::all_of(live.motion.results, [&](const AxisResult& result) {
+    return result.target_pulses && state_.axis(result.axis).position_pulses == result.target_pulses;
+  });
+}
+
+std::optional<Problem> Controller::Impl::error_of(const LiveMotion& live) const {
+  for (const int number : live.motion.axes.list()) {
+    const auto& status = state_.axis(number).status;
+    if (!status.any_error()) continue;
+    Problem problem{Reason::device_error,
+                    fmt::format("axis {} reports an error (status {:X})", number, status.raw),
+                    "`axisctl clear` clears limit, overflow and emergency errors",
+                    number,
+                    {},
+                    {}};
+    if (status.limit_error()) {
+      problem.reason = Reason::limit_detected;
+      problem.message = fmt::format("axis {} has met its limit", number);
+    }
+    if (status.emergency()) {
+      problem.reason = Reason::emergency_stopped;
+      problem.message = fmt::format("axis {} is in emergency stop", number);
+    }
+    return problem;
+  }
+  return {};
+}
+
+bool Controller::Impl::anything_moves() const {
+  const bool ours = std::ranges::any_of(live_, [](const auto& entry) {
+    return entry.second->motion.state == MotionState::running || entry.second->motion.state == MotionState::stopping;
+  });
+  return ours || std::ranges::any_of(state_.axes, [](const AxisState& axis) { return axis.busy.value_or(false); });
+}
+
+// Waits until every axis number has come, or something else happened to the motion, at most until `limit`.
+Task<void> Controller::Impl::wait_for_end(LiveMotionPtr live, TimePoint limit) {
+  while (now_ < limit && !live->line_lost && !live->woken) {
+    auto news = live->news.wait_until(limit);
+    co_await news;
+  }
+  live->woken = false;
+}
+
+// A completion wakes the check; READY, no error and the exact target make the success.
+Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
+  EndCheck check{.begun = now_, .start_in_doubt = start_in_doubt};
+  Duration pause = profile_.moving_poll;
+  int failures = 0;
+  while (!is_outcome(live->motion.state)) {
+    const bool hinted = live->woken;
+    co_await wait_for_end(live, now_ + pause);
+    if (live->line_lost) {
+      end_motion(live, MotionState::unknown,
+                 Problem{Reason::outcome_unknown,
+                         "the line was lost while the motion was under way: " + live->line_problem,
+                         "look at the positions before moving on",
+                         {},
+                         {},
+                         {}});
+      co_return;
+    }
+    const bool completed = live->completed == live->motion.axes;
+    const auto read = co_await read_positions(completed ? Lane::motion : Lane::poll, live->context.who);
+    if (live->line_lost) continue;
+    if (read) {
+      judge(live, check);
+      failures = 0;
+    } else if (++failures > kReadFailuresMax) {
+      end_motion(live, MotionState::unknown, read.error());
+    }
+    // A completion may precede READY by the settling (open question completion_before_settle).
+    pause = hinted || completed || check.ready ? std::min(profile_.moving_poll, kConfirmAfter) : profile_.moving_poll;
+  }
+}
+
+// Decides by the newest reading whether the motion has ended, and how.
+void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
+  bool busy = false;
+  for (const int axis : live->motion.axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
+  const bool stirred = live->completed == live->motion.axes || live->motion.state != MotionState::queued;
+  if (busy) {
+    check.ready = false;
+    mark_running(live);
+    return;
+  }
+  const auto error = error_of(*live);
+  // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
+  const bool evident = live->motion.kind != MotionKind::home || stirred;
+  if (at_targets(*live) && !error && evident) {
+    end_motion(live, MotionState::succeeded, {});
+    return;
+  }
+  const Positions here = positions_of(state_);
+  if (!check.ready || here != check.positions || now_ - check.begun < kStartDoubt) {
+    check.ready = true;
+    check.positions = here;
+    return;
+  }
+  if (check.start_in_doubt && live->motion.state == MotionState::queued && !error) {
+    end_motion(live, MotionState::unknown,
+               Problem{Reason::outcome_unknown,
+                       "the answer to the start was lost, and the axes stand elsewhere than at their targets",
+                       "look at the positions; the motion was not sent again",
+                       {},
+                       {},
+                       {}});
+  } else if (live->stop_requested) {
+    end_motion(live, MotionState::stopped, Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}});
+  } else {
+    end_motion(live, MotionState::failed,
+               error ? *error
+                     : Problem{Reason::target_not_reached,
+                               "the axes stand, but not at their targets",
+                               "look at the positions and the controller's front panel",
+                               {},
+                               {},
+                               {}});
+  }
+}
+
+}  // namespace axisgate::shrc203

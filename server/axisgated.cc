@@ -1,0 +1,116 @@
+// axisgated: owns the lines of the configured stage controllers and shares them over gRPC.
+#include <fmt/format.h>
+#include <pthread.h>
+#include <spdlog/spdlog.h>
+
+#include <CLI/CLI.hpp>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <memory>
+#include <string>
+
+#include "server/config.h"
+#include "server/explain.h"
+#include "server/gateway.h"
+#include "server/logging.h"
+#include "server/rpc/server.h"
+
+namespace axisgate {
+namespace {
+
+constexpr int kExitFailed = 1;
+constexpr int kExitUsage = 2;  // of the command line or the configuration
+
+struct Arguments {
+  std::string config;
+  bool check_config = false;
+};
+
+void describe(CLI::App& program, Arguments& arguments) {
+  program.add_option("--config", arguments.config,
+                     "TOML file with the devices; without it one simulated SHRC-203 named `stage` is served");
+  program.add_flag("--check-config", arguments.check_config, "Check the configuration, say what is wrong, and end");
+  program.set_version_flag("--version", "axisgated " AXISGATE_VERSION);
+  program.footer(
+      "Exit codes: 0 ended by SIGINT or SIGTERM, or all is well; 1 it could not start; 2 the command line or\n"
+      "the configuration is wrong.");
+}
+
+int complain(int exit_code, const std::string& what) {
+  fmt::print(stderr, "axisgated: {}\n", what);
+  return exit_code;
+}
+
+int complain(const std::vector<server::ConfigError>& errors) {
+  for (const server::ConfigError& error : errors) fmt::print(stderr, "{}\n", to_string(error));
+  return kExitUsage;
+}
+
+// Blocked in every thread started from here on, to be waited for in this one.
+sigset_t block_end_signals() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  sigaddset(&signals, SIGINT);
+  sigaddset(&signals, SIGTERM);
+  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+  // A reader that has gone is an error where it is written to, not the end of the daemon.
+  std::signal(SIGPIPE, SIG_IGN);
+  return signals;
+}
+
+int serve(const server::Config& config) {
+  const sigset_t end_signals = block_end_signals();
+  server::start_logging();
+  server::Gateway gateway(config);
+  const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
+  if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
+  const auto server = rpc::Server::start(gateway, config.listen, config.socket);
+  if (!server) return complain(kExitFailed, server::explain(server.error()));
+
+  const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};
+  spdlog::info("gRPC on {} and unix:{}", to_string((*server)->listen()), (*server)->socket());
+  spdlog::info("metrics on http://{}/metrics", to_string(metrics));
+  for (const auto& device : gateway.devices()) {
+    spdlog::info("device {}: SHRC-203 on {}", device->name(), device->line_description());
+  }
+  spdlog::default_logger()->flush();
+  gateway.start();
+
+  int signal = 0;
+  sigwait(&end_signals, &signal);
+  spdlog::info("ending: {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
+  return 0;
+}
+
+int main_program(int count, char** words) {
+  CLI::App program("Owns the serial lines of SHRC-203 stage controllers and shares them over gRPC.", "axisgated");
+  Arguments arguments;
+  describe(program, arguments);
+  try {
+    program.parse(count, words);
+  } catch (const CLI::ParseError& error) {
+    if (error.get_exit_code() == 0) return program.exit(error);
+    return complain(kExitUsage, fmt::format("{}; see --help", error.what()));
+  }
+  const bool from_file = !arguments.config.empty();
+  const server::Configured<server::Config> config =
+      from_file ? server::load_config(arguments.config) : server::default_config();
+  if (!config) return complain(config.error());
+  if (!arguments.check_config) return serve(*config);
+  const std::size_t devices = config->devices.size();
+  fmt::print("{}: ok, {} {}\n", from_file ? arguments.config : "built-in configuration", devices,
+             devices == 1 ? "device" : "devices");
+  return 0;
+}
+
+}  // namespace
+}  // namespace axisgate
+
+int main(int count, char** words) {
+  try {
+    return axisgate::main_program(count, words);
+  } catch (const std::exception& error) {
+    return axisgate::complain(axisgate::kExitFailed, error.what());
+  }
+}

@@ -1,0 +1,346 @@
+#include "server/config.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+#include <set>
+
+#include "device/core/quantity.h"
+#include "device/shrc203/simulator/options.h"
+#include "server/config_table.h"
+#include "server/default_socket.h"
+#include "server/explain.h"
+
+namespace axisgate::server {
+namespace {
+
+using shrc203::AxisProfile;
+using shrc203::Profile;
+using shrc203::Scope;
+
+constexpr std::uint16_t kGrpcPort = 50203;
+constexpr std::uint16_t kMetricsPort = 9203;
+constexpr std::size_t kFileBytesMax = 1 << 20;
+
+constexpr std::array<std::pair<std::string_view, Scope>, 2> kScopes = {
+    {{"axis", Scope::axis}, {"controller", Scope::controller}}};
+constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
+    {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
+constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
+    {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+constexpr std::array<std::pair<std::string_view, bool>, 2> kConnections = {{{"serial", true}, {"simulated", false}}};
+constexpr std::array<std::pair<std::string_view, bool>, 1> kKinds = {{{"shrc203", true}}};
+
+constexpr std::string_view kNameRule =
+    "a letter, then letters, digits, '-' or '_', at most 32 in all: names stand in resource names and metrics";
+
+// ASCII by hand: what a name may hold must not depend on the locale.
+bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
+bool is_name(std::string_view name) {
+  return !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
+         std::all_of(name.begin(), name.end(),
+                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; });
+}
+
+bool is_loopback(std::string_view host) { return host == "::1" || host == "127.0.0.1"; }
+
+std::optional<TcpAddress> parse_address(std::string_view text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string_view::npos) return std::nullopt;
+  std::string_view host = text.substr(0, colon);
+  const std::string_view port = text.substr(colon + 1);
+  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
+  if (host == "localhost") host = "127.0.0.1";
+  TcpAddress address{std::string(host), 0};
+  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
+  if (host.empty() || error != std::errc() || end != port.data() + port.size()) return std::nullopt;
+  return address;
+}
+
+class ConfigReader {
+ public:
+  ConfigReader(std::string file, std::vector<ConfigError>& errors) : file_(std::move(file)), errors_(errors) {}
+
+  Config read(const toml::table& root) {
+    ConfigTable table(root, "", file_, errors_);
+    Config config = default_config();
+    config.devices.clear();
+    read_address(table, "listen", config.listen, "gRPC");
+    if (const auto socket = table.text("socket")) config.socket = checked_socket(table, *socket);
+    read_address(table, "metrics", config.metrics, "metrics");
+    const auto devices = table.tables("device");
+    if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
+    for (const toml::table* device : devices) config.devices.push_back(read_device(*device));
+    table.refuse_unknown();
+    return config;
+  }
+
+ private:
+  void read_address(ConfigTable& table, std::string_view key, TcpAddress& address, std::string_view what) {
+    const std::optional<std::string> text = table.text(key);
+    if (!text) return;
+    const std::optional<TcpAddress> parsed = parse_address(*text);
+    if (!parsed) {
+      table.error(key, fmt::format("\"{}\" is not HOST:PORT, e.g. \"127.0.0.1:{}\"", *text, address.port));
+    } else if (!is_loopback(parsed->host)) {
+      table.error(key, fmt::format("\"{}\" would offer {} to the network, where nobody is asked who they are yet; use "
+                                   "127.0.0.1, localhost or [::1], and a tunnel (ssh -L) from elsewhere",
+                                   *text, what));
+    } else {
+      address = *parsed;
+    }
+  }
+
+  std::string checked_socket(ConfigTable& table, const std::string& path) {
+    // sockaddr_un holds 108 bytes with the final zero.
+    if (path.empty() || path.front() != '/' || path.size() > 107) {
+      table.error("socket", fmt::format("\"{}\" will not do; use an absolute path of at most 107 bytes", path));
+    }
+    return path;
+  }
+
+  DeviceConfig read_device(const toml::table& source) {
+    ConfigTable table(source, "device", file_, errors_);
+    DeviceConfig device;
+    read_name(table, device.profile.name);
+    table.choice<bool>("kind", kKinds);
+    read_line(table, device);
+    read_limits(table, device.profile);
+    read_axes(table, device.profile);
+    table.refuse_unknown();
+    return device;
+  }
+
+  void read_name(ConfigTable& table, std::string& name) {
+    const std::optional<std::string> given = table.text("name");
+    if (!given) {
+      if (!table.has("name")) table.missing("name", kNameRule);
+      return;
+    }
+    if (!is_name(*given)) {
+      table.error("name", fmt::format("\"{}\" is not a name; use {}", *given, kNameRule));
+    } else if (!names_.insert(*given).second) {
+      table.error("name", fmt::format("\"{}\" is the name of another device, too; names must differ", *given));
+    }
+    name = *given;
+  }
+
+  void read_line(ConfigTable& table, DeviceConfig& device) {
+    const std::optional<bool> serial = table.choice<bool>("connection", kConnections);
+    if (!serial && !table.has("connection")) table.missing("connection", "\"serial\" or \"simulated\"");
+    const std::optional<std::int64_t> baud = table.integer("baud", 300, 4'000'000);
+    if (baud) device.profile.baud = static_cast<int>(*baud);
+    if (!serial) {
+      // Without the connection it is not known which of these keys belong here: none is called unknown.
+      for (const char* key : {"path", "parity", "stop_bits", "flow_control", "serial_number", "speed", "options"}) {
+        table.allow(key);
+      }
+    } else if (*serial) {
+      device.connection = read_serial(table, device.profile);
+    } else {
+      SimulatedConnection simulated = read_simulated(table);
+      simulated.paced = baud.has_value();
+      device.connection = std::move(simulated);
+    }
+  }
+
+  SerialSettings read_serial(ConfigTable& table, Profile& profile) {
+    SerialSettings serial;
+    const std::optional<std::string> path = table.text("path");
+    if (!path && !table.has("path"))
+      table.missing("path", "the tty, e.g. \"/dev/ttyUSB0\" or one of /dev/serial/by-id");
+    if (path && (path->empty() || path->front() != '/')) {
+      table.error("path", fmt::format("\"{}\" is not an absolute path, e.g. \"/dev/ttyUSB0\"", *path));
+    } else if (path && !ttys_.insert(*path).second) {
+      table.error("path", fmt::format("\"{}\" is the line of another device, too; each has its own", *path));
+    }
+    serial.path = path.value_or("");
+    serial.parity = table.choice<Parity>("parity", kParities).value_or(serial.parity);
+    serial.stop_bits = static_cast<int>(table.integer("stop_bits", 1, 2).value_or(serial.stop_bits));
+    serial.flow = table.choice<FlowControl>("flow_control", kFlowControls).value_or(serial.flow);
+    serial.baud = profile.baud;
+    profile.serial_number = table.text("serial_number").value_or("");
+    return serial;
+  }
+
+  SimulatedConnection read_simulated(ConfigTable& table) {
+    SimulatedConnection simulated;
+    simulated.speed =
+        table.number("speed", 0.001, 10'000, "how many times as fast as real time, from 0.001 to 10000").value_or(1);
+    const toml::table* options = table.table("options");
+    if (options == nullptr) return simulated;
+    ConfigTable chosen(*options, "device.options", file_, errors_);
+    shrc203::simulator::Options known;
+    for (const auto& [key, node] : *options) {
+      const std::optional<std::string> value = chosen.text(key.str());
+      if (!value) continue;
+      if (const Result<void> set = known.set(key.str(), *value); !set) {
+        chosen.error(key.str(), explain(set.error()));
+      } else {
+        simulated.options.emplace_back(key.str(), *value);
+      }
+    }
+    return simulated;
+  }
+
+  void read_limits(ConfigTable& table, Profile& profile) {
+    profile.busy_scope = table.choice<Scope>("busy_scope", kScopes).value_or(profile.busy_scope);
+    profile.prebuffer_scope = table.choice<Scope>("prebuffer_scope", kScopes).value_or(profile.prebuffer_scope);
+    read_milliseconds(table, "reply_limit_ms", 50, 60'000, profile.reply_limit);
+    read_milliseconds(table, "idle_poll_ms", 10, 60'000, profile.idle_poll);
+    read_milliseconds(table, "moving_poll_ms", 10, 10'000, profile.moving_poll);
+  }
+
+  static void read_milliseconds(ConfigTable& table, std::string_view key, int minimum, int maximum, Duration& into) {
+    if (const auto value = table.integer(key, minimum, maximum)) into = std::chrono::milliseconds(*value);
+  }
+
+  void read_axes(ConfigTable& table, Profile& profile) {
+    std::set<std::int64_t> numbers;
+    std::set<std::string> names;
+    for (const toml::table* source : table.tables("axis")) {
+      ConfigTable axis(*source, "device.axis", file_, errors_);
+      const std::optional<std::int64_t> number = axis.integer("number", 1, shrc203::kAxisCount);
+      if (!number && !axis.has("number")) axis.missing("number", "1, 2 or 3");
+      if (number && !numbers.insert(*number).second) {
+        axis.error("number", fmt::format("{} is the number of another axis of this device, too", *number));
+      }
+      AxisProfile read = read_axis(axis);
+      if (!read.name.empty() && !names.insert(read.name).second) {
+        axis.error("name", fmt::format("\"{}\" is the name of another axis of this device, too", read.name));
+      }
+      if (number) profile.axes[static_cast<std::size_t>(*number - 1)] = std::move(read);
+      axis.refuse_unknown();
+    }
+  }
+
+  AxisProfile read_axis(ConfigTable& table) {
+    AxisProfile axis;
+    axis.name = table.text("name").value_or("");
+    if (!axis.name.empty() && !is_name(axis.name)) {
+      table.error("name", fmt::format("\"{}\" is not a name; use {}", axis.name, kNameRule));
+    }
+    if (const std::optional<std::string> unit = table.text("unit")) {
+      if (const Result<Unit> parsed = parse_unit(*unit)) {
+        axis.unit = *parsed;
+      } else {
+        table.error("unit", fmt::format("\"{}\" is not a unit; use pulse, nm, um, mm or deg", *unit));
+      }
+    }
+    axis.travel_minimum = read_quantity(table, "travel_minimum", axis.unit, parse_quantity);
+    axis.travel_maximum = read_quantity(table, "travel_maximum", axis.unit, parse_quantity);
+    axis.maximum_speed = read_quantity(table, "maximum_speed", axis.unit, parse_speed);
+    check_axis(table, axis);
+    return axis;
+  }
+
+  using Parse = Result<Quantity> (*)(std::string_view, Unit);
+  static std::optional<Quantity> read_quantity(ConfigTable& table, std::string_view key, Unit fallback, Parse parse) {
+    const std::optional<std::string> text = table.text(key);
+    if (!text) return std::nullopt;
+    const Result<Quantity> parsed = parse(*text, fallback);
+    if (!parsed) {
+      table.error(key, explain(parsed.error()));
+      return std::nullopt;
+    }
+    return *parsed;
+  }
+
+  static void check_axis(ConfigTable& table, const AxisProfile& axis) {
+    const std::array<std::pair<std::string_view, const std::optional<Quantity>*>, 3> limits = {
+        {{"travel_minimum", &axis.travel_minimum},
+         {"travel_maximum", &axis.travel_maximum},
+         {"maximum_speed", &axis.maximum_speed}}};
+    for (const auto& [key, limit] : limits) {
+      // Pulses go with either kind of axis.
+      if (!*limit || (*limit)->unit == Unit::pulses || axis.unit == Unit::pulses) continue;
+      if (((*limit)->unit == Unit::degrees) != (axis.unit == Unit::degrees)) {
+        table.error(key, fmt::format("is in {}, but the axis is shown in {}; an axis turns or slides, not both",
+                                     symbol((*limit)->unit), symbol(axis.unit)));
+      }
+    }
+    if (axis.maximum_speed && axis.maximum_speed->value.digits <= 0) {
+      table.error("maximum_speed", "must be above 0");
+    }
+    if (!axis.travel_minimum || !axis.travel_maximum) return;
+    const std::optional<bool> ascending = below(*axis.travel_minimum, *axis.travel_maximum);
+    if (ascending && !*ascending) table.error("travel_minimum", "must be below travel_maximum");
+  }
+
+  // Nothing where only the controller can tell, which knows what a pulse is.
+  static std::optional<bool> below(const Quantity& a, const Quantity& b) {
+    const bool comparable = a.unit == b.unit || (a.unit != Unit::pulses && b.unit != Unit::pulses);
+    if (!comparable) return std::nullopt;
+    return in_smallest_unit(a) < in_smallest_unit(b);
+  }
+
+  // A long double holds the 18 digits of a Decimal.
+  static long double in_smallest_unit(const Quantity& quantity) {
+    const int power = quantity.unit == Unit::millimeters ? 6 : quantity.unit == Unit::micrometers ? 3 : 0;
+    return static_cast<long double>(quantity.value.digits) * std::pow(10.0L, power - quantity.value.decimals);
+  }
+
+  std::string file_;
+  std::vector<ConfigError>& errors_;
+  std::set<std::string> names_;
+  std::set<std::string> ttys_;
+};
+
+}  // namespace
+
+std::string to_string(const TcpAddress& address) {
+  const bool version_6 = address.host.find(':') != std::string::npos;
+  return version_6 ? fmt::format("[{}]:{}", address.host, address.port)
+                   : fmt::format("{}:{}", address.host, address.port);
+}
+
+std::string to_string(const ConfigError& error) {
+  std::string text = error.file;
+  if (error.line > 0) text += fmt::format(":{}", error.line);
+  text += ": ";
+  if (!error.key.empty()) text += error.key + ": ";
+  return text + error.message;
+}
+
+Config default_config() {
+  return Config{{"127.0.0.1", kGrpcPort}, default_socket_to_listen(), {"127.0.0.1", kMetricsPort}, {DeviceConfig{}}};
+}
+
+Configured<Config> parse_config(std::string_view text, const std::string& file) {
+  std::vector<ConfigError> errors;
+  Config config;
+  try {
+    const toml::table root = toml::parse(text, file);
+    config = ConfigReader(file, errors).read(root);
+  } catch (const toml::parse_error& error) {
+    errors.push_back({file, error.source().begin.line, "", fmt::format("is not TOML: {}", error.description())});
+  }
+  if (errors.empty()) return config;
+  std::stable_sort(errors.begin(), errors.end(),
+                   [](const ConfigError& a, const ConfigError& b) { return a.line < b.line; });
+  return tl::unexpected(std::move(errors));
+}
+
+Configured<Config> load_config(const std::string& path) {
+  const auto failed = [&](std::string message) {
+    return tl::unexpected(std::vector<ConfigError>{{path, 0, "", std::move(message)}});
+  };
+  errno = 0;
+  std::ifstream file(path, std::ios::binary);
+  if (!file) return failed(fmt::format("cannot be opened: {}", std::strerror(errno)));
+  std::string text(kFileBytesMax + 1, '\0');
+  file.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (file.bad() || (file.fail() && !file.eof()))
+    return failed(fmt::format("cannot be read: {}", std::strerror(errno)));
+  text.resize(static_cast<std::size_t>(file.gcount()));
+  if (text.size() > kFileBytesMax) return failed("is larger than 1 MB: not a configuration");
+  return parse_config(text, path);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,65 @@
+// The daemon's configuration: a TOML file, checked whole before anything is opened.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <tl/expected.hpp>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "device/link/serial_port.h"
+#include "device/shrc203/profile.h"
+
+namespace axisgate::server {
+
+// HOST:PORT to listen on. Port 0 takes any free one; the log says which.
+struct TcpAddress {
+  std::string host;
+  std::uint16_t port = 0;
+
+  friend bool operator==(const TcpAddress&, const TcpAddress&) = default;
+};
+std::string to_string(const TcpAddress& address);  // "127.0.0.1:50203", "[::1]:50203"
+
+// The built-in simulator. With Profile::baud its bytes take the time that a real line takes.
+struct SimulatedConnection {
+  double speed = 1;    // its time runs so many times as fast
+  bool paced = false;  // a baud rate was given: bytes take their time
+  std::vector<std::pair<std::string, std::string>> options;
+};
+
+struct DeviceConfig {
+  shrc203::Profile profile;
+  std::variant<SimulatedConnection, SerialSettings> connection;
+};
+
+struct Config {
+  TcpAddress listen;
+  std::string socket;  // path of the Unix socket
+  TcpAddress metrics;
+  std::vector<DeviceConfig> devices;
+};
+
+struct ConfigError {
+  std::string file;
+  std::uint32_t line = 0;  // 0: the file as a whole
+  std::string key;         // "device.axis.unit"; empty where no key is meant
+  std::string message;
+};
+std::string to_string(const ConfigError& error);  // `lab.toml:12: device.axis.unit: ...`
+
+template <class T>
+using Configured = tl::expected<T, std::vector<ConfigError>>;
+
+// What the daemon runs without a file: one simulated SHRC-203 named `stage`.
+Config default_config();
+
+// Every error in the file is reported, in the order of the lines; a syntax error ends the reading.
+Configured<Config> load_config(const std::string& path);
+
+// The same of a text already read; `file` names it in errors.
+Configured<Config> parse_config(std::string_view text, const std::string& file);
+
+}  // namespace axisgate::server

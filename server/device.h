@@ -1,0 +1,56 @@
+// One configured controller: its Controller, the line under it, and what others may see of it.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "device/link/runner.h"
+#include "device/shrc203/controller.h"
+#include "server/device_events.h"
+#include "server/events/event_bus.h"
+#include "server/events/newest_state.h"
+#include "server/line.h"
+#include "server/metrics.h"
+
+namespace axisgate::server {
+
+class Device {
+ public:
+  // `bus`, `metrics` and the strand's io_context outlive this.
+  Device(shrc203::Profile profile, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
+         const Executor& readers);
+
+  // From any thread.
+  const std::string& name() const { return profile_.name; }
+  const shrc203::Profile& profile() const { return profile_; }
+  const std::string& line_description() const { return line_->description(); }
+  NewestState& newest_state() { return newest_state_; }
+
+  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  using Request = std::function<void(shrc203::Controller&, TimePoint)>;
+  void post(Request request);
+
+  // On the strand only: from within a posted request or a callback of the Controller.
+  std::uint64_t motion_revision(shrc203::MotionId motion) const { return events_.motion_revision(motion); }
+
+  void start();
+  void shutdown();
+
+ private:
+  void on_due(DeviceEvents::Due due);
+  void publish_due();
+
+  const shrc203::Profile profile_;
+  std::unique_ptr<Line> line_;
+  NewestState newest_state_;
+  DeviceMetrics metrics_;
+  DeviceEvents events_;
+  Runner runner_;
+  shrc203::Controller controller_;
+  bool publishing_ = false;  // a posted publish_due() is under way
+  bool state_due_ = false;
+};
+
+}  // namespace axisgate::server

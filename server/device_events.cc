@@ -1,0 +1,86 @@
+#include "server/device_events.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "device/core/escape.h"
+#include "server/explain.h"
+
+namespace axisgate::server {
+namespace {
+
+constexpr Duration kStrangeLinePause = std::chrono::seconds(1);
+
+std::string because(const std::optional<Problem>& problem) {
+  return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
+}
+
+}  // namespace
+
+DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, OnDue due)
+    : device_(std::move(device)), bus_(bus), metrics_(metrics), due_(std::move(due)) {}
+
+void DeviceEvents::on_event(const shrc203::Event& event, TimePoint now) {
+  metrics_.on_event(event);
+  std::visit([&](const auto& what) { tell(what, now); }, event);
+}
+
+std::uint64_t DeviceEvents::motion_revision(shrc203::MotionId motion) const {
+  const auto found = revisions_.find(motion);
+  return found == revisions_.end() ? 0 : found->second;
+}
+
+void DeviceEvents::tell(const shrc203::MotionChanged& change, TimePoint now) {
+  const shrc203::Motion& motion = change.motion;
+  revisions_[motion.id] = publish(change, now);
+  if (revisions_.size() > kMotionsRemembered) revisions_.erase(revisions_.begin());
+  if (motion.state == shrc203::MotionState::queued || motion.state == shrc203::MotionState::stopping) return;
+  const bool well = motion.state == shrc203::MotionState::running || motion.state == shrc203::MotionState::succeeded;
+  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({} of {}, asked by {}) is {}{}",
+              device_, motion.id, shrc203::name(motion.kind), to_string(motion.axes), escaped(motion.who),
+              shrc203::name(motion.state), because(motion.problem));
+}
+
+void DeviceEvents::tell(const shrc203::LinkChanged& change, TimePoint now) {
+  publish(change, now);
+  const bool well = change.link == shrc203::LinkState::up || change.link == shrc203::LinkState::connecting;
+  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: link is {}{}{}", device_,
+              shrc203::name(change.link), change.why.empty() ? "" : ": ", change.why);
+  due_(Due::state);
+}
+
+void DeviceEvents::tell(const shrc203::StopRequested& stop, TimePoint now) {
+  publish(stop, now);
+  spdlog::warn("{}: {} of {} asked by {}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
+               escaped(stop.who));
+}
+
+void DeviceEvents::tell(const shrc203::PathProgress& progress, TimePoint now) {
+  publish(progress, now);
+  if (progress.step != shrc203::PathProgress::Step::underrun) return;
+  spdlog::warn("{}: motion {}: underrun before segment {}: the chain had ended, the path goes on from rest", device_,
+               progress.motion, progress.segment);
+}
+
+void DeviceEvents::tell(const shrc203::BarrierEntered& barrier, TimePoint) {
+  spdlog::warn("{}: replies cannot be trusted until the barrier has passed: {}", device_, barrier.why);
+}
+
+void DeviceEvents::tell(const shrc203::UnexpectedLine& line, TimePoint now) {
+  if (now < next_strange_line_) {
+    ++strange_lines_untold_;
+    return;
+  }
+  spdlog::warn("{}: dropped a line that nothing waited for: \"{}\" ({} more since the last such message)", device_,
+               escaped(line.text), strange_lines_untold_);
+  next_strange_line_ = now + kStrangeLinePause;
+  strange_lines_untold_ = 0;
+}
+
+std::uint64_t DeviceEvents::publish(Fact fact, TimePoint now) {
+  return bus_.publish(device_, std::move(fact), to_wall(now), now);
+}
+
+}  // namespace axisgate::server

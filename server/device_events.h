@@ -1,0 +1,56 @@
+// Where one device's news go: the event bus, the metrics and the log.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <string>
+
+#include "device/shrc203/event.h"
+#include "server/events/event_bus.h"
+#include "server/metrics.h"
+
+namespace axisgate::server {
+
+// Called on the device's strand, as EventSink demands.
+class DeviceEvents : public shrc203::EventSink {
+ public:
+  // What the listener owes after an event: `queues` or the whole `state` changed. Called from within on_event().
+  enum class Due { queues, state };
+  using OnDue = std::function<void(Due)>;
+
+  // `bus` and `metrics` outlive this.
+  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, OnDue due);
+
+  void on_event(const shrc203::Event& event, TimePoint now) override;
+
+  // The revision of the newest fact about a motion; 0 when there is none or it is long ago.
+  std::uint64_t motion_revision(shrc203::MotionId motion) const;
+
+ private:
+  // Revisions of this many motions are remembered; more than the controller keeps motions.
+  static constexpr std::size_t kMotionsRemembered = 4096;
+
+  void tell(const shrc203::MotionChanged& change, TimePoint now);
+  void tell(const shrc203::LinkChanged& change, TimePoint now);
+  void tell(const shrc203::StopRequested& stop, TimePoint now);
+  void tell(const shrc203::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
+  void tell(const shrc203::PathProgress& progress, TimePoint now);
+  void tell(const shrc203::BarrierEntered& barrier, TimePoint now);
+  void tell(const shrc203::UnexpectedLine& line, TimePoint now);
+  void tell(const shrc203::ExchangeEnded&, TimePoint) { due_(Due::queues); }
+  void tell(const shrc203::StateChanged&, TimePoint) { due_(Due::state); }
+
+  std::uint64_t publish(Fact fact, TimePoint now);
+
+  const std::string device_;
+  EventBus& bus_;
+  DeviceMetrics& metrics_;
+  const OnDue due_;
+  std::map<shrc203::MotionId, std::uint64_t> revisions_;
+  // A chattering line must not fill the disk: one log line a second, and how many were left out.
+  TimePoint next_strange_line_{};
+  std::uint64_t strange_lines_untold_ = 0;
+};
+
+}  // namespace axisgate::server

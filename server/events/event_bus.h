@@ -1,0 +1,65 @@
+// The facts of all devices in one numbered row, kept for readers that come late or come back.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "device/core/time.h"
+#include "device/shrc203/event.h"
+#include "server/events/wake_ups.h"
+#include "server/wall_time.h"
+
+namespace axisgate::server {
+
+// What is told to everybody, each exactly once and in order. Telemetry is not among it: newest_state.h.
+using Fact = std::variant<shrc203::MotionChanged, shrc203::CompletionSeen, shrc203::PathProgress, shrc203::LinkChanged,
+                          shrc203::StopRequested>;
+
+struct FactRecord {
+  std::uint64_t revision = 0;  // counts from 1 as long as the daemon runs, over all devices
+  std::string device;
+  WallTime time{};
+  TimePoint monotonic{};
+  Fact fact;
+};
+
+// Thread safe. Publishing never waits for a reader.
+class EventBus {
+ public:
+  static constexpr std::size_t kFactsKept = 10'000;
+
+  explicit EventBus(Executor executor, std::size_t facts_kept = kFactsKept);
+
+  std::uint64_t publish(std::string device, Fact fact, WallTime time, TimePoint monotonic);
+
+  // 0 before the first fact.
+  std::uint64_t newest_revision() const;
+
+  struct Reading {
+    std::vector<std::shared_ptr<const FactRecord>> facts;
+    std::uint64_t next = 1;  // the revision to ask for next
+    // `from` is no longer kept, or lies beyond the next revision, as one of another run of the daemon may: nothing is
+    // read, and `next` is the oldest revision that can be had.
+    bool compacted = false;
+  };
+  // The facts from revision `from` on, at most `limit`; 0 means the oldest that is kept.
+  Reading read(std::uint64_t from, std::size_t limit) const;
+
+  // `wake` is called after facts were published: read again. It says only that, and may come once for many facts.
+  std::unique_ptr<WakeUps::Subscription> subscribe(std::function<void()> wake);
+
+ private:
+  const std::size_t facts_kept_;
+  mutable std::mutex mutex_;
+  std::deque<std::shared_ptr<const FactRecord>> facts_;
+  std::uint64_t newest_ = 0;
+  WakeUps wake_ups_;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,63 @@
+#include "server/gateway.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+
+namespace axisgate::server {
+namespace {
+
+std::string random_run() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+Executor posting_to(boost::asio::io_context& context) {
+  return [&context](std::function<void()> task) { boost::asio::post(context, std::move(task)); };
+}
+
+}  // namespace
+
+Gateway::Gateway(const Config& config) : run_(random_run()), events_(posting_to(readers_)) {
+  for (const DeviceConfig& device : config.devices) {
+    auto line = make_line(device, Strand(lines_.get_executor()));
+    devices_.push_back(std::make_unique<Device>(device.profile, std::move(line), Strand(lines_.get_executor()), events_,
+                                                metrics_, posting_to(readers_)));
+  }
+}
+
+Gateway::~Gateway() {
+  for (const auto& device : devices_) device->shutdown();
+  lines_work_.reset();
+  readers_work_.reset();
+  readers_.stop();
+  // What the lines still have to say in order has been said by shutdown(); their timers end with the thread.
+  lines_.stop();
+  if (lines_thread_.joinable()) lines_thread_.join();
+  if (readers_thread_.joinable()) readers_thread_.join();
+}
+
+void Gateway::start() {
+  lines_thread_ = std::thread([this] { lines_.run(); });
+  readers_thread_ = std::thread([this] { readers_.run(); });
+  for (const auto& device : devices_) device->start();
+}
+
+Device* Gateway::find(std::string_view name) const {
+  const auto found =
+      std::find_if(devices_.begin(), devices_.end(), [&](const auto& device) { return device->name() == name; });
+  return found == devices_.end() ? nullptr : found->get();
+}
+
+void Gateway::after(Duration wait, std::function<void()> task) {
+  auto timer = std::make_shared<boost::asio::steady_timer>(readers_);
+  timer->expires_after(wait);
+  // A cancelled timer is one of an io_context that ends.
+  timer->async_wait([timer, task = std::move(task)](const boost::system::error_code& error) {
+    if (!error) task();
+  });
+}
+
+}  // namespace axisgate::server

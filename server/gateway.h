@@ -1,0 +1,58 @@
+// The one place that wires everything below gRPC: devices, their lines, the event bus, metrics and the threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <vector>
+
+#include "device/core/time.h"
+#include "device/link/asio.h"
+#include "server/config.h"
+#include "server/device.h"
+#include "server/events/event_bus.h"
+#include "server/metrics.h"
+
+namespace axisgate::server {
+
+// Two threads: one drives all lines, each device on a strand of its own; the other wakes the readers of streams, so
+// that a thousand of them cost the lines nothing. Every member may be called from any thread once start() has returned.
+class Gateway {
+ public:
+  explicit Gateway(const Config& config);
+  // Ends the threads. Whoever posted a request to a device is gone by then: an unanswered one never will be answered.
+  ~Gateway();
+  Gateway(const Gateway&) = delete;
+  Gateway& operator=(const Gateway&) = delete;
+
+  void start();
+
+  // Another text for every start of the daemon, when revisions and motions count from 1 anew.
+  const std::string& run() const { return run_; }
+
+  EventBus& events() { return events_; }
+  Metrics& metrics() { return metrics_; }
+  const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
+  Device* find(std::string_view name) const;  // null when there is none
+
+  // Calls `task` once on the readers' thread.
+  void after(Duration wait, std::function<void()> task);
+
+ private:
+  using Work = boost::asio::executor_work_guard<boost::asio::io_context::executor_type>;
+
+  const std::string run_;
+  boost::asio::io_context lines_{1};
+  boost::asio::io_context readers_{1};
+  Work lines_work_{lines_.get_executor()};
+  Work readers_work_{readers_.get_executor()};
+  Metrics metrics_;
+  EventBus events_;
+  std::vector<std::unique_ptr<Device>> devices_;
+  std::thread lines_thread_;
+  std::thread readers_thread_;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,78 @@
+#include "server/line.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+#include <variant>
+
+#include "device/link/serial_port.h"
+#include "device/link/socket_pair.h"
+#include "device/shrc203/simulator/options.h"
+#include "device/shrc203/simulator/paced_line.h"
+#include "device/shrc203/simulator/simulator.h"
+
+namespace axisgate::server {
+namespace {
+
+namespace simulator = shrc203::simulator;
+
+class SerialLine final : public Line {
+ public:
+  explicit SerialLine(SerialSettings settings)
+      : settings_(std::move(settings)), description_(fmt::format("{} at {} baud", settings_.path, settings_.baud)) {}
+
+  Opener opener() override {
+    return [settings = settings_] { return open_serial(settings); };
+  }
+  const std::string& description() const override { return description_; }
+  void start() override {}
+  void shutdown() override {}
+
+ private:
+  const SerialSettings settings_;
+  const std::string description_;
+};
+
+class SimulatedLine final : public Line {
+ public:
+  SimulatedLine(simulator::Pacing pacing, simulator::Options options, Strand strand, std::string description)
+      : description_(std::move(description)),
+        runner_(std::move(strand)),
+        device_(pacing, runner_, [&options](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+          return std::make_unique<simulator::Simulator>(std::move(options), inside);
+        }) {
+    runner_.attach(device_);
+  }
+
+  Opener opener() override { return line_to(runner_); }
+  const std::string& description() const override { return description_; }
+  void start() override { runner_.start(); }
+  void shutdown() override { runner_.shutdown(); }
+
+ private:
+  const std::string description_;
+  Runner runner_;
+  simulator::PacedLine device_;
+};
+
+std::unique_ptr<Line> make_simulated(const SimulatedConnection& connection, const shrc203::Profile& profile,
+                                     Strand strand) {
+  simulator::Options options;
+  // The names were checked as the configuration was read.
+  for (const auto& [name, value] : connection.options) (void)options.set(name, value);
+  if (!profile.serial_number.empty()) options.serial_number = profile.serial_number;
+  const simulator::Pacing pacing{connection.paced ? profile.baud : 0, Duration{}, connection.speed};
+  return std::make_unique<SimulatedLine>(pacing, std::move(options), std::move(strand),
+                                         fmt::format("built-in simulator, speed {}", connection.speed));
+}
+
+}  // namespace
+
+std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand) {
+  if (const auto* serial = std::get_if<SerialSettings>(&config.connection)) {
+    return std::make_unique<SerialLine>(*serial);
+  }
+  return make_simulated(std::get<SimulatedConnection>(config.connection), config.profile, std::move(strand));
+}
+
+}  // namespace axisgate::server

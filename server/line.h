@@ -1,0 +1,28 @@
+// What lies under a device's Runner: a serial port, or the built-in simulator at the other end of a socket pair.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "device/core/problem.h"
+#include "device/link/runner.h"
+#include "server/config.h"
+
+namespace axisgate::server {
+
+// Used by one Device, which outlives neither this nor the strand's io_context.
+class Line {
+ public:
+  virtual ~Line() = default;
+
+  virtual Opener opener() = 0;
+  virtual const std::string& description() const = 0;  // for the log: "/dev/ttyUSB0 at 38400 baud"
+
+  virtual void start() = 0;
+  virtual void shutdown() = 0;
+};
+
+// `strand` is the simulator's.
+std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand);
+
+}  // namespace axisgate::server

@@ -1,0 +1,152 @@
+#include "server/metrics.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <exception>
+#include <limits>
+#include <utility>
+#include <variant>
+
+namespace axisgate::server {
+namespace {
+
+using prometheus::Counter;
+using prometheus::Family;
+using prometheus::Gauge;
+using prometheus::Histogram;
+
+Family<Counter>& counter(prometheus::Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildCounter().Name(name).Help(help).Register(registry);
+}
+
+Family<Gauge>& gauge(prometheus::Registry& registry, const char* name, const char* help) {
+  return prometheus::BuildGauge().Name(name).Help(help).Register(registry);
+}
+
+// Seconds. A question and its reply take 12 ms at 38400 baud, 46 ms at 9600; the reply's time limit is 0.5 s, 5 s for
+// a few commands.
+const Histogram::BucketBoundaries kExchangeSeconds = {0.0005, 0.001, 0.002, 0.005, 0.01, 0.02,
+                                                      0.05,   0.1,   0.2,   0.5,   1,    5};
+
+}  // namespace
+
+Metrics::Metrics()
+    : registry_(std::make_shared<prometheus::Registry>()),
+      exchanges_(counter(*registry_, "axisgate_exchanges_total",
+                         "Commands sent over the line, by how the exchange ended: ok, ok_d, ng and ng_i are the "
+                         "controller's answers, data is an answered question.")),
+      exchange_seconds_(prometheus::BuildHistogram()
+                            .Name("axisgate_exchange_seconds")
+                            .Help("Time from writing a command to the last byte of its reply.")
+                            .Register(*registry_)),
+      queue_depth_(gauge(*registry_, "axisgate_queue_depth", "Commands that wait for the line.")),
+      completions_(counter(*registry_, "axisgate_completions_total",
+                           "Axis numbers that came over the line by themselves: the axis said that it arrived.")),
+      motions_(counter(*registry_, "axisgate_motions_total", "Motions that ended, by kind and outcome.")),
+      stops_(counter(*registry_, "axisgate_stops_total",
+                     "Stops asked for: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
+      positions_(gauge(*registry_, "axisgate_position_pulses",
+                       "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
+      link_up_(gauge(*registry_, "axisgate_link_up", "1 when the configured controller answers, else 0.")),
+      barriers_(counter(*registry_, "axisgate_barriers_total",
+                        "How often a time limit or garbage made the gateway find its place in the replies anew.")),
+      underruns_(counter(*registry_, "axisgate_underruns_total",
+                         "Path segments that came after the chain had ended: OK where OK_D was due.")),
+      unexpected_lines_(counter(*registry_, "axisgate_unexpected_lines_total",
+                                "Lines from the controller that nothing waited for; they are dropped.")) {}
+
+Result<int> Metrics::expose(const TcpAddress& address) {
+  // civetweb tells no more than that it failed, and practically only a port in use makes it fail.
+  try {
+    exposer_ = std::make_unique<prometheus::Exposer>(to_string(address));
+  } catch (const std::exception&) {
+    return fail(Reason::internal,
+                fmt::format("cannot serve metrics on {}: the port is in use or not permitted", to_string(address)),
+                "stop the program that holds it, or set another address with the key `metrics` in the configuration");
+  }
+  exposer_->RegisterCollectable(registry_);
+  return exposer_->GetListeningPorts().front();
+}
+
+DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
+    : metrics_(metrics),
+      device_(std::move(device)),
+      normal_stops_(metrics.stops_.Add({{"device", device_}, {"kind", "normal"}})),
+      emergency_stops_(metrics.stops_.Add({{"device", device_}, {"kind", "emergency"}})),
+      link_up_(metrics.link_up_.Add({{"device", device_}})),
+      barriers_(metrics.barriers_.Add({{"device", device_}})),
+      underruns_(metrics.underruns_.Add({{"device", device_}})),
+      unexpected_lines_(metrics.unexpected_lines_.Add({{"device", device_}})) {
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    lanes_[lane] = &metrics.queue_depth_.Add({{"device", device_}, {"lane", std::string(kLaneNames[lane])}});
+  }
+  for (std::size_t axis = 0; axis < completions_.size(); ++axis) {
+    completions_[axis] = &metrics.completions_.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
+  }
+}
+
+void DeviceMetrics::on_event(const shrc203::Event& event) {
+  std::visit([this](const auto& what) { count(what); }, event);
+}
+
+void DeviceMetrics::set_state(const shrc203::State& state) {
+  link_up_.Set(state.link == shrc203::LinkState::up ? 1 : 0);
+  for (std::size_t axis = 0; axis < positions_.size(); ++axis) {
+    const std::optional<std::int64_t>& position = state.axes[axis].position_pulses;
+    if (positions_[axis] == nullptr) {
+      if (!position) continue;
+      positions_[axis] = &metrics_.positions_.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
+    }
+    // A gauge is a double: exact up to 2^53 pulses, and the counter has ten digits.
+    positions_[axis]->Set(position ? static_cast<double>(*position) : std::numeric_limits<double>::quiet_NaN());
+  }
+}
+
+void DeviceMetrics::set_queued(Lane lane, std::size_t commands) {
+  lanes_[static_cast<std::size_t>(lane)]->Set(static_cast<double>(commands));
+}
+
+void DeviceMetrics::count(const shrc203::ExchangeEnded& exchange) {
+  CommandSeries& series = commands_[exchange.command];
+  Counter*& outcome = series.outcomes[static_cast<std::size_t>(exchange.outcome)];
+  if (outcome == nullptr) {
+    outcome = &metrics_.exchanges_.Add({{"device", device_},
+                                        {"command", std::string(exchange.command)},
+                                        {"outcome", std::string(shrc203::name(exchange.outcome))}});
+  }
+  outcome->Increment();
+  if (series.seconds == nullptr) {
+    series.seconds = &metrics_.exchange_seconds_.Add({{"device", device_}, {"command", std::string(exchange.command)}},
+                                                     kExchangeSeconds);
+  }
+  series.seconds->Observe(std::chrono::duration<double>(exchange.latency).count());
+}
+
+void DeviceMetrics::count(const shrc203::MotionChanged& change) {
+  if (!shrc203::is_outcome(change.motion.state)) return;
+  // Once a motion: the family finds its series again by itself.
+  metrics_.motions_
+      .Add({{"device", device_},
+            {"kind", std::string(shrc203::name(change.motion.kind))},
+            {"outcome", std::string(shrc203::name(change.motion.state))}})
+      .Increment();
+}
+
+void DeviceMetrics::count(const shrc203::CompletionSeen& completion) {
+  completions_.at(static_cast<std::size_t>(completion.axis - 1))->Increment();
+}
+
+void DeviceMetrics::count(const shrc203::PathProgress& progress) {
+  if (progress.step == shrc203::PathProgress::Step::underrun) underruns_.Increment();
+}
+
+void DeviceMetrics::count(const shrc203::StopRequested& stop) {
+  (stop.emergency ? emergency_stops_ : normal_stops_).Increment();
+}
+
+void DeviceMetrics::count(const shrc203::LinkChanged& change) {
+  link_up_.Set(change.link == shrc203::LinkState::up ? 1 : 0);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,93 @@
+// What Prometheus may know: fixed names, fixed label sets, one time series per device and table entry.
+#pragma once
+
+#include <prometheus/counter.h>
+#include <prometheus/exposer.h>
+#include <prometheus/family.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "device/core/lane.h"
+#include "device/core/problem.h"
+#include "device/shrc203/event.h"
+#include "server/config.h"
+
+namespace axisgate::server {
+
+// The families, one for the daemon. Thread safe once constructed.
+class Metrics {
+ public:
+  Metrics();
+
+  // Serves /metrics at the address and returns the port taken, or says why not (a port in use). Call it once.
+  Result<int> expose(const TcpAddress& address);
+
+  const std::shared_ptr<prometheus::Registry>& registry() const { return registry_; }
+
+ private:
+  friend class DeviceMetrics;
+
+  std::shared_ptr<prometheus::Registry> registry_;
+  prometheus::Family<prometheus::Counter>& exchanges_;
+  prometheus::Family<prometheus::Histogram>& exchange_seconds_;
+  prometheus::Family<prometheus::Gauge>& queue_depth_;
+  prometheus::Family<prometheus::Counter>& completions_;
+  prometheus::Family<prometheus::Counter>& motions_;
+  prometheus::Family<prometheus::Counter>& stops_;
+  prometheus::Family<prometheus::Gauge>& positions_;
+  prometheus::Family<prometheus::Gauge>& link_up_;
+  prometheus::Family<prometheus::Counter>& barriers_;
+  prometheus::Family<prometheus::Counter>& underruns_;
+  prometheus::Family<prometheus::Counter>& unexpected_lines_;
+  std::unique_ptr<prometheus::Exposer> exposer_;
+};
+
+// One device's time series, their handles kept. Called on the device's strand; `metrics` outlives it.
+class DeviceMetrics {
+ public:
+  DeviceMetrics(Metrics& metrics, std::string device);
+
+  void on_event(const shrc203::Event& event);
+  void set_state(const shrc203::State& state);
+  void set_queued(Lane lane, std::size_t commands);
+
+ private:
+  static constexpr std::size_t kOutcomeCount = 8;
+  struct CommandSeries {
+    std::array<prometheus::Counter*, kOutcomeCount> outcomes{};
+    prometheus::Histogram* seconds = nullptr;
+  };
+
+  void count(const shrc203::ExchangeEnded& exchange);
+  void count(const shrc203::MotionChanged& change);
+  void count(const shrc203::CompletionSeen& completion);
+  void count(const shrc203::PathProgress& progress);
+  void count(const shrc203::StopRequested& stop);
+  void count(const shrc203::LinkChanged& change);
+  void count(const shrc203::BarrierEntered&) { barriers_.Increment(); }
+  void count(const shrc203::UnexpectedLine&) { unexpected_lines_.Increment(); }
+  void count(const shrc203::StateChanged&) {}
+
+  Metrics& metrics_;
+  const std::string device_;
+  std::unordered_map<std::string_view, CommandSeries> commands_;  // keys are the command table's own names
+  std::array<prometheus::Gauge*, kLaneCount> lanes_{};
+  std::array<prometheus::Counter*, shrc203::kAxisCount> completions_{};
+  std::array<prometheus::Gauge*, shrc203::kAxisCount> positions_{};  // null until a position is known
+  prometheus::Counter& normal_stops_;
+  prometheus::Counter& emergency_stops_;
+  prometheus::Gauge& link_up_;
+  prometheus::Counter& barriers_;
+  prometheus::Counter& underruns_;
+  prometheus::Counter& unexpected_lines_;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,118 @@
+#include "server/rpc/command_service.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include "device/shrc203/codec.h"
+#include "device/shrc203/command_table.h"
+#include "server/rpc/call.h"
+#include "server/rpc/ended_stream.h"
+#include "server/rpc/execute_stream.h"
+#include "server/rpc/unary_call.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using shrc203::CommandRow;
+using shrc203::Parameter;
+
+constexpr int kLinesMax = 100;
+constexpr std::size_t kLineBytesMax = 256;
+constexpr Duration kTimeout = std::chrono::seconds(20);
+constexpr Duration kTimeoutMax = std::chrono::minutes(10);
+
+std::string describe(const Parameter& parameter) {
+  std::string text = fmt::format("{}: {}", parameter.letter, parameter.meaning);
+  if (parameter.maximum > parameter.minimum) {
+    text += fmt::format("; {} to {}", parameter.minimum, parameter.maximum);
+    if (!parameter.unit.empty()) text += fmt::format(" {}", parameter.unit);
+  }
+  return text;
+}
+
+void fill(api::Command& command, const CommandRow& row) {
+  static_assert(static_cast<int>(Lane::stop) + 1 == api::LANE_STOP);
+  static_assert(static_cast<int>(Lane::poll) + 1 == api::LANE_POLL);
+  command.set_name(std::string(row.name));
+  command.set_format(std::string(row.format));
+  command.set_description(std::string(row.description));
+  for (const Parameter& parameter : row.parameters) command.add_parameters(describe(parameter));
+  command.set_section(fmt::format("{})", row.section));
+  command.set_lane(static_cast<api::Lane>(static_cast<int>(row.lane) + 1));
+  command.set_moves(row.moves());
+}
+
+// What only this service bounds; the lines themselves are the controller's to judge.
+Result<void> check_lines(const api::ExecuteRequest& request) {
+  if (request.lines_size() < 1 || request.lines_size() > kLinesMax) {
+    return fail(Reason::invalid_request,
+                fmt::format("a transaction has 1 to {} lines, not {}", kLinesMax, request.lines_size()));
+  }
+  for (int i = 0; i < request.lines_size(); ++i) {
+    if (request.lines(i).size() > kLineBytesMax) {
+      return fail(Reason::malformed_line, fmt::format("line {} is longer than {} characters", i + 1, kLineBytesMax));
+    }
+  }
+  return {};
+}
+
+grpc::Status check_commands(const api::ExecuteRequest& request) {
+  for (int i = 0; i < request.lines_size(); ++i) {
+    if (const Result<shrc203::Command> command = shrc203::parse_command(request.lines(i)); !command) {
+      Problem problem = command.error();
+      problem.message = fmt::format("line {}: {}", i + 1, problem.message);
+      return to_status(problem);
+    }
+  }
+  return grpc::Status::OK;
+}
+
+Result<Duration> timeout_of(const api::ExecuteRequest& request) {
+  if (!request.has_timeout()) return kTimeout;
+  const std::int64_t seconds = request.timeout().seconds();
+  const std::int32_t nanos = request.timeout().nanos();
+  const Duration timeout =
+      std::chrono::seconds(std::clamp<std::int64_t>(seconds, -1, 3600)) + std::chrono::nanoseconds(nanos);
+  if (timeout <= Duration::zero() || timeout > kTimeoutMax) {
+    return fail(Reason::out_of_range, "timeout is not above 0 and at most 10 minutes");
+  }
+  return timeout;
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* CommandService::ListCommands(grpc::CallbackServerContext*,
+                                                       const api::ListCommandsRequest* request,
+                                                       api::ListCommandsResponse* response) {
+  const auto call = UnaryCall<api::ListCommandsResponse>::start(response);
+  const Result<server::Device*> device = find_device(gateway_, request->device());
+  if (!device) return call->refuse(device.error());
+  call->answer([](api::ListCommandsResponse& answer) {
+    for (const CommandRow& row : shrc203::command_table()) fill(*answer.add_commands(), row);
+  });
+  return call.get();
+}
+
+grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::CallbackServerContext* context,
+                                                                        const api::ExecuteRequest* request) {
+  using Ended = EndedStream<api::ExecuteResponse>;
+  const Result<server::Device*> device = find_device(gateway_, request->device());
+  if (!device) return new Ended(device.error());
+  if (const Result<void> checked = check_lines(*request); !checked) return new Ended(checked.error());
+  const Result<Duration> timeout = timeout_of(*request);
+  if (!timeout) return new Ended(timeout.error());
+  Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  if (!asked) return new Ended(asked.error());
+  if (!request->context().has_not_after()) asked->not_after = monotonic_now() + *timeout;
+  if (request->validate_only()) return new Ended(check_commands(*request));
+  Result<StreamLimit::Place> place = streams_.take();
+  if (!place) return new Ended(place.error());
+  shrc203::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};
+  return ExecuteStream::start(gateway_, **device, std::move(transaction), *timeout, *std::move(place));
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,62 @@
+// Reads the event bus one fact at a time, in portions behind the scenes.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "device/core/problem.h"
+#include "server/events/event_bus.h"
+#include "server/rpc/status.h"
+
+namespace axisgate::rpc {
+
+// Not thread safe: it belongs to one stream and is used under its lock.
+class FactReader {
+ public:
+  // From revision `from` on; 0: from the oldest that is kept. `bus` outlives this.
+  FactReader(const server::EventBus& bus, std::uint64_t from) : bus_(bus) { go_to(from); }
+
+  void go_to(std::uint64_t revision) { portion_ = {{}, revision, false}, taken_ = 0; }
+
+  struct Compacted {
+    std::uint64_t resume = 0;
+  };
+  struct Nothing {};
+  using Reading = std::variant<Nothing, std::shared_ptr<const server::FactRecord>, Compacted>;
+
+  Reading next() {
+    if (taken_ == portion_.facts.size()) {
+      portion_ = bus_.read(portion_.next, kPortion);
+      taken_ = 0;
+      if (portion_.compacted) return Compacted{portion_.next};
+      if (portion_.facts.empty()) return Nothing{};
+    }
+    return std::move(portion_.facts[taken_++]);
+  }
+
+ private:
+  static constexpr std::size_t kPortion = 64;
+
+  const server::EventBus& bus_;
+  server::EventBus::Reading portion_;
+  std::size_t taken_ = 0;
+};
+
+// How a stream ends that cannot go on: its reader was too slow, or asked for another run's revision.
+inline Problem compacted_problem() {
+  return {Reason::compacted,
+          "the events from the revision asked for on are not all kept",
+          "resume from metadata[\"resume_revision\"], and read the present state of what was missed",
+          {},
+          {},
+          {}};
+}
+inline Metadata resume_at(std::uint64_t revision) { return {{"resume_revision", std::to_string(revision)}}; }
+inline grpc::Status compacted_status(FactReader::Compacted compacted) {
+  return to_status(compacted_problem(), resume_at(compacted.resume));
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,74 @@
+#include "server/rpc/health_service.h"
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "server/rpc/ended_stream.h"
+#include "server/rpc/pull_stream.h"
+#include "server/rpc/unary_call.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using grpc::health::v1::HealthCheckRequest;
+using grpc::health::v1::HealthCheckResponse;
+
+// "" is the server as a whole.
+constexpr std::array<std::string_view, 5> kServices = {"", "axisgate.v1.DeviceService", "axisgate.v1.StageService",
+                                                       "axisgate.v1.EventService", "axisgate.v1.CommandService"};
+
+bool is_service(std::string_view name) {
+  return std::find(kServices.begin(), kServices.end(), name) != kServices.end();
+}
+
+// One answer, which never changes; the stream ends with the call.
+class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheckResponse>, HealthCheckResponse> {
+ public:
+  static HealthWatch* start(HealthCheckResponse::ServingStatus status, StreamLimit::Place place) {
+    std::shared_ptr<HealthWatch> watch(new HealthWatch(status, std::move(place)));
+    watch->open();
+    watch->pump();
+    return watch.get();
+  }
+
+ private:
+  HealthWatch(HealthCheckResponse::ServingStatus status, StreamLimit::Place place)
+      : status_(status), place_(std::move(place)) {}
+
+  Next next() override {
+    if (std::exchange(told_, true)) return Wait{};
+    HealthCheckResponse response;
+    response.set_status(status_);
+    return response;
+  }
+
+  const HealthCheckResponse::ServingStatus status_;
+  const StreamLimit::Place place_;
+  bool told_ = false;
+};
+
+}  // namespace
+
+grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, const HealthCheckRequest* request,
+                                               HealthCheckResponse* response) {
+  const auto call = UnaryCall<HealthCheckResponse>::start(response);
+  if (!is_service(request->service())) {
+    return call->refuse({Reason::not_found, "no service of that name is served here", "", {}, {}, {}});
+  }
+  call->answer([](HealthCheckResponse& answer) { answer.set_status(HealthCheckResponse::SERVING); });
+  return call.get();
+}
+
+grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext*,
+                                                                    const HealthCheckRequest* request) {
+  Result<StreamLimit::Place> place = streams_.take();
+  if (!place) return new EndedStream<HealthCheckResponse>(place.error());
+  const bool known = is_service(request->service());
+  return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,
+                            *std::move(place));
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,208 @@
+#include "server/rpc/news.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "device/core/escape.h"
+#include "server/rpc/amounts.h"
+#include "server/rpc/call.h"
+#include "server/rpc/status.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using shrc203::LinkState;
+using shrc203::MotionKind;
+using shrc203::MotionState;
+
+api::LinkState to_link_state(LinkState state) {
+  static_assert(static_cast<int>(LinkState::down) + 1 == api::LINK_STATE_DOWN);
+  static_assert(static_cast<int>(LinkState::connecting) + 1 == api::LINK_STATE_CONNECTING);
+  static_assert(static_cast<int>(LinkState::up) + 1 == api::LINK_STATE_UP);
+  static_assert(static_cast<int>(LinkState::doubtful) + 1 == api::LINK_STATE_DOUBTFUL);
+  return static_cast<api::LinkState>(static_cast<int>(state) + 1);
+}
+
+api::MotionKind to_motion_kind(MotionKind kind) {
+  static_assert(static_cast<int>(MotionKind::move) + 1 == api::MOTION_KIND_MOVE);
+  static_assert(static_cast<int>(MotionKind::execute) + 1 == api::MOTION_KIND_EXECUTE);
+  return static_cast<api::MotionKind>(static_cast<int>(kind) + 1);
+}
+
+api::MotionState to_motion_state(MotionState state) {
+  static_assert(static_cast<int>(MotionState::queued) + 1 == api::MOTION_STATE_QUEUED);
+  static_assert(static_cast<int>(MotionState::succeeded) + 1 == api::MOTION_STATE_SUCCEEDED);
+  static_assert(static_cast<int>(MotionState::unknown) + 1 == api::MOTION_STATE_UNKNOWN);
+  return static_cast<api::MotionState>(static_cast<int>(state) + 1);
+}
+
+// Empty where it is not known or the axis is shown in a unit that does not fit its scale.
+std::string position(const shrc203::AxisState& axis, Unit unit) {
+  if (!axis.position_pulses || (unit != Unit::pulses && !axis.scale)) return "";
+  const Result<Decimal> shown = from_pulses(*axis.position_pulses, unit, axis.scale.value_or(Scale{}));
+  return shown ? to_string(*shown) : "";
+}
+
+void fill_limits(const shrc203::AxisProfile& profile, api::Axis& axis) {
+  if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
+  if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
+  if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
+}
+
+void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::AxisState& state, api::Axis& axis) {
+  axis.set_number(number);
+  axis.set_name(profile.name);
+  axis.set_unit(to_proto(profile.unit));
+  axis.set_controllable(state.controllable);
+  if (state.position_pulses) axis.set_position_pulses(*state.position_pulses);
+  axis.set_position(position(state, profile.unit));
+  if (state.busy) axis.set_busy(*state.busy);
+  if (state.excited) axis.set_excited(*state.excited);
+  axis.set_homed(state.homed);
+  axis.set_status_bits(state.status.raw);
+  fill_limits(profile, axis);
+  if (state.scale) {
+    axis.set_per_pulse(to_string(state.scale->per_pulse));
+    axis.set_rotary(state.scale->rotary);
+  }
+  if (state.minimum_speed) axis.set_minimum_speed(*state.minimum_speed);
+  if (state.maximum_speed) axis.set_maximum_speed(*state.maximum_speed);
+  if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
+}
+
+void fill_age(TimePoint read, api::Device& device) {
+  if (read == TimePoint{}) return;
+  const Duration age = std::max(Duration::zero(), monotonic_now() - read);
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(age);
+  device.mutable_age()->set_seconds(seconds.count());
+  device.mutable_age()->set_nanos(static_cast<std::int32_t>((age - seconds).count()));
+  *device.mutable_read_time() = to_proto(server::to_wall(read));
+}
+
+// Each fact's own place in an Event.
+struct EventFiller {
+  const server::FactRecord& record;
+  api::Event& event;
+
+  void operator()(const shrc203::MotionChanged& change) const {
+    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision);
+  }
+  void operator()(const shrc203::CompletionSeen& seen) const {
+    event.mutable_completion()->set_axis(seen.axis);
+    if (seen.motion != 0) event.mutable_completion()->set_motion(motion_name(record.device, seen.motion));
+  }
+  void operator()(const shrc203::PathProgress& progress) const {
+    *event.mutable_path_progress() = to_proto(record.device, progress);
+  }
+  void operator()(const shrc203::LinkChanged& change) const {
+    event.mutable_link()->set_state(to_link_state(change.link));
+    event.mutable_link()->set_why(change.why);
+  }
+  void operator()(const shrc203::StopRequested& stop) const {
+    for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
+    event.mutable_stop_requested()->set_emergency(stop.emergency);
+    event.mutable_stop_requested()->set_who(stop.who);
+  }
+};
+
+}  // namespace
+
+google::protobuf::Timestamp to_proto(server::WallTime time) {
+  const auto since_epoch = time.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
+  google::protobuf::Timestamp stamp;
+  stamp.set_seconds(seconds.count());
+  stamp.set_nanos(static_cast<std::int32_t>(std::chrono::nanoseconds(since_epoch - seconds).count()));
+  return stamp;
+}
+
+api::Device to_proto(const server::Device& device, const shrc203::State& state) {
+  api::Device proto;
+  proto.set_name(device_name(device));
+  proto.set_kind("shrc203");
+  proto.set_link(to_link_state(state.link));
+  proto.set_link_problem(state.link_problem);
+  proto.set_vendor(escaped(state.vendor));
+  proto.set_model(escaped(state.model));
+  proto.set_serial_number(escaped(state.serial_number));
+  proto.set_firmware(escaped(state.firmware));
+  proto.set_mode(escaped(state.mode));
+  proto.set_format(escaped(state.format));
+  proto.set_device_epoch(state.device_epoch);
+  for (int number = 1; number <= shrc203::kAxisCount; ++number) {
+    fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number),
+              *proto.add_axes());
+  }
+  proto.set_moving_unknown(state.moving_unknown);
+  fill_age(state.read, proto);
+  return proto;
+}
+
+api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, std::uint64_t revision) {
+  api::Motion proto;
+  proto.set_name(motion_name(device, motion.id));
+  proto.set_kind(to_motion_kind(motion.kind));
+  proto.set_state(to_motion_state(motion.state));
+  for (const int axis : motion.axes.list()) proto.add_axes(axis);
+  for (const shrc203::AxisResult& result : motion.results) {
+    api::AxisResult& one = *proto.add_results();
+    one.set_axis(result.axis);
+    if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
+    if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
+    one.set_completion_seen(result.completion_seen);
+  }
+  if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
+  proto.set_revision(revision);
+  *proto.mutable_create_time() = to_proto(server::to_wall(motion.created));
+  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(server::to_wall(motion.started));
+  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(server::to_wall(motion.ended));
+  proto.set_who(motion.who);
+  proto.set_request_id(motion.request_id);
+  proto.set_segments_total(motion.segments_total);
+  proto.set_segments_done(motion.segments_done);
+  proto.set_underruns(motion.underruns);
+  return proto;
+}
+
+api::PathProgress to_proto(const std::string& device, const shrc203::PathProgress& progress) {
+  using Step = shrc203::PathProgress::Step;
+  static_assert(static_cast<int>(Step::sent) + 1 == api::PathProgress::STEP_SENT);
+  static_assert(static_cast<int>(Step::underrun) + 1 == api::PathProgress::STEP_UNDERRUN);
+  api::PathProgress proto;
+  proto.set_motion(motion_name(device, progress.motion));
+  proto.set_step(static_cast<api::PathProgress::Step>(static_cast<int>(progress.step) + 1));
+  proto.set_segment(progress.segment);
+  proto.set_wire_reply(escaped(progress.wire_reply));
+  return proto;
+}
+
+api::Event to_proto(const server::FactRecord& record, const std::string& run) {
+  api::Event event;
+  event.set_revision(record.revision);
+  *event.mutable_time() = to_proto(record.time);
+  event.set_device("devices/" + record.device);
+  event.set_run(run);
+  std::visit(EventFiller{record, event}, record.fact);
+  return event;
+}
+
+template <class Response>
+void fill(Response& response, const shrc203::StopReport& report) {
+  for (const shrc203::StopReport::Axis& axis : report.axes) {
+    api::AxisStop& one = *response.add_axes();
+    one.set_axis(axis.axis);
+    one.set_wire_reply(escaped(axis.wire_reply));
+    one.set_named(axis.named);
+    if (axis.ready) one.set_ready(*axis.ready);
+    if (axis.position_pulses) one.set_position_pulses(*axis.position_pulses);
+  }
+  if (report.problem) *response.mutable_problem() = to_proto(*report.problem);
+}
+
+template void fill(api::StopResponse&, const shrc203::StopReport&);
+template void fill(api::EmergencyStopResponse&, const shrc203::StopReport&);
+
+}  // namespace axisgate::rpc

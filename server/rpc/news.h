@@ -1,0 +1,40 @@
+// What the gateway knows, as callers read it: devices, motions, facts.
+#pragma once
+
+#include <google/protobuf/timestamp.pb.h>
+
+#include <cstdint>
+
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/event.pb.h"
+#include "axisgate/v1/motion.pb.h"
+#include "axisgate/v1/stage.pb.h"
+#include "device/shrc203/controller.h"
+#include "server/device.h"
+#include "server/events/event_bus.h"
+#include "server/wall_time.h"
+
+namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
+
+google::protobuf::Timestamp to_proto(server::WallTime time);
+
+// With the state's age as of now.
+api::Device to_proto(const server::Device& device, const shrc203::State& state);
+
+// `revision` is that of the newest fact about the motion, 0 when not known.
+api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, std::uint64_t revision);
+
+api::PathProgress to_proto(const std::string& device, const shrc203::PathProgress& progress);
+
+api::Event to_proto(const server::FactRecord& record, const std::string& run);
+
+// StopResponse and EmergencyStopResponse alike.
+template <class Response>
+void fill(Response& response, const shrc203::StopReport& report);
+
+extern template void fill(api::StopResponse&, const shrc203::StopReport&);
+extern template void fill(api::EmergencyStopResponse&, const shrc203::StopReport&);
+
+}  // namespace axisgate::rpc

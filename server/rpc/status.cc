@@ -1,0 +1,115 @@
+#include "server/rpc/status.h"
+
+#include "device/core/escape.h"
+#include "server/explain.h"
+
+namespace axisgate::rpc {
+namespace {
+
+// Longer than any line of the controller.
+constexpr std::size_t kDeviceTextMax = 512;
+
+// Both enums count alike; the API's file is the one that must not change.
+static_assert(static_cast<int>(Reason::unspecified) == api::REASON_UNSPECIFIED);
+static_assert(static_cast<int>(Reason::axis_busy) == api::REASON_AXIS_BUSY);
+static_assert(static_cast<int>(Reason::link_down) == api::REASON_LINK_DOWN);
+static_assert(static_cast<int>(Reason::deadline_passed) == api::REASON_DEADLINE_PASSED);
+static_assert(static_cast<int>(Reason::internal) == api::REASON_INTERNAL);
+
+void pack(const char* type, const google::protobuf::Message& detail, api::ErrorStatus& status) {
+  google::protobuf::Any& any = *status.add_details();
+  any.set_type_url(std::string("type.googleapis.com/") + type);
+  any.set_value(detail.SerializeAsString());
+}
+
+api::ErrorInfo to_info(const api::Problem& problem, Reason reason) {
+  api::ErrorInfo info;
+  info.set_reason(std::string(name(reason)));
+  info.set_domain("axisgate");
+  auto& metadata = *info.mutable_metadata();
+  metadata.insert(problem.metadata().begin(), problem.metadata().end());
+  if (problem.has_axis()) metadata["axis"] = std::to_string(problem.axis());
+  if (!problem.sent().empty()) metadata["sent"] = problem.sent();
+  if (!problem.wire_reply().empty()) metadata["wire_reply"] = problem.wire_reply();
+  if (!problem.hint().empty()) metadata["hint"] = problem.hint();
+  return info;
+}
+
+}  // namespace
+
+grpc::StatusCode code_of(Reason reason) {
+  switch (reason) {
+    case Reason::invalid_request:
+    case Reason::unknown_axis:
+    case Reason::unknown_unit:
+    case Reason::not_representable:
+    case Reason::malformed_line:
+    case Reason::unknown_command:
+    case Reason::incomplete_transaction:
+      return grpc::StatusCode::INVALID_ARGUMENT;
+    case Reason::unknown_device:
+    case Reason::not_found:
+      return grpc::StatusCode::NOT_FOUND;
+    case Reason::out_of_range:
+    case Reason::outside_travel:
+    case Reason::too_fast:
+    case Reason::compacted:
+      return grpc::StatusCode::OUT_OF_RANGE;
+    case Reason::axis_busy:
+    case Reason::not_excited:
+    case Reason::limit_detected:
+    case Reason::emergency_stopped:
+    case Reason::device_error:
+    case Reason::wrong_mode:
+    case Reason::left_over_setting:
+    case Reason::position_unknown:
+    case Reason::device_refused:
+    case Reason::identity_mismatch:
+      return grpc::StatusCode::FAILED_PRECONDITION;
+    case Reason::link_down:
+    case Reason::not_sent:
+    case Reason::reply_timed_out:
+    case Reason::line_fault:
+    case Reason::completion_outstanding:
+      return grpc::StatusCode::UNAVAILABLE;
+    case Reason::deadline_passed:
+      return grpc::StatusCode::DEADLINE_EXCEEDED;
+    case Reason::queue_full:
+      return grpc::StatusCode::RESOURCE_EXHAUSTED;
+    case Reason::stopped:
+    case Reason::target_not_reached:
+      return grpc::StatusCode::ABORTED;
+    case Reason::unspecified:
+    case Reason::outcome_unknown:
+      return grpc::StatusCode::UNKNOWN;
+    case Reason::internal:
+      return grpc::StatusCode::INTERNAL;
+  }
+  return grpc::StatusCode::INTERNAL;
+}
+
+api::Problem to_proto(const Problem& problem, const Metadata& metadata) {
+  api::Problem proto;
+  proto.set_reason(static_cast<api::Reason>(problem.reason));
+  proto.set_message(problem.message);
+  proto.set_hint(problem.hint);
+  if (problem.axis) proto.set_axis(*problem.axis);
+  proto.set_sent(escaped(problem.sent, kDeviceTextMax));
+  proto.set_wire_reply(escaped(problem.wire_reply, kDeviceTextMax));
+  proto.mutable_metadata()->insert(metadata.begin(), metadata.end());
+  return proto;
+}
+
+grpc::Status to_status(const Problem& problem, const Metadata& metadata) {
+  const grpc::StatusCode code = code_of(problem.reason);
+  const std::string message = server::explain(problem);
+  const api::Problem detail = to_proto(problem, metadata);
+  api::ErrorStatus status;
+  status.set_code(code);
+  status.set_message(message);
+  pack("axisgate.v1.Problem", detail, status);
+  pack("google.rpc.ErrorInfo", to_info(detail, problem.reason), status);
+  return {code, message, status.SerializeAsString()};
+}
+
+}  // namespace axisgate::rpc

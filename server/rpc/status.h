@@ -1,0 +1,27 @@
+// Problems as gRPC statuses: one table from reason to code, and the details that standard helpers decode.
+#pragma once
+
+#include <grpcpp/support/status.h>
+
+#include <map>
+#include <string>
+
+#include "axisgate/v1/common.pb.h"
+#include "device/core/problem.h"
+
+namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
+
+grpc::StatusCode code_of(Reason reason);
+
+using Metadata = std::map<std::string, std::string>;
+
+// Device text in it is escaped.
+api::Problem to_proto(const Problem& problem, const Metadata& metadata = {});
+
+// Carries an ErrorStatus with Problem and ErrorInfo as its error details, which gRPC sends as the trailing metadata
+// `grpc-status-details-bin`.
+grpc::Status to_status(const Problem& problem, const Metadata& metadata = {});
+
+}  // namespace axisgate::rpc

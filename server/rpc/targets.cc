@@ -1,0 +1,134 @@
+#include "server/rpc/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/rpc/amounts.h"
+
+namespace axisgate::rpc {
+namespace {
+
+Problem on_axis(int axis, Problem problem) {
+  problem.message = fmt::format("axis {}: {}", axis, problem.message);
+  problem.axis = axis;
+  return problem;
+}
+
+tl::unexpected<Problem> profile_needs(std::string_view what) {
+  return fail(Reason::invalid_request, fmt::format("the axis's present {} is not known yet", what),
+              "give minimum, maximum and acceleration_ms, or ask again once the device's link is up");
+}
+
+// Manual 89) D:, S <= F: an axis's present S may lie above a new, lower F, which it then is lowered to.
+Result<Quantity> minimum_under(const Quantity& maximum, const shrc203::AxisState& axis) {
+  if (!axis.minimum_speed) return profile_needs("minimum speed S");
+  if (maximum.unit != Unit::pulses && !axis.scale) return profile_needs("scale");
+  const Result<std::int64_t> highest = to_pulses(maximum, axis.scale.value_or(Scale{}));
+  if (!highest) return tl::unexpected(highest.error());
+  return pulses(std::min(*axis.minimum_speed, *highest));
+}
+
+Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis) {
+  shrc203::SpeedProfile speeds;
+  if (profile.has_maximum()) {
+    const Result<Quantity> maximum = to_quantity(profile.maximum());
+    if (!maximum) return tl::unexpected(maximum.error());
+    speeds.maximum = *maximum;
+  } else {
+    if (!axis.maximum_speed) return profile_needs("maximum speed F");
+    speeds.maximum = pulses(*axis.maximum_speed);
+  }
+  const Result<Quantity> minimum =
+      profile.has_minimum() ? to_quantity(profile.minimum()) : minimum_under(speeds.maximum, axis);
+  if (!minimum) return tl::unexpected(minimum.error());
+  speeds.minimum = *minimum;
+  if (profile.acceleration_ms() == 0 && !axis.acceleration_ms) return profile_needs("acceleration time R");
+  speeds.acceleration_ms = profile.acceleration_ms() != 0 ? profile.acceleration_ms() : *axis.acceleration_ms;
+  return speeds;
+}
+
+Result<shrc203::AxisMove> to_axis_move(int number, const api::Distance& distance) {
+  const Result<int> axis = to_axis(number);
+  if (!axis) return tl::unexpected(axis.error());
+  const Result<Quantity> quantity = to_quantity(distance);
+  if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
+  return shrc203::AxisMove{*axis, *quantity, std::nullopt};
+}
+
+Result<std::vector<shrc203::AxisMove>> to_axis_moves(const api::Segment& segment) {
+  std::vector<shrc203::AxisMove> moves;
+  const auto add = [&](const api::AxisDistance& part) -> Result<void> {
+    Result<shrc203::AxisMove> move = to_axis_move(part.axis(), part.distance());
+    if (!move) return tl::unexpected(move.error());
+    moves.push_back(*std::move(move));
+    return {};
+  };
+  switch (segment.shape_case()) {
+    case api::Segment::kSingle:
+      if (const Result<void> added = add(segment.single()); !added) return tl::unexpected(added.error());
+      return moves;
+    case api::Segment::kLine:
+      if (segment.line().distances_size() < 2) {
+        return fail(Reason::invalid_request, "a line moves two or three axes", "use `single` for one axis");
+      }
+      for (const api::AxisDistance& part : segment.line().distances()) {
+        if (const Result<void> added = add(part); !added) return tl::unexpected(added.error());
+      }
+      return moves;
+    case api::Segment::SHAPE_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "the segment has no shape", "set `line` or `single`");
+}
+
+}  // namespace
+
+Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc203::State& state,
+                                     shrc203::RequestContext context) {
+  shrc203::MoveRequest move;
+  move.relative = request.relative();
+  move.context = std::move(context);
+  for (const api::AxisTarget& target : request.targets()) {
+    Result<shrc203::AxisMove> one = to_axis_move(target.axis(), target.distance());
+    if (!one) return tl::unexpected(one.error());
+    if (target.has_profile()) {
+      const Result<shrc203::SpeedProfile> profile = to_profile(target.profile(), state.axis(target.axis()));
+      if (!profile) return tl::unexpected(on_axis(target.axis(), profile.error()));
+      one->profile = *profile;
+    }
+    move.moves.push_back(*std::move(one));
+  }
+  return move;
+}
+
+Result<shrc203::Segment> to_segment(const api::Segment& segment) {
+  shrc203::Segment stretch;
+  Result<std::vector<shrc203::AxisMove>> moves = to_axis_moves(segment);
+  if (!moves) return tl::unexpected(moves.error());
+  stretch.moves = *std::move(moves);
+  stretch.relative = segment.relative();
+  if (segment.has_speed()) {
+    const Result<Quantity> speed = to_quantity(segment.speed());
+    if (!speed) return tl::unexpected(speed.error());
+    stretch.speed = *speed;
+  }
+  if (segment.acceleration_ms() != 0) stretch.acceleration_ms = segment.acceleration_ms();
+  return stretch;
+}
+
+Result<shrc203::AxisSet> controllable_axes(shrc203::AxisSet named, const shrc203::State& state) {
+  const shrc203::AxisSet controllable = state.controllable();
+  if (controllable.empty()) {
+    return fail(Reason::link_down, state.link_problem.empty() ? "the device has not told yet which axes it has"
+                                                              : "the device cannot be asked: " + state.link_problem);
+  }
+  if (named.empty()) return controllable;
+  if (controllable.contains(named)) return named;
+  const shrc203::AxisSet missing = named - controllable;
+  return fail(Reason::unknown_axis, fmt::format("{} cannot be moved here", to_string(missing)),
+              fmt::format("the controller is set to {} (?:AXIS)", to_string(controllable)));
+}
+
+}  // namespace axisgate::rpc

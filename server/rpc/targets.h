@@ -1,0 +1,22 @@
+// Moves and path segments as callers write them, as a controller takes them.
+#pragma once
+
+#include "axisgate/v1/stage.pb.h"
+#include "device/core/problem.h"
+#include "device/shrc203/controller.h"
+
+namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
+
+// What a profile leaves open is taken from the axis's present S, F and R in `state`.
+Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc203::State& state,
+                                     shrc203::RequestContext context);
+
+Result<shrc203::Segment> to_segment(const api::Segment& segment);
+
+// The axes meant: all controllable ones where none is named; unknown_axis where one is not controllable; link_down
+// where it is not known which are.
+Result<shrc203::AxisSet> controllable_axes(shrc203::AxisSet named, const shrc203::State& state);
+
+}  // namespace axisgate::rpc

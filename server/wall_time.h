@@ -1,0 +1,24 @@
+// Where the machines' monotonic time meets the calendar.
+#pragma once
+
+#include <chrono>
+
+#include "device/core/time.h"
+#include "device/link/clock.h"
+
+namespace axisgate::server {
+
+using WallTime = std::chrono::system_clock::time_point;
+
+// Between the two clocks as they stand now: a clock that was set in between shifts old times along. The epoch of the
+// monotonic clock means "never" and stays the calendar's epoch.
+inline WallTime to_wall(TimePoint time) {
+  if (time == TimePoint{}) return {};
+  return std::chrono::system_clock::now() + std::chrono::duration_cast<WallTime::duration>(time - monotonic_now());
+}
+
+inline TimePoint to_monotonic(WallTime time) {
+  return monotonic_now() + std::chrono::duration_cast<Duration>(time - std::chrono::system_clock::now());
+}
+
+}  // namespace axisgate::server

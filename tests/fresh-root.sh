@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# Proof that the two commands work on a Debian 12 with nothing installed: makes such a root with mmdebstrap, puts a
+# clean clone of HEAD into it, and runs `deploy/quickstart.sh --once` and `tests/run.sh` there by chroot. Needs root and
+# mmdebstrap; the mirror is the one that this machine's apt uses. On success it records commit and inputs in
+# tests/fresh-root.passed.
+# usage: tests/fresh-root.sh [--if-changed]    with --if-changed only if the inputs differ from those recorded
+set -euo pipefail
+
+repository="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
+record="$repository/tests/fresh-root.passed"
+cache="${CCACHE_DIR:-$HOME/.cache/ccache}"
+root=""
+
+fail() {
+  printf 'fresh-root: %s\n' "$*" >&2
+  exit 1
+}
+
+# What decides whether a bare Debian can build and run this; the code itself is what tests/run.sh is for. Taken from
+# HEAD, as the clone is: uncommitted changes are not what passed.
+inputs_hash() {
+  git -C "$repository" ls-tree -r HEAD -- deploy/ CMakeLists.txt CMakePresets.json tests/run.sh tests/fresh-root.sh |
+    grep -E '(\.sh|\.txt|\.json)$' | sha256sum | cut -d ' ' -f 1
+}
+
+recorded() {
+  if [[ -f "$record" ]]; then
+    sed -n "s/^$1 //p" "$record"
+  fi
+}
+
+debian_sources() {
+  # shellcheck disable=SC2016  # the dollar signs are apt's
+  apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 'Origin: Debian' |
+    grep ' bookworm' | sort -u
+}
+
+timed() {
+  local label="$1" start=$SECONDS
+  shift
+  "$@" || fail "failed: $label"
+  printf '== fresh-root: %s took %d s\n' "$label" $((SECONDS - start))
+}
+
+make_root() {
+  local sources
+  sources="$(debian_sources)" || fail "this machine's apt names no Debian 12 mirror; run apt-get update first"
+  mmdebstrap --quiet --variant=minbase bookworm "$root" - <<<"$sources"
+}
+
+# At the same path as here, so that the compiler cache recognises what it compiled for this checkout.
+clone_head() {
+  mkdir -p "$root$repository"
+  git clone --quiet --no-hardlinks "$repository" "$root$repository"
+}
+
+# Runs a command in the root. Mounts and processes live in namespaces of their own and vanish with the command, however
+# it ends; so removing the root can never reach through a mount into this machine.
+inside() {
+  # shellcheck disable=SC2016  # expanded by the inner shell
+  unshare --mount --pid --fork --kill-child --propagation private bash -euc '
+    root="$1" cache="$2"
+    shift 2
+    mount -t proc proc "$root/proc"
+    mount -t sysfs -o ro sysfs "$root/sys"
+    mount --bind /dev "$root/dev"
+    mount --bind /dev/pts "$root/dev/pts"
+    mkdir -p "$root/ccache"
+    mount --bind "$cache" "$root/ccache"
+    env --ignore-environment HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 CCACHE_DIR=/ccache \
+      chroot "$root" "$@"
+  ' fresh-root "$root" "$cache" "$@"
+}
+
+prove() {
+  ((EUID == 0)) || fail "needs root, for chroot and mount"
+  command -v mmdebstrap >/dev/null || fail "needs mmdebstrap: apt-get install mmdebstrap"
+  mkdir -p "$cache"
+  root="$(mktemp --directory --tmpdir axisgate-fresh-root.XXXXXX)"
+  chmod 755 "$root"
+  trap 'rm -rf --one-file-system "$root"' EXIT
+  timed "mmdebstrap" make_root
+  timed "clone" clone_head
+  timed "deploy/quickstart.sh --once" inside "$repository/deploy/quickstart.sh" --once
+  timed "tests/run.sh" inside "$repository/tests/run.sh"
+}
+
+main() {
+  if [[ "${1-}" == --if-changed && "$(recorded inputs)" == "$(inputs_hash)" ]]; then
+    printf 'fresh-root: its inputs have not changed since commit %s, where it passed\n' "$(recorded commit)"
+    return 0
+  fi
+  local commit
+  commit="$(git -C "$repository" rev-parse HEAD)"
+  prove
+  printf 'commit %s\ninputs %s\n' "$commit" "$(inputs_hash)" >"$record"
+  printf 'fresh-root: passed at %s; commit %s with it\n' "$commit" "${record#"$repository"/}"
+}
+
+main "$@"

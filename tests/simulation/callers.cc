@@ -1,0 +1,160 @@
+#include "tests/simulation/callers.h"
+
+#include <fmt/format.h>
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// Hazard 1: each of these can be answered by a bare number while a completion is due.
+const std::vector<std::string> kQuestions = {"?:C1", "?:F1",  "?:SLEEP", "?:BO",   "?:BEEP", "?:AXIS", "?:ACS1", "?:O",
+                                             "?:W",  "I:",    "?:M1",    "?:MP2",  "?:A3",   "?:WT1",  "?:WI2",  "?:P3",
+                                             "?:V",  "*IDN?", "!:",      "Q:",     "?:CMD",  "SRQ:",   "?:D1",   "?:K"};
+
+std::string who(Random& random) { return fmt::format("caller-{}", random.between(1, 4)); }
+
+}  // namespace
+
+Callers::Callers(World& world) : world_(world) {}
+
+void Callers::act_for(Duration duration) {
+  const TimePoint end = world_.now() + duration;
+  while (world_.now() < end && world_.violations().empty()) {
+    world_.run_for(milliseconds(world_.random().between(1, 1500)));
+    act();
+    check_starts();
+  }
+}
+
+void Callers::act() {
+  switch (world_.random().between(0, 11)) {
+    case 0:
+    case 1:
+    case 2: return move();
+    case 3: return home();
+    case 4:
+    case 5: return path();
+    case 6: return stop();
+    case 7: return set_and_go();
+    case 8:
+      if (world_.random().chance(0.1)) world_.wire().cut(world_.now(), milliseconds(world_.random().between(10, 3000)));
+      return;
+    default: return ask();
+  }
+}
+
+void Callers::move() {
+  auto& random = world_.random();
+  MoveRequest request;
+  request.relative = random.chance(0.5);
+  request.context = world_.context(who(random));
+  for (int axis = 1; axis <= kAxisCount; ++axis) {
+    if (random.chance(0.5)) request.moves.push_back({axis, pulses(random.between(-3000, 3000)), {}});
+  }
+  for (const auto& one : request.moves) ++starts_allowed_[static_cast<std::size_t>(one.axis - 1)];
+  world_.controller().move(std::move(request), world_.now(), [](Result<Motion>) {});
+}
+
+void Callers::home() {
+  auto& random = world_.random();
+  HomeRequest request;
+  request.context = world_.context(who(random));
+  request.axes = AxisSet::of(static_cast<int>(random.between(1, 3)));
+  if (random.chance(0.3)) request.axes = AxisSet::all();
+  for (const int axis : request.axes.list()) ++starts_allowed_[static_cast<std::size_t>(axis - 1)];
+  if (random.chance(0.5)) {
+    world_.controller().home(request, world_.now(), [](Result<Motion>) {});
+  } else {
+    world_.controller().return_to_origin(request, world_.now(), [](Result<Motion>) {});
+  }
+}
+
+void Callers::path() {
+  auto& random = world_.random();
+  PathRequest request;
+  request.context = world_.context(who(random));
+  const bool line = random.chance(0.6);
+  const int first = static_cast<int>(random.between(1, 2));
+  const auto count = random.between(1, 8);
+  for (int i = 0; i < count; ++i) {
+    Segment segment;
+    segment.moves.push_back({first, pulses(random.between(1, 2500) * (random.chance(0.5) ? 1 : -1)), {}});
+    if (line) segment.moves.push_back({3, pulses(random.between(-2500, 2500)), {}});
+    segment.speed = pulses(random.between(5000, 40000));
+    ++starts_allowed_[static_cast<std::size_t>(first - 1)];
+    if (line) ++starts_allowed_[2];
+    request.segments.push_back(std::move(segment));
+  }
+  world_.controller().run_path(std::move(request), world_.now(), [](Result<Motion>) {});
+}
+
+void Callers::stop() {
+  auto& random = world_.random();
+  const AxisSet axes = random.chance(0.5) ? AxisSet() : AxisSet::of(static_cast<int>(random.between(1, 3)));
+  ++unfinished_questions_;
+  world_.controller().stop(axes, world_.context(who(random)), world_.now(),
+                           [this](const StopReport&) { --unfinished_questions_; });
+}
+
+void Callers::ask() {
+  auto& random = world_.random();
+  ++unfinished_questions_;
+  world_.controller().execute({{random.pick(kQuestions)}, world_.context(who(random), seconds(10))}, world_.now(),
+                              [this](const ExecuteEvent& event) {
+                                if (event.kind == ExecuteEvent::Kind::ended) --unfinished_questions_;
+                              });
+}
+
+void Callers::set_and_go() {
+  auto& random = world_.random();
+  const auto axis = random.between(1, 3);
+  const std::vector<std::string> setters = {"M", "MP", "A", "AP"};
+  ++unfinished_questions_;
+  ++starts_allowed_[static_cast<std::size_t>(axis - 1)];
+  world_.controller().execute(
+      {{fmt::format("{}:{}+P{}", random.pick(setters), axis, random.between(0, 2000)), fmt::format("G:{}", axis)},
+       world_.context(who(random))},
+      world_.now(), [this](const ExecuteEvent& event) {
+        if (event.kind == ExecuteEvent::Kind::ended) --unfinished_questions_;
+      });
+}
+
+// A command that a fault has turned into another may start what nobody asked for; the gateway cannot know.
+void Callers::check_starts() {
+  for (const char* kind : {"line: command flipped"}) {
+    if (world_.wire().faults_by_kind().contains(kind)) return;
+  }
+  for (int axis = 1; axis <= kAxisCount; ++axis) {
+    const int allowed = starts_allowed_[static_cast<std::size_t>(axis - 1)];
+    if (world_.device().starts(axis) > allowed) {
+      world_.violation(fmt::format("axis {} was set in motion {} times, asked for {} times", axis,
+                                   world_.device().starts(axis), allowed));
+    }
+  }
+}
+
+void Callers::come_to_rest() {
+  world_.set_faults(Faults::none());
+  const auto at_rest = [this] {
+    for (const Motion& motion : world_.controller().motions()) {
+      if (!is_outcome(motion.state)) return false;
+    }
+    return unfinished_questions_ == 0 && world_.controller().state().link == LinkState::up;
+  };
+  if (!world_.run_until(at_rest, seconds(120)) && world_.violations().empty()) {
+    world_.violation("two quiet minutes after the last fault something is still unfinished");
+  }
+  check_starts();
+  bool answered = false;
+  world_.controller().execute({{"?:V"}, world_.context("last")}, world_.now(), [&](const ExecuteEvent& event) {
+    answered = answered || (event.kind == ExecuteEvent::Kind::reply && event.answer == "V2.00.000");
+  });
+  if (!world_.run_until([&] { return answered; }, seconds(30)) && world_.violations().empty()) {
+    world_.violation("the device does not answer on a good line");
+  }
+}
+
+}  // namespace axisgate::simulation

@@ -1,0 +1,36 @@
+// Several people and programs who use the stage at once, at random, and remember what they were told.
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tests/simulation/world.h"
+
+namespace axisgate::simulation {
+
+class Callers {
+ public:
+  explicit Callers(World& world);
+
+  void act_for(Duration duration);
+  // The line is made perfect; every motion must end and the device must answer.
+  void come_to_rest();
+
+ private:
+  void act();
+  void move();
+  void home();
+  void path();
+  void stop();
+  void ask();
+  void set_and_go();
+  void check_starts();
+
+  World& world_;
+  std::map<shrc203::MotionId, bool> asked_;
+  std::array<int, shrc203::kAxisCount> starts_allowed_{};
+  int unfinished_questions_ = 0;
+};
+
+}  // namespace axisgate::simulation

@@ -1,0 +1,104 @@
+// On a perfect line everything simply works, in few exchanges.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/world.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::seconds;
+
+Setup quiet() {
+  Setup setup;
+  setup.profile.baud = setup.baud;
+  return setup;
+}
+
+MoveRequest relative(World& world, std::vector<std::pair<int, std::int64_t>> ways) {
+  MoveRequest request;
+  request.relative = true;
+  request.context = world.context("tester");
+  for (const auto& [axis, way] : ways) request.moves.push_back({axis, pulses(way), {}});
+  return request;
+}
+
+TEST(QuietLine, HandshakeComesUp) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_EQ(world.controller().state().serial_number, "2106001001");
+  EXPECT_EQ(world.controller().state().controllable(), AxisSet::all());
+}
+
+TEST(QuietLine, HomeThenMoveReachesTheTarget) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  Result<Motion> homed = fail(Reason::internal, "");
+  world.controller().home({{}, world.context("tester")}, world.now(), [&](Result<Motion> m) { homed = m; });
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 1; }, seconds(20))) << world.replay();
+  EXPECT_EQ(world.outcomes()[0].state, MotionState::succeeded) << world.replay();
+  world.controller().move(relative(world, {{1, 10000}, {2, -2500}}), world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 2; }, seconds(20))) << world.replay();
+  EXPECT_EQ(world.outcomes()[1].state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().position(1), 10000);
+  EXPECT_EQ(world.device().position(2), -2500);
+  EXPECT_EQ(world.device().starts(1), 2);
+}
+
+TEST(QuietLine, PathRunsOnTheDoubleBuffer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  PathRequest path;
+  path.context = world.context("tester");
+  for (int i = 0; i < 20; ++i) {
+    path.segments.push_back({{{1, pulses(i % 2 ? 3000 : -1000), {}}, {2, pulses(1000), {}}}, true, pulses(20000), {}});
+  }
+  world.controller().run_path(path, world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 1; }, seconds(60))) << world.replay();
+  EXPECT_EQ(world.outcomes()[0].state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.outcomes()[0].underruns, 0) << world.replay();
+  EXPECT_EQ(world.outcomes()[0].segments_done, 20);
+  EXPECT_EQ(world.device().position(2), 20000);
+}
+
+TEST(QuietLine, StopEndsAMotion) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.controller().move(relative(world, {{1, 500000}}), world.now(), [](Result<Motion>) {});
+  world.run_for(seconds(1));
+  std::optional<StopReport> report;
+  world.controller().stop({}, world.context("other"), world.now(), [&](StopReport r) { report = r; });
+  ASSERT_TRUE(world.run_until([&] { return report && !world.outcomes().empty(); }, seconds(20))) << world.replay();
+  EXPECT_FALSE(report->problem) << report->problem->message << world.replay();
+  EXPECT_EQ(world.outcomes()[0].state, MotionState::stopped);
+  EXPECT_LT(world.device().position(1), 500000);
+}
+
+std::vector<std::string> execute(World& world, std::vector<std::string> lines) {
+  std::vector<std::string> heard;
+  bool over = false;
+  world.controller().execute({std::move(lines), world.context("tester")}, world.now(), [&](const ExecuteEvent& event) {
+    if (event.kind == ExecuteEvent::Kind::reply) heard.push_back(event.answer);
+    if (event.kind == ExecuteEvent::Kind::completion) heard.push_back("completion " + std::to_string(event.axis));
+    if (event.kind == ExecuteEvent::Kind::ended) {
+      over = true;
+      if (event.problem) heard.push_back(std::string(name(event.problem->reason)));
+    }
+  });
+  EXPECT_TRUE(world.run_until([&] { return over; }, seconds(30))) << world.replay();
+  return heard;
+}
+
+TEST(QuietLine, ExecuteAnswers) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_THAT(execute(world, {"?:C1"}), testing::ElementsAre("1"));
+  EXPECT_THAT(execute(world, {"HRT:1"}), testing::ElementsAre("OK", "completion 1"));
+  EXPECT_THAT(execute(world, {"M:1+P1000", "G:1"}), testing::ElementsAre("OK", "OK"));
+  EXPECT_THAT(execute(world, {"G:1"}), testing::ElementsAre("INCOMPLETE_TRANSACTION"));
+  EXPECT_THAT(execute(world, {"MP:2+P100", "G:2"}), testing::ElementsAre("OK", "OK", "completion 2"));
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

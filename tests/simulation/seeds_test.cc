@@ -1,0 +1,43 @@
+// Seeds: callers at random on a bad line, each seed under its own combination of the manual's open questions.
+//
+// What holds in every run: no answer is matched to another's question, a success is a place where the device stands, no
+// axis is set in motion more often than it was asked to, nothing starts after a stop that was not asked for after it,
+// every motion has an outcome, and once the line is good again the device answers.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/simulation/callers.h"
+#include "tests/simulation/world.h"
+
+namespace axisgate::simulation {
+namespace {
+
+constexpr int kSeeds = 200;
+
+void run_seed(std::uint64_t seed) {
+  World world(drawn_setup(seed, Faults::hostile()));
+  Callers callers(world);
+  callers.act_for(std::chrono::minutes(3));
+  callers.come_to_rest();
+  ASSERT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
+}
+
+class Seeds : public testing::TestWithParam<int> {};
+
+// Ten seeds a case, so that a run shows its progress and can be spread over the cores.
+TEST_P(Seeds, NothingIsMixedUp) {
+  if (const char* only = std::getenv("AXISGATE_SEED")) {
+    if (GetParam() == 0) run_seed(std::strtoull(only, nullptr, 10));
+    return;
+  }
+  for (int seed = GetParam() * 10; seed < GetParam() * 10 + 10 && !HasFatalFailure(); ++seed) {
+    run_seed(static_cast<std::uint64_t>(seed));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ordinary, Seeds, testing::Range(0, kSeeds / 10));
+
+}  // namespace
+}  // namespace axisgate::simulation

@@ -1,0 +1,188 @@
+#include "tests/simulation/wire.h"
+
+#include <fmt/format.h>
+
+#include "device/core/escape.h"
+
+namespace axisgate::simulation {
+namespace {
+
+constexpr std::size_t kLogLines = 120;
+
+bool is_axis_number(const std::string& text) { return text.size() == 1 && text[0] >= '1' && text[0] <= '3'; }
+
+Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(count); }
+
+}  // namespace
+
+Faults Faults::hostile() {
+  Faults f;
+  f.drop_command = f.drop_reply = 0.01;
+  f.flip_command = f.null_in_command = 0.002;
+  f.late_reply = 0.01;
+  f.double_reply = 0.01;
+  f.false_ng = 0.002;
+  f.flip_reply = 0.005;
+  f.noise = 0.005;
+  f.split = 0.02;
+  f.drop_notice = f.late_notice = f.double_notice = 0.05;
+  f.flood_notice = 0.01;
+  return f;
+}
+
+void Wire::note(TimePoint now, const std::string& text) {
+  log_.push_back(fmt::format("{:12.6f} {}", std::chrono::duration<double>(now.time_since_epoch()).count(), text));
+  if (log_.size() > kLogLines) log_.pop_front();
+}
+
+bool Wire::strikes(double probability, const char* kind) {
+  if (!random_.chance(probability)) return false;
+  ++injected_;
+  ++by_kind_[kind];
+  note(now_, fmt::format("   fault: {}", kind));
+  return true;
+}
+
+std::string Wire::flipped(std::string text) {
+  auto& byte = text[static_cast<std::size_t>(random_.between(0, static_cast<std::int64_t>(text.size()) - 1))];
+  byte = static_cast<char>(byte ^ (1 << random_.between(0, 6)));
+  return text;
+}
+
+void Wire::open(TimePoint now) {
+  now_ = now;
+  open_ = true;
+  opens_at_.reset();
+  device_->link_up(now);
+  gateway_->link_up(now);
+}
+
+void Wire::cut(TimePoint now, Duration until_back) {
+  now_ = now;
+  if (!open_) return;
+  note(now, "   the line is cut");
+  open_ = false;
+  in_transit_.clear();
+  device_->link_down(now, "cut");
+  gateway_->link_down(now, "unplugged");
+  if (opens_at_) opens_at_ = std::max(*opens_at_, now + until_back);
+}
+
+void Wire::reopen(Duration wait) {
+  note(now_, "   gateway reopens the line");
+  in_transit_.clear();
+  unanswered_.clear();
+  device_partial_.clear();
+  open_ = false;
+  opens_at_ = now_ + wait;
+}
+
+// One write is one line: the gateway never writes less or more.
+void Wire::from_gateway(std::string_view bytes) {
+  std::string line(bytes.substr(0, bytes.find('\r')));
+  commands_.push_back(line);
+  note(now_, "> " + line);
+  if (!open_) return;
+  to_device_free_ = std::max(to_device_free_, now_) + byte_time_ * static_cast<std::int64_t>(bytes.size());
+  if (strikes(faults_.drop_command, "line: command dropped")) return;
+  if (strikes(faults_.flip_command, "line: command flipped")) line = flipped(line);
+  if (strikes(faults_.null_in_command, "line: NUL in command")) line.insert(line.size() / 2, 1, '\0');
+  in_transit_.emplace(to_device_free_, Delivery{true, line + "\r\n", {}, commands_.size() - 1});
+}
+
+void Wire::from_device(std::string_view bytes) {
+  device_partial_ += bytes;
+  while (true) {
+    const auto end = device_partial_.find("\r\n");
+    if (end == std::string::npos) return;
+    std::string text = device_partial_.substr(0, end);
+    device_partial_.erase(0, end + 2);
+    device_line(std::move(text));
+  }
+}
+
+// The device answers commands in order; a bare axis number is a reply only while a question that can have one waits.
+void Wire::device_line(std::string text) {
+  Origin origin{Origin::Kind::notice, 0};
+  const bool asked_number = !unanswered_.empty() && commands_[unanswered_.front()].find('?') != std::string::npos;
+  const bool inputs = !unanswered_.empty() && commands_[unanswered_.front()] == "I:";
+  if (!unanswered_.empty() && (!is_axis_number(text) || ((asked_number || inputs) && answering_))) {
+    origin = {Origin::Kind::reply, unanswered_.front()};
+    unanswered_.pop_front();
+  }
+  if (!open_) return;
+  Duration extra{};
+  if (origin.kind == Origin::Kind::reply) {
+    if (strikes(faults_.drop_reply, "reply: dropped")) return;
+    if (strikes(faults_.late_reply, "reply: late")) extra = milliseconds(random_.between(50, 900));
+    const bool setting = text == "OK" || text == "OK_D";
+    if (setting && strikes(faults_.false_ng, "reply: false NG")) text = random_.chance(0.5) ? "NG" : "NG_I";
+    if (strikes(faults_.flip_reply, "line: reply flipped")) text = flipped(text);
+    const bool twice = strikes(faults_.double_reply, "reply: doubled");
+    to_gateway(twice ? text + "\r\n" + text + "\r\n" : text + "\r\n", origin, extra);
+  } else {
+    if (strikes(faults_.drop_notice, "notice: dropped")) return;
+    if (strikes(faults_.late_notice, "notice: late")) extra = milliseconds(random_.between(5, 120));
+    const bool twice = strikes(faults_.double_notice, "notice: doubled");
+    to_gateway(twice ? text + "\r\n" + text + "\r\n" : text + "\r\n", origin, extra);
+  }
+  if (strikes(faults_.noise, "line: noise")) {
+    std::string burst;
+    for (int i = 0; i < random_.between(1, 6); ++i) burst += static_cast<char>(random_.between(128, 255));
+    to_gateway(burst + "\r\n", {Origin::Kind::noise, 0}, {});
+  }
+}
+
+// A late line holds up the ones behind it: bytes do not overtake on a wire. Only a late notice does, as one that the
+// device was slow to send.
+void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
+  const Duration length = byte_time_ * static_cast<std::int64_t>(bytes.size());
+  TimePoint at = std::max(to_gateway_free_, now_) + length + extra;
+  if (origin.kind != Origin::Kind::notice || extra == Duration{}) to_gateway_free_ = at;
+  if (bytes.size() > 4 && strikes(faults_.split, "line: split")) {
+    const auto middle = bytes.size() / 2;
+    in_transit_.emplace(at, Delivery{false, bytes.substr(0, middle), origin, 0});
+    at += milliseconds(random_.between(1, 40));
+    to_gateway_free_ = std::max(to_gateway_free_, at);
+    bytes.erase(0, middle);
+  }
+  in_transit_.emplace(at, Delivery{false, std::move(bytes), origin, 0});
+}
+
+std::optional<TimePoint> Wire::next_event() const {
+  std::optional<TimePoint> next = opens_at_;
+  if (!in_transit_.empty() && (!next || in_transit_.begin()->first < *next)) next = in_transit_.begin()->first;
+  return next;
+}
+
+void Wire::advance(TimePoint now) {
+  now_ = now;
+  if (opens_at_ && *opens_at_ <= now) open(now);
+  while (open_ && !in_transit_.empty() && in_transit_.begin()->first <= now) {
+    const Delivery delivery = in_transit_.extract(in_transit_.begin()).mapped();
+    deliver(delivery, now);
+  }
+  if (open_ && faults_.flood_notice > 0 && random_.chance(faults_.flood_notice / 20)) {
+    ++by_kind_["notice: flood"];
+    const int count = static_cast<int>(random_.between(1, 5));
+    for (int i = 0; i < count; ++i) {
+      to_gateway(std::to_string(random_.between(1, 3)) + "\r\n", {Origin::Kind::noise, 0}, {});
+    }
+  }
+}
+
+void Wire::deliver(const Delivery& delivery, TimePoint now) {
+  if (delivery.to_device) {
+    unanswered_.push_back(delivery.command);
+    answering_ = true;
+    device_->receive(delivery.bytes, now);
+    answering_ = false;
+    return;
+  }
+  note(now, "< " + escaped(delivery.bytes));
+  delivering_ = delivery.origin;
+  gateway_->receive(delivery.bytes, now);
+  delivering_.reset();
+}
+
+}  // namespace axisgate::simulation

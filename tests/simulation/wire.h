@@ -1,0 +1,122 @@
+// The line between the gateway and the simulated controller, in virtual time, with faults. Every line of the device
+// carries the number of the command that it answers, which the gateway does not see and the checks do.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/line_machine.h"
+#include "tests/simulation/random.h"
+
+namespace axisgate::simulation {
+
+// Probabilities a line. Zero everywhere: a perfect line.
+struct Faults {
+  double drop_command = 0;    // line: a command never arrives
+  double flip_command = 0;    // line: one bit of a command is wrong
+  double null_in_command = 0; // line: a NUL in a command (NG_I)
+  double drop_reply = 0;
+  double late_reply = 0;
+  double double_reply = 0;
+  double false_ng = 0;
+  double flip_reply = 0;
+  double noise = 0;           // line: a burst of bytes between lines
+  double split = 0;           // line: a pause in the middle of a line
+  double drop_notice = 0;
+  double late_notice = 0;
+  double double_notice = 0;
+  double flood_notice = 0;    // notice: axis numbers that no motion sent
+
+  static Faults none() { return {}; }
+  static Faults hostile();
+};
+
+struct Origin {
+  enum class Kind { reply, notice, noise } kind = Kind::reply;
+  std::size_t command = 0;  // a reply's: the index of the command line that it answers
+};
+
+class Wire {
+ public:
+  Wire(Random& random, int baud) : random_(random), byte_time_(std::chrono::nanoseconds(10'000'000'000 / baud)) {}
+
+  void set_faults(const Faults& faults) { faults_ = faults; }
+
+  // The gateway's end and the device's end.
+  ByteLink& gateway_end() { return gateway_end_; }
+  ByteLink& device_end() { return device_end_; }
+  void connect(LineMachine& gateway, LineMachine& device) {
+    gateway_ = &gateway;
+    device_ = &device;
+  }
+
+  void open(TimePoint now);
+  std::optional<TimePoint> next_event() const;
+  void advance(TimePoint now);
+  void cut(TimePoint now, Duration until_back);  // unplugged
+
+  // What the gateway wrote, oldest first, and what a delivered line was while it is being delivered.
+  const std::vector<std::string>& commands() const { return commands_; }
+  const std::optional<Origin>& delivering() const { return delivering_; }
+  const std::deque<std::string>& log() const { return log_; }
+  void note(TimePoint now, const std::string& text);
+  std::uint64_t faults_injected() const { return injected_; }
+  const std::map<std::string, std::uint64_t>& faults_by_kind() const { return by_kind_; }
+
+ private:
+  struct GatewayEnd : ByteLink {
+    explicit GatewayEnd(Wire& owner) : wire(owner) {}
+    void write(std::string_view bytes) override { wire.from_gateway(bytes); }
+    void reopen(Duration wait) override { wire.reopen(wait); }
+    Wire& wire;
+  };
+  struct DeviceEnd : ByteLink {
+    explicit DeviceEnd(Wire& owner) : wire(owner) {}
+    void write(std::string_view bytes) override { wire.from_device(bytes); }
+    void reopen(Duration) override {}
+    Wire& wire;
+  };
+  struct Delivery {
+    bool to_device = false;
+    std::string bytes;
+    Origin origin;
+    std::size_t command = 0;
+  };
+
+  void from_gateway(std::string_view bytes);
+  void from_device(std::string_view bytes);
+  void device_line(std::string text);
+  void reopen(Duration wait);
+  void deliver(const Delivery& delivery, TimePoint now);
+  void to_gateway(std::string bytes, Origin origin, Duration extra);
+  bool strikes(double probability, const char* kind);
+  std::string flipped(std::string text);
+
+  Random& random_;
+  Duration byte_time_;
+  Faults faults_;
+  GatewayEnd gateway_end_{*this};
+  DeviceEnd device_end_{*this};
+  LineMachine* gateway_ = nullptr;
+  LineMachine* device_ = nullptr;
+  TimePoint now_{};
+  bool open_ = false;
+  bool answering_ = false;  // the device is taking a command: what it writes now answers it
+  std::optional<TimePoint> opens_at_;
+  TimePoint to_device_free_{}, to_gateway_free_{};
+  std::multimap<TimePoint, Delivery> in_transit_;
+  std::vector<std::string> commands_;
+  std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
+  std::string device_partial_;
+  std::optional<Origin> delivering_;
+  std::deque<std::string> log_;
+  std::uint64_t injected_ = 0;
+  std::map<std::string, std::uint64_t> by_kind_;
+};
+
+}  // namespace axisgate::simulation

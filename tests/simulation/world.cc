@@ -1,0 +1,120 @@
+#include "tests/simulation/world.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace axisgate::simulation {
+
+using namespace shrc203;
+
+Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
+  Setup setup;
+  setup.seed = seed;
+  setup.faults = faults;
+  Random random(seed * 7919 + 17);
+  for (const auto& option : simulator::option_names()) {
+    const auto value = option.values[static_cast<std::size_t>(
+        random.between(0, static_cast<std::int64_t>(option.values.size()) - 1))];
+    (void)setup.options.set(option.name, value);
+  }
+  // The gateway is told what a lab would have found out, and only that; else it assumes the narrower reading.
+  if (setup.options.is("busy_scope", "axis") && random.chance(0.5)) setup.profile.busy_scope = Scope::axis;
+  if (setup.options.is("prebuffer_scope", "axis") && random.chance(0.5)) setup.profile.prebuffer_scope = Scope::axis;
+  setup.baud = random.pick(std::vector<int>{9600, 38400, 115200});
+  setup.profile.baud = setup.baud;
+  return setup;
+}
+
+World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire_(random_, setup_.baud) {
+  device_ = std::make_unique<simulator::Simulator>(setup_.options, wire_.device_end());
+  controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this);
+  wire_.connect(*controller_, *device_);
+  wire_.set_faults(setup_.faults);
+  wire_.open(now_);
+}
+
+World::~World() = default;
+
+void World::violation(const std::string& what) {
+  wire_.note(now_, "!! " + what);
+  violations_.push_back(what);
+}
+
+std::string World::replay() const {
+  std::string text = fmt::format("replay with AXISGATE_SEED={}\nreadings: {}\nfaults:", setup_.seed,
+                                 setup_.options.describe());
+  for (const auto& [kind, count] : wire_.faults_by_kind()) text += fmt::format(" {} {};", count, kind);
+  text += "\nthe last lines of the wire:\n";
+  for (const auto& line : wire_.log()) text += line + "\n";
+  return text;
+}
+
+void World::step(TimePoint limit) {
+  TimePoint next = limit;
+  for (const auto& at : {wire_.next_event(), controller_->next_deadline(), device_->next_deadline()}) {
+    if (at && *at < next) next = *at;
+  }
+  now_ = std::max(now_, next);
+  wire_.advance(now_);
+  device_->advance(now_);
+  controller_->advance(now_);
+}
+
+void World::run_for(Duration duration) {
+  const TimePoint end = now_ + duration;
+  while (now_ < end && violations_.empty()) step(end);
+}
+
+bool World::run_until(const std::function<bool()>& done, Duration limit) {
+  const TimePoint end = now_ + limit;
+  while (!done() && now_ < end && violations_.empty()) step(end);
+  return done();
+}
+
+void World::on_event(const Event& event, TimePoint) {
+  if (const auto* ended = std::get_if<ExchangeEnded>(&event)) check_exchange(*ended);
+  if (std::holds_alternative<BarrierEntered>(event)) ++barriers_;
+  if (const auto* seen = std::get_if<CompletionSeen>(&event)) completions_.push_back(*seen);
+  if (const auto* step_made = std::get_if<PathProgress>(&event)) progress_.push_back(*step_made);
+  if (const auto* changed = std::get_if<MotionChanged>(&event)) {
+    wire_.note(now_, fmt::format("   motion {} {} {}{}", changed->motion.id, name(changed->motion.kind),
+                                 name(changed->motion.state),
+                                 changed->motion.problem ? ": " + changed->motion.problem->message : ""));
+    if (is_outcome(changed->motion.state)) {
+      outcomes_.push_back(changed->motion);
+      check_outcome(changed->motion);
+    }
+    if (on_motion) on_motion(changed->motion);
+  }
+}
+
+// Whatever answered an exchange must have been written by the device in answer to that very command.
+void World::check_exchange(const ExchangeEnded& ended) {
+  ++exchanges_;
+  if (ended.reply.empty()) return;
+  const auto& origin = wire_.delivering();
+  if (!origin) return violation(fmt::format("{} was answered while nothing was delivered", ended.line));
+  if (origin->kind != Origin::Kind::reply) {
+    return violation(fmt::format("{} took \"{}\" for its reply, which was none", ended.line, ended.reply));
+  }
+  if (wire_.commands()[origin->command] != ended.line || origin->command + 1 != wire_.commands().size()) {
+    violation(fmt::format("{} took \"{}\" for its reply, which answered {}", ended.line, ended.reply,
+                          wire_.commands()[origin->command]));
+  }
+}
+
+// A success is a place where the device truly stands.
+void World::check_outcome(const Motion& motion) {
+  if (motion.state != MotionState::succeeded) return;
+  for (const auto& result : motion.results) {
+    if (!result.target_pulses) {
+      violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));
+    } else if (device_->position(result.axis) != *result.target_pulses || device_->busy(result.axis)) {
+      violation(fmt::format("motion {} succeeded, but axis {} stands at {} instead of {}", motion.id, result.axis,
+                            device_->position(result.axis), *result.target_pulses));
+    }
+  }
+}
+
+}  // namespace axisgate::simulation

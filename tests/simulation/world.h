@@ -1,0 +1,87 @@
+// The real controller core against the simulator, in virtual time, with callers who ask for this and that. Everything
+// follows from one seed; what must hold is checked as it happens.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/shrc203/controller.h"
+#include "device/shrc203/simulator/simulator.h"
+#include "tests/simulation/random.h"
+#include "tests/simulation/wire.h"
+
+namespace axisgate::simulation {
+
+struct Setup {
+  std::uint64_t seed = 1;
+  Faults faults;
+  int baud = 38400;
+  shrc203::Profile profile;
+  shrc203::simulator::Options options;
+};
+
+// A setup whose open questions are drawn from the seed.
+Setup drawn_setup(std::uint64_t seed, const Faults& faults);
+
+class World : public shrc203::EventSink {
+ public:
+  explicit World(Setup setup);
+  ~World() override;
+
+  shrc203::Controller& controller() { return *controller_; }
+  shrc203::simulator::Simulator& device() { return *device_; }
+  Wire& wire() { return wire_; }
+  Random& random() { return random_; }
+  TimePoint now() const { return now_; }
+
+  void run_for(Duration duration);
+  // Runs until `done` holds; false when `limit` passed first.
+  bool run_until(const std::function<bool()>& done, Duration limit);
+  bool run_until_up() {
+    return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
+  }
+  void set_faults(const Faults& faults) { wire_.set_faults(faults); }
+
+  shrc203::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
+    return {std::move(who), "", now_ + limit};
+  }
+
+  // What was wrong, with its time; empty when nothing was. The first stops the run.
+  const std::vector<std::string>& violations() const { return violations_; }
+  void violation(const std::string& what);
+  std::string replay() const;  // how to see a failure again
+
+  void on_event(const shrc203::Event& event, TimePoint now) override;
+  const std::vector<shrc203::Motion>& outcomes() const { return outcomes_; }
+  const std::vector<shrc203::PathProgress>& progress() const { return progress_; }
+  const std::vector<shrc203::CompletionSeen>& completions() const { return completions_; }
+  std::uint64_t exchanges() const { return exchanges_; }
+  std::uint64_t barriers() const { return barriers_; }
+
+  // Called with each motion event, to watch more than the world itself does.
+  std::function<void(const shrc203::Motion&)> on_motion;
+
+ private:
+  void step(TimePoint limit);
+  void check_exchange(const shrc203::ExchangeEnded& ended);
+  void check_outcome(const shrc203::Motion& motion);
+
+  Setup setup_;
+  Random random_;
+  Wire wire_;
+  std::unique_ptr<shrc203::simulator::Simulator> device_;
+  std::unique_ptr<shrc203::Controller> controller_;
+  TimePoint now_{};
+  std::vector<std::string> violations_;
+  std::vector<shrc203::Motion> outcomes_;
+  std::vector<shrc203::PathProgress> progress_;
+  std::vector<shrc203::CompletionSeen> completions_;
+  std::uint64_t exchanges_ = 0, barriers_ = 0;
+};
+
+}  // namespace axisgate::simulation

@@ -1,0 +1,100 @@
+"""Which file may include what, and where the outside world may be touched."""
+
+import posixpath
+import re
+
+_INCLUDE = re.compile(r"^\s*#\s*include\s*([<\"])([^>\"]+)[>\"]")
+_CLOCK = re.compile(
+    r"\b\w*[cC]lock\s*::\s*now\b|\bclock_gettime\s*\(|\bgettimeofday\s*\("
+    r"|\btime\s*\(\s*(?:nullptr|NULL|0)\s*\)"
+)
+_CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/")
+_ASIO_FOLDERS = ("device/link/", "server/", "clients/")
+_DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
+_SIMULATOR = "device/shrc203/simulator/"
+_GATEWAY_PARSERS = ("device/shrc203/command_table.h", "device/shrc203/codec.h")
+# Lowest first. Folders on one floor are siblings and may not include each other; the files directly in server/ wire the
+# folders beside them.
+_FLOORS = {
+    "device/core": 0, "device/*": 1, "server/*": 2, "server": 3, "server/rpc": 4, "clients": 5, "tests": 6
+}
+
+
+def room_of(path):
+    """The floor and the room in which a project file lies, or nothing for what is not of the project."""
+    top, *rest = path.split("/")
+    if top in ("clients", "tests"):
+        return _FLOORS[top], top
+    if top not in ("device", "server"):
+        return None
+    room = f"{top}/{rest[0]}" if len(rest) > 1 else top
+    return _FLOORS.get(room, _FLOORS[f"{top}/*"]), room
+
+
+def may_include(source, target):
+    here, there = room_of(source), room_of(target)
+    if not here or not there or here == there or there[0] < here[0]:
+        return True
+    if source.startswith(_SIMULATOR + "program/") and there[1] == "device/link":
+        return True
+    return source == _DAEMON and there[1] == "server/rpc"
+
+
+def includes_of(file):
+    """(line number, whether in quotes, what) of each include that is no comment."""
+    for number, (line, code) in enumerate(zip(file.lines, file.code), start=1):
+        match = _INCLUDE.match(line)
+        if match and code.lstrip().startswith("#"):
+            yield number, match[1] == '"', match[2]
+
+
+def check(file, files):
+    if file.language != "C++" or file.generated:
+        return
+    paths = {other.path for other in files}
+    for number, in_quotes, target in includes_of(file):
+        beside = posixpath.normpath(posixpath.join(posixpath.dirname(file.path), target))
+        if in_quotes and target not in paths and beside in paths:
+            yield file.finding(number, "rooted-include", f'"{target}" is written from its own folder',
+                               f'write #include "{beside}"')
+            target = beside
+        yield from _check_target(file, number, posixpath.normpath(target))
+    yield from _check_clock(file)
+
+
+def _check_target(file, number, target):
+    if not may_include(file.path, target):
+        yield file.finding(number, "floors", f"{room_of(file.path)[1]} may not include {target}",
+                           "move what both need to a lower floor, or have the caller hand it in")
+    in_simulator = file.path.startswith(_SIMULATOR)
+    if file.path.startswith("device/shrc203/") and not in_simulator and target.startswith(_SIMULATOR):
+        yield file.finding(number, "simulator-apart", f"the gateway's side may not include {target}",
+                           "a device must not know that it may be simulated: wire it in server/")
+    if in_simulator and target in _GATEWAY_PARSERS:
+        yield file.finding(number, "simulator-apart", f"the simulator may not include {target}",
+                           "parse with the simulator's own code, or a mistake would agree with itself")
+    if _is_grpc(target) and _must_not_know_grpc(file.path):
+        yield file.finding(number, "no-grpc", f"<{target}> is gRPC or protobuf",
+                           "convert in server/rpc and pass a plain type")
+    if re.match(r"boost/asio\b", target) and not file.path.startswith(_ASIO_FOLDERS):
+        yield file.finding(number, "asio-in-link", f"<{target}> is Boost.Asio",
+                           "put input and output behind device/link")
+
+
+def _is_grpc(target):
+    return bool(re.match(r"grpc|google/protobuf/", target)) or target.endswith(".pb.h")
+
+
+def _must_not_know_grpc(path):
+    if path.startswith("device/"):
+        return True
+    return path.startswith("server/") and not path.startswith("server/rpc/") and path != _DAEMON
+
+
+def _check_clock(file):
+    if file.path.startswith(_CLOCK_FOLDERS):
+        return
+    for number, code in enumerate(file.code, start=1):
+        if match := _CLOCK.search(code):
+            yield file.finding(number, "time-is-injected", f"{match.group()} reads a clock",
+                               "take the time as a parameter, or where real time is meant, from device/link/clock.h")

@@ -1,0 +1,214 @@
+#include "server/config.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <cstdio>
+#include <fstream>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace axisgate::server {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr const char* kStage = "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n";
+
+std::vector<std::string> errors_of(const std::string& text) {
+  const Configured<Config> config = parse_config(text, "lab.toml");
+  std::vector<std::string> lines;
+  if (!config) {
+    for (const ConfigError& error : config.error()) lines.push_back(to_string(error));
+  }
+  return lines;
+}
+
+TEST(Config, DefaultIsOneSimulatedStageOnLoopback) {
+  const Config config = default_config();
+  EXPECT_EQ(to_string(config.listen), "127.0.0.1:50203");
+  EXPECT_EQ(to_string(config.metrics), "127.0.0.1:9203");
+  ASSERT_EQ(config.devices.size(), 1u);
+  EXPECT_EQ(config.devices[0].profile.name, "stage");
+  EXPECT_TRUE(std::holds_alternative<SimulatedConnection>(config.devices[0].connection));
+}
+
+TEST(Config, ReadsASerialDeviceWhole) {
+  const auto config = parse_config(R"(
+listen = "[::1]:5000"
+socket = "/run/lab/gate.sock"
+metrics = "localhost:0"
+
+[[device]]
+name = "stage"
+kind = "shrc203"
+connection = "serial"
+path = "/dev/ttyUSB0"
+baud = 9600
+parity = "even"
+stop_bits = 2
+flow_control = "none"
+serial_number = "2106001001"
+busy_scope = "axis"
+prebuffer_scope = "axis"
+reply_limit_ms = 750
+idle_poll_ms = 2000
+moving_poll_ms = 50
+
+[[device.axis]]
+number = 2
+name = "y"
+unit = "mm"
+travel_minimum = "-5mm"
+travel_maximum = "2500um"
+maximum_speed = "2mm/s"
+)",
+                                   "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(to_string(config->listen), "[::1]:5000");
+  EXPECT_EQ(config->socket, "/run/lab/gate.sock");
+  EXPECT_EQ(to_string(config->metrics), "127.0.0.1:0");
+  const shrc203::Profile& profile = config->devices.at(0).profile;
+  EXPECT_EQ(profile.serial_number, "2106001001");
+  EXPECT_EQ(profile.busy_scope, shrc203::Scope::axis);
+  EXPECT_EQ(profile.prebuffer_scope, shrc203::Scope::axis);
+  EXPECT_EQ(profile.baud, 9600);
+  EXPECT_EQ(profile.reply_limit, std::chrono::milliseconds(750));
+  EXPECT_EQ(profile.idle_poll, std::chrono::seconds(2));
+  EXPECT_EQ(profile.moving_poll, std::chrono::milliseconds(50));
+  const shrc203::AxisProfile& axis = profile.axes[1];
+  EXPECT_EQ(axis.name, "y");
+  EXPECT_EQ(axis.unit, Unit::millimeters);
+  ASSERT_TRUE(axis.travel_minimum && axis.travel_maximum && axis.maximum_speed);
+  EXPECT_EQ(axis.travel_minimum->value, (Decimal{-5, 0}));
+  EXPECT_EQ(axis.travel_maximum->unit, Unit::micrometers);
+  EXPECT_EQ(axis.maximum_speed->value, (Decimal{2, 0}));
+  const auto& serial = std::get<SerialSettings>(config->devices[0].connection);
+  EXPECT_EQ(serial.path, "/dev/ttyUSB0");
+  EXPECT_EQ(serial.baud, 9600);
+  EXPECT_EQ(serial.parity, Parity::even);
+  EXPECT_EQ(serial.stop_bits, 2);
+  EXPECT_EQ(serial.flow, FlowControl::none);
+}
+
+TEST(Config, SerialDefaultsAre38400WithRtsCts) {
+  const auto config =
+      parse_config("[[device]]\nname = \"s\"\nconnection = \"serial\"\npath = \"/dev/ttyS0\"\n", "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const auto& serial = std::get<SerialSettings>(config->devices.at(0).connection);
+  EXPECT_EQ(serial.baud, 38400);
+  EXPECT_EQ(serial.parity, Parity::none);
+  EXPECT_EQ(serial.stop_bits, 1);
+  EXPECT_EQ(serial.flow, FlowControl::rts_cts);
+}
+
+TEST(Config, ReadsASimulatedDevice) {
+  const auto config =
+      parse_config(std::string(kStage) + "speed = 10\nbaud = 38400\noptions = { busy_scope = \"controller\" }\n", "l");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const auto& simulated = std::get<SimulatedConnection>(config->devices.at(0).connection);
+  EXPECT_EQ(simulated.speed, 10);
+  EXPECT_TRUE(simulated.paced);
+  EXPECT_THAT(simulated.options, ElementsAre(std::pair<std::string, std::string>("busy_scope", "controller")));
+}
+
+TEST(Config, AnUnknownUnitNamesFileLineKeyAndWhatIsAllowed) {
+  EXPECT_THAT(errors_of(std::string(kStage) + "[[device.axis]]\nnumber = 1\nunit = \"micron\"\n"),
+              ElementsAre("lab.toml:6: device.axis.unit: \"micron\" is not a unit; use pulse, nm, um, mm or deg"));
+}
+
+TEST(Config, EveryErrorIsReportedInTheOrderOfTheLines) {
+  EXPECT_THAT(
+      errors_of("listen = \"127.0.0.1\"\n"
+                "[[device]]\n"
+                "name = \"stage\"\n"
+                "connection = \"serial\"\n"
+                "baud = \"fast\"\n"
+                "stop_bits = 3\n"
+                "parity = \"mark\"\n"
+                "colour = \"red\"\n"),
+      ElementsAre(StartsWith("lab.toml:1: listen: \"127.0.0.1\" is not HOST:PORT"),
+                  StartsWith("lab.toml:2: device.path: is missing"),
+                  "lab.toml:5: device.baud: the text \"fast\" will not do; use a whole number from 300 to 4000000",
+                  "lab.toml:6: device.stop_bits: 3 is out of range; use a whole number from 1 to 2",
+                  "lab.toml:7: device.parity: \"mark\" is not known; use one of \"none\", \"even\", \"odd\"",
+                  StartsWith("lab.toml:8: device.colour: is not a key here; use name, kind, connection")));
+}
+
+TEST(Config, KeysOfTheOtherConnectionAreUnknown) {
+  EXPECT_THAT(errors_of(std::string(kStage) + "path = \"/dev/ttyUSB0\"\n"),
+              ElementsAre(StartsWith("lab.toml:4: device.path: is not a key here")));
+}
+
+TEST(Config, NamesAndNumbersAreUnique) {
+  EXPECT_THAT(errors_of(std::string(kStage) + "[[device.axis]]\nnumber = 1\nname = \"x\"\n" +
+                        "[[device.axis]]\nnumber = 1\nname = \"x\"\n" + kStage),
+              ElementsAre(StartsWith("lab.toml:8: device.axis.number: 1 is the number of another axis"),
+                          StartsWith("lab.toml:9: device.axis.name: \"x\" is the name of another axis"),
+                          StartsWith("lab.toml:11: device.name: \"stage\" is the name of another device")));
+}
+
+TEST(Config, TwoDevicesCannotShareALine) {
+  const std::string serial = "connection = \"serial\"\npath = \"/dev/ttyUSB0\"\n";
+  EXPECT_THAT(errors_of("[[device]]\nname = \"a\"\n" + serial + "[[device]]\nname = \"b\"\n" + serial),
+              ElementsAre(StartsWith("lab.toml:8: device.path: \"/dev/ttyUSB0\" is the line of another device")));
+}
+
+TEST(Config, AFileWithoutADeviceIsAnError) {
+  EXPECT_THAT(errors_of("listen = \"127.0.0.1:1\"\n"),
+              ElementsAre(HasSubstr("device: is missing; use at least one [[device]]")));
+}
+
+TEST(Config, NetworkAddressesAreRefusedWithTheReason) {
+  EXPECT_THAT(
+      errors_of("listen = \"0.0.0.0:50203\"\nmetrics = \"lab.example:9203\"\n" + std::string(kStage)),
+      ElementsAre(HasSubstr("nobody is asked who they are yet"), HasSubstr("would offer metrics to the network")));
+}
+
+TEST(Config, PortsAndSocketsAreChecked) {
+  EXPECT_THAT(errors_of("listen = \"127.0.0.1:65536\"\nsocket = \"gate.sock\"\n" + std::string(kStage)),
+              ElementsAre(HasSubstr("is not HOST:PORT"), HasSubstr("use an absolute path of at most 107 bytes")));
+}
+
+TEST(Config, LimitsOfAnAxisFitTogether) {
+  const std::string axis = std::string(kStage) + "[[device.axis]]\nnumber = 1\n";
+  EXPECT_THAT(errors_of(axis + "travel_minimum = \"1mm\"\ntravel_maximum = \"900um\"\n"),
+              ElementsAre("lab.toml:6: device.axis.travel_minimum: must be below travel_maximum"));
+  EXPECT_THAT(errors_of(axis + "travel_maximum = \"90deg\"\n"),
+              ElementsAre(HasSubstr("an axis turns or slides, not both")));
+  EXPECT_THAT(errors_of(axis + "maximum_speed = \"0mm/s\"\n"), ElementsAre(HasSubstr("must be above 0")));
+  EXPECT_THAT(errors_of(axis + "travel_maximum = \"far\"\n"),
+              ElementsAre(StartsWith("lab.toml:6: device.axis.travel_maximum: ")));
+  EXPECT_THAT(errors_of(axis + "travel_minimum = \"-5\"\nunit = \"mm\"\ntravel_maximum = \"5000um\"\n"), ElementsAre());
+}
+
+TEST(Config, SimulatorOptionsAreCheckedByName) {
+  EXPECT_THAT(errors_of(std::string(kStage) + "options = { busy_scope = \"everything\" }\n"),
+              ElementsAre(StartsWith("lab.toml:4: device.options.busy_scope: ")));
+  EXPECT_THAT(errors_of(std::string(kStage) + "speed = 0\n"), ElementsAre(HasSubstr("how many times as fast")));
+}
+
+TEST(Config, ASyntaxErrorNamesItsLine) {
+  EXPECT_THAT(errors_of("[[device]]\nname = \"stage\n"), ElementsAre(StartsWith("lab.toml:2: is not TOML: ")));
+}
+
+TEST(Config, AFileThatIsNotThereSaysSo) {
+  const auto config = load_config("/nonexistent/lab.toml");
+  ASSERT_FALSE(config);
+  EXPECT_EQ(to_string(config.error().at(0)), "/nonexistent/lab.toml: cannot be opened: No such file or directory");
+}
+
+TEST(Config, ReadsAFile) {
+  const std::string path = ::testing::TempDir() + "axisgate_config_test.toml";
+  std::ofstream(path) << kStage;
+  const auto config = load_config(path);
+  std::remove(path.c_str());
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(config->devices.at(0).profile.name, "stage");
+}
+
+}  // namespace
+}  // namespace axisgate::server

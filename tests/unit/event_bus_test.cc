@@ -1,0 +1,168 @@
+#include "server/events/event_bus.h"
+
+#include <gmock/gmock.h>
+
+#include <thread>
+#include <vector>
+
+#include "server/events/newest_state.h"
+
+namespace axisgate::server {
+namespace {
+
+using ::testing::ElementsAre;
+
+// Runs what it was given when the test says so.
+class HeldTasks {
+ public:
+  Executor executor() {
+    return [this](std::function<void()> task) { tasks_.push_back(std::move(task)); };
+  }
+  std::size_t run() {
+    std::vector<std::function<void()>> due;
+    due.swap(tasks_);
+    for (const auto& task : due) task();
+    return due.size();
+  }
+
+ private:
+  std::vector<std::function<void()>> tasks_;
+};
+
+std::vector<std::uint64_t> revisions(const EventBus::Reading& reading) {
+  std::vector<std::uint64_t> found;
+  for (const auto& fact : reading.facts) found.push_back(fact->revision);
+  return found;
+}
+
+void publish(EventBus& bus, int count) {
+  for (int i = 0; i < count; ++i) bus.publish("stage", shrc203::CompletionSeen{1, 7}, {}, {});
+}
+
+TEST(EventBus, RevisionsCountFromOneOverAllDevices) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  EXPECT_EQ(bus.newest_revision(), 0u);
+  EXPECT_EQ(bus.publish("a", shrc203::CompletionSeen{1, 7}, WallTime(std::chrono::seconds(3)), {}), 1u);
+  EXPECT_EQ(bus.publish("b", shrc203::LinkChanged{shrc203::LinkState::up, "why"}, {}, {}), 2u);
+  const EventBus::Reading reading = bus.read(1, 10);
+  EXPECT_THAT(revisions(reading), ElementsAre(1, 2));
+  EXPECT_EQ(reading.next, 3u);
+  EXPECT_FALSE(reading.compacted);
+  EXPECT_EQ(reading.facts[0]->device, "a");
+  EXPECT_EQ(reading.facts[0]->time, WallTime(std::chrono::seconds(3)));
+  EXPECT_EQ(std::get<shrc203::CompletionSeen>(reading.facts[0]->fact).motion, 7u);
+  EXPECT_EQ(reading.facts[1]->device, "b");
+  EXPECT_EQ(std::get<shrc203::LinkChanged>(reading.facts[1]->fact).why, "why");
+}
+
+TEST(EventBus, ReadsInPortionsWithoutALoss) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  publish(bus, 5);
+  EventBus::Reading reading = bus.read(0, 2);
+  EXPECT_THAT(revisions(reading), ElementsAre(1, 2));
+  reading = bus.read(reading.next, 2);
+  EXPECT_THAT(revisions(reading), ElementsAre(3, 4));
+  reading = bus.read(reading.next, 2);
+  EXPECT_THAT(revisions(reading), ElementsAre(5));
+  reading = bus.read(reading.next, 2);
+  EXPECT_THAT(revisions(reading), ElementsAre());
+  EXPECT_EQ(reading.next, 6u);
+  publish(bus, 1);
+  EXPECT_THAT(revisions(bus.read(reading.next, 2)), ElementsAre(6));
+}
+
+TEST(EventBus, AReaderThatFellBehindIsToldWhereToResume) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor(), 3);
+  publish(bus, 5);
+  EventBus::Reading reading = bus.read(2, 10);
+  EXPECT_TRUE(reading.compacted);
+  EXPECT_EQ(reading.next, 3u);
+  EXPECT_TRUE(reading.facts.empty());
+  reading = bus.read(reading.next, 10);
+  EXPECT_FALSE(reading.compacted);
+  EXPECT_THAT(revisions(reading), ElementsAre(3, 4, 5));
+  EXPECT_THAT(revisions(bus.read(0, 10)), ElementsAre(3, 4, 5));
+}
+
+TEST(EventBus, ARevisionOfAnotherRunIsCompacted) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  publish(bus, 2);
+  EXPECT_FALSE(bus.read(3, 10).compacted);
+  EXPECT_TRUE(bus.read(4, 10).compacted);
+  EXPECT_EQ(bus.read(4, 10).next, 1u);
+}
+
+TEST(EventBus, ManyFactsCostOneWakeUp) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  int woken = 0;
+  const auto subscription = bus.subscribe([&] { ++woken; });
+  publish(bus, 100);
+  EXPECT_EQ(woken, 0) << "publishing must not run a reader";
+  EXPECT_EQ(tasks.run(), 1u);
+  EXPECT_EQ(woken, 1);
+  publish(bus, 1);
+  tasks.run();
+  EXPECT_EQ(woken, 2);
+}
+
+TEST(EventBus, NoWakeUpComesAfterTheSubscriptionIsGone) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  int woken = 0;
+  auto subscription = bus.subscribe([&] { ++woken; });
+  publish(bus, 1);
+  subscription.reset();
+  tasks.run();
+  EXPECT_EQ(woken, 0);
+}
+
+TEST(EventBus, AReaderMayLeaveFromWithinItsWakeUp) {
+  HeldTasks tasks;
+  EventBus bus(tasks.executor());
+  int woken = 0;
+  std::unique_ptr<WakeUps::Subscription> subscription;
+  subscription = bus.subscribe([&] {
+    ++woken;
+    subscription.reset();
+  });
+  publish(bus, 1);
+  tasks.run();
+  publish(bus, 1);
+  tasks.run();
+  EXPECT_EQ(woken, 1);
+}
+
+TEST(EventBus, WritersOnSeveralThreadsLeaveNoGap) {
+  EventBus bus([](std::function<void()>) {});
+  std::vector<std::thread> writers;
+  for (int i = 0; i < 4; ++i) writers.emplace_back([&] { publish(bus, 500); });
+  for (std::thread& writer : writers) writer.join();
+  const EventBus::Reading reading = bus.read(1, 5000);
+  ASSERT_EQ(reading.facts.size(), 2000u);
+  for (std::size_t i = 0; i < reading.facts.size(); ++i) EXPECT_EQ(reading.facts[i]->revision, i + 1);
+}
+
+TEST(NewestState, OnlyTheNewestIsKept) {
+  HeldTasks tasks;
+  NewestState newest(tasks.executor());
+  EXPECT_EQ(newest.get().version, 0u);
+  int woken = 0;
+  const auto subscription = newest.subscribe([&] { ++woken; });
+  shrc203::State state;
+  state.axis(1).position_pulses = 1;
+  newest.publish(state);
+  state.axis(1).position_pulses = 2;
+  newest.publish(state);
+  tasks.run();
+  EXPECT_EQ(woken, 1);
+  EXPECT_EQ(newest.get().version, 2u);
+  EXPECT_EQ(newest.get().state->axis(1).position_pulses, 2);
+}
+
+}  // namespace
+}  // namespace axisgate::server

@@ -1,0 +1,97 @@
+#include "server/metrics.h"
+
+#include <gmock/gmock.h>
+#include <prometheus/text_serializer.h>
+
+#include <chrono>
+#include <string>
+
+namespace axisgate::server {
+namespace {
+
+using shrc203::ExchangeEnded;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+class MetricsTest : public ::testing::Test {
+ protected:
+  std::string page() const { return prometheus::TextSerializer().Serialize(metrics_.registry()->Collect()); }
+
+  Metrics metrics_;
+  DeviceMetrics device_{metrics_, "stage"};
+};
+
+TEST_F(MetricsTest, ExchangesAreCountedByCommandAndOutcomeWithTheirTime) {
+  ExchangeEnded exchange{"Q:S", "Q:S", "", Lane::poll, ExchangeEnded::Outcome::data, std::chrono::milliseconds(12)};
+  device_.on_event(exchange);
+  device_.on_event(exchange);
+  exchange.outcome = ExchangeEnded::Outcome::timed_out;
+  device_.on_event(exchange);
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_exchanges_total{command=\"Q:S\",device=\"stage\",outcome=\"data\"} 2\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_exchanges_total{command=\"Q:S\",device=\"stage\",outcome=\"timed_out\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_count{command=\"Q:S\",device=\"stage\"} 3\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_bucket{command=\"Q:S\",device=\"stage\",le=\"0.01\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_bucket{command=\"Q:S\",device=\"stage\",le=\"0.02\"} 3\n"));
+}
+
+TEST_F(MetricsTest, OnlyEndedMotionsCount) {
+  shrc203::Motion motion;
+  motion.kind = shrc203::MotionKind::home;
+  motion.state = shrc203::MotionState::running;
+  device_.on_event(shrc203::MotionChanged{motion});
+  EXPECT_THAT(page(), Not(HasSubstr("axisgate_motions_total{")));
+  motion.state = shrc203::MotionState::unknown;
+  device_.on_event(shrc203::MotionChanged{motion});
+  EXPECT_THAT(page(), HasSubstr("axisgate_motions_total{device=\"stage\",kind=\"home\",outcome=\"UNKNOWN\"} 1\n"));
+}
+
+TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) {
+  device_.on_event(shrc203::CompletionSeen{3, 0});
+  device_.on_event(shrc203::PathProgress{1, shrc203::PathProgress::Step::done, 1, ""});
+  device_.on_event(shrc203::PathProgress{1, shrc203::PathProgress::Step::underrun, 2, "OK"});
+  device_.on_event(shrc203::BarrierEntered{"no reply"});
+  device_.on_event(shrc203::UnexpectedLine{"\x01"});
+  device_.on_event(shrc203::StopRequested{shrc203::AxisSet::all(), true, "unix"});
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"3\",device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"1\",device=\"stage\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_underruns_total{device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_barriers_total{device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_unexpected_lines_total{device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_stops_total{device=\"stage\",kind=\"emergency\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_stops_total{device=\"stage\",kind=\"normal\"} 0\n"));
+}
+
+TEST_F(MetricsTest, StateShowsPositionsTheLinkAndTheQueues) {
+  EXPECT_THAT(page(), Not(HasSubstr("axisgate_position_pulses{")));
+  shrc203::State state;
+  state.link = shrc203::LinkState::up;
+  state.axis(2).position_pulses = -1000002;
+  device_.set_state(state);
+  device_.set_queued(Lane::motion, 4);
+  std::string text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_position_pulses{axis=\"2\",device=\"stage\"} -1000002\n"));
+  EXPECT_THAT(text, Not(HasSubstr("axisgate_position_pulses{axis=\"1\"")));
+  EXPECT_THAT(text, HasSubstr("axisgate_link_up{device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_queue_depth{device=\"stage\",lane=\"motion\"} 4\n"));
+  state.axis(2).position_pulses.reset();
+  state.link = shrc203::LinkState::doubtful;
+  device_.set_state(state);
+  text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_position_pulses{axis=\"2\",device=\"stage\"} Nan\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_link_up{device=\"stage\"} 0\n"));
+}
+
+TEST_F(MetricsTest, APortInUseIsAClearError) {
+  const Result<int> port = metrics_.expose({"127.0.0.1", 0});
+  ASSERT_TRUE(port) << port.error().message;
+  EXPECT_GT(*port, 0);
+  Metrics second;
+  const Result<int> refused = second.expose({"127.0.0.1", static_cast<std::uint16_t>(*port)});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("127.0.0.1:" + std::to_string(*port) + ": the port is in use"));
+}
+
+}  // namespace
+}  // namespace axisgate::server

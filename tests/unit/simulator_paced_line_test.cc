@@ -1,0 +1,116 @@
+// A device behind a line that takes time.
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+#include "device/shrc203/simulator/paced_line.h"
+#include "device/shrc203/simulator/simulator.h"
+
+namespace axisgate::shrc203::simulator {
+namespace {
+
+using namespace std::chrono_literals;
+
+TimePoint at(Duration time) { return TimePoint{} + 24h + time; }
+
+class Host : public ByteLink {
+ public:
+  explicit Host(Pacing pacing)
+      : line(pacing, *this, [this](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+          auto device = std::make_unique<Simulator>(Options(), inside);
+          simulator = device.get();
+          return device;
+        }) {
+    line.link_up(at(0s));
+  }
+
+  void write(std::string_view bytes) override {
+    for (const char byte : bytes) heard.emplace_back(byte, now_);
+  }
+  void reopen(Duration) override { ++reopened; }
+
+  void run_to(Duration time) {
+    for (auto next = line.next_deadline(); next && *next <= at(time); next = line.next_deadline()) {
+      now_ = *next;
+      line.advance(*next);
+    }
+    now_ = at(time);
+    line.advance(now_);
+  }
+
+  std::string text() const {
+    std::string all;
+    for (const auto& [byte, time] : heard) all += byte;
+    return all;
+  }
+
+  std::vector<std::pair<char, TimePoint>> heard;
+  int reopened = 0;
+  Simulator* simulator = nullptr;
+  PacedLine line;
+
+ private:
+  TimePoint now_ = at(0s);
+};
+
+TEST(PacedLine, WithoutPacingEverythingIsAtOnce) {
+  Host host({});
+  host.line.receive("!:\r\n", at(1s));
+  EXPECT_EQ(host.text(), "R\r\n");
+  EXPECT_EQ(host.line.next_deadline(), std::nullopt);
+}
+
+// Ten bits a byte: at 10000 baud a byte takes a millisecond.
+TEST(PacedLine, BytesTakeTheirTimeBothWays) {
+  Host host({10000, 0ms, 1});
+  host.line.receive("!:\r\n", at(0s));
+  host.run_to(1s);
+  ASSERT_EQ(host.text(), "R\r\n");
+  EXPECT_EQ(host.heard[0].second, at(4ms));  // the reply begins after CR, the third byte
+  EXPECT_EQ(host.heard[1].second, at(5ms));
+  EXPECT_EQ(host.heard[2].second, at(6ms));
+}
+
+TEST(PacedLine, RepliesComeLate) {
+  Host host({0, 20ms, 1});
+  host.line.receive("!:\r\n?:W\r\n", at(0s));
+  host.run_to(19ms);
+  EXPECT_EQ(host.text(), "");
+  host.run_to(20ms);
+  EXPECT_EQ(host.text(), "R\r\n0\r\n");
+}
+
+TEST(PacedLine, TheDevicesTimeRunsFaster) {
+  Host host({0, 0ms, 10});
+  host.line.receive("MP:1+P1000,S1000F1000R1\r\nG:1\r\n", at(500ms));
+  host.run_to(549ms);
+  EXPECT_EQ(host.simulator->position(1), 490);
+  host.run_to(599ms);
+  EXPECT_EQ(host.text(), "OK\r\nOK\r\n");
+  host.run_to(601ms);
+  EXPECT_EQ(host.text(), "OK\r\nOK\r\n1\r\n");
+  EXPECT_EQ(host.heard.back().second, at(600ms));
+  EXPECT_EQ(host.simulator->position(1), 1000);
+}
+
+TEST(PacedLine, OddSpeedsLoseNoDeadline) {
+  Host host({9600, 3ms, 7.3});
+  host.line.receive("MP:1+P1000,S1000F1000R1\r\nG:1\r\n", at(0s));
+  host.run_to(10s);
+  EXPECT_EQ(host.text(), "OK\r\nOK\r\n1\r\n");
+  EXPECT_EQ(host.line.next_deadline(), std::nullopt);
+}
+
+TEST(PacedLine, WhatWasWrittenBeforeTheLineClosedStillArrives) {
+  Host host({9600, 0ms, 1});
+  host.line.receive("M:1+P1000\r\nG:1\r\n", at(0s));
+  host.line.link_down(at(1ms), "closed");
+  host.line.link_up(at(2ms));
+  host.run_to(1s);
+  EXPECT_EQ(host.text(), "");  // the answers were its predecessor's
+  EXPECT_EQ(host.simulator->position(1), 1000);
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203::simulator
