@@ -44,11 +44,13 @@ void DeviceEvents::tell(const shrc203::MotionChanged& change, TimePoint now) {
 }
 
 void DeviceEvents::tell(const shrc203::LinkChanged& change, TimePoint now) {
+  due_(Due::state);
+  if (link_ && link_->link == change.link && link_->why == change.why) return;
+  link_ = change;
   publish(change, now);
   const bool well = change.link == shrc203::LinkState::up || change.link == shrc203::LinkState::connecting;
   spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: link is {}{}{}", device_,
               shrc203::name(change.link), change.why.empty() ? "" : ": ", change.why);
-  due_(Due::state);
 }
 
 void DeviceEvents::tell(const shrc203::StopRequested& stop, TimePoint now) {

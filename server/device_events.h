@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "device/shrc203/event.h"
@@ -48,6 +49,8 @@ class DeviceEvents : public shrc203::EventSink {
   DeviceMetrics& metrics_;
   const OnDue due_;
   std::map<shrc203::MotionId, std::uint64_t> revisions_;
+  // A line that stays away is tried again and again: the same news of it is told once.
+  std::optional<shrc203::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.
   TimePoint next_strange_line_{};
   std::uint64_t strange_lines_untold_ = 0;

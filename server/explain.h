@@ -7,9 +7,11 @@
 
 namespace axisgate::server {
 
-// What happened, then what to do.
+// What happened, then what to do, as one sentence or, where the hint begins with a capital, as two.
 inline std::string explain(const Problem& problem) {
-  return problem.hint.empty() ? problem.message : problem.message + "; " + problem.hint;
+  if (problem.hint.empty()) return problem.message;
+  const bool sentence = problem.hint.front() >= 'A' && problem.hint.front() <= 'Z';
+  return problem.message + (sentence ? ". " : "; ") + problem.hint;
 }
 
 }  // namespace axisgate::server

@@ -16,8 +16,8 @@ void Completions::refused(AxisSet axes) {
 
 void Completions::arrived(int axis_number) { axis(axis_number).arrived = true; }
 
-AxisSet Completions::outstanding(TimePoint now) const {
-  AxisSet set = possible(now);
+AxisSet Completions::outstanding() const {
+  AxisSet set = possible();
   for (const int number : set.list()) {
     if (axis(number).arrived) set.remove(number);
   }
@@ -36,21 +36,29 @@ void Completions::busy(AxisSet axes) {
   for (const int number : axes.list()) axis(number).until.reset();
 }
 
-AxisSet Completions::possible(TimePoint now) const {
+void Completions::answered(TimePoint written) {
+  for (Axis& one : axes_) {
+    if (one.possible && one.until && *one.until <= written) one = {};
+  }
+}
+
+AxisSet Completions::possible() const {
   AxisSet set;
   for (const int number : AxisSet::all().list()) {
-    const Axis& one = axis(number);
-    if (one.possible && (!one.until || now < *one.until)) set.add(number);
+    if (axis(number).possible) set.add(number);
   }
   return set;
 }
 
-std::optional<TimePoint> Completions::next_change(TimePoint now) const {
-  std::optional<TimePoint> next;
-  for (const Axis& one : axes_) {
-    if (one.possible && one.until && *one.until > now && (!next || *one.until < *next)) next = one.until;
+std::optional<TimePoint> Completions::settles_from(AxisSet axes) const {
+  std::optional<TimePoint> latest;
+  for (const int number : axes.list()) {
+    const Axis& one = axis(number);
+    if (!one.possible) continue;
+    if (!one.until) return {};
+    if (!latest || *one.until > *latest) latest = one.until;
   }
-  return next;
+  return latest;
 }
 
 }  // namespace axisgate::shrc203

@@ -32,22 +32,26 @@ class Completions {
   void ready(AxisSet axes, TimePoint now);
   void busy(AxisSet axes);
 
-  AxisSet possible(TimePoint now) const;
-  bool possible(int axis, TimePoint now) const { return possible(now).has(axis); }
+  // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
+  // sent before has come; one that is due no more after READY cannot come any more.
+  void answered(TimePoint written);
+
+  AxisSet possible() const;
+  bool possible(int axis) const { return possible().has(axis); }
 
   // Axes of which a completion may still come and has not: nothing may start on them, or the late number of one motion
   // would look like the next one's.
-  AxisSet outstanding(TimePoint now) const;
+  AxisSet outstanding() const;
 
-  // When possible() will next lose an axis by the passing of time.
-  std::optional<TimePoint> next_change(TimePoint now) const;
+  // From when on an exchange would settle the matter for all of `axes`; nothing while one of them may still be moving.
+  std::optional<TimePoint> settles_from(AxisSet axes) const;
 
  private:
   struct Axis {
     bool possible = false;
     bool arrived = false;
     std::optional<TimePoint> started;  // nothing: before the connect
-    std::optional<TimePoint> until;  // set by READY
+    std::optional<TimePoint> until;    // set by READY
   };
   Axis& axis(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
   const Axis& axis(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }

@@ -105,7 +105,8 @@ class Controller::Impl : public LineListener {
   void set_state(LiveMotion& live, MotionState state);
   void end_motion(LiveMotionPtr live, MotionState outcome, std::optional<Problem> problem);
   void mark_running(LiveMotionPtr live);
-  Task<Result<void>> enter_gate(LiveMotionPtr live);
+  // `prebuffer`: it will set prebuffers, which belong to one motion unless the profile says that each axis has its own.
+  Task<Result<void>> enter_gate(LiveMotionPtr live, bool prebuffer);
   Task<Result<void>> prepare(LiveMotionPtr live, Register reg);
   Task<Result<void>> clear_left_overs(LiveMotionPtr live, Register reg);
   Task<void> watch(LiveMotionPtr live, bool start_in_doubt);

@@ -171,7 +171,7 @@ Result<void> Transaction::check_travel() {
 }
 
 Task<Result<void>> Transaction::begin() {
-  auto ready = co_await impl_.enter_gate(live_);
+  auto ready = co_await impl_.enter_gate(live_, completes(commands_));
   if (!ready || live_->motion.axes.empty()) co_return ready;
   Register reg = Register::none;
   for (const Command& command : commands_) {

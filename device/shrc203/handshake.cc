@@ -110,13 +110,14 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
 }
 
 Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
-  ExchangeResult axes, serial, scale, speeds, excitation;
+  // The axes are asked for twice: everything else hangs on that one digit, and a line can turn a 6 into a 2.
+  ExchangeResult axes, axes_again, serial, scale, speeds, excitation;
   struct Step {
     std::string_view question;
     ExchangeResult* answer;
   };
-  for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:SN", &serial}, Step{"?:P", &scale}, Step{"?:D", &speeds},
-                          Step{"?:C", &excitation}}) {
+  for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial},
+                          Step{"?:P", &scale}, Step{"?:D", &speeds}, Step{"?:C", &excitation}}) {
     for (int attempt = 0; attempt < kTries && !is_data(*step.answer); ++attempt) {
       if (connection != connection_) co_return false;
       *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
@@ -124,7 +125,8 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     if (!is_data(*step.answer)) co_return false;
   }
   const auto controllable = from_axis_setting(axes.reply->text);
-  if (!controllable || serial.reply->text != state_.serial_number) co_return false;
+  if (!controllable || axes_again.reply->text != axes.reply->text) co_return false;
+  if (serial.reply->text != state_.serial_number) co_return false;
   for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
   const auto count = static_cast<std::size_t>(controllable->count());
   const auto field = [&](const ExchangeResult& answer, int number) -> std::string {

@@ -29,7 +29,7 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
 }
 
 Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
-  auto ready = co_await enter_gate(live);
+  auto ready = co_await enter_gate(live, false);
   if (ready) ready = co_await prepare(live, Register::none);
   if (!ready) {
     end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,

@@ -12,6 +12,9 @@ namespace {
 constexpr Duration kBackoffMin = std::chrono::milliseconds(250);
 constexpr Duration kBackoffMax = std::chrono::seconds(5);
 constexpr Duration kSilenceMin = std::chrono::milliseconds(50);
+constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
+// A command that the line has cut in two is refused twice: the second NG must not meet the next command.
+constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
 constexpr std::size_t kReplyBytesMax = 64;  // the longest reply of this table: Q:SPC with three long coordinates
 
 Problem problem_of(Reason reason, std::string message, std::string_view sent) {
@@ -153,7 +156,7 @@ void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, c
 void Line::expire(TimePoint now) {
   const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
-    const bool outstanding = conflicts(*waiting->request.command.row, now);
+    const bool outstanding = !conflicts(*waiting->request.command.row).empty();
     const Problem problem{
         outstanding ? Reason::completion_outstanding : Reason::deadline_passed,
         outstanding ? "an axis number may still come over the line, and could not be told from this command's answer"
@@ -166,27 +169,64 @@ void Line::expire(TimePoint now) {
   });
 }
 
-bool Line::conflicts(const CommandRow& row, TimePoint now) const {
+// The axes whose numbers could not be told from the answer.
+AxisSet Line::conflicts(const CommandRow& row) const {
   const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
-  if (row.separation != Separation::waits && !asked_alone) return false;
+  if (row.separation != Separation::waits && !asked_alone) return {};
   const auto range = bare_number_range(row);
-  if (!range) return false;
-  for (const int axis : completions_.possible(now).list()) {
-    if (axis >= range->minimum && axis <= range->maximum) return true;
+  AxisSet found;
+  for (const int axis : completions_.possible().list()) {
+    if (range && axis >= range->minimum && axis <= range->maximum) found.add(axis);
   }
-  return false;
+  return found;
 }
 
-bool Line::may_send(const ExchangeRequest& request, TimePoint now) const {
+// When to ask !: on behalf of a question that waits for the last number to have come.
+std::optional<TimePoint> Line::conflicts_settle_from() const {
+  std::optional<TimePoint> earliest;
+  queue_.for_each([&](const WaitingPtr& waiting) {
+    const AxisSet axes = conflicts(*waiting->request.command.row);
+    const auto from = axes.empty() ? std::nullopt : completions_.settles_from(axes);
+    if (from && (!earliest || *from < *earliest)) earliest = from;
+  });
+  return earliest;
+}
+
+bool Line::may_send(const ExchangeRequest& request) const {
   if (!handshake_passed_ && !request.handshake && request.lane != Lane::stop) return false;
-  return !conflicts(*request.command.row, now);
+  return conflicts(*request.command.row).empty();
 }
 
 void Line::pump(TimePoint now) {
-  if (!port_open_ || in_flight_ || barrier_) return;
+  if (!can_send()) return;
   expire(now);
-  auto next = queue_.take([&](const WaitingPtr& waiting) { return may_send(waiting->request, now); });
-  if (next) send(std::move(*next), now);
+  const bool coming = line_is_coming(now) || now < quiet_until_;
+  auto next = queue_.take([&](const WaitingPtr& waiting) {
+    return (!coming || waiting->request.lane == Lane::stop) && may_send(waiting->request);
+  });
+  if (next) {
+    send(std::move(*next), now);
+    return;
+  }
+  const auto settles = coming ? std::nullopt : conflicts_settle_from();
+  if (!settles || now < *settles) return;
+  ExchangeRequest probe;
+  probe.command = make_command("!:");
+  send(std::make_shared<Waiting>(Waiting{std::move(probe), {}}), now);
+}
+
+// While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.
+bool Line::line_is_coming(TimePoint now) {
+  if (!framer_.mid_line()) {
+    partial_since_.reset();
+    return false;
+  }
+  if (!partial_since_) partial_since_ = now;
+  if (now < *partial_since_ + kPartialLineMax) return true;
+  framer_.clear();
+  partial_since_.reset();
+  unexpected("(a line that did not end)", now);
+  return false;
 }
 
 void Line::send(WaitingPtr waiting, TimePoint now) {
@@ -244,19 +284,29 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     return;
   }
   const auto& row = *in_flight_->waiting->request.command.row;
+  if (owed_.identities > 0 && (line.text == "NG" || line.text == "NG_I")) {
+    // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
+    --owed_.identities;
+    doubt_answer(line.text, now);
+    return;
+  }
   auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
   if (reply) {
     on_reply(std::move(*reply), now);
     return;
   }
   if (pay_owed(owed_, line.text)) return;
+  doubt_answer(line.text, now);
+}
+
+void Line::doubt_answer(std::string_view text, TimePoint now) {
   const auto& sent = in_flight_->waiting->request.command.line;
   Problem garbage{Reason::line_fault,
-                  fmt::format("\"{}\" was answered by \"{}\", which is no answer to it", sent, escaped(line.text)),
+                  fmt::format("\"{}\" was answered by \"{}\", which cannot be its answer", sent, escaped(text)),
                   {},
                   {},
                   sent,
-                  line.text};
+                  std::string(text)};
   const std::string why = garbage.message;
   enter_barrier({.written = true, .reply = {}, .problem = std::move(garbage)}, ExchangeEnded::Outcome::garbled, why,
                 now);
@@ -266,7 +316,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
 bool Line::on_axis_number(std::string_view text, TimePoint now) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
   const int axis = text[0] - '0';
-  const bool possible = completions_.possible(axis, now);
+  const bool possible = completions_.possible(axis);
   if (in_flight_ && !possible) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
@@ -291,13 +341,17 @@ void Line::on_reply(Reply reply, TimePoint now) {
     enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault)}, outcome, why, now);
     return;
   }
-  if (reply.kind == Reply::Kind::ng) completions_.refused(request.completes);
+  if (reply.kind == Reply::Kind::ng) {
+    completions_.refused(request.completes);
+    quiet_until_ = now + kQuietAfterRefusal;
+  }
   finish({.written = true, .reply = std::move(reply), .problem = {}}, outcome, now);
 }
 
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
+  if (result.reply) completions_.answered(done.written);
   const auto& request = done.waiting->request;
   ExchangeEnded ended{
       request.command.row->name, request.command.line, result.reply ? result.reply->text : "", request.lane, outcome,
@@ -372,7 +426,9 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
   };
   if (barrier_) sooner(barrier_->next_deadline());
   if (in_flight_) sooner(in_flight_->limit);
-  if (const auto change = completions_.next_change(now)) sooner(*change);
+  if (quiet_until_ > now) sooner(quiet_until_);
+  if (partial_since_ && can_send()) sooner(*partial_since_ + kPartialLineMax);
+  if (const auto settles = can_send() ? conflicts_settle_from() : std::nullopt) sooner(*settles);
   queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
   return next;
 }

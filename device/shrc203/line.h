@@ -95,15 +95,19 @@ class Line {
     TimePoint written, limit;
   };
 
+  bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
   void write_line(std::string_view line);
-  bool may_send(const ExchangeRequest& request, TimePoint now) const;
-  bool conflicts(const CommandRow& row, TimePoint now) const;
+  bool may_send(const ExchangeRequest& request) const;
+  AxisSet conflicts(const CommandRow& row) const;
+  std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);
+  bool line_is_coming(TimePoint now);
 
   void on_line(const LineFramer::Line& line, TimePoint now);
+  void doubt_answer(std::string_view text, TimePoint now);
   bool on_axis_number(std::string_view text, TimePoint now);
   void on_reply(Reply reply, TimePoint now);
   void finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now);
@@ -128,6 +132,8 @@ class Line {
   bool handshake_passed_ = false;
   LaneQueue<WaitingPtr> queue_;
   std::optional<InFlight> in_flight_;
+  TimePoint quiet_until_{};                 // after a refusal; only a stop is sent before
+  std::optional<TimePoint> partial_since_;  // an incomplete line has been coming in since then
   std::unique_ptr<Barrier> barrier_;
   std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
   WaitingPtr doubted_waiting_;

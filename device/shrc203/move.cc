@@ -94,7 +94,7 @@ void Controller::Impl::move(MoveRequest request, OnStarted started) {
 }
 
 Task<void> Controller::Impl::run_move(LiveMotionPtr live, MoveRequest request) {
-  const auto entered = co_await enter_gate(live);
+  const auto entered = co_await enter_gate(live, false);
   if (!entered) {
     end_motion(live, entered.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
                entered.error());

@@ -271,7 +271,7 @@ void Controller::Impl::run_path(PathRequest request, OnStarted started) {
 }
 
 Task<void> Controller::Impl::run_path_motion(LiveMotionPtr live, PathRequest request) {
-  auto ready = co_await enter_gate(live);
+  auto ready = co_await enter_gate(live, true);
   const bool line = live->motion.axes.count() > 1;
   const Register reg = line ? Register::kp : request.segments.front().relative ? Register::mp : Register::ap;
   if (ready) ready = co_await prepare(live, reg);

@@ -20,7 +20,8 @@ bool concerns(const LiveMotion& live, AxisSet axes) { return live.motion.axes.to
 
 void Controller::Impl::stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done) {
   const AxisSet known = state_.controllable().empty() ? AxisSet::all() : state_.controllable();
-  const AxisSet named = axes.empty() ? known : axes & known;
+  const AxisSet possible = axes & known;
+  const AxisSet named = axes.empty() ? known : possible.empty() ? axes : possible;
   emit(StopRequested{named, emergency, context.who});
   flush_motions(named, context, emergency);
   for (const auto& pending : stops_) {

@@ -73,8 +73,10 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   live->inside_gate = false;
 }
 
-Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live) {
-  auto entry = gate_.enter(live->motion.id, live->motion.axes, live->context.who, live->context.not_after);
+Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuffer) {
+  const bool alone = prebuffer && profile_.prebuffer_scope == Scope::controller;
+  auto entry = gate_.enter(live->motion.id, alone ? AxisSet::all() : live->motion.axes, live->context.who,
+                           live->context.not_after);
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   live->inside_gate = true;
@@ -90,12 +92,12 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
   }
   const AxisSet axes = live->motion.axes;
-  while (!settled_ || !(line_.completions().outstanding(now_) & axes).empty()) {
+  while (!settled_ || !(line_.completions().outstanding() & axes).empty()) {
     const auto read = co_await read_positions(Lane::motion, live->context.who);
     if (!read) co_return read;
     bool busy = false;
     for (const int axis : axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
-    if (!busy && (line_.completions().outstanding(now_) & axes).empty()) break;
+    if (!busy && (line_.completions().outstanding() & axes).empty()) break;
     if (now_ >= live->context.not_after) {
       co_return fail(Reason::axis_busy, "the axes did not come to rest in the time allowed", "wait, or stop them");
     }

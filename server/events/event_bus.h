@@ -13,7 +13,7 @@
 #include "device/core/time.h"
 #include "device/shrc203/event.h"
 #include "server/events/wake_ups.h"
-#include "server/wall_time.h"
+#include "server/events/wall_time.h"
 
 namespace axisgate::server {
 

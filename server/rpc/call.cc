@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "device/core/escape.h"
-#include "server/wall_time.h"
+#include "server/events/wall_time.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -12,7 +12,7 @@
 #include "device/shrc203/controller.h"
 #include "server/device.h"
 #include "server/events/event_bus.h"
-#include "server/wall_time.h"
+#include "server/events/wall_time.h"
 
 namespace axisgate::rpc {
 

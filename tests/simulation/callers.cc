@@ -10,9 +10,9 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 // Hazard 1: each of these can be answered by a bare number while a completion is due.
-const std::vector<std::string> kQuestions = {"?:C1", "?:F1",  "?:SLEEP", "?:BO",   "?:BEEP", "?:AXIS", "?:ACS1", "?:O",
-                                             "?:W",  "I:",    "?:M1",    "?:MP2",  "?:A3",   "?:WT1",  "?:WI2",  "?:P3",
-                                             "?:V",  "*IDN?", "!:",      "Q:",     "?:CMD",  "SRQ:",   "?:D1",   "?:K"};
+const std::vector<std::string> kQuestions = {"?:C1", "?:F1",  "?:SLEEP", "?:BO",  "?:BEEP", "?:AXIS", "?:ACS1", "?:O",
+                                             "?:W",  "I:",    "?:M1",    "?:MP2", "?:A3",   "?:WT1",  "?:WI2",  "?:P3",
+                                             "?:V",  "*IDN?", "!:",      "Q:",    "?:CMD",  "SRQ:",   "?:D1",   "?:K"};
 
 std::string who(Random& random) { return fmt::format("caller-{}", random.between(1, 4)); }
 
@@ -33,16 +33,22 @@ void Callers::act() {
   switch (world_.random().between(0, 11)) {
     case 0:
     case 1:
-    case 2: return move();
-    case 3: return home();
+    case 2:
+      return move();
+    case 3:
+      return home();
     case 4:
-    case 5: return path();
-    case 6: return stop();
-    case 7: return set_and_go();
+    case 5:
+      return path();
+    case 6:
+      return stop();
+    case 7:
+      return set_and_go();
     case 8:
       if (world_.random().chance(0.1)) world_.wire().cut(world_.now(), milliseconds(world_.random().between(10, 3000)));
       return;
-    default: return ask();
+    default:
+      return ask();
   }
 }
 

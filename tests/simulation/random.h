@@ -21,9 +21,7 @@ class Random {
   std::int64_t between(std::int64_t low, std::int64_t high) {
     return low + static_cast<std::int64_t>(next() % static_cast<std::uint64_t>(high - low + 1));
   }
-  bool chance(double probability) {
-    return static_cast<double>(next() >> 11) * 0x1.0p-53 < probability;
-  }
+  bool chance(double probability) { return static_cast<double>(next() >> 11) * 0x1.0p-53 < probability; }
   template <class T>
   const T& pick(const std::vector<T>& from) {
     return from[static_cast<std::size_t>(between(0, static_cast<std::int64_t>(from.size()) - 1))];

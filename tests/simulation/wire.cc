@@ -124,7 +124,12 @@ void Wire::device_line(std::string text) {
     if (strikes(faults_.drop_notice, "notice: dropped")) return;
     if (strikes(faults_.late_notice, "notice: late")) extra = milliseconds(random_.between(5, 120));
     const bool twice = strikes(faults_.double_notice, "notice: doubled");
-    to_gateway(twice ? text + "\r\n" + text + "\r\n" : text + "\r\n", origin, extra);
+    held_notices_.emplace(now_ + extra, twice ? text + "\r\n" + text + "\r\n" : text + "\r\n");
+    if (strikes(faults_.flood_notice, "notice: flood")) {
+      for (int i = 0; i < random_.between(5, 20); ++i) {
+        held_notices_.emplace(now_ + milliseconds(random_.between(1, 120)), text + "\r\n");
+      }
+    }
   }
   if (strikes(faults_.noise, "line: noise")) {
     std::string burst;
@@ -133,14 +138,15 @@ void Wire::device_line(std::string text) {
   }
 }
 
-// A late line holds up the ones behind it: bytes do not overtake on a wire. Only a late notice does, as one that the
-// device was slow to send.
+// A late line holds up the ones behind it: bytes do not overtake on a wire.
 void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
   const Duration length = byte_time_ * static_cast<std::int64_t>(bytes.size());
   TimePoint at = std::max(to_gateway_free_, now_) + length + extra;
-  if (origin.kind != Origin::Kind::notice || extra == Duration{}) to_gateway_free_ = at;
+  to_gateway_free_ = at;
   if (bytes.size() > 4 && strikes(faults_.split, "line: split")) {
-    const auto middle = bytes.size() / 2;
+    // Never between the two copies of a doubled line: one that comes after the next command cannot be told from its
+    // answer by anybody.
+    const auto middle = bytes.size() / 2 + 1;
     in_transit_.emplace(at, Delivery{false, bytes.substr(0, middle), origin, 0});
     at += milliseconds(random_.between(1, 40));
     to_gateway_free_ = std::max(to_gateway_free_, at);
@@ -151,6 +157,7 @@ void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
 
 std::optional<TimePoint> Wire::next_event() const {
   std::optional<TimePoint> next = opens_at_;
+  if (!held_notices_.empty() && (!next || held_notices_.begin()->first < *next)) next = held_notices_.begin()->first;
   if (!in_transit_.empty() && (!next || in_transit_.begin()->first < *next)) next = in_transit_.begin()->first;
   return next;
 }
@@ -158,16 +165,13 @@ std::optional<TimePoint> Wire::next_event() const {
 void Wire::advance(TimePoint now) {
   now_ = now;
   if (opens_at_ && *opens_at_ <= now) open(now);
+  while (!held_notices_.empty() && held_notices_.begin()->first <= now) {
+    const std::string bytes = held_notices_.extract(held_notices_.begin()).mapped();
+    if (open_) to_gateway(bytes, {Origin::Kind::notice, 0}, {});
+  }
   while (open_ && !in_transit_.empty() && in_transit_.begin()->first <= now) {
     const Delivery delivery = in_transit_.extract(in_transit_.begin()).mapped();
     deliver(delivery, now);
-  }
-  if (open_ && faults_.flood_notice > 0 && random_.chance(faults_.flood_notice / 20)) {
-    ++by_kind_["notice: flood"];
-    const int count = static_cast<int>(random_.between(1, 5));
-    for (int i = 0; i < count; ++i) {
-      to_gateway(std::to_string(random_.between(1, 3)) + "\r\n", {Origin::Kind::noise, 0}, {});
-    }
   }
 }
 

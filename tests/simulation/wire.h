@@ -17,20 +17,20 @@ namespace axisgate::simulation {
 
 // Probabilities a line. Zero everywhere: a perfect line.
 struct Faults {
-  double drop_command = 0;    // line: a command never arrives
-  double flip_command = 0;    // line: one bit of a command is wrong
-  double null_in_command = 0; // line: a NUL in a command (NG_I)
+  double drop_command = 0;     // line: a command never arrives
+  double flip_command = 0;     // line: one bit of a command is wrong
+  double null_in_command = 0;  // line: a NUL in a command (NG_I)
   double drop_reply = 0;
   double late_reply = 0;
   double double_reply = 0;
   double false_ng = 0;
   double flip_reply = 0;
-  double noise = 0;           // line: a burst of bytes between lines
-  double split = 0;           // line: a pause in the middle of a line
+  double noise = 0;  // line: a burst of bytes between lines
+  double split = 0;  // line: a pause in the middle of a line
   double drop_notice = 0;
   double late_notice = 0;
   double double_notice = 0;
-  double flood_notice = 0;    // notice: axis numbers that no motion sent
+  double flood_notice = 0;  // notice: one number many times
 
   static Faults none() { return {}; }
   static Faults hostile();
@@ -110,6 +110,7 @@ class Wire {
   std::optional<TimePoint> opens_at_;
   TimePoint to_device_free_{}, to_gateway_free_{};
   std::multimap<TimePoint, Delivery> in_transit_;
+  std::multimap<TimePoint, std::string> held_notices_;  // that the device is slow to send
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
   std::string device_partial_;

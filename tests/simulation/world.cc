@@ -14,8 +14,8 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
   setup.faults = faults;
   Random random(seed * 7919 + 17);
   for (const auto& option : simulator::option_names()) {
-    const auto value = option.values[static_cast<std::size_t>(
-        random.between(0, static_cast<std::int64_t>(option.values.size()) - 1))];
+    const auto value =
+        option.values[static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(option.values.size()) - 1))];
     (void)setup.options.set(option.name, value);
   }
   // The gateway is told what a lab would have found out, and only that; else it assumes the narrower reading.
@@ -42,8 +42,8 @@ void World::violation(const std::string& what) {
 }
 
 std::string World::replay() const {
-  std::string text = fmt::format("replay with AXISGATE_SEED={}\nreadings: {}\nfaults:", setup_.seed,
-                                 setup_.options.describe());
+  std::string text =
+      fmt::format("replay with AXISGATE_SEED={}\nreadings: {}\nfaults:", setup_.seed, setup_.options.describe());
   for (const auto& [kind, count] : wire_.faults_by_kind()) text += fmt::format(" {} {};", count, kind);
   text += "\nthe last lines of the wire:\n";
   for (const auto& line : wire_.log()) text += line + "\n";
@@ -55,6 +55,8 @@ void World::step(TimePoint limit) {
   for (const auto& at : {wire_.next_event(), controller_->next_deadline(), device_->next_deadline()}) {
     if (at && *at < next) next = *at;
   }
+  steps_here_ = next > now_ ? 0 : steps_here_ + 1;
+  if (steps_here_ > 100'000) violation("time stands still: a deadline that has passed is named again and again");
   now_ = std::max(now_, next);
   wire_.advance(now_);
   device_->advance(now_);

@@ -77,6 +77,7 @@ class World : public shrc203::EventSink {
   std::unique_ptr<shrc203::simulator::Simulator> device_;
   std::unique_ptr<shrc203::Controller> controller_;
   TimePoint now_{};
+  int steps_here_ = 0;
   std::vector<std::string> violations_;
   std::vector<shrc203::Motion> outcomes_;
   std::vector<shrc203::PathProgress> progress_;

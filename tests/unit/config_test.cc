@@ -201,6 +201,12 @@ TEST(Config, AFileThatIsNotThereSaysSo) {
   EXPECT_EQ(to_string(config.error().at(0)), "/nonexistent/lab.toml: cannot be opened: No such file or directory");
 }
 
+TEST(Config, TheExampleThatIsInstalledIsRight) {
+  const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/axisgate.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(config->devices.size(), 1u);
+}
+
 TEST(Config, ReadsAFile) {
   const std::string path = ::testing::TempDir() + "axisgate_config_test.toml";
   std::ofstream(path) << kStage;

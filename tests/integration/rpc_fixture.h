@@ -1,0 +1,127 @@
+// A whole gateway inside the test: built-in simulator, services, and a client on its Unix socket.
+#pragma once
+
+#include <grpcpp/grpcpp.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "axisgate/v1/command.grpc.pb.h"
+#include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/event.grpc.pb.h"
+#include "axisgate/v1/stage.grpc.pb.h"
+#include "server/gateway.h"
+#include "server/rpc/server.h"
+
+namespace axisgate::rpc {
+
+class RpcTest : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    server::Config config = server::default_config();
+    config.listen.port = 0;
+    config.socket = directory_ + "/axisgate.sock";
+    config.devices[0].connection = server::SimulatedConnection{20, false, {}};
+    config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
+    gateway_ = std::make_unique<server::Gateway>(config);
+    auto started = Server::start(*gateway_, config.listen, config.socket);
+    ASSERT_TRUE(started) << started.error().message;
+    server_ = *std::move(started);
+    gateway_->start();
+    channel_ = grpc::CreateChannel("unix:" + config.socket, grpc::InsecureChannelCredentials());
+    devices_ = api::DeviceService::NewStub(channel_);
+    stage_ = api::StageService::NewStub(channel_);
+    events_ = api::EventService::NewStub(channel_);
+    commands_ = api::CommandService::NewStub(channel_);
+    wait_until_up();
+  }
+
+  void TearDown() override {
+    server_.reset();
+    gateway_.reset();
+    std::filesystem::remove(directory_);
+  }
+
+  // Of every call in these tests: long enough for a slow machine, so that a hang fails instead of hanging.
+  static void limit(grpc::ClientContext& context) {
+    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  }
+
+  void wait_until_up() {
+    grpc::ClientContext context;
+    limit(context);
+    api::WatchDeviceRequest request;
+    request.set_name("devices/stage");
+    const auto stream = devices_->WatchDevice(&context, request);
+    api::WatchDeviceResponse response;
+    while (stream->Read(&response)) {
+      if (response.device().link() == api::LINK_STATE_UP) break;
+    }
+    ASSERT_EQ(response.device().link(), api::LINK_STATE_UP);
+    context.TryCancel();
+  }
+
+  static api::MoveRequest move_request(int axis, const std::string& mm) {
+    api::MoveRequest request;
+    request.set_device("devices/stage");
+    api::AxisTarget& target = *request.add_targets();
+    target.set_axis(axis);
+    target.mutable_distance()->set_mm(mm);
+    return request;
+  }
+
+  grpc::Status move(const api::MoveRequest& request, api::Motion* motion = nullptr) {
+    grpc::ClientContext context;
+    limit(context);
+    api::MoveResponse response;
+    const grpc::Status status = stage_->Move(&context, request, &response);
+    if (motion != nullptr) *motion = response.motion();
+    return status;
+  }
+
+  // The motion at its outcome.
+  api::Motion outcome(const std::string& name) {
+    grpc::ClientContext context;
+    limit(context);
+    api::WatchMotionRequest request;
+    request.set_name(name);
+    const auto stream = stage_->WatchMotion(&context, request);
+    api::WatchMotionResponse response;
+    while (stream->Read(&response)) {
+    }
+    EXPECT_TRUE(stream->Finish().ok());
+    return response.motion();
+  }
+
+  int motion_count() {
+    grpc::ClientContext context;
+    limit(context);
+    api::ListMotionsRequest request;
+    request.set_device("devices/stage");
+    api::ListMotionsResponse response;
+    EXPECT_TRUE(stage_->ListMotions(&context, request, &response).ok());
+    return response.motions_size();
+  }
+
+  static api::Reason reason(const grpc::Status& status) {
+    api::ErrorStatus details;
+    api::Problem problem;
+    if (!details.ParseFromString(status.error_details()) || details.details_size() == 0) return api::REASON_UNSPECIFIED;
+    return problem.ParseFromString(details.details(0).value()) ? problem.reason() : api::REASON_UNSPECIFIED;
+  }
+
+  const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
+  std::unique_ptr<server::Gateway> gateway_;
+  std::unique_ptr<Server> server_;
+  std::shared_ptr<grpc::Channel> channel_;
+  std::unique_ptr<api::DeviceService::Stub> devices_;
+  std::unique_ptr<api::StageService::Stub> stage_;
+  std::unique_ptr<api::EventService::Stub> events_;
+  std::unique_ptr<api::CommandService::Stub> commands_;
+};
+
+}  // namespace axisgate::rpc

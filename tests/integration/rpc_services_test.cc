@@ -1,0 +1,254 @@
+#include <gmock/gmock.h>
+
+#include <thread>
+#include <vector>
+
+#include "tests/integration/rpc_fixture.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using ::testing::ElementsAre;
+
+TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
+  api::Motion motion;
+  ASSERT_TRUE(move(move_request(1, "1"), &motion).ok());
+  EXPECT_EQ(motion.name(), "devices/stage/motions/1");
+  EXPECT_EQ(motion.who(), "unix");
+  EXPECT_GT(motion.revision(), 0u);
+  const api::Motion ended = outcome(motion.name());
+  EXPECT_EQ(ended.state(), api::MOTION_STATE_SUCCEEDED);
+  EXPECT_GT(ended.revision(), motion.revision());
+  ASSERT_EQ(ended.results_size(), 1);
+  EXPECT_EQ(ended.results(0).target_pulses(), 100'000);  // 1 mm at 10 nm a pulse
+  EXPECT_EQ(ended.results(0).command_pulses(), 100'000);
+
+  grpc::ClientContext context;
+  limit(context);
+  api::GetDeviceRequest request;
+  request.set_name("devices/stage");
+  request.mutable_max_age();
+  api::GetDeviceResponse response;
+  ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
+  ASSERT_EQ(response.device().axes_size(), 3);
+  EXPECT_EQ(response.device().axes(0).position_pulses(), 100'000);
+  EXPECT_EQ(response.device().axes(0).position(), "1000");
+  EXPECT_EQ(response.device().axes(0).unit(), api::UNIT_MICROMETERS);
+  EXPECT_EQ(response.device().axes(0).travel_maximum().mm(), "5");
+}
+
+TEST_F(RpcTest, BadRequestsAreRefusedWithTheirReason) {
+  api::MoveRequest request = move_request(1, "1");
+  request.set_device("devices/nowhere");
+  grpc::Status status = move(request);
+  EXPECT_EQ(status.error_code(), grpc::NOT_FOUND);
+  EXPECT_EQ(reason(status), api::REASON_UNKNOWN_DEVICE);
+  request.set_device("stage");
+  EXPECT_EQ(reason(move(request)), api::REASON_INVALID_REQUEST);
+  EXPECT_EQ(reason(move(move_request(4, "1"))), api::REASON_UNKNOWN_AXIS);
+  EXPECT_EQ(reason(move(move_request(1, "5.1"))), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(reason(move(move_request(1, "0.0000001"))), api::REASON_NOT_REPRESENTABLE);
+  request = move_request(1, "1");
+  request.mutable_targets(0)->mutable_distance()->set_degrees("1");
+  EXPECT_EQ(reason(move(request)), api::REASON_UNKNOWN_UNIT);
+  request = move_request(1, "1");
+  request.mutable_context()->set_request_id("a\nb");
+  EXPECT_EQ(reason(move(request)), api::REASON_INVALID_REQUEST);
+  request = move_request(1, "1");
+  request.mutable_context()->mutable_not_after()->set_seconds(1);
+  EXPECT_EQ(reason(move(request)), api::REASON_DEADLINE_PASSED);
+}
+
+TEST_F(RpcTest, ValidateOnlyChecksAndMovesNothing) {
+  api::MoveRequest request = move_request(1, "1");
+  request.set_validate_only(true);
+  EXPECT_TRUE(move(request).ok());
+  request = move_request(1, "6");
+  request.set_validate_only(true);
+  EXPECT_EQ(reason(move(request)), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(motion_count(), 0);
+}
+
+// The revisions that a watcher sees, until the first motion's outcome.
+std::vector<std::uint64_t> watch(api::EventService::Stub& stub, std::uint64_t from) {
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  api::WatchRequest request;
+  request.set_from_revision(from);
+  const auto stream = stub.Watch(&context, request);
+  std::vector<std::uint64_t> revisions;
+  api::WatchResponse response;
+  while (stream->Read(&response)) {
+    revisions.push_back(response.event().revision());
+    if (response.event().motion().state() >= api::MOTION_STATE_SUCCEEDED) break;
+  }
+  context.TryCancel();
+  return revisions;
+}
+
+TEST_F(RpcTest, ThreeWatchersSeeTheSameRevisionsAndOneThatComesBackMissesNone) {
+  std::vector<std::vector<std::uint64_t>> seen(3);
+  std::vector<std::thread> watchers;
+  for (auto& revisions : seen) watchers.emplace_back([&] { revisions = watch(*events_, 1); });
+  ASSERT_TRUE(move(move_request(1, "1")).ok());
+  for (std::thread& watcher : watchers) watcher.join();
+  ASSERT_FALSE(seen[0].empty());
+  for (std::size_t i = 0; i < seen[0].size(); ++i) EXPECT_EQ(seen[0][i], i + 1);
+  EXPECT_EQ(seen[1], seen[0]);
+  EXPECT_EQ(seen[2], seen[0]);
+  const std::vector<std::uint64_t> rest(seen[0].begin() + 2, seen[0].end());
+  EXPECT_EQ(watch(*events_, 3), rest);
+}
+
+TEST_F(RpcTest, ARevisionOfAnotherRunIsCompacted) {
+  grpc::ClientContext context;
+  limit(context);
+  api::WatchRequest request;
+  request.set_from_revision(1);
+  request.set_run("another");
+  const auto stream = events_->Watch(&context, request);
+  api::WatchResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  const grpc::Status status = stream->Finish();
+  EXPECT_EQ(reason(status), api::REASON_COMPACTED);
+  EXPECT_EQ(context.GetServerTrailingMetadata().count("grpc-status-details-bin"), 1u);
+}
+
+api::RunPathRequest header() {
+  api::RunPathRequest part;
+  part.mutable_header()->set_device("devices/stage");
+  return part;
+}
+
+api::RunPathRequest segment(const std::string& um) {
+  api::RunPathRequest part;
+  part.mutable_segment()->set_relative(true);
+  part.mutable_segment()->mutable_single()->set_axis(1);
+  part.mutable_segment()->mutable_single()->mutable_distance()->set_um(um);
+  return part;
+}
+
+TEST_F(RpcTest, APathTellsEveryStepAndItsOutcome) {
+  grpc::ClientContext context;
+  limit(context);
+  const auto stream = stage_->RunPath(&context);
+  stream->Write(header());
+  for (const char* um : {"50", "-20", "30"}) stream->Write(segment(um));
+  stream->WritesDone();
+  std::vector<int> sent;
+  std::vector<int> done;
+  std::vector<api::MotionState> states;
+  api::RunPathResponse response;
+  while (stream->Read(&response)) {
+    if (response.has_motion()) states.push_back(response.motion().state());
+    const api::PathProgress& progress = response.progress();
+    if (progress.step() == api::PathProgress::STEP_SENT) sent.push_back(progress.segment());
+    if (progress.step() == api::PathProgress::STEP_DONE) done.push_back(progress.segment());
+  }
+  EXPECT_TRUE(stream->Finish().ok());
+  EXPECT_THAT(sent, ElementsAre(1, 2, 3));
+  EXPECT_THAT(done, ElementsAre(1, 2, 3));
+  EXPECT_THAT(states, ElementsAre(api::MOTION_STATE_RUNNING, api::MOTION_STATE_SUCCEEDED));
+}
+
+TEST_F(RpcTest, ABadSegmentIsNamed) {
+  grpc::ClientContext context;
+  limit(context);
+  const auto stream = stage_->RunPath(&context);
+  stream->Write(header());
+  stream->Write(segment("50"));
+  stream->Write(segment("fast"));
+  stream->WritesDone();
+  api::RunPathResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  const grpc::Status status = stream->Finish();
+  EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT);
+  EXPECT_THAT(status.error_message(), ::testing::StartsWith("segment 2: "));
+  EXPECT_EQ(motion_count(), 0);
+}
+
+TEST_F(RpcTest, AClientThatBreaksOffAPathStartsNothing) {
+  for (int i = 0; i < 20; ++i) {
+    grpc::ClientContext context;
+    const auto stream = stage_->RunPath(&context);
+    stream->Write(header());
+    stream->Write(segment("50"));
+    context.TryCancel();
+    EXPECT_EQ(stream->Finish().error_code(), grpc::CANCELLED);
+  }
+  // A move started afterwards is the first motion: it waits longer than a path would to start.
+  api::Motion motion;
+  ASSERT_TRUE(move(move_request(2, "1"), &motion).ok());
+  outcome(motion.name());
+  EXPECT_EQ(motion_count(), 1);
+}
+
+TEST_F(RpcTest, ExecuteStreamsRepliesThenCompletions) {
+  grpc::ClientContext context;
+  limit(context);
+  api::ExecuteRequest request;
+  request.set_device("devices/stage");
+  request.add_lines("?:P1");
+  const auto stream = commands_->Execute(&context, request);
+  api::ExecuteResponse response;
+  ASSERT_TRUE(stream->Read(&response));
+  EXPECT_EQ(response.reply().answer(), "10");
+  EXPECT_EQ(response.reply().sent(), "?:P");
+  EXPECT_EQ(response.reply().wire_reply(), "10,10,10");
+  EXPECT_FALSE(stream->Read(&response));
+  EXPECT_TRUE(stream->Finish().ok());
+}
+
+TEST_F(RpcTest, ExecuteRefusesWhatIsNoLine) {
+  for (const char* line : {"G:1", "BOGUS", "Q:\r\nG:", "Q:\x7f", ""}) {
+    grpc::ClientContext context;
+    limit(context);
+    api::ExecuteRequest request;
+    request.set_device("devices/stage");
+    request.add_lines(line);
+    const auto stream = commands_->Execute(&context, request);
+    api::ExecuteResponse response;
+    EXPECT_FALSE(stream->Read(&response)) << line;
+    EXPECT_EQ(stream->Finish().error_code(), grpc::INVALID_ARGUMENT) << line;
+  }
+}
+
+TEST_F(RpcTest, StopAnswersPerAxisAndTheMotionIsStopped) {
+  api::Motion motion;
+  ASSERT_TRUE(move(move_request(1, "5"), &motion).ok());
+  grpc::ClientContext context;
+  limit(context);
+  api::StopRequest request;
+  request.set_device("devices/stage");
+  api::StopResponse response;
+  ASSERT_TRUE(stage_->Stop(&context, request, &response).ok());
+  ASSERT_EQ(response.axes_size(), 3);
+  EXPECT_EQ(response.axes(0).wire_reply(), "OK");
+  EXPECT_TRUE(response.axes(0).ready());
+  EXPECT_EQ(outcome(motion.name()).state(), api::MOTION_STATE_STOPPED);
+}
+
+TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
+  grpc::ClientContext context;
+  limit(context);
+  const auto stream = events_->Watch(&context, api::WatchRequest());
+  stream->WaitForInitialMetadata();
+  server_.reset();
+  gateway_.reset();
+  api::WatchResponse response;
+  while (stream->Read(&response)) {
+  }
+  EXPECT_FALSE(stream->Finish().ok());
+}
+
+TEST_F(RpcTest, ASecondServerIsRefused) {
+  const auto tcp = Server::start(*gateway_, server_->listen(), server_->socket() + "2");
+  ASSERT_FALSE(tcp);
+  EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
+  const auto socket = Server::start(*gateway_, {"127.0.0.1", 0}, server_->socket());
+  ASSERT_FALSE(socket);
+  EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
+}
+
+}  // namespace
+}  // namespace axisgate::rpc

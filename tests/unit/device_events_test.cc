@@ -1,0 +1,67 @@
+#include "server/device_events.h"
+
+#include <gmock/gmock.h>
+
+#include <vector>
+
+namespace axisgate::server {
+namespace {
+
+using ::testing::ElementsAre;
+
+class DeviceEventsTest : public ::testing::Test {
+ protected:
+  void tell(const shrc203::Event& event) { events_.on_event(event, now_); }
+
+  static shrc203::MotionChanged motion(shrc203::MotionId id, shrc203::MotionState state) {
+    shrc203::Motion changed;
+    changed.id = id;
+    changed.state = state;
+    return {changed};
+  }
+
+  const TimePoint now_{std::chrono::seconds(1000)};
+  EventBus bus_{[](std::function<void()>) {}};
+  Metrics metrics_;
+  DeviceMetrics device_metrics_{metrics_, "stage"};
+  std::vector<DeviceEvents::Due> due_;
+  DeviceEvents events_{"stage", bus_, device_metrics_, [this](DeviceEvents::Due due) { due_.push_back(due); }};
+};
+
+TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
+  tell(motion(1, shrc203::MotionState::queued));
+  tell(shrc203::CompletionSeen{1, 1});
+  tell(shrc203::PathProgress{1, shrc203::PathProgress::Step::sent, 1, "OK"});
+  tell(shrc203::StopRequested{shrc203::AxisSet::all(), false, "unix"});
+  EXPECT_EQ(bus_.newest_revision(), 4u);
+  tell(shrc203::ExchangeEnded{});
+  tell(shrc203::BarrierEntered{"no reply"});
+  tell(shrc203::UnexpectedLine{"?"});
+  tell(shrc203::StateChanged{});
+  EXPECT_EQ(bus_.newest_revision(), 4u);
+  EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
+}
+
+TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {
+  EXPECT_EQ(events_.motion_revision(1), 0u);
+  tell(motion(1, shrc203::MotionState::queued));
+  tell(motion(2, shrc203::MotionState::queued));
+  tell(motion(1, shrc203::MotionState::running));
+  EXPECT_EQ(events_.motion_revision(1), 3u);
+  EXPECT_EQ(events_.motion_revision(2), 2u);
+}
+
+TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
+  const shrc203::LinkChanged down{shrc203::LinkState::down, "no such device"};
+  tell(down);
+  tell(down);
+  EXPECT_EQ(bus_.newest_revision(), 1u);
+  tell(shrc203::LinkChanged{shrc203::LinkState::down, "held by another process"});
+  tell(shrc203::LinkChanged{shrc203::LinkState::up, ""});
+  tell(down);
+  EXPECT_EQ(bus_.newest_revision(), 4u);
+  EXPECT_EQ(bus_.read(4, 1).facts.at(0)->device, "stage");
+}
+
+}  // namespace
+}  // namespace axisgate::server
