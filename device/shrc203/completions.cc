@@ -10,10 +10,6 @@ void Completions::started(AxisSet axes, TimePoint now) {
   for (const int number : axes.list()) axis(number) = {.possible = true, .arrived = false, .started = now, .until = {}};
 }
 
-void Completions::refused(AxisSet axes) {
-  for (const int number : axes.list()) axis(number) = {};
-}
-
 void Completions::arrived(int axis_number) { axis(axis_number).arrived = true; }
 
 AxisSet Completions::outstanding() const {

@@ -22,9 +22,6 @@ class Completions {
   // The first byte of HRT:, ZRT: or a G after a prebuffer setting is about to be written.
   void started(AxisSet axes, TimePoint now);
 
-  // The start was answered NG by a line that can be trusted: nothing will complete.
-  void refused(AxisSet axes);
-
   // An axis number came, one for each start, more in a chain.
   void arrived(int axis);
 

@@ -37,6 +37,7 @@ struct LiveMotion {
   bool line_lost = false;
   std::string line_problem;
   bool inside_gate = false;
+  bool wrote = false;  // a line of its own went out: the registers may hold something
 
   struct Completion {
     int axis = 0;
@@ -133,6 +134,7 @@ class Controller::Impl : public LineListener {
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
   enum class Start { accepted, in_doubt };
   Task<Result<Start>> go(LiveMotionPtr live, AxisSet completes);
+  Task<bool> moves_all_the_same(LiveMotionPtr live);
   void home(MotionKind kind, HomeRequest request, OnStarted started);
   Task<void> run_home(LiveMotionPtr live);
 

@@ -199,6 +199,7 @@ Task<bool> Transaction::send(std::size_t index) {
   ExecuteEvent event;
   event.line = index;
   event.sent = request.command.line;
+  if (live_) live_->wrote = true;
   auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
   const auto result = co_await pending;
   if (command.row->moves()) {

@@ -40,19 +40,22 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   for (auto& result : live->motion.results) result.target_pulses = 0;
   auto request = motion_request(*live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes), Lane::motion);
   request.completes = live->motion.axes;
+  live->wrote = true;
   auto pending = line_.exchange(std::move(request), now_);
   const auto result = co_await pending;
-  if (result.refused()) {
+  bool in_doubt = result.in_doubt();
+  if (result.refused()) in_doubt = co_await moves_all_the_same(live);
+  if (result.refused() && !in_doubt) {
     const auto why = co_await explain_refusal(mechanical ? "HRT:" : "ZRT:", live->motion.axes, live->context.who);
     end_motion(live, MotionState::failed, why);
     co_return;
   }
-  if (!result.accepted() && !result.in_doubt()) {
+  if (!result.accepted() && !in_doubt) {
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, *result.problem);
     co_return;
   }
   if (result.accepted()) mark_running(live);
-  co_await watch(live, result.in_doubt());
+  co_await watch(live, in_doubt);
   if (!mechanical || live->motion.state != MotionState::succeeded) co_return;
   for (const int axis : live->motion.axes.list()) state_.axis(axis).homed = true;
   publish_state();

@@ -341,10 +341,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
     enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault)}, outcome, why, now);
     return;
   }
-  if (reply.kind == Reply::Kind::ng) {
-    completions_.refused(request.completes);
-    quiet_until_ = now + kQuietAfterRefusal;
-  }
+  if (reply.kind == Reply::Kind::ng) quiet_until_ = now + kQuietAfterRefusal;
   finish({.written = true, .reply = std::move(reply), .problem = {}}, outcome, now);
 }
 
@@ -426,9 +423,12 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
   };
   if (barrier_) sooner(barrier_->next_deadline());
   if (in_flight_) sooner(in_flight_->limit);
-  if (quiet_until_ > now) sooner(quiet_until_);
-  if (partial_since_ && can_send()) sooner(*partial_since_ + kPartialLineMax);
-  if (const auto settles = can_send() ? conflicts_settle_from() : std::nullopt) sooner(*settles);
+  if (can_send()) {
+    TimePoint held = quiet_until_;
+    if (partial_since_) held = std::max(held, *partial_since_ + kPartialLineMax);
+    if (held > now || partial_since_) sooner(held);
+    if (const auto settles = conflicts_settle_from()) sooner(std::max(*settles, held));
+  }
   queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
   return next;
 }

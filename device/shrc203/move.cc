@@ -189,6 +189,7 @@ Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Comman
   Problem problem;
   for (int attempt = 0; attempt < kSetTries; ++attempt) {
     if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+    live->wrote = true;
     auto pending = line_.exchange(motion_request(*live, setter, lane), now_);
     const auto result = co_await pending;
     if (result.accepted()) co_return *result.reply;
@@ -211,6 +212,19 @@ Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Comman
   co_return tl::unexpected(std::move(problem));
 }
 
+// The axes stood before the start, so an NG over axes that move was not the controller's.
+Task<bool> Controller::Impl::moves_all_the_same(LiveMotionPtr live) {
+  const Positions before = positions_of(state_);
+  const auto read = co_await read_positions(Lane::motion, live->context.who);
+  if (!read) co_return true;
+  bool moves = false;
+  for (const int axis : live->motion.axes.list()) {
+    const auto place = static_cast<std::size_t>(axis - 1);
+    moves = moves || state_.axis(axis).busy.value_or(true) || state_.axis(axis).position_pulses != before[place];
+  }
+  co_return moves;
+}
+
 // `completes` are the axes whose numbers will come. Sent once, whatever becomes of its answer.
 Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, AxisSet completes) {
   if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
@@ -225,6 +239,8 @@ Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, A
     co_return Start::accepted;
   }
   if (result.refused()) {
+    const bool moves = co_await moves_all_the_same(live);
+    if (moves) co_return Start::in_doubt;
     auto why = co_await explain_refusal("G:", live->motion.axes, live->context.who);
     co_return tl::unexpected(std::move(why));
   }

@@ -57,7 +57,7 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   live->motion.problem = std::move(problem);
   for (auto& result : live->motion.results) result.command_pulses = state_.axis(result.axis).position_pulses;
   settled_ = outcome == MotionState::succeeded;
-  if (!settled_ && !(never_started && live->motion.problem)) registers_.forget();
+  if (!settled_ && live->wrote) registers_.forget();
   set_state(*live, outcome);
   if (auto started = std::exchange(live->on_started, {})) {
     if (never_started && live->motion.problem && outcome != MotionState::unknown) {
