@@ -60,7 +60,6 @@ std::unique_ptr<Line> make_simulated(const SimulatedConnection& connection, cons
   simulator::Options options;
   // The names were checked as the configuration was read.
   for (const auto& [name, value] : connection.options) (void)options.set(name, value);
-  if (!profile.serial_number.empty()) options.serial_number = profile.serial_number;
   const simulator::Pacing pacing{connection.paced ? profile.baud : 0, Duration{}, connection.speed};
   return std::make_unique<SimulatedLine>(pacing, std::move(options), std::move(strand),
                                          fmt::format("built-in simulator, speed {}", connection.speed));

@@ -14,6 +14,7 @@
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
+#include "server/events/wall_time.h"
 #include "server/gateway.h"
 #include "server/rpc/server.h"
 
@@ -48,7 +49,7 @@ class RpcTest : public ::testing::Test {
 
   // Of every call in these tests: long enough for a slow machine, so that a hang fails instead of hanging.
   static void limit(grpc::ClientContext& context) {
-    context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+    context.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(30)));
   }
 
   void wait_until_up() {

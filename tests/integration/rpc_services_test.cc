@@ -72,7 +72,7 @@ TEST_F(RpcTest, ValidateOnlyChecksAndMovesNothing) {
 // The revisions that a watcher sees, until the first motion's outcome.
 std::vector<std::uint64_t> watch(api::EventService::Stub& stub, std::uint64_t from) {
   grpc::ClientContext context;
-  context.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(30));
+  context.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(30)));
   api::WatchRequest request;
   request.set_from_revision(from);
   const auto stream = stub.Watch(&context, request);
