@@ -37,6 +37,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   ++connection_;
   settled_ = false;
   registers_.forget();
+  const bool news = state_.link != LinkState::down || state_.link_problem != why;
   state_.link = LinkState::down;
   state_.link_problem = why;
   for (auto& axis : state_.axes) {
@@ -57,6 +58,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
                   {},
                   {},
                   {}});
+  if (!news) return;
   emit(LinkChanged{LinkState::down, why});
   publish_state();
 }

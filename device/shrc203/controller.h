@@ -108,7 +108,7 @@ class Controller : public LineMachine {
   const Profile& profile() const;
   const State& state() const;
 
-  // The state, read again from the device when it is older than `max_age`.
+  // The state, read again from the device when it is older than `max_age`; link_down while the device is not up.
   using OnState = std::function<void(Result<State>)>;
   void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done);
 
@@ -121,6 +121,7 @@ class Controller : public LineMachine {
   // The same checks as above, and nothing is sent.
   Result<void> check(const MoveRequest& request) const;
   Result<void> check(const PathRequest& request) const;
+  static Result<void> check(const ExecuteRequest& request);
 
   // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.
   using OnStopped = std::function<void(StopReport)>;

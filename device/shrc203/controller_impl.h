@@ -96,6 +96,7 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
+  Task<Result<void>> read_excitation(std::string caller);
   Task<Problem> explain_refusal(std::string sent, AxisSet axes, std::string caller);
   Task<void> refresh(Duration max_age, RequestContext context, OnState done);
   bool apply_positions(const Reply& reply);

@@ -36,6 +36,21 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
   return {};
 }
 
+Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) {
+  std::vector<Command> commands;
+  if (lines.empty() || lines.size() > kLinesMax) {
+    return fail(Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax));
+  }
+  for (std::size_t index = 0; index < lines.size(); ++index) {
+    auto command = parse_command(lines[index]);
+    if (!command && lines.size() > 1) command.error().message.insert(0, fmt::format("line {}: ", index + 1));
+    if (!command) return tl::unexpected(command.error());
+    commands.push_back(*std::move(command));
+  }
+  if (const auto good = check_transaction(commands); !good) return tl::unexpected(good.error());
+  return commands;
+}
+
 bool needs_gate(const std::vector<Command>& commands) {
   return std::ranges::any_of(commands, [](const Command& command) {
     return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
@@ -265,7 +280,8 @@ Task<void> Transaction::run() {
   if (started_ || start_in_doubt_) {
     co_await impl_.watch(live_, start_in_doubt_);
   } else {
-    const auto reread = co_await impl_.read_speeds(request_.context.who);
+    auto reread = co_await impl_.read_speeds(request_.context.who);
+    if (reread) reread = co_await impl_.read_excitation(request_.context.who);
     impl_.end_motion(live_, all && reread ? MotionState::succeeded : MotionState::failed, {});
     impl_.registers_.forget();
   }
@@ -282,16 +298,9 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
     ended.problem = std::move(problem);
     event(ended);
   };
-  std::vector<Command> commands;
-  for (const auto& line : request.lines) {
-    auto command = parse_command(line);
-    if (!command) return refuse(command.error());
-    commands.push_back(*std::move(command));
-  }
-  if (commands.empty() || commands.size() > kLinesMax) {
-    return refuse({Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax), {}, {}, {}, {}});
-  }
-  if (const auto good = check_transaction(commands); !good) return refuse(good.error());
+  auto checked = check_lines(request.lines);
+  if (!checked) return refuse(checked.error());
+  std::vector<Command> commands = *std::move(checked);
   if (state_.controllable().empty() || state_.link == LinkState::down) {
     if (commands.front().row->effect != Effect::stop) {
       return refuse(
@@ -301,6 +310,12 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
   if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
   executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
+}
+
+Result<void> Controller::check(const ExecuteRequest& request) {
+  const auto commands = check_lines(request.lines);
+  if (!commands) return tl::unexpected(commands.error());
+  return {};
 }
 
 Task<void> Controller::Impl::run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event) {
@@ -344,7 +359,8 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
     done(tl::unexpected(*result.problem));
     co_return;
   }
-  const auto read = co_await read_positions(Lane::question, context.who);
+  const auto excitation = co_await read_excitation(context.who);
+  const auto read = excitation ? co_await read_positions(Lane::question, context.who) : excitation;
   if (!result.accepted()) {
     done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
   } else if (!read) {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "device/core/escape.h"
-
 namespace axisgate::shrc203 {
 namespace {
 
@@ -13,28 +11,10 @@ constexpr Duration kBackoffMin = std::chrono::milliseconds(250);
 constexpr Duration kBackoffMax = std::chrono::seconds(5);
 constexpr Duration kSilenceMin = std::chrono::milliseconds(50);
 constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
-// A command that the line has cut in two is refused twice: the second NG must not meet the next command.
-constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
 constexpr std::size_t kReplyBytesMax = 64;  // the longest reply of this table: Q:SPC with three long coordinates
 
 Problem problem_of(Reason reason, std::string message, std::string_view sent) {
   return {reason, std::move(message), {}, {}, std::string(sent), {}};
-}
-
-ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
-  switch (kind) {
-    case Reply::Kind::ok:
-      return ExchangeEnded::Outcome::ok;
-    case Reply::Kind::ok_d:
-      return ExchangeEnded::Outcome::ok_d;
-    case Reply::Kind::ng:
-      return ExchangeEnded::Outcome::ng;
-    case Reply::Kind::ng_i:
-      return ExchangeEnded::Outcome::ng_i;
-    case Reply::Kind::data:
-      break;
-  }
-  return ExchangeEnded::Outcome::data;
 }
 
 }  // namespace
@@ -156,17 +136,31 @@ void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, c
 void Line::expire(TimePoint now) {
   const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
-    const bool outstanding = !conflicts(*waiting->request.command.row).empty();
-    const Problem problem{
-        outstanding ? Reason::completion_outstanding : Reason::deadline_passed,
-        outstanding ? "an axis number may still come over the line, and could not be told from this command's answer"
-                    : "the time allowed for this command ran out before the line was free",
-        outstanding ? "ask again once the motion has ended" : "allow more time, or try again",
-        {},
-        waiting->request.command.line,
-        {}};
+    const Problem problem = why_expired(waiting->request);
     for (auto& answer : waiting->answers) answer.deliver({.written = false, .reply = {}, .problem = problem});
   });
+}
+
+Problem Line::why_expired(const ExchangeRequest& request) const {
+  const auto& line = request.command.line;
+  if (!port_open_) {
+    return {
+        Reason::link_down, "the line to the controller is down", "see `axisctl status` for the reason", {}, line, {}};
+  }
+  if (!conflicts(*request.command.row).empty()) {
+    return {Reason::completion_outstanding,
+            "an axis number may still come over the line, and could not be told from this command's answer",
+            "ask again once the motion has ended",
+            {},
+            line,
+            {}};
+  }
+  return {Reason::deadline_passed,
+          "the time allowed for this command ran out before the line was free",
+          "allow more time, or try again",
+          {},
+          line,
+          {}};
 }
 
 // The axes whose numbers could not be told from the answer.
@@ -266,141 +260,6 @@ void Line::write_line(std::string_view line) {
   link_.write(bytes);
 }
 
-void Line::receive(std::string_view bytes, TimePoint now) {
-  framer_.push(bytes);
-  while (auto line = framer_.next()) on_line(*line, now);
-  pump(now);
-}
-
-void Line::on_line(const LineFramer::Line& line, TimePoint now) {
-  if (!line.overlong && on_axis_number(line.text, now)) return;
-  if (barrier_) {
-    if (!barrier_->on_line(line.text, now)) unexpected(line.text, now);
-    barrier_moved(now);
-    return;
-  }
-  if (!in_flight_) {
-    if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
-    return;
-  }
-  const auto& row = *in_flight_->waiting->request.command.row;
-  if (owed_.identities > 0 && (line.text == "NG" || line.text == "NG_I")) {
-    // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
-    --owed_.identities;
-    doubt_answer(line.text, now);
-    return;
-  }
-  auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
-  if (reply) {
-    on_reply(std::move(*reply), now);
-    return;
-  }
-  if (pay_owed(owed_, line.text)) return;
-  doubt_answer(line.text, now);
-}
-
-void Line::doubt_answer(std::string_view text, TimePoint now) {
-  const auto& sent = in_flight_->waiting->request.command.line;
-  Problem garbage{Reason::line_fault,
-                  fmt::format("\"{}\" was answered by \"{}\", which cannot be its answer", sent, escaped(text)),
-                  {},
-                  {},
-                  sent,
-                  std::string(text)};
-  const std::string why = garbage.message;
-  enter_barrier({.written = true, .reply = {}, .problem = std::move(garbage)}, ExchangeEnded::Outcome::garbled, why,
-                now);
-}
-
-// True: the text was an axis number, and has been dealt with as a completion.
-bool Line::on_axis_number(std::string_view text, TimePoint now) {
-  if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
-  const int axis = text[0] - '0';
-  const bool possible = completions_.possible(axis);
-  if (in_flight_ && !possible) {
-    const auto& row = *in_flight_->waiting->request.command.row;
-    if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
-  }
-  listener_.completion_seen(axis, !possible || barrier_ != nullptr, now);
-  return true;
-}
-
-void Line::on_reply(Reply reply, TimePoint now) {
-  const auto& request = in_flight_->waiting->request;
-  const auto outcome = outcome_of(reply.kind);
-  if (reply.kind == Reply::Kind::ng_i) {
-    Problem fault{Reason::line_fault,
-                  fmt::format("the controller received a character that \"{}\" does not hold (NG_I): the line is "
-                              "disturbed",
-                              request.command.line),
-                  "check the cable and the line settings",
-                  {},
-                  request.command.line,
-                  reply.text};
-    const std::string why = fault.message;
-    enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault)}, outcome, why, now);
-    return;
-  }
-  if (reply.kind == Reply::Kind::ng) quiet_until_ = now + kQuietAfterRefusal;
-  finish({.written = true, .reply = std::move(reply), .problem = {}}, outcome, now);
-}
-
-void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
-  const InFlight done = std::move(*in_flight_);
-  in_flight_.reset();
-  if (result.reply) completions_.answered(done.written);
-  const auto& request = done.waiting->request;
-  ExchangeEnded ended{
-      request.command.row->name, request.command.line, result.reply ? result.reply->text : "", request.lane, outcome,
-      now - done.written};
-  listener_.line_event(ended, now);
-  for (auto& answer : done.waiting->answers) answer.deliver(result);
-}
-
-void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why,
-                         TimePoint now) {
-  doubted_waiting_ = in_flight_->waiting;
-  doubted_ = std::move(doubted);
-  ExchangeEnded ended{doubted_waiting_->request.command.row->name,
-                      doubted_waiting_->request.command.line,
-                      doubted_->reply ? doubted_->reply->text : "",
-                      doubted_waiting_->request.lane,
-                      outcome,
-                      now - in_flight_->written};
-  in_flight_.reset();
-  listener_.line_event(ended, now);
-  state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
-  listener_.barrier_entered(why, now);
-  barrier_ = make_barrier(doubted_waiting_->request.command.line);
-  barrier_->start(now);
-  send_stops_now(now);
-}
-
-void Line::barrier_moved(TimePoint now) {
-  if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
-  if (barrier_->state() == Barrier::State::failed) {
-    give_up("no answer to three probes", now);
-    return;
-  }
-  const Identity identity = *barrier_->identity();
-  // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
-  owed_.echoes = 0;
-  barrier_.reset();
-  const bool connecting = !handshake_passed_ && !doubted_waiting_;
-  if (doubted_waiting_) {
-    for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
-    doubted_waiting_.reset();
-    doubted_.reset();
-  }
-  if (handshake_passed_) state_ = LinkState::up;
-  if (connecting) {
-    listener_.line_connected(identity, now);
-  } else {
-    listener_.barrier_passed(identity, now);
-  }
-  pump(now);
-}
-
 void Line::advance(TimePoint now) {
   if (barrier_) {
     barrier_->advance(now);
@@ -431,10 +290,6 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
   }
   queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
   return next;
-}
-
-void Line::unexpected(std::string_view text, TimePoint now) {
-  listener_.line_event(UnexpectedLine{std::string(text)}, now);
 }
 
 Duration Line::time_of(std::size_t bytes) const {

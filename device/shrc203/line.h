@@ -104,6 +104,7 @@ class Line {
   AxisSet conflicts(const CommandRow& row) const;
   std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);
+  Problem why_expired(const ExchangeRequest& request) const;
   bool line_is_coming(TimePoint now);
 
   void on_line(const LineFramer::Line& line, TimePoint now);

@@ -115,6 +115,18 @@ Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
   co_return Result<void>();
 }
 
+// The front panel and an emergency stop switch motors too, so what is known is asked again where it matters.
+Task<Result<void>> Controller::Impl::read_excitation(std::string caller) {
+  const auto result = co_await ask("?:C", Lane::motion, std::move(caller));
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:C", result));
+  const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
+  std::size_t place = 0;
+  for (const int number : named.list()) state_.axis(number).excited = result.reply->fields[place++] == "1";
+  publish_state();
+  co_return Result<void>();
+}
+
 Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, std::string caller) {
   Problem problem{
       Reason::device_refused, "the controller refused the command (NG)", "look at `axisctl status`", {}, sent, "NG"};
@@ -141,31 +153,26 @@ Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, 
       co_return problem;
     }
   }
-  const auto excitation = co_await ask("?:C", Lane::motion, caller);
-  if (excitation.reply && excitation.reply->fields.size() == static_cast<std::size_t>(state_.controllable().count())) {
-    std::size_t place = 0;
-    for (const int number : state_.controllable().list()) {
-      state_.axis(number).excited = excitation.reply->fields[place++] == "1";
-      if (*state_.axis(number).excited || !axes.has(number)) continue;
-      problem.reason = Reason::not_excited;
-      problem.axis = number;
-      problem.message = fmt::format("the controller refused the command (NG): the motor of axis {} is off", number);
-      problem.hint = fmt::format("switch it on: axisctl exec C:{}1", number);
-      co_return problem;
-    }
+  const auto excitation = co_await read_excitation(caller);
+  for (const int number : axes.list()) {
+    if (!excitation || state_.axis(number).excited.value_or(true)) continue;
+    problem.reason = Reason::not_excited;
+    problem.axis = number;
+    problem.message = fmt::format("the controller refused the command (NG): the motor of axis {} is off", number);
+    problem.hint = fmt::format("switch it on: axisctl exec C:{}1", number);
+    co_return problem;
   }
   co_return problem;
 }
 
 Task<void> Controller::Impl::refresh(Duration max_age, RequestContext context, OnState done) {
-  const TimePoint limit = default_limit(context.not_after, kQuestionLimit);
   if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
-    done(state_);  // said truthfully in it
+    done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
     co_return;
   }
   if (state_.read == TimePoint{} || now_ - state_.read > max_age) {
     const auto read = co_await read_positions(Lane::question, context.who);
-    if (!read && now_ > limit) {
+    if (!read) {
       done(tl::unexpected(read.error()));
       co_return;
     }

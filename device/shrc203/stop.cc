@@ -9,7 +9,8 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kStopTries = 3;
-constexpr Duration kWriteLimit = std::chrono::seconds(10);       // how long a stop may wait for a line to be open
+constexpr Duration kReopenLimit = std::chrono::seconds(1);  // how long a stop waits for a line that is down
+constexpr Duration kWriteLimit = std::chrono::seconds(10);
 constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
 constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
 
@@ -71,6 +72,11 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   registers_.forget();
   const bool line_works = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
   if (line_works) co_await wait_for_standstill(job);
+  if (line_works && job->emergency) {
+    // Whether the motors stay excited depends on a memory switch (manual 66)).
+    const auto excitation = co_await read_excitation(job->context.who);
+    if (!excitation) settled_ = false;
+  }
   std::erase(stops_, job);
   for (auto& done : job->done) done(job->report);
 }
@@ -80,7 +86,7 @@ Task<ExchangeResult> Controller::Impl::write_stop_line(StopJobPtr job, Command c
   request.command = std::move(command);
   request.lane = Lane::stop;
   request.caller = job->context.who;
-  request.not_after = now_ + kWriteLimit;
+  request.not_after = now_ + (state_.link == LinkState::down ? kReopenLimit : kWriteLimit);
   auto pending = line_.exchange(std::move(request), now_);
   auto result = co_await pending;
   co_return result;
@@ -101,7 +107,7 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
   }
   job->report.problem = result.problem;
   for (auto& axis : job->report.axes) {
-    axis.named = named.has(axis.axis);
+    axis.named = result.written && named.has(axis.axis);
     if (axis.named && result.reply) axis.wire_reply = result.reply->text;
   }
   if (!result.refused() || job->emergency || named.count() < 2) co_return;

@@ -60,17 +60,6 @@ Result<void> check_lines(const api::ExecuteRequest& request) {
   return {};
 }
 
-grpc::Status check_commands(const api::ExecuteRequest& request) {
-  for (int i = 0; i < request.lines_size(); ++i) {
-    if (const Result<shrc203::Command> command = shrc203::parse_command(request.lines(i)); !command) {
-      Problem problem = command.error();
-      problem.message = fmt::format("line {}: {}", i + 1, problem.message);
-      return to_status(problem);
-    }
-  }
-  return grpc::Status::OK;
-}
-
 Result<Duration> timeout_of(const api::ExecuteRequest& request) {
   if (!request.has_timeout()) return kTimeout;
   const std::int64_t seconds = request.timeout().seconds();
@@ -108,10 +97,13 @@ grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::Ca
   Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
   if (!asked) return new Ended(asked.error());
   if (!request->context().has_not_after()) asked->not_after = monotonic_now() + *timeout;
-  if (request->validate_only()) return new Ended(check_commands(*request));
+  shrc203::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};
+  if (request->validate_only()) {
+    const Result<void> checked = shrc203::Controller::check(transaction);
+    return checked ? new Ended(grpc::Status::OK) : new Ended(checked.error());
+  }
   Result<StreamLimit::Place> place = streams_.take();
   if (!place) return new Ended(place.error());
-  shrc203::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};
   return ExecuteStream::start(gateway_, **device, std::move(transaction), *timeout, *std::move(place));
 }
 

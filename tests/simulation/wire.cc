@@ -83,11 +83,14 @@ void Wire::from_gateway(std::string_view bytes) {
   commands_.push_back(line);
   note(now_, "> " + line);
   if (!open_) return;
-  to_device_free_ = std::max(to_device_free_, now_) + byte_time_ * static_cast<std::int64_t>(bytes.size());
+  const Scripted fault = scripted(LineKind::command, line);
+  to_device_free_ =
+      std::max(to_device_free_, now_) + byte_time_ * static_cast<std::int64_t>(bytes.size()) + fault.delay;
+  if (fault.drop) return;
   if (strikes(faults_.drop_command, "line: command dropped")) return;
   if (strikes(faults_.flip_command, "line: command flipped")) line = flipped(line);
   if (strikes(faults_.null_in_command, "line: NUL in command")) line.insert(line.size() / 2, 1, '\0');
-  in_transit_.emplace(to_device_free_, Delivery{true, line + "\r\n", {}, commands_.size() - 1});
+  in_transit_.emplace(to_device_free_, Delivery{true, fault.instead.value_or(line + "\r\n"), {}, commands_.size() - 1});
 }
 
 void Wire::from_device(std::string_view bytes) {
@@ -111,10 +114,14 @@ void Wire::device_line(std::string text) {
     unanswered_.pop_front();
   }
   if (!open_) return;
-  Duration extra{};
-  if (origin.kind == Origin::Kind::reply) {
+  const bool is_reply = origin.kind == Origin::Kind::reply;
+  const Scripted fault = scripted(is_reply ? LineKind::reply : LineKind::notice, text);
+  if (fault.drop) return;
+  if (fault.instead) return to_gateway(*fault.instead, origin, fault.delay);
+  Duration extra = fault.delay;
+  if (is_reply) {
     if (strikes(faults_.drop_reply, "reply: dropped")) return;
-    if (strikes(faults_.late_reply, "reply: late")) extra = milliseconds(random_.between(50, 900));
+    if (strikes(faults_.late_reply, "reply: late")) extra += milliseconds(random_.between(50, 900));
     const bool setting = text == "OK" || text == "OK_D";
     if (setting && strikes(faults_.false_ng, "reply: false NG")) text = random_.chance(0.5) ? "NG" : "NG_I";
     if (strikes(faults_.flip_reply, "line: reply flipped")) text = flipped(text);
@@ -122,7 +129,7 @@ void Wire::device_line(std::string text) {
     to_gateway(twice ? text + "\r\n" + text + "\r\n" : text + "\r\n", origin, extra);
   } else {
     if (strikes(faults_.drop_notice, "notice: dropped")) return;
-    if (strikes(faults_.late_notice, "notice: late")) extra = milliseconds(random_.between(5, 120));
+    if (strikes(faults_.late_notice, "notice: late")) extra += milliseconds(random_.between(5, 120));
     const bool twice = strikes(faults_.double_notice, "notice: doubled");
     held_notices_.emplace(now_ + extra, twice ? text + "\r\n" + text + "\r\n" : text + "\r\n");
     if (strikes(faults_.flood_notice, "notice: flood")) {

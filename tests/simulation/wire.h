@@ -41,11 +41,22 @@ struct Origin {
   std::size_t command = 0;  // a reply's: the index of the command line that it answers
 };
 
+// A fault at one place instead of at random: what is done to one line.
+struct Scripted {
+  bool drop = false;
+  Duration delay{};                    // of this line and those behind it; a notice waits alone
+  std::optional<std::string> instead;  // these bytes, terminator and all
+};
+enum class LineKind { command, reply, notice };
+using Script = std::function<Scripted(LineKind, const std::string& line)>;
+
 class Wire {
  public:
   Wire(Random& random, int baud) : random_(random), byte_time_(std::chrono::nanoseconds(10'000'000'000 / baud)) {}
 
   void set_faults(const Faults& faults) { faults_ = faults; }
+  // Asked for every line, before the faults are drawn.
+  void set_script(Script script) { script_ = std::move(script); }
 
   // The gateway's end and the device's end.
   ByteLink& gateway_end() { return gateway_end_; }
@@ -94,12 +105,14 @@ class Wire {
   void reopen(Duration wait);
   void deliver(const Delivery& delivery, TimePoint now);
   void to_gateway(std::string bytes, Origin origin, Duration extra);
+  Scripted scripted(LineKind kind, const std::string& line) const { return script_ ? script_(kind, line) : Scripted{}; }
   bool strikes(double probability, const char* kind);
   std::string flipped(std::string text);
 
   Random& random_;
   Duration byte_time_;
   Faults faults_;
+  Script script_;
   GatewayEnd gateway_end_{*this};
   DeviceEnd device_end_{*this};
   LineMachine* gateway_ = nullptr;
