@@ -258,7 +258,7 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   if (check.start_in_doubt && live->motion.state == MotionState::queued && !error) {
     end_motion(live, MotionState::unknown,
                Problem{Reason::outcome_unknown,
-                       "the answer to the start was lost, and the axes stand elsewhere than at their targets",
+                       "the answer to the start was lost, and nothing tells whether the motion ran to its end",
                        "look at the positions; the motion was not sent again",
                        {},
                        {},

@@ -7,6 +7,8 @@
 #include <variant>
 
 #include "device/core/escape.h"
+#include "device/link/clock.h"
+#include "device/link/clock.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/status.h"
@@ -141,6 +143,22 @@ api::Device to_proto(const server::Device& device, const shrc203::State& state) 
   return proto;
 }
 
+// One moment on both clocks. A fact carries its own, so that everybody who is told of it is told the same times.
+struct Moment {
+  TimePoint monotonic;
+  server::WallTime wall;
+
+  server::WallTime at(TimePoint time) const {
+    return wall - std::chrono::duration_cast<server::WallTime::duration>(monotonic - time);
+  }
+};
+
+void set_times(api::Motion& proto, const shrc203::Motion& motion, const Moment& moment) {
+  *proto.mutable_create_time() = to_proto(moment.at(motion.created));
+  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(moment.at(motion.started));
+  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(moment.at(motion.ended));
+}
+
 api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, std::uint64_t revision) {
   api::Motion proto;
   proto.set_name(motion_name(device, motion.id));
@@ -156,9 +174,7 @@ api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, s
   }
   if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
   proto.set_revision(revision);
-  *proto.mutable_create_time() = to_proto(server::to_wall(motion.created));
-  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(server::to_wall(motion.started));
-  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(server::to_wall(motion.ended));
+  set_times(proto, motion, {monotonic_now(), server::to_wall(monotonic_now())});
   proto.set_who(motion.who);
   proto.set_request_id(motion.request_id);
   proto.set_segments_total(motion.segments_total);
@@ -186,6 +202,9 @@ api::Event to_proto(const server::FactRecord& record, const std::string& run) {
   event.set_device("devices/" + record.device);
   event.set_run(run);
   std::visit(EventFiller{record, event}, record.fact);
+  if (const auto* changed = std::get_if<shrc203::MotionChanged>(&record.fact)) {
+    set_times(*event.mutable_motion(), changed->motion, {record.monotonic, record.time});
+  }
   return event;
 }
 

@@ -1,0 +1,66 @@
+// Every example of the manual, and every row of the table.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+
+#include "device/shrc203/command_table.h"
+#include "tests/conformance/verification.h"
+
+namespace axisgate::shrc203::conformance {
+namespace {
+
+using Example = Transcripts::Example;
+
+class Transcript : public testing::TestWithParam<Example> {};
+
+// "moves_line_3_67_M": GoogleTest takes letters, digits and underscores only.
+std::string test_name(const testing::TestParamInfo<Example>& info) {
+  const Example& example = info.param;
+  std::string name = example.file.substr(0, example.file.find('.')) + "_line_" +
+                     std::to_string(example.block.front().number) + "_" + std::to_string(example.entry.section) + "_" +
+                     example.entry.row;
+  std::erase_if(name, [](unsigned char c) { return !std::isalnum(c) && c != '_'; });
+  return name;
+}
+
+TEST_P(Transcript, TableAgrees) {
+  const Entry& entry = GetParam().entry;
+  const auto complaint = check_by_table(entry);
+  EXPECT_FALSE(complaint) << entry.place << ": > " << entry.sent << "\n" << *complaint;
+}
+
+TEST_P(Transcript, SimulatorAgrees) {
+  const Entry& entry = GetParam().entry;
+  if (entry.offline) GTEST_SKIP() << *entry.offline;
+  const auto complaint = check_by_simulator(entry);
+  EXPECT_FALSE(complaint) << entry.place << ": > " << entry.sent << "\n" << *complaint;
+}
+
+INSTANTIATE_TEST_SUITE_P(Manual, Transcript, testing::ValuesIn(all_transcripts().examples), test_name);
+
+TEST(Transcripts, AllAreReadable) {
+  for (const auto& mistake : all_transcripts().mistakes) ADD_FAILURE() << mistake;
+  EXPECT_FALSE(all_transcripts().examples.empty());
+}
+
+TEST(Transcripts, EveryRowHasATranscript) {
+  std::set<std::string_view> covered;
+  for (const auto& example : all_transcripts().examples) covered.insert(example.entry.row);
+  for (const CommandRow& row : command_table()) {
+    EXPECT_TRUE(covered.erase(row.name)) << "no transcript for " << row.name << " (manual " << row.section << "))";
+  }
+  for (const auto name : covered) ADD_FAILURE() << "transcripts for '" << name << "', which the table does not have";
+}
+
+TEST(Transcripts, SectionsMatchTheTable) {
+  for (const auto& example : all_transcripts().examples) {
+    const auto row = std::ranges::find(command_table(), example.entry.row, &CommandRow::name);
+    if (row == command_table().end()) continue;  // EveryRowHasATranscript tells
+    EXPECT_EQ(example.entry.section, row->section) << example.entry.place;
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203::conformance

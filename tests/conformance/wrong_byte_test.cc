@@ -1,0 +1,75 @@
+// A transcript binds its bytes: with any of them wrong, it is no longer true.
+#include <gtest/gtest.h>
+
+#include <cctype>
+#include <iostream>
+
+#include "tests/conformance/verification.h"
+
+namespace axisgate::shrc203::conformance {
+namespace {
+
+// The mistakes of a typist: a neighbour, the other case, the other sign, a lost or an added blank.
+std::string wrong_bytes_for(char right) {
+  const auto byte = static_cast<unsigned char>(right);
+  if (std::isdigit(byte)) return {right == '9' ? '0' : static_cast<char>(right + 1), 'O'};
+  if (std::islower(byte)) return {right == 'z' ? 'a' : static_cast<char>(right + 1), static_cast<char>(right - 32)};
+  if (std::isupper(byte)) return {right == 'Z' ? 'A' : static_cast<char>(right + 1), static_cast<char>(right + 32)};
+  if (right == '+') return "-0";
+  if (right == '-') return "+ ";
+  if (right == ' ') return "0_";
+  return right == ',' ? ".;" : ", ";
+}
+
+// Where the bytes of a line begin that the test vouches for. A source and a reason are words for people; a state is
+// often reached by more ways than one, so that of a setup only its reply counts.
+std::size_t first_bound_byte(std::string_view line) {
+  if (line.starts_with("source: ") || line.starts_with("offline: ") || line.starts_with("device: ")) return line.size();
+  if (line.starts_with("setup: ")) return line.rfind(" -> ") + 4;
+  return 0;
+}
+
+bool is_refused(const Transcripts::Example& example, const Block& wrong) {
+  const auto entry = parse_entry(example.file, wrong);
+  return !entry || check(*entry);
+}
+
+int try_wrong_bytes(const Transcripts::Example& example) {
+  int count = 0;
+  Block block = example.block;
+  for (Line& line : block) {
+    for (std::size_t i = first_bound_byte(line.text); i < line.text.size(); ++i) {
+      const char right = line.text[i];
+      for (const char wrong : wrong_bytes_for(right)) {
+        line.text[i] = wrong;
+        ++count;
+        EXPECT_TRUE(is_refused(example, block)) << example.file << ":" << line.number << ": passes as " << line.text;
+      }
+      line.text[i] = right;
+    }
+  }
+  return count;
+}
+
+TEST(Transcripts, OneWrongByteFails) {
+  int count = 0;
+  for (const auto& example : all_transcripts().examples) count += try_wrong_bytes(example);
+  std::cout << count << " wrong bytes tried in " << all_transcripts().examples.size() << " transcripts\n";
+  EXPECT_GT(count, 0);
+}
+
+// Offline, no simulator speaks for the reply; its bytes must be bound all the same.
+TEST(Transcripts, OneMissingOrDoubledByteFails) {
+  for (const auto& example : all_transcripts().examples) {
+    for (std::size_t i = 0; i < example.entry.reply.size(); ++i) {
+      Entry shorter = example.entry, longer = example.entry;
+      shorter.reply.erase(i, 1);
+      longer.reply.insert(i, 1, longer.reply[i]);
+      EXPECT_TRUE(check(shorter)) << example.entry.place << ": passes with the reply " << shorter.reply;
+      EXPECT_TRUE(check(longer)) << example.entry.place << ": passes with the reply " << longer.reply;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203::conformance

@@ -1,0 +1,178 @@
+// Hazards of the line itself: whose answer is whose. Numbers as in the table of what can go wrong on a shared line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <memory>
+
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::AnyOf;
+using testing::ElementsAre;
+
+struct NumberQuestion {
+  const char* line;
+  const char* answer;
+};
+
+// IN1 and OUT1 are on and W: is 0.1 s, so that most answers are the very digit that a completion of axis 1 is.
+constexpr std::string_view kSetWay = "?:M1";
+const NumberQuestion kNumberQuestions[] = {
+    {"?:C1", "1"},   {"?:F1", "1"}, {"?:SLEEP", "0"}, {"?:BO", "1"}, {"?:BEEP", "1"}, {"?:AXIS", "6"},
+    {"?:ACS1", "0"}, {"?:O", "1"},  {"?:W", "1"},     {"I:", "1"},   {"?:M1", "NS"},
+};
+
+void PrintTo(const NumberQuestion& question, std::ostream* out) { *out << question.line; }
+
+class HazardH01 : public testing::TestWithParam<NumberQuestion> {
+ protected:
+  // Asks at `offset` after `start` has set axis 1 going; the answer must be right, the axis number seen once.
+  void ask_during(World& world, const std::function<void()>& start, Duration offset, const std::string& while_moving) {
+    const std::size_t outcomes = world.outcomes().size(), completions = world.completions().size();
+    start();
+    world.run_for(offset);
+    EXPECT_THAT(execute(world, {GetParam().line}), ElementsAre(AnyOf(GetParam().answer, while_moving)))
+        << "asked " << offset.count() << " ns after the start\n"
+        << world.replay();
+    EXPECT_EQ(outcome_of(world, outcomes + 1).state, MotionState::succeeded) << world.replay();
+    world.run_for(milliseconds(300));
+    EXPECT_EQ(world.completions().size(), completions + 1) << offset.count() << "\n" << world.replay();
+  }
+
+  void prepare(World& world) {
+    world.device().set_inputs(1);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    foreign_traffic(world, {"O:1", "W:1"});
+  }
+};
+
+TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAnOriginReturn) {
+  World world(quiet());
+  prepare(world);
+  const auto home = [&] {
+    world.controller().home({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+  };
+  home();
+  ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded);
+  const Duration lasts = world.outcomes()[0].ended - world.outcomes()[0].created;
+  for (Duration offset{}; offset < lasts + milliseconds(50) && !HasFailure(); offset += microseconds(1130)) {
+    ask_during(world, home, offset, GetParam().answer);
+  }
+  EXPECT_EQ(world.barriers(), 0u) << world.replay();
+}
+
+TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAMove) {
+  World world(quiet());
+  prepare(world);
+  std::int64_t way = 300;
+  const auto move = [&] { move_by(world, {{1, way = -way}}); };
+  move();
+  ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded);
+  const auto& first = world.outcomes()[0];
+  const Duration lasts = first.ended - first.created;
+  for (Duration offset{}; offset < lasts + milliseconds(20) && !HasFailure(); offset += microseconds(730)) {
+    // What was set can be read as long as it is carried out.
+    ask_during(world, move, offset, GetParam().line == kSetWay ? std::to_string(-way) : GetParam().answer);
+  }
+  EXPECT_EQ(world.barriers(), 0u) << world.replay();
+}
+
+INSTANTIATE_TEST_SUITE_P(Questions, HazardH01, testing::ValuesIn(kNumberQuestions));
+
+// The first OK to D: comes `delay` late, while another's command waits. What both heard, in order.
+std::vector<std::string> heard_with_late_ok(World& world, Duration delay) {
+  auto delayed = std::make_shared<bool>(false);
+  world.wire().set_script([&world, delayed, delay](LineKind kind, const std::string&) -> Scripted {
+    if (*delayed || kind != LineKind::reply || !world.wire().commands().back().starts_with("D:")) return {};
+    *delayed = true;
+    return {.drop = false, .delay = delay, .instead = {}};
+  });
+  std::vector<std::string> heard;
+  const auto hear = [&](const ExecuteEvent& event) {
+    if (event.kind == ExecuteEvent::Kind::reply) heard.push_back(event.answer);
+    if (event.kind == ExecuteEvent::Kind::ended && event.problem) heard.emplace_back(name(event.problem->reason));
+  };
+  world.controller().execute({{"D:1S100F1000R100"}, world.context("one")}, world.now(), hear);
+  EXPECT_TRUE(world.run_until([&] { return *delayed; }, seconds(1))) << world.replay();
+  world.controller().execute({{"C:10"}, world.context("other")}, world.now(), hear);
+  EXPECT_TRUE(world.run_until([&] { return heard.size() >= 2; }, seconds(30))) << world.replay();
+  world.run_for(seconds(5));
+  EXPECT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
+  return heard;
+}
+
+TEST(Hazard, H02_OkWithinTheTimeLimit) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_THAT(heard_with_late_ok(world, milliseconds(450)), ElementsAre("OK", "OK")) << world.replay();
+  EXPECT_EQ(world.barriers(), 0u);
+}
+
+// The late OK comes anywhere in or after the barrier, is nobody's, and the next command gets its own.
+TEST(Hazard, H02_LateOkIsNotTheNextCommandsAnswer) {
+  for (int delay = 550; delay < 1500 && !HasFailure(); delay += 25) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    EXPECT_THAT(heard_with_late_ok(world, milliseconds(delay)), ElementsAre("REPLY_TIMED_OUT", "OK"))
+        << delay << " ms late\n"
+        << world.replay();
+    // After the line in doubt nothing but the barrier's probes is sent before its last one has been answered.
+    const auto& lines = world.wire().commands();
+    const auto doubtful = std::ranges::find(lines, "D:1S100F1000R100");
+    const auto next = std::find_if(doubtful + 1, lines.end(),
+                                   [](const std::string& line) { return line != "?:CMD" && line != "*IDN?"; });
+    EXPECT_EQ(*(next - 1), "*IDN?") << world.replay();
+    EXPECT_EQ(std::ranges::count(doubtful, lines.end(), "D:1S100F1000R100"), 1) << "sent twice";
+  }
+}
+
+// A digit corrupted on the line is not published: a jump that no stage makes is read again.
+TEST(Hazard, H08_CorruptedDigitOfAPosition) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int corrupted = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::reply || !line.starts_with("P") || corrupted > 0) return {};
+    ++corrupted;
+    return {.drop = false, .delay = {}, .instead = "P9000000" + line.substr(line.find(',')) + "\r\n"};
+  });
+  for (int i = 0; i < 3000; ++i) {
+    world.run_for(milliseconds(1));
+    ASSERT_EQ(world.controller().state().axis(1).position_pulses, 0) << world.replay();
+  }
+  EXPECT_EQ(corrupted, 1);
+}
+
+// Every line in two parts with a pause between them, both ways of a motion, and a line that never ends.
+TEST(Hazard, H09_PartialLines) {
+  auto setup = quiet();
+  setup.faults.split = 1;
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 2000}, {3, -700}});
+  EXPECT_EQ(world.device().position(3), -700);
+  EXPECT_EQ(world.barriers(), 0u) << world.replay();
+}
+
+TEST(Hazard, H09_UnterminatedLineIsNeverACompleteOne) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int cut = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::reply || !line.starts_with("V") || cut++ > 0) return {};
+    return {.drop = false, .delay = {}, .instead = "V2.00"};
+  });
+  EXPECT_THAT(execute(world, {"?:V"}), testing::Not(testing::Contains("V2.00")));
+  EXPECT_EQ(world.barriers(), 1u);
+  EXPECT_THAT(execute(world, {"?:V"}), ElementsAre("V2.00.000"));
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

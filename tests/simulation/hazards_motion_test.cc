@@ -1,0 +1,238 @@
+// Hazards of motions: lost answers and completions, left-over settings, underruns. Numbers as in the table of what can
+// go wrong on a shared line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+
+Reason reason_of(const Motion& motion) { return motion.problem ? motion.problem->reason : Reason::unspecified; }
+
+TEST(Hazard, H03_OkOfGoLostButTheMoveStarted) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(drop_first(world, LineKind::reply, "G:"));
+  move_by(world, {{1, 4000}, {2, 100}});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.barriers(), 1u);
+  EXPECT_EQ(written(world, "G:"), 1) << "sent again\n" << world.replay();
+  EXPECT_EQ(world.device().starts(1), 1);
+  EXPECT_EQ(world.device().position(1), 4000);
+}
+
+void home_with_lost_ok(World& world, std::int64_t from) {
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, from}});
+  world.wire().set_script(drop_first(world, LineKind::reply, "HRT"));
+  world.controller().home({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+}
+
+TEST(Hazard, H03_OkOfHomeLostAndItIsSeenToRun) {
+  World world(quiet());
+  home_with_lost_ok(world, 1'000'000);
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(written(world, "HRT"), 1) << "sent again\n" << world.replay();
+  EXPECT_TRUE(world.controller().state().axis(1).homed);
+}
+
+// It ends before the line is certain again: an axis at 0 may as well have lost its power, so nobody knows.
+TEST(Hazard, H03_OkOfHomeLostAndItIsOverUnseen) {
+  World world(quiet());
+  home_with_lost_ok(world, 4000);
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::unknown) << world.replay();
+  EXPECT_EQ(written(world, "HRT"), 1) << "sent again\n" << world.replay();
+  EXPECT_FALSE(world.controller().state().axis(1).homed);
+}
+
+TEST(Hazard, H03_GoItselfLost) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(drop_first(world, LineKind::command, "G:"));
+  move_by(world, {{1, 4000}});
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::unknown) << world.replay();
+  EXPECT_EQ(reason_of(motion), Reason::outcome_unknown);
+  EXPECT_EQ(written(world, "G:"), 1) << "sent again\n" << world.replay();
+  EXPECT_EQ(world.device().starts(1), 0);
+}
+
+TEST(Hazard, H03_HomeItselfLostWhereTheAxisStandsAtItsOrigin) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(drop_first(world, LineKind::command, "HRT"));
+  world.controller().home({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::unknown) << "nothing ran, and it stands at 0\n" << world.replay();
+  EXPECT_EQ(written(world, "HRT"), 1);
+  EXPECT_FALSE(world.controller().state().axis(1).homed);
+}
+
+TEST(Hazard, H04_CompletionsLost) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script([](LineKind kind, const std::string&) { return Scripted{kind == LineKind::notice, {}, {}}; });
+  moved(world, {{1, 3000}, {3, -3000}});
+  world.controller().home({{}, world.context("tester")}, world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  EXPECT_TRUE(world.completions().empty());
+  EXPECT_FALSE(world.outcomes()[0].results[0].completion_seen);
+}
+
+TEST(Hazard, H05_HomeOfTwoAxesEndsTheSecondFirst) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 90000}, {2, 10}});
+  const std::size_t before = world.completions().size();
+  world.controller().home({AxisSet::of(1) | AxisSet::of(2), world.context("tester")}, world.now(),
+                          [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return world.completions().size() == before + 1; }, seconds(30)));
+  EXPECT_EQ(world.completions()[before].axis, 2);
+  EXPECT_EQ(world.outcomes().size(), 1u) << "ended by the first of two axes\n" << world.replay();
+  const auto home = outcome_of(world, 2);
+  EXPECT_EQ(home.state, MotionState::succeeded) << world.replay();
+  ASSERT_EQ(world.completions().size(), before + 2);
+  EXPECT_EQ(world.completions()[before + 1].axis, 1);
+  EXPECT_TRUE(home.results[0].completion_seen && home.results[1].completion_seen);
+  EXPECT_EQ(written(world, "HRT:A"), 1);
+}
+
+TEST(Hazard, H06_HomeTwice) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const HomeRequest first{AxisSet::of(1), world.context("one")};
+  world.controller().home(first, world.now(), [](Result<Motion>) {});
+  world.run_for(milliseconds(50));
+  const std::size_t lines = world.wire().commands().size();
+  std::optional<Result<Motion>> second;
+  world.controller().home({AxisSet::all(), world.context("two")}, world.now(), [&](Result<Motion> m) { second = m; });
+  ASSERT_TRUE(second.has_value()) << "not refused at once";
+  ASSERT_FALSE(second->has_value());
+  EXPECT_EQ(second->error().reason, Reason::axis_busy);
+  EXPECT_EQ(world.wire().commands().size(), lines);
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(written(world, "HRT"), 1);
+}
+
+TEST(Hazard, H12_LeftOverExecutionSettingIsClearedFirst) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  foreign_traffic(world, {"M:1+P500", "A:3+P700"});
+  const std::size_t first = world.wire().commands().size();
+  moved(world, {{2, 1000}});
+  const auto& lines = world.wire().commands();
+  const auto cleared = std::find(lines.begin(), lines.end(), "GC:B");
+  ASSERT_NE(cleared, lines.end()) << world.replay();
+  EXPECT_LT(cleared, std::find(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end(), "MP:2+P1000"));
+  EXPECT_EQ(world.device().position(1), 0);
+  EXPECT_EQ(world.device().position(3), 0);
+}
+
+TEST(Hazard, H12_LeftOverOfTheSameAxisIsReplaced) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  foreign_traffic(world, {"M:1+P500"});
+  moved(world, {{1, 70}});
+  EXPECT_EQ(world.device().position(1), 70);
+  EXPECT_EQ(world.device().starts(1), 1);
+}
+
+// What no command is documented to clear: nothing is started over it, on whatever axis it is.
+class HazardH12 : public testing::TestWithParam<const char*> {};
+
+TEST_P(HazardH12, LeftOverThatCannotBeClearedRefusesMotion) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  foreign_traffic(world, {GetParam()});
+  const std::size_t first = world.wire().commands().size();
+  std::optional<Result<Motion>> started;
+  world.controller().move(move_of(world, {{2, 1000}}, true), world.now(), [&](Result<Motion> m) { started = m; });
+  EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::left_over_setting) << world.replay();
+  ASSERT_TRUE(started && !started->has_value());
+  EXPECT_NE(started->error().hint, "") << "without a remedy";
+  world.controller().home({AxisSet::of(2), world.context("tester")}, world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::left_over_setting) << world.replay();
+  EXPECT_EQ(motion_lines(world, first), 0) << world.replay();
+  for (int axis = 1; axis <= kAxisCount; ++axis) EXPECT_EQ(world.device().starts(axis), 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Settings, HazardH12,
+                         testing::Values("MP:1+P500", "AP:3+P500", "KP:A+P500+P500", "J:1+", "AP:2+P500", "WT:1,5"));
+
+PathRequest line_of(const World& world, int segments) {
+  PathRequest path;
+  path.context = world.context("tester");
+  for (int i = 0; i < segments; ++i) {
+    path.segments.push_back({{{1, pulses(i % 2 ? 2000 : -1000), {}}, {2, pulses(2000), {}}}, true, pulses(20000), {}});
+  }
+  return path;
+}
+
+TEST(Hazard, H13_OkWhereOkDWasDue) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int setters = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    const bool fourth = kind == LineKind::command && line.starts_with("KP:") && ++setters == 4;
+    return {.drop = false, .delay = fourth ? milliseconds(400) : milliseconds(0), .instead = {}};
+  });
+  world.controller().run_path(line_of(world, 8), world.now(), [](Result<Motion>) {});
+  const Motion path = outcome_of(world, 1);
+  EXPECT_EQ(path.state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(path.underruns, 1) << world.replay();
+  EXPECT_EQ(path.segments_done, 8);
+  std::vector<int> underruns, done;
+  for (const auto& step : world.progress()) {
+    if (step.step == PathProgress::Step::underrun) underruns.push_back(step.segment);
+    if (step.step == PathProgress::Step::done) done.push_back(step.segment);
+  }
+  EXPECT_THAT(underruns, ElementsAre(4));
+  EXPECT_THAT(done, ElementsAre(1, 2, 3, 4, 5, 6, 7, 8));
+  EXPECT_EQ(world.device().starts(2), 8);
+  EXPECT_EQ(world.device().position(1), 4000);
+  EXPECT_EQ(world.device().position(2), 16000);
+}
+
+// A completion too many must not make the path refill early and overwrite the segment that waits.
+TEST(Hazard, H56_DoubledCompletionsOfAPath) {
+  auto setup = quiet();
+  setup.faults.double_notice = 1;
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+  const Motion path = outcome_of(world, 1);
+  EXPECT_EQ(path.state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().starts(2), 12) << world.replay();
+  EXPECT_EQ(world.device().position(2), 24000);
+}
+
+TEST(Hazard, H44_LimitStopIsNoSuccess) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  world.device().set_limit(1, +1, true, world.now());
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::failed) << world.replay();
+  EXPECT_EQ(reason_of(motion), Reason::limit_detected);
+}
+
+// Goal: few exchanges a move. On a quiet line with known registers: set, go, and readings until READY at the target.
+TEST(QuietLine, ExchangesOfAMove) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 100}});
+  const std::size_t first = world.wire().commands().size();
+  moved(world, {{1, 100}});
+  const auto& lines = world.wire().commands();
+  for (std::size_t i = first; i < lines.size(); ++i) RecordProperty("line" + std::to_string(i - first), lines[i]);
+  EXPECT_LE(lines.size() - first, 6u) << world.replay();
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

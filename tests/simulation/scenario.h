@@ -1,0 +1,39 @@
+// What the hazard tests have in common: a good line, requests in one call, and what came of them.
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tests/simulation/world.h"
+
+namespace axisgate::simulation {
+
+// A perfect line at 38400 baud and the simulator's usual readings.
+Setup quiet();
+
+using Ways = std::vector<std::pair<int, std::int64_t>>;  // axis, pulses
+shrc203::MoveRequest move_of(const World& world, const Ways& ways, bool relative);
+void move_by(World& world, const Ways& ways);
+
+// Both run the world to an answer; a motion's outcome at most `limit` later.
+std::vector<std::string> execute(World& world, std::vector<std::string> lines);  // replies, then the problem if any
+shrc203::Motion outcome_of(World& world, std::size_t number, Duration limit = std::chrono::seconds(30));
+
+// A move by `ways` that has succeeded.
+void moved(World& world, const Ways& ways);
+// A stop of all axes and what was reported of it.
+shrc203::StopReport stopped(World& world, Duration limit = std::chrono::seconds(60));
+
+// The lines on the wire from `first` on that begin with `prefix`.
+int written(World& world, std::string_view prefix, std::size_t first = 0);
+// HRT ZRT M A MP AP KP G and the like: what sets a motion or starts it.
+int motion_lines(World& world, std::size_t first);
+
+// Something else speaks to the device while the gateway's line is unplugged, which then comes back.
+void foreign_traffic(World& world, const std::vector<std::string>& lines);
+
+// Drops the first line of that kind that begins with `prefix`; for a reply, `prefix` is the command's that it answers.
+Script drop_first(World& world, LineKind kind, std::string prefix);
+
+}  // namespace axisgate::simulation
