@@ -3,18 +3,12 @@
 
 import json
 import os
-import pathlib
-import queue
 import re
 import subprocess
 import tempfile
-import threading
-import time
 import unittest
 
-ROOT = pathlib.Path(__file__).resolve().parents[2]
-BIN = pathlib.Path(os.environ.get("AXISGATE_BIN", ROOT / "build" / "bin"))
-LIMIT_S = 30
+from programs import BIN, LIMIT_S, Daemon
 
 CONFIG = """
 listen = "127.0.0.1:0"
@@ -44,91 +38,6 @@ SECOND_DEVICE = """
 name = "other"
 connection = "simulated"
 """
-
-
-class Lines:
-    """A process whose output is awaited line by line, each wait with a limit."""
-
-    def __init__(self, arguments):
-        self.process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
-                                        stderr=subprocess.PIPE, text=True)
-        self.errors = ""
-        self._lines = queue.Queue()
-        self._readers = [threading.Thread(target=self._read), threading.Thread(target=self._read_errors)]
-        for reader in self._readers:
-            reader.start()
-
-    def _read(self):
-        for line in self.process.stdout:
-            self._lines.put(line.rstrip("\n"))
-        self._lines.put(None)
-
-    def _read_errors(self):
-        for line in self.process.stderr:
-            self.errors += line
-
-    def next(self):
-        line = self._lines.get(timeout=LIMIT_S)
-        if line is None:
-            raise AssertionError("the output ended; standard error: " + self.errors)
-        return line
-
-    def until(self, pattern):
-        while True:
-            line = self.next()
-            if re.search(pattern, line):
-                return line
-
-    def end(self):
-        code = self.process.wait(timeout=LIMIT_S)
-        for reader in self._readers:
-            reader.join()
-        self.process.stdout.close()
-        self.process.stderr.close()
-        return code
-
-    def kill(self):
-        self.process.kill()
-        self.end()
-
-
-class Daemon:
-    def __init__(self, folder, config=CONFIG):
-        self.socket = os.path.join(folder, "axisgate.sock")
-        path = os.path.join(folder, "axisgate.toml")
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(config.format(socket=self.socket))
-        self._log = open(os.path.join(folder, "axisgated.log"), "a+", encoding="utf-8")
-        self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
-                                         stderr=subprocess.STDOUT)
-        self._wait_until_ready()
-
-    def _wait_until_ready(self):
-        deadline = time.monotonic() + LIMIT_S
-        while "UP" not in self.run("devices").stdout:
-            if self._process.poll() is not None or time.monotonic() > deadline:
-                self.stop()
-                raise AssertionError("the daemon did not get ready")
-            time.sleep(0.05)
-
-    def command(self, *arguments):
-        return [BIN / "axisctl", "--target", self.socket, *arguments]
-
-    def run(self, *arguments, stdin=""):
-        return subprocess.run(self.command(*arguments), input=stdin, capture_output=True, text=True,
-                              timeout=2 * LIMIT_S, check=False)
-
-    def start(self, *arguments):
-        return Lines(self.command(*arguments))
-
-    def stop(self):
-        self._process.terminate()
-        try:
-            self._process.wait(timeout=LIMIT_S)
-        except subprocess.TimeoutExpired:
-            self._process.kill()
-            self._process.wait()
-        self._log.close()
 
 
 class WithoutDaemon(unittest.TestCase):
@@ -171,7 +80,7 @@ class WithDaemon(unittest.TestCase):
         folder = tempfile.TemporaryDirectory(prefix="axisctl-test-")
         self.addCleanup(folder.cleanup)
         self.folder = folder.name
-        self.daemon = Daemon(self.folder)
+        self.daemon = Daemon(self.folder, CONFIG)
         self.addCleanup(lambda: self.daemon.stop())
 
     def ok(self, *arguments, stdin=""):
@@ -308,7 +217,7 @@ class WithDaemon(unittest.TestCase):
         self.ok("move", "x=1mm")
         watcher.until("SUCCEEDED")
         self.daemon.stop()
-        self.daemon = Daemon(self.folder)
+        self.daemon = Daemon(self.folder, CONFIG)
         self.assertRegex(watcher.next(), r"\A1 ")
         self.assertIn("axisctl: COMPACTED: ", watcher.errors)
 
@@ -318,7 +227,7 @@ class WithDaemon(unittest.TestCase):
         self.daemon.stop()
         self.assertEqual(move.end(), 1)
         self.assertRegex(move.errors, r"axisctl: (OUTCOME_UNKNOWN|STOPPED): ")
-        self.daemon = Daemon(self.folder)
+        self.daemon = Daemon(self.folder, CONFIG)
 
 
 if __name__ == "__main__":

@@ -1,0 +1,98 @@
+"""The real programs, started, awaited and ended by the tests of this folder."""
+
+import os
+import pathlib
+import queue
+import re
+import subprocess
+import threading
+import time
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+BIN = pathlib.Path(os.environ.get("AXISGATE_BIN", ROOT / "build" / "bin"))
+LIMIT_S = 30
+
+
+class Lines:
+    """A process whose output is awaited line by line, each wait with a limit."""
+
+    def __init__(self, arguments):
+        self.process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                        stderr=subprocess.PIPE, text=True)
+        self.errors = ""
+        self._lines = queue.Queue()
+        self._readers = [threading.Thread(target=self._read), threading.Thread(target=self._read_errors)]
+        for reader in self._readers:
+            reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self._lines.put(line.rstrip("\n"))
+        self._lines.put(None)
+
+    def _read_errors(self):
+        for line in self.process.stderr:
+            self.errors += line
+
+    def next(self):
+        line = self._lines.get(timeout=LIMIT_S)
+        if line is None:
+            raise AssertionError("the output ended; standard error: " + self.errors)
+        return line
+
+    def until(self, pattern):
+        while True:
+            line = self.next()
+            if re.search(pattern, line):
+                return line
+
+    def end(self):
+        code = self.process.wait(timeout=LIMIT_S)
+        for reader in self._readers:
+            reader.join()
+        self.process.stdout.close()
+        self.process.stderr.close()
+        return code
+
+    def kill(self):
+        self.process.kill()
+        self.end()
+
+
+class Daemon:
+    def __init__(self, folder, config):
+        self.socket = os.path.join(folder, "axisgate.sock")
+        path = os.path.join(folder, "axisgate.toml")
+        with open(path, "w", encoding="utf-8") as file:
+            file.write(config.format(socket=self.socket))
+        self._log = open(os.path.join(folder, "axisgated.log"), "a+", encoding="utf-8")
+        self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
+                                         stderr=subprocess.STDOUT)
+        self._wait_until_ready()
+
+    def _wait_until_ready(self):
+        deadline = time.monotonic() + LIMIT_S
+        while "UP" not in self.run("devices").stdout:
+            if self._process.poll() is not None or time.monotonic() > deadline:
+                self.stop()
+                raise AssertionError("the daemon did not get ready")
+            time.sleep(0.05)
+
+    def command(self, *arguments):
+        return [BIN / "axisctl", "--target", self.socket, *arguments]
+
+    def run(self, *arguments, stdin=""):
+        return subprocess.run(self.command(*arguments), input=stdin, capture_output=True, text=True,
+                              timeout=2 * LIMIT_S, check=False)
+
+    def start(self, *arguments):
+        return Lines(self.command(*arguments))
+
+    def stop(self):
+        self._process.terminate()
+        try:
+            self._process.wait(timeout=LIMIT_S)
+        except subprocess.TimeoutExpired:
+            self._process.kill()
+            self._process.wait()
+        self._log.close()
