@@ -130,6 +130,7 @@ class Controller::Impl : public LineListener {
   Task<void> run_move(LiveMotionPtr live, MoveRequest request);
   Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
   Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
+  Task<bool> start_never_came(LiveMotionPtr live, Command setter);
   void note_speeds(const MovePlan& plan);
   ExchangeRequest motion_request(const LiveMotion& live, Command command, Lane lane) const;
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);

@@ -7,6 +7,7 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kSetTries = 3;
+constexpr Duration kStartShows = std::chrono::milliseconds(300);  // by then a start that arrived can be seen
 
 bool any_speed(const MovePlan& plan) {
   for (const auto& axis : plan.axes) {
@@ -141,7 +142,33 @@ Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, boo
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, start.error());
     co_return;
   }
-  co_await watch(live, *start == Start::in_doubt);
+  const bool in_doubt = *start == Start::in_doubt;
+  if (in_doubt && co_await start_never_came(live, setter)) {
+    registers_.forget();
+    end_motion(
+        live, live->stop_requested ? MotionState::stopped : MotionState::failed,
+        Problem{Reason::not_sent, "the start did not reach the controller: nothing moved", "try again", {}, "G:", {}});
+    co_return;
+  }
+  co_await watch(live, in_doubt);
+}
+
+// A start that arrived has taken the setting out of its register. True only when it is certain that none did.
+Task<bool> Controller::Impl::start_never_came(LiveMotionPtr live, Command setter) {
+  const Positions before = positions_of(state_);
+  auto pause = tick_.wait_until(now_ + kStartShows);
+  co_await pause;
+  const auto answer = co_await ask(question_of(setter.row->reg), Lane::motion, live->context.who);
+  if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) co_return false;
+  if (held(*answer.reply, setter, state_.controllable()) != Held::as_set) co_return false;
+  const auto read = co_await read_positions(Lane::motion, live->context.who);
+  if (!read || live->line_lost) co_return false;
+  bool stands = true;
+  for (const int axis : live->motion.axes.list()) {
+    const auto place = static_cast<std::size_t>(axis - 1);
+    stands = stands && !state_.axis(axis).busy.value_or(true) && state_.axis(axis).position_pulses == before[place];
+  }
+  co_return stands;
 }
 
 // The speeds given with MP:, AP: and KP: overwrite D: (manual 68)).

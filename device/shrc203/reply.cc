@@ -152,6 +152,9 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   return {};
 }
 
+// The comma belongs to a mode's name (manual 37) HOST,PROGRAM) and to the line that ?:CMD quotes (manual 40) WI:W,C).
+bool is_one_field(std::string_view spec) { return spec == "mode" || spec == "echo"; }
+
 bool fields_match(std::string_view specs, const std::vector<std::string>& fields, std::size_t per_axis) {
   std::size_t next = 0;
   for (const auto& spec : split(specs)) {
@@ -198,7 +201,7 @@ std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, i
     }
     return {};
   }
-  reply.fields = split(line);
+  reply.fields = is_one_field(row.reply) ? std::vector{reply.text} : split(line);
   if (!data_matches(row, line, reply.fields, axis_count)) return {};
   return reply;
 }

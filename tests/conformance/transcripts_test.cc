@@ -13,7 +13,7 @@ namespace {
 
 using Example = Transcripts::Example;
 
-class Transcript : public testing::TestWithParam<Example> {};
+void PrintTo(const Example& example, std::ostream* out) { *out << example.entry.place; }
 
 // "moves_line_3_67_M": GoogleTest takes letters, digits and underscores only.
 std::string test_name(const testing::TestParamInfo<Example>& info) {

@@ -102,8 +102,9 @@ Complaint check_by_table(const Entry& entry) {
   const auto options = options_of(entry);
   if (!options) return options.error().message;
   if (auto complaint = check_command(entry, *row)) return complaint;
-  const int axis_count = from_axis_setting(std::to_string(options->axis_setting))->count();
-  return check_reply(entry, *row, axis_count);
+  // A question that names axes is answered for these alone, as by a controller that has no others.
+  const auto controllable = *from_axis_setting(std::to_string(options->axis_setting));
+  return check_reply(entry, *row, parse_command(entry.sent)->axes(controllable).count());
 }
 
 Complaint check_by_simulator(const Entry& entry) {

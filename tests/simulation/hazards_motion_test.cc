@@ -222,17 +222,5 @@ TEST(Hazard, H44_LimitStopIsNoSuccess) {
   EXPECT_EQ(reason_of(motion), Reason::limit_detected);
 }
 
-// Goal: few exchanges a move. On a quiet line with known registers: set, go, and readings until READY at the target.
-TEST(QuietLine, ExchangesOfAMove) {
-  World world(quiet());
-  ASSERT_TRUE(world.run_until_up()) << world.replay();
-  moved(world, {{1, 100}});
-  const std::size_t first = world.wire().commands().size();
-  moved(world, {{1, 100}});
-  const auto& lines = world.wire().commands();
-  for (std::size_t i = first; i < lines.size(); ++i) RecordProperty("line" + std::to_string(i - first), lines[i]);
-  EXPECT_LE(lines.size() - first, 6u) << world.replay();
-}
-
 }  // namespace
 }  // namespace axisgate::simulation

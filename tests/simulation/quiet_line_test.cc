@@ -2,27 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "tests/simulation/world.h"
+#include "tests/simulation/scenario.h"
 
 namespace axisgate::simulation {
 namespace {
 
 using namespace shrc203;
 using std::chrono::seconds;
-
-Setup quiet() {
-  Setup setup;
-  setup.profile.baud = setup.baud;
-  return setup;
-}
-
-MoveRequest relative(World& world, std::vector<std::pair<int, std::int64_t>> ways) {
-  MoveRequest request;
-  request.relative = true;
-  request.context = world.context("tester");
-  for (const auto& [axis, way] : ways) request.moves.push_back({axis, pulses(way), {}});
-  return request;
-}
 
 TEST(QuietLine, HandshakeComesUp) {
   World world(quiet());
@@ -38,7 +24,7 @@ TEST(QuietLine, HomeThenMoveReachesTheTarget) {
   world.controller().home({{}, world.context("tester")}, world.now(), [&](Result<Motion> m) { homed = m; });
   ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 1; }, seconds(20))) << world.replay();
   EXPECT_EQ(world.outcomes()[0].state, MotionState::succeeded) << world.replay();
-  world.controller().move(relative(world, {{1, 10000}, {2, -2500}}), world.now(), [](Result<Motion>) {});
+  move_by(world, {{1, 10000}, {2, -2500}});
   ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 2; }, seconds(20))) << world.replay();
   EXPECT_EQ(world.outcomes()[1].state, MotionState::succeeded) << world.replay();
   EXPECT_EQ(world.device().position(1), 10000);
@@ -65,7 +51,7 @@ TEST(QuietLine, PathRunsOnTheDoubleBuffer) {
 TEST(QuietLine, StopEndsAMotion) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  world.controller().move(relative(world, {{1, 500000}}), world.now(), [](Result<Motion>) {});
+  move_by(world, {{1, 500000}});
   world.run_for(seconds(1));
   std::optional<StopReport> report;
   world.controller().stop({}, world.context("other"), world.now(), [&](StopReport r) { report = r; });
@@ -73,21 +59,6 @@ TEST(QuietLine, StopEndsAMotion) {
   EXPECT_FALSE(report->problem) << report->problem->message << world.replay();
   EXPECT_EQ(world.outcomes()[0].state, MotionState::stopped);
   EXPECT_LT(world.device().position(1), 500000);
-}
-
-std::vector<std::string> execute(World& world, std::vector<std::string> lines) {
-  std::vector<std::string> heard;
-  bool over = false;
-  world.controller().execute({std::move(lines), world.context("tester")}, world.now(), [&](const ExecuteEvent& event) {
-    if (event.kind == ExecuteEvent::Kind::reply) heard.push_back(event.answer);
-    if (event.kind == ExecuteEvent::Kind::completion) heard.push_back("completion " + std::to_string(event.axis));
-    if (event.kind == ExecuteEvent::Kind::ended) {
-      over = true;
-      if (event.problem) heard.push_back(std::string(name(event.problem->reason)));
-    }
-  });
-  EXPECT_TRUE(world.run_until([&] { return over; }, seconds(30))) << world.replay();
-  return heard;
 }
 
 TEST(QuietLine, ExecuteAnswers) {
@@ -98,6 +69,17 @@ TEST(QuietLine, ExecuteAnswers) {
   EXPECT_THAT(execute(world, {"M:1+P1000", "G:1"}), testing::ElementsAre("OK", "OK"));
   EXPECT_THAT(execute(world, {"G:1"}), testing::ElementsAre("INCOMPLETE_TRANSACTION"));
   EXPECT_THAT(execute(world, {"MP:2+P100", "G:2"}), testing::ElementsAre("OK", "OK", "completion 2"));
+}
+
+// Known registers, a line to itself: set, go, and readings from the completion on until the settling is over.
+TEST(QuietLine, ExchangesOfAMove) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 100}});
+  const auto first = static_cast<std::ptrdiff_t>(world.wire().commands().size());
+  moved(world, {{1, 100}});
+  const std::vector<std::string> lines(world.wire().commands().begin() + first, world.wire().commands().end());
+  EXPECT_THAT(lines, testing::ElementsAre("MP:1+P100", "G:1", "Q:SPC", "Q:SPC"));
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ std::vector<std::string> execute(World& world, std::vector<std::string> lines) {
   bool over = false;
   const auto hear = [&](const ExecuteEvent& event) {
     if (event.kind == ExecuteEvent::Kind::reply) heard.push_back(event.answer);
+    if (event.kind == ExecuteEvent::Kind::completion) heard.push_back("completion " + std::to_string(event.axis));
     if (event.kind != ExecuteEvent::Kind::ended) return;
     over = true;
     if (event.problem) heard.push_back(std::string(name(event.problem->reason)));

@@ -17,7 +17,8 @@ shrc203::MoveRequest move_of(const World& world, const Ways& ways, bool relative
 void move_by(World& world, const Ways& ways);
 
 // Both run the world to an answer; a motion's outcome at most `limit` later.
-std::vector<std::string> execute(World& world, std::vector<std::string> lines);  // replies, then the problem if any
+std::vector<std::string> execute(World& world,
+                                 std::vector<std::string> lines);  // replies, "completion 1", a problem's name
 shrc203::Motion outcome_of(World& world, std::size_t number, Duration limit = std::chrono::seconds(30));
 
 // A move by `ways` that has succeeded.
