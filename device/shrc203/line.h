@@ -80,7 +80,6 @@ class Line {
   void open(AxisSet controllable, TimePoint now);       // the handshake has passed
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
 
-  LinkState state() const { return state_; }
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
 

@@ -145,11 +145,16 @@ void Line::barrier_moved(TimePoint now) {
     return;
   }
   const Identity identity = *barrier_->identity();
+  const std::optional<bool> barrier_told = barrier_->received();
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   owed_.echoes = 0;
   barrier_.reset();
   const bool connecting = !handshake_passed_ && !doubted_waiting_;
   if (doubted_waiting_) {
+    if (const auto received = barrier_told) {
+      doubted_->problem->message +=
+          *received ? "; the controller had received it" : "; the controller had not received it";
+    }
     for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
     doubted_waiting_.reset();
     doubted_.reset();

@@ -123,7 +123,7 @@ bool field_matches(std::string_view spec, std::string_view field) {
   }
   if (spec == "ready") return is_one_of(field, {"R", "B", "D"});
   if (spec == "error") return is_one_of(field, {"X", "K"});
-  if (spec == "stop") return is_one_of(field, {"1", "2", "3", "C", "D", "E", "W", "R", "K"});
+  if (spec == "stop") return is_one_of(field, {"R", "K"}) || (field.size() == 1 && from_status_letter(field[0]));
   if (spec == "coordinate") return is_coordinate(field);
   if (spec == "amount") return is_amount(field);
   if (spec == "setting") return field == "NS" || is_decimal(without_sign(field));

@@ -8,7 +8,6 @@
 
 #include "device/core/escape.h"
 #include "device/link/clock.h"
-#include "device/link/clock.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/status.h"
