@@ -153,7 +153,7 @@ void Line::barrier_moved(TimePoint now) {
   if (doubted_waiting_) {
     if (const auto received = barrier_told) {
       doubted_->problem->message +=
-          *received ? "; the controller had received it" : "; the controller had not received it";
+          *received ? "; the controller had received it" : "; the controller had not taken it";
     }
     for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
     doubted_waiting_.reset();

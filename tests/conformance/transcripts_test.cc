@@ -3,17 +3,20 @@
 
 #include <algorithm>
 #include <cctype>
+#include <ostream>
 #include <set>
 
 #include "device/shrc203/command_table.h"
 #include "tests/conformance/verification.h"
 
 namespace axisgate::shrc203::conformance {
+
+// How GoogleTest names an example that fails.
+void PrintTo(const Transcripts::Example& example, std::ostream* out) { *out << example.entry.place; }
+
 namespace {
 
 using Example = Transcripts::Example;
-
-void PrintTo(const Example& example, std::ostream* out) { *out << example.entry.place; }
 
 // "moves_line_3_67_M": GoogleTest takes letters, digits and underscores only.
 std::string test_name(const testing::TestParamInfo<Example>& info) {

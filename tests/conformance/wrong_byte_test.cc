@@ -9,8 +9,8 @@
 namespace axisgate::shrc203::conformance {
 namespace {
 
-// The mistakes of a typist: a neighbour, the other case, the other sign, a lost or an added blank.
-std::string wrong_bytes_for(char right) {
+// A typist's: a neighbour, the other case, the other sign, a lost or an added blank.
+std::string likely_mistakes_for(char right) {
   const auto byte = static_cast<unsigned char>(right);
   if (std::isdigit(byte)) return {right == '9' ? '0' : static_cast<char>(right + 1), 'O'};
   if (std::islower(byte)) return {right == 'z' ? 'a' : static_cast<char>(right + 1), static_cast<char>(right - 32)};
@@ -19,6 +19,18 @@ std::string wrong_bytes_for(char right) {
   if (right == '-') return "+ ";
   if (right == ' ') return "0_";
   return right == ',' ? ".;" : ", ";
+}
+
+std::string all_but(char right) {
+  std::string bytes;
+  for (char byte = ' '; byte <= '~'; ++byte) {
+    if (byte != right) bytes += byte;
+  }
+  return bytes;
+}
+
+bool is_on_the_wire(std::string_view line) {
+  return line.starts_with("> ") || line.starts_with("< ") || line.starts_with("after: ");
 }
 
 // Where the bytes of a line begin that the test vouches for. A source and a reason are words for people; a state is
@@ -38,6 +50,7 @@ int try_wrong_bytes(const Transcripts::Example& example) {
   int count = 0;
   Block block = example.block;
   for (Line& line : block) {
+    const auto wrong_bytes_for = is_on_the_wire(line.text) ? all_but : likely_mistakes_for;
     for (std::size_t i = first_bound_byte(line.text); i < line.text.size(); ++i) {
       const char right = line.text[i];
       for (const char wrong : wrong_bytes_for(right)) {

@@ -111,7 +111,7 @@ std::optional<std::string> answer(const Rig& rig, std::string_view line) {
   if (line == "I:") return std::to_string(rig.inputs);
   // Manual 31), 32), 39) write these three differently in one place.
   if (line == "BEEP?") return answer_setting(rig, "BEEP");
-  if (line.starts_with("?J:")) return answer_setting(rig, "J" + std::string(line.substr(3)));
+  if (line.starts_with("?J:")) return answer_setting(rig, fmt::format("J{}", line.substr(3)));
   if (line.starts_with("?ACS")) return answer_setting(rig, line.substr(1));
   if (line.starts_with("?:")) return answer_setting(rig, line.substr(2));
   return answer_status(rig, line);
