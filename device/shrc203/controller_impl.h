@@ -37,7 +37,8 @@ struct LiveMotion {
   bool line_lost = false;
   std::string line_problem;
   bool inside_gate = false;
-  bool wrote = false;  // a line of its own went out: the registers may hold something
+  bool keeps_gate = false;  // past its outcome, until the speeds it changed are the old ones again
+  bool wrote = false;       // a line of its own went out: the registers may hold something
 
   struct Completion {
     int axis = 0;
@@ -131,7 +132,10 @@ class Controller::Impl : public LineListener {
   Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
   Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
   Task<bool> start_never_came(LiveMotionPtr live, Command setter);
-  void note_speeds(const MovePlan& plan);
+  using Speeds = std::map<int, SpeedSetting>;  // by axis
+  void note_speeds(const Speeds& speeds);
+  Speeds known_speeds(AxisSet axes) const;
+  Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
   ExchangeRequest motion_request(const LiveMotion& live, Command command, Lane lane) const;
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
   enum class Start { accepted, in_doubt };

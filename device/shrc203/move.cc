@@ -16,6 +16,14 @@ bool any_speed(const MovePlan& plan) {
   return false;
 }
 
+std::map<int, SpeedSetting> speeds_of(const MovePlan& plan) {
+  std::map<int, SpeedSetting> speeds;
+  for (const auto& axis : plan.axes) {
+    if (axis.speed) speeds[axis.axis] = *axis.speed;
+  }
+  return speeds;
+}
+
 // MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
 Command prebuffer_setter(const MovePlan& plan, const State& state) {
   Arguments arguments;
@@ -117,7 +125,10 @@ Task<void> Controller::Impl::run_move(LiveMotionPtr live, MoveRequest request) {
     co_return;
   }
   for (std::size_t i = 0; i < plan->axes.size(); ++i) live->motion.results[i].target_pulses = plan->axes[i].target;
+  const Speeds before = known_speeds(plan->set());
+  live->keeps_gate = any_speed(*plan);
   co_await set_go_watch(live, *plan, by_prebuffer);
+  co_await restore_speeds(live, before);
 }
 
 Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer) {
@@ -135,7 +146,7 @@ Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, boo
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, set.error());
     co_return;
   }
-  note_speeds(plan);
+  note_speeds(speeds_of(plan));
   const auto start = co_await go(live, by_prebuffer ? live->motion.axes : AxisSet());
   if (!start) {
     registers_.forget();
@@ -171,15 +182,55 @@ Task<bool> Controller::Impl::start_never_came(LiveMotionPtr live, Command setter
   co_return stands;
 }
 
-// The speeds given with MP:, AP: and KP: overwrite D: (manual 68)).
-void Controller::Impl::note_speeds(const MovePlan& plan) {
-  for (const auto& axis : plan.axes) {
-    if (!axis.speed) continue;
-    auto& known = state_.axis(axis.axis);
-    known.minimum_speed = axis.speed->minimum;
-    known.maximum_speed = axis.speed->maximum;
-    known.acceleration_ms = axis.speed->acceleration_ms;
+// What the controller now has set by D:. The speeds given with MP:, AP: and KP: overwrite it (manual 68)).
+void Controller::Impl::note_speeds(const Speeds& speeds) {
+  for (const auto& [axis, speed] : speeds) {
+    auto& known = state_.axis(axis);
+    known.minimum_speed = speed.minimum;
+    known.maximum_speed = speed.maximum;
+    known.acceleration_ms = speed.acceleration_ms;
   }
+}
+
+Controller::Impl::Speeds Controller::Impl::known_speeds(AxisSet axes) const {
+  Speeds speeds;
+  for (const int number : axes.list()) {
+    const auto& axis = state_.axis(number);
+    if (!axis.minimum_speed || !axis.maximum_speed || !axis.acceleration_ms) continue;
+    speeds[number] = {*axis.minimum_speed, *axis.maximum_speed, *axis.acceleration_ms};
+  }
+  return speeds;
+}
+
+// A speed is asked for one motion, but the controller keeps it (manual 68)): the next user gets back what was set
+// before.
+Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
+  if (!live->keeps_gate) co_return;
+  Arguments arguments;
+  AxisSet changed;
+  const Speeds now_set = known_speeds(live->motion.axes);
+  for (const auto& [axis, speed] : before) {
+    const auto found = now_set.find(axis);
+    if (found != now_set.end() && !(found->second == speed)) changed.add(axis);
+  }
+  if (!changed.empty() && state_.link != LinkState::down) {
+    arguments.axes(changed);
+    for (const int axis : changed.list()) {
+      arguments.speeds(before[axis].minimum, before[axis].maximum, before[axis].acceleration_ms);
+    }
+    auto request = motion_request(*live, make_command("D:", arguments), Lane::motion);
+    request.not_after = now_ + kStepLimit;
+    auto pending = line_.exchange(std::move(request), now_);
+    const auto result = co_await pending;
+    if (result.accepted()) {
+      note_speeds(before);
+    } else {
+      const auto read = co_await read_speeds(live->context.who);
+      settled_ = settled_ && read.has_value();
+    }
+  }
+  gate_.leave(live->motion.id);
+  live->inside_gate = false;
 }
 
 Task<Result<void>> Controller::Impl::set_speeds(LiveMotionPtr live, MovePlan plan) {

@@ -7,6 +7,8 @@
 // is settled at READY too, where the command counters tell how far the path has come.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -43,6 +45,7 @@ class PathRun {
   Task<bool> prebuffer_left();
   Task<void> resume_from_ready();
   Task<bool> wait_for_ready();
+  void note_speed(int number);
   bool completion_counts(const LiveMotion::Completion& completion);
 
   Controller::Impl& impl_;
@@ -71,6 +74,11 @@ void PathRun::tell(PathProgress::Step step, int number, std::string reply) {
   if (step == PathProgress::Step::done) live_->motion.segments_done = number;
   if (step == PathProgress::Step::underrun) ++live_->motion.underruns;
   impl_.emit(PathProgress{live_->motion.id, step, number, std::move(reply)});
+}
+
+void PathRun::note_speed(int number) {
+  const auto& first = segment(number).move.axes.front();
+  if (first.speed) impl_.note_speeds({{first.axis, *first.speed}});
 }
 
 Task<void> PathRun::run() {
@@ -104,7 +112,7 @@ Task<bool> PathRun::start(int number) {
     give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, set.error());
     co_return false;
   }
-  impl_.note_speeds(segment(number).move);
+  note_speed(number);
   tell(PathProgress::Step::sent, number, set->text);
   const auto gone = co_await impl_.go(live_, plan_.axes);
   if (!gone) {
@@ -126,7 +134,7 @@ Task<bool> PathRun::refill(int number) {
   auto pending = impl_.line_.exchange(impl_.motion_request(*live_, setter(number), Lane::path_refill), impl_.now_);
   const auto result = co_await pending;
   if (result.accepted()) {
-    impl_.note_speeds(segment(number).move);
+    note_speed(number);
     tell(PathProgress::Step::sent, number, result.reply->text);
     if (result.reply->kind == Reply::Kind::ok_d) {
       sent_ = number;
@@ -288,8 +296,12 @@ Task<void> Controller::Impl::run_path_motion(LiveMotionPtr live, PathRequest req
   for (auto& result : live->motion.results) {
     result.target_pulses = plan->segments.back().end[static_cast<std::size_t>(result.axis - 1)];
   }
+  const Speeds before = known_speeds(plan->axes);
+  live->keeps_gate = std::ranges::any_of(
+      plan->segments, [](const SegmentPlan& segment) { return segment.move.axes.front().speed.has_value(); });
   PathRun run(*this, live, *std::move(plan));
   co_await run.run();
+  co_await restore_speeds(live, before);
 }
 
 }  // namespace axisgate::shrc203

@@ -51,6 +51,8 @@ std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, Axis
 struct SpeedSetting {
   std::int64_t minimum, maximum;
   int acceleration_ms;
+
+  friend bool operator==(const SpeedSetting&, const SpeedSetting&) = default;
 };
 std::optional<SpeedSetting> parse_speed_setting(std::string_view field);  // S100F1000R50
 

@@ -69,6 +69,7 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   live_.erase(live->motion.id);
   ended_.push_back(live->motion);
   while (ended_.size() > kMotionsKept) ended_.pop_front();
+  if (live->keeps_gate) return;
   if (live->inside_gate) gate_.leave(live->motion.id);
   live->inside_gate = false;
 }

@@ -61,6 +61,23 @@ TEST(QuietLine, StopEndsAMotion) {
   EXPECT_LT(world.device().position(1), 500000);
 }
 
+// Hazard 28: the speeds of one user's motion are not the next one's.
+TEST(QuietLine, SpeedsDoNotOutliveTheirMotion) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  PathRequest path;
+  path.context = world.context("tester");
+  for (int i = 0; i < 3; ++i) {
+    path.segments.push_back({{{1, pulses(4000), {}}, {2, pulses(1000), {}}}, true, pulses(20000), 50});
+  }
+  world.controller().run_path(path, world.now(), [](Result<Motion>) {});
+  MoveRequest move = move_of(world, {{1, 100}}, true);
+  move.moves[0].profile = SpeedProfile{pulses(200), pulses(2000), 30};
+  world.controller().move(move, world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 2; }, seconds(20))) << world.replay();
+  EXPECT_THAT(execute(world, {"?:D1"}), testing::ElementsAre("S1000F50000R100"));
+}
+
 TEST(QuietLine, ExecuteAnswers) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
