@@ -47,9 +47,9 @@ bool is_coordinate(std::string_view field) {
 
 // M-1, U+2000, U0.00, or 0 for an invalid axis (manual 5) Q:S).
 bool is_amount(std::string_view field) {
-  if (field.empty()) return false;
-  if (std::string_view("PNUMD").find(field.front()) != std::string_view::npos) field.remove_prefix(1);
-  return is_decimal(without_sign(field));
+  if (field == "0") return true;
+  if (field.empty() || std::string_view("PNUMD").find(field.front()) == std::string_view::npos) return false;
+  return is_decimal(without_sign(field.substr(1)));
 }
 
 bool is_speed(std::string_view field) { return parse_speed_setting(field).has_value(); }

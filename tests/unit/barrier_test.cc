@@ -1,0 +1,154 @@
+#include "device/shrc203/barrier.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+namespace axisgate::shrc203 {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+
+constexpr const char* kIdentity = "SIGMAKOKI,SHRC-203,2106001001,V2.00.000";
+
+TimePoint at(int ms) { return TimePoint{} + milliseconds(ms); }
+
+class BarrierTest : public testing::Test {
+ protected:
+  Barrier barrier(std::string in_doubt) {
+    return Barrier(std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
+                   [this](std::string_view line) { lines.emplace_back(line); });
+  }
+  std::vector<std::string> lines;
+  OwedAnswers owed;
+};
+
+TEST_F(BarrierTest, EchoThenIdentityThenSilence) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  EXPECT_TRUE(it.on_line("G:1", at(10)));
+  EXPECT_TRUE(it.on_line(kIdentity, at(20)));
+  EXPECT_THAT(lines, ElementsAre("?:CMD", "*IDN?"));
+  EXPECT_EQ(it.next_deadline(), at(70));
+  it.advance(at(69));
+  EXPECT_EQ(it.state(), Barrier::State::probing);
+  it.advance(at(70));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+  EXPECT_EQ(it.received(), true);
+  EXPECT_EQ(it.identity()->serial_number, "2106001001");
+  EXPECT_EQ(owed.echoes + owed.identities, 0);
+}
+
+TEST_F(BarrierTest, AnotherEchoTellsThatTheLineWasNotReceived) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  EXPECT_TRUE(it.on_line("M:1+P1000", at(10)));
+  EXPECT_EQ(it.received(), false);
+}
+
+TEST_F(BarrierTest, AfterAConnectOnlyTheIdentityIsAsked) {
+  auto it = barrier("");
+  it.start(at(0));
+  EXPECT_THAT(lines, ElementsAre("*IDN?"));
+  it.on_line(kIdentity, at(10));
+  it.advance(at(60));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+  EXPECT_EQ(it.received(), std::nullopt);
+}
+
+TEST_F(BarrierTest, LateAnswersAreNotThoseOfTheProbes) {
+  auto it = barrier("D:1S100F1000R100");
+  it.start(at(0));
+  EXPECT_FALSE(it.on_line("OK", at(10)));
+  EXPECT_FALSE(it.on_line("P+0,P+0,P+0,1,1,1,R,R,R", at(11)));
+  EXPECT_THAT(lines, ElementsAre("?:CMD"));
+  it.on_line("D:1S100F1000R100", at(20));
+  EXPECT_FALSE(it.on_line("OK", at(21)));
+  EXPECT_FALSE(it.on_line("SIGMAKOKI,SHRC-203,2106001001", at(22))) << "three fields";
+  EXPECT_FALSE(it.identity());
+}
+
+TEST_F(BarrierTest, WhatComesInDuringTheSilenceBeginsItAnew) {
+  auto it = barrier("");
+  it.start(at(0));
+  it.on_line(kIdentity, at(10));
+  EXPECT_FALSE(it.on_line("OK", at(50)));
+  it.advance(at(60));
+  EXPECT_EQ(it.state(), Barrier::State::probing);
+  it.advance(at(100));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+}
+
+TEST_F(BarrierTest, ALineThatNeverFallsSilentFails) {
+  auto it = barrier("");
+  it.start(at(0));
+  it.on_line(kIdentity, at(10));
+  int now = 10;
+  while (it.state() == Barrier::State::probing && now < 20000) {
+    it.on_line("OK", at(now += 40));
+    it.advance(at(now));
+  }
+  it.advance(at(now += 50));
+  EXPECT_EQ(it.state(), Barrier::State::failed);
+  EXPECT_GE(now, 5000);
+  EXPECT_LT(now, 5200);
+}
+
+TEST_F(BarrierTest, ThreeProbesAndNoMore) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  it.advance(at(499));
+  EXPECT_THAT(lines, ElementsAre("?:CMD"));
+  it.advance(at(500));
+  it.advance(at(1000));
+  EXPECT_THAT(lines, ElementsAre("?:CMD", "?:CMD", "?:CMD"));
+  EXPECT_EQ(it.state(), Barrier::State::probing);
+  it.advance(at(1500));
+  EXPECT_EQ(it.state(), Barrier::State::failed);
+  EXPECT_EQ(lines.size(), 3u);
+  EXPECT_EQ(owed.echoes, 3);
+}
+
+// A ?:CMD that is asked again is answered by the ?:CMD before it: that tells nothing of the line in doubt.
+TEST_F(BarrierTest, RepeatedProbesAreOwedAndSwallowed) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  it.advance(at(500));
+  EXPECT_EQ(owed.echoes, 1);
+  EXPECT_TRUE(it.on_line("?:CMD", at(510)));
+  EXPECT_EQ(it.received(), std::nullopt);
+  EXPECT_TRUE(it.on_line("G:1", at(520))) << "the answer to the first probe";
+  EXPECT_EQ(owed.echoes, 0);
+  EXPECT_FALSE(it.identity());
+}
+
+TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
+  auto it = barrier("");
+  it.start(at(0));
+  it.advance(at(500));
+  it.on_line(kIdentity, at(510));
+  EXPECT_EQ(owed.identities, 1);
+  EXPECT_TRUE(it.on_line(kIdentity, at(520)));
+  EXPECT_EQ(owed.identities, 0);
+  EXPECT_FALSE(pay_owed(owed, kIdentity)) << "no more than is owed";
+}
+
+TEST_F(BarrierTest, AStopInBetweenBeginsItAnewWithoutTheEcho) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  it.restart(at(100));
+  EXPECT_THAT(lines, ElementsAre("?:CMD", "*IDN?"));
+  EXPECT_EQ(owed.echoes, 1);
+  EXPECT_TRUE(it.on_line("G:1", at(110)));
+  it.on_line(kIdentity, at(120));
+  it.advance(at(170));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+  EXPECT_EQ(it.received(), std::nullopt);
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203

@@ -1,0 +1,163 @@
+// Lines as callers write them and as they are sent; the examples are the manual's.
+#include "device/shrc203/codec.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace axisgate::shrc203 {
+namespace {
+
+std::string sent(std::string_view written) {
+  const auto command = parse_command(written);
+  return command ? command->line : "refused: " + std::string(name(command.error().reason));
+}
+
+std::string row(std::string_view written) {
+  const auto command = parse_command(written);
+  return command ? std::string(command->row->name) : "refused: " + std::string(name(command.error().reason));
+}
+
+TEST(Codec, TheManualsExamplesAreSentAsTheyStand) {
+  for (const char* line : {"M:1+P1000",
+                           "M:A+P1000+P2000",
+                           "M:B+P1000+P3000",
+                           "M:W+P1000+P2000+P3000",
+                           "M:W+U10+N5+M50",
+                           "A:1+P1000",
+                           "MP:1+P1000",
+                           "K:A+P1000+P200",
+                           "K:D+U1000+P200+M0.3",
+                           "D:1S100F1000R100",
+                           "D:AS100F1000R100 S200F2000R200",
+                           "HRT:1",
+                           "HRT:",
+                           "H:W",
+                           "ZRT:W",
+                           "G",
+                           "G:1",
+                           "G:W",
+                           "G:",
+                           "GC:A",
+                           "L:1",
+                           "L:W",
+                           "L:E",
+                           "C:10",
+                           "C:A0",
+                           "C:W0",
+                           "BEC:A",
+                           "?:V",
+                           "?:N",
+                           "?:M1,M",
+                           "?:MPA",
+                           "?:CW",
+                           "Q:SM",
+                           "Q:SUC",
+                           "SRQ:AS",
+                           "SRQ:",
+                           "!:",
+                           "*IDN?"}) {
+    EXPECT_EQ(sent(line), line);
+  }
+}
+
+// Manual 68), 70), 84): their examples have blanks beside the comma that separates the speeds.
+TEST(Codec, BlanksAfterACommaAreLeftOut) {
+  EXPECT_EQ(sent("MP:1+P1000, S100F1000R50"), "MP:1+P1000,S100F1000R50");
+  EXPECT_EQ(sent("MP:A+P1000+P2000, S100F1000R50 S200F2000R100"), "MP:A+P1000+P2000,S100F1000R50 S200F2000R100");
+}
+
+TEST(Codec, CaseSignAndUnitMayBeOmitted) {
+  EXPECT_EQ(sent("m:1+p1000"), "M:1+P1000");
+  EXPECT_EQ(sent("A:1+1000"), "A:1+P1000");
+  EXPECT_EQ(sent("A:1-1000"), "A:1-P1000");
+  EXPECT_EQ(sent("A:1U100.0"), "A:1+U100.0");
+  EXPECT_EQ(sent("M:a+1000-2000"), "M:A+P1000-P2000");
+  EXPECT_EQ(sent("q:s"), "Q:S");
+}
+
+TEST(Codec, RowsThatLookAlikeAreToldApart) {
+  EXPECT_EQ(row("G"), "G");
+  EXPECT_EQ(row("G:"), "G:");
+  EXPECT_EQ(row("L:"), "L:");
+  EXPECT_EQ(row("L:E"), "L:E");
+  EXPECT_EQ(row("?:A"), "?:A");
+  EXPECT_EQ(row("?:AA"), "?:A");
+  EXPECT_EQ(row("?:AP"), "?:AP");
+  EXPECT_EQ(row("?:AP1"), "?:AP");
+  EXPECT_EQ(row("?:MP1,U"), "?:MP");
+  EXPECT_EQ(row("?:EP"), "?:EP");
+  EXPECT_EQ(row("?:W"), "?:W");
+  EXPECT_EQ(row("?:WT1"), "?:WT");
+  EXPECT_EQ(row("!:AS"), "!:S");
+  EXPECT_EQ(row("Q:S"), "Q:S");
+}
+
+TEST(Codec, AxesOfALine) {
+  const AxisSet two = AxisSet::of(1) | AxisSet::of(2);
+  EXPECT_EQ(parse_command("G:A")->axes(AxisSet::all()), two);
+  EXPECT_EQ(parse_command("G:W")->axes(two), two);
+  EXPECT_EQ(parse_command("G:")->axes(two), two);
+  EXPECT_EQ(parse_command("G")->axes(two), two);
+  EXPECT_EQ(parse_command("C:30")->axes(AxisSet::all()), AxisSet::of(3));
+}
+
+TEST(Codec, OutOfRange) {
+  EXPECT_EQ(sent("M:1+P999999999"), "M:1+P999999999");
+  EXPECT_EQ(sent("M:1+P1000000000"), "refused: OUT_OF_RANGE");
+  EXPECT_EQ(sent("M:1+P1.5"), "refused: OUT_OF_RANGE");
+  EXPECT_EQ(sent("D:1S1F1000000R1000"), "D:1S1F1000000R1000");
+  EXPECT_EQ(sent("D:1S0F1000R100"), "refused: OUT_OF_RANGE");
+  EXPECT_EQ(sent("D:1S1F1000001R100"), "refused: OUT_OF_RANGE");
+  EXPECT_EQ(sent("D:1S1F1000R1001"), "refused: OUT_OF_RANGE");
+  EXPECT_EQ(sent("D:1S2000F1000R100"), "refused: OUT_OF_RANGE") << "S above F";
+}
+
+TEST(Codec, NotOfAnyShape) {
+  for (const char* line : {"X:1", "M:1", "M:A+P1000", "M:1+P1000+P2000", "M:4+P1000", "M:1+Q1000", "C:1", "C:12x",
+                           "K:1+P1000", "G:E", "?:", "D:AS100F1000R100", "M:1+P1000 ", " G", "G:1 G:2"}) {
+    EXPECT_EQ(sent(line), "refused: UNKNOWN_COMMAND") << line;
+  }
+}
+
+// One request, one line: nothing that could end it or begin another is ever sent.
+TEST(Codec, CharactersThatAreNeverSent) {
+  EXPECT_EQ(sent(""), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent("G:1\r"), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent("G:1\nG:2"), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent(std::string_view("G:1\0", 4)), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent("G:1\t"), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent("G:\x7F"), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent("M:1+\xC2\xB5"
+                 "10"),
+            "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent(std::string(201, 'G')), "refused: MALFORMED_LINE");
+  EXPECT_EQ(sent(std::string(200, 'G')), "refused: UNKNOWN_COMMAND");
+}
+
+TEST(Codec, CommandsOfOurOwnMaking) {
+  const AxisSet two = AxisSet::of(1) | AxisSet::of(3);
+  EXPECT_EQ(make_command("G:", two).line, "G:B");
+  EXPECT_EQ(make_command("GC:", AxisSet::all()).line, "GC:D");
+  EXPECT_EQ(make_command("MP:", Arguments().axes(two).pulses(-5).pulses(70).speeds(1, 2, 3).speeds(4, 5, 6)).line,
+            "MP:B-P5+P70,S1F2R3 S4F5R6");
+  EXPECT_EQ(make_command("KP:", Arguments().axes(two).pulses(0).pulses(-999999999).speeds(10, 20, 30)).line,
+            "KP:B+P0-P999999999,S10F20R30");
+  EXPECT_EQ(make_command("Q:S", Arguments().add("u", "P").add("c", "C")).line, "Q:SPC");
+}
+
+TEST(Codec, ArgumentsThatDoNotFit) {
+  const auto reason = [](const CommandRow& into, const Arguments& arguments) {
+    const auto line = encode(into, arguments);
+    return line ? Reason::unspecified : line.error().reason;
+  };
+  const CommandRow& move = command_row("M:");
+  EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1))), Reason::invalid_request);
+  EXPECT_EQ(reason(move, Arguments().axes(AxisSet::all()).pulses(1)), Reason::invalid_request);
+  EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1).pulses(2)), Reason::invalid_request);
+  EXPECT_EQ(reason(move, Arguments().axes(AxisSet::of(1)).pulses(1'000'000'000)), Reason::out_of_range);
+  EXPECT_EQ(reason(command_row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203

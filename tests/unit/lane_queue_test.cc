@@ -1,0 +1,105 @@
+#include "device/core/lane_queue.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <vector>
+
+namespace axisgate {
+namespace {
+
+using Queue = LaneQueue<int>;
+using testing::ElementsAre;
+
+const auto kAny = [](int) { return true; };
+
+std::vector<int> take_all(Queue& queue) {
+  std::vector<int> taken;
+  while (auto work = queue.take(kAny)) taken.push_back(*work);
+  return taken;
+}
+
+TEST(LaneQueue, TheFirstLaneGoesFirst) {
+  Queue queue;
+  queue.push(Lane::poll, "a", 5);
+  queue.push(Lane::question, "a", 4);
+  queue.push(Lane::motion, "a", 3);
+  queue.push(Lane::path_refill, "a", 2);
+  queue.push(Lane::stop, "a", 1);
+  EXPECT_THAT(take_all(queue), ElementsAre(1, 2, 3, 4, 5));
+  EXPECT_EQ(queue.take(kAny), std::nullopt);
+}
+
+TEST(LaneQueue, ACallersOwnWorkKeepsItsOrder) {
+  Queue queue;
+  for (int work = 1; work <= 4; ++work) queue.push(Lane::motion, "a", work);
+  EXPECT_THAT(take_all(queue), ElementsAre(1, 2, 3, 4));
+}
+
+TEST(LaneQueue, CallersTakeTurns) {
+  Queue queue;
+  for (int work = 1; work <= 4; ++work) queue.push(Lane::motion, "busy", work);
+  queue.push(Lane::motion, "rare", 100);
+  queue.push(Lane::motion, "rare", 101);
+  EXPECT_THAT(take_all(queue), ElementsAre(1, 100, 2, 101, 3, 4));
+}
+
+TEST(LaneQueue, AtMostEverySecondIsAStopWhileSomethingElseWaits) {
+  Queue queue;
+  for (int work = 1; work <= 3; ++work) queue.push(Lane::stop, "s", work);
+  queue.push(Lane::poll, "p", 50);
+  EXPECT_THAT(take_all(queue), ElementsAre(1, 50, 2, 3));
+}
+
+TEST(LaneQueue, StopsDoNotWaitForWorkThatIsNotAdmissible) {
+  Queue queue;
+  queue.push(Lane::stop, "s", 1);
+  queue.push(Lane::stop, "s", 2);
+  queue.push(Lane::motion, "m", 50);
+  const auto small = [](int work) { return work < 10; };
+  EXPECT_EQ(queue.take(small), 1);
+  EXPECT_EQ(queue.take(small), 2);
+  EXPECT_EQ(queue.take(small), std::nullopt);
+  EXPECT_EQ(queue.size(Lane::motion), 1u);
+}
+
+TEST(LaneQueue, ALaneIsPassedOverAFewTimesOnly) {
+  Queue queue;
+  queue.push(Lane::poll, "p", 1000);
+  int before = 0;
+  for (int work = 0; work < 100; ++work) {
+    queue.push(Lane::motion, "m", work);
+    if (queue.take(kAny) == 1000) break;
+    ++before;
+  }
+  EXPECT_EQ(before, Queue::kPassesMax);
+}
+
+TEST(LaneQueue, IsBoundedByLane) {
+  Queue queue;
+  for (std::size_t i = 0; i < Queue::kLaneMax; ++i) ASSERT_TRUE(queue.push(Lane::question, "q", 1));
+  EXPECT_FALSE(queue.push(Lane::question, "q", 1));
+  EXPECT_TRUE(queue.push(Lane::stop, "s", 1)) << "a full lane held a stop up";
+  ASSERT_TRUE(queue.take(kAny));
+  ASSERT_TRUE(queue.take(kAny));
+  EXPECT_TRUE(queue.push(Lane::question, "q", 1));
+}
+
+TEST(LaneQueue, DrainHandsOverTheChosenAndKeepsTheOthersOrder) {
+  Queue queue;
+  for (int work = 1; work <= 5; ++work) queue.push(Lane::motion, "m", work);
+  std::vector<int> drained;
+  queue.drain([](int work) { return work % 2 == 1; }, [&](int work) { drained.push_back(work); });
+  EXPECT_THAT(drained, ElementsAre(1, 3, 5));
+  EXPECT_THAT(take_all(queue), ElementsAre(2, 4));
+}
+
+TEST(LaneQueue, WorkMayComeInWhileItIsDrained) {
+  Queue queue;
+  queue.push(Lane::motion, "m", 1);
+  queue.drain(kAny, [&](int) { queue.push(Lane::motion, "m", 2); });
+  EXPECT_THAT(take_all(queue), ElementsAre(2));
+}
+
+}  // namespace
+}  // namespace axisgate
