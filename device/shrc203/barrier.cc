@@ -1,5 +1,7 @@
 #include "device/shrc203/barrier.h"
 
+#include <utility>
+
 #include "device/shrc203/codec.h"
 
 namespace axisgate::shrc203 {
@@ -21,7 +23,7 @@ void Barrier::start(TimePoint now) { begin(line_in_doubt_.empty() ? Step::identi
 
 void Barrier::restart(TimePoint now) {
   if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) ++owed_.identities;
+  if (step_ == Step::identity) stale_ += probes_;
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
   begin(Step::identity, now);
 }
@@ -54,6 +56,10 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     return true;
   }
   if (step_ == Step::identity) {
+    if (stale_ > 0 && parse_identity(line)) {
+      --stale_;
+      return true;
+    }
     if (auto identity = parse_identity(line)) {
       identity_ = std::move(identity);
       begin(Step::silence, now);
@@ -72,7 +78,7 @@ void Barrier::advance(TimePoint now) {
     return;
   }
   if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) ++owed_.identities;
+  if (step_ == Step::identity) owed_.identities += 1 + std::exchange(stale_, 0);
   if (probes_ >= kProbesMax) {
     state_ = State::failed;
   } else {

@@ -66,6 +66,7 @@ class Barrier {
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;
+  int stale_ = 0;  // identities asked for before the last Stop: their answers come before the Stop's
   TimePoint deadline_{};
   TimePoint silence_limit_{};
   std::optional<bool> received_;

@@ -37,6 +37,7 @@ struct LiveMotion {
   bool line_lost = false;
   std::string line_problem;
   bool inside_gate = false;
+  bool watched = false;     // watch() reads the positions
   bool keeps_gate = false;  // past its outcome, until the speeds it changed are the old ones again
   bool wrote = false;       // a line of its own went out: the registers may hold something
 

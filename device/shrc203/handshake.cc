@@ -1,6 +1,8 @@
 // Who is there after a connect, and the poll that keeps the state fresh afterwards.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -163,6 +165,8 @@ Task<void> Controller::Impl::poll() {
     co_await wait;
     if (state_.link != LinkState::up) continue;
     const TimePoint read_before = state_.read;
+    const bool watched = std::ranges::any_of(live_, [](const auto& entry) { return entry.second->watched; });
+    if (watched) continue;  // its motion reads at the same pace
     const Duration interval = anything_moves() ? profile_.moving_poll : profile_.idle_poll;
     if (now_ - read_before < interval) continue;  // somebody has just asked
     const auto read = co_await read_positions(Lane::poll, kGateway);

@@ -52,6 +52,11 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     doubt_answer(line.text, now);
     return;
   }
+  // An owed *IDN? answers nothing but itself, though ?:CMD would take any text.
+  if (row.name != "*IDN?" && owed_.identities > 0 && parse_identity(line.text)) {
+    --owed_.identities;
+    return;
+  }
   auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
   if (reply) {
     on_reply(std::move(*reply), now);

@@ -12,6 +12,7 @@ constexpr int kStopTries = 3;
 constexpr Duration kReopenLimit = std::chrono::seconds(1);  // how long a stop waits for a line that is down
 constexpr Duration kWriteLimit = std::chrono::seconds(10);
 constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
+constexpr Duration kAgainAfter = std::chrono::seconds(1);        // a stop without effect by then is written again
 constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
 
 // Motions that a stop of `axes` ends.
@@ -103,7 +104,8 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
   ExchangeResult result;
   for (int attempt = 0; attempt < kStopTries; ++attempt) {
     result = co_await write_stop_line(job, all);
-    if (result.reply || !result.written) break;
+    const bool inside_barrier = result.problem && result.problem->reason == Reason::outcome_unknown;
+    if (result.reply || !result.written || inside_barrier) break;
   }
   job->report.problem = result.problem;
   for (auto& axis : job->report.axes) {
@@ -120,6 +122,7 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
 
 Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
   const TimePoint limit = now_ + kStandstillLimit;
+  const TimePoint again_at = now_ + kAgainAfter;
   bool ready = false, once_more = true;
   while (now_ < limit && state_.link != LinkState::down) {
     const auto read = co_await read_positions(Lane::motion, job->context.who);
@@ -130,10 +133,12 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       axis.position_pulses = state_.axis(axis.axis).position_pulses;
       ready = ready && *axis.ready;
     }
-    if (ready) {
-      const bool empty = co_await prebuffer_is_empty(job);
+    const bool unanswered = job->report.problem && job->report.problem->reason == Reason::outcome_unknown;
+    const bool not_heard = !ready && unanswered && now_ >= again_at;
+    if (ready || (not_heard && once_more)) {
+      const bool empty = !not_heard && co_await prebuffer_is_empty(job);
       if (empty || !once_more) break;
-      // A kept segment may start by itself: look again, and stop it once more.
+      // A kept segment may start by itself, and a stop inside a barrier may be lost: stop once more and look again.
       once_more = false;
       ready = false;
       const Command again = job->emergency ? make_command("L:E") : make_command("L:", job->axes);

@@ -203,6 +203,7 @@ Task<void> Controller::Impl::wait_for_end(LiveMotionPtr live, TimePoint limit) {
 
 // A completion wakes the check; READY, no error and the exact target make the success.
 Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
+  live->watched = true;
   EndCheck check{.begun = now_, .start_in_doubt = start_in_doubt};
   Duration pause = profile_.moving_poll;
   int failures = 0;

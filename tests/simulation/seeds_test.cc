@@ -37,6 +37,14 @@ TEST_P(Seeds, NothingIsMixedUp) {
   }
 }
 
+// 10085: a command cut in two by the line is refused twice. 10270: the OK of a stop written inside a barrier came after
+// an identity that had been asked for before it. 10875: an owed identity was taken for the answer to ?:CMD.
+TEST(SeedsThatOnceFailed, StayMended) {
+  for (const std::uint64_t seed : {10085u, 10270u, 10875u}) {
+    if (!HasFatalFailure()) run_seed(seed);
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Ordinary, Seeds, testing::Range(0, kSeeds / 10));
 
 }  // namespace

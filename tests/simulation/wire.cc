@@ -112,6 +112,8 @@ void Wire::device_line(std::string text) {
   if (!unanswered_.empty() && (!is_axis_number(text) || ((asked_number || inputs) && answering_))) {
     origin = {Origin::Kind::reply, unanswered_.front()};
     unanswered_.pop_front();
+  } else if (answering_ && last_delivered_ && !is_axis_number(text)) {
+    origin = {Origin::Kind::reply, *last_delivered_};  // a fault has cut a command in two, and it is answered twice
   }
   if (!open_) return;
   const bool is_reply = origin.kind == Origin::Kind::reply;
@@ -185,6 +187,7 @@ void Wire::advance(TimePoint now) {
 void Wire::deliver(const Delivery& delivery, TimePoint now) {
   if (delivery.to_device) {
     unanswered_.push_back(delivery.command);
+    last_delivered_ = delivery.command;
     answering_ = true;
     device_->receive(delivery.bytes, now);
     answering_ = false;

@@ -126,6 +126,7 @@ class Wire {
   std::multimap<TimePoint, std::string> held_notices_;  // that the device is slow to send
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
+  std::optional<std::size_t> last_delivered_;
   std::string device_partial_;
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;

@@ -137,6 +137,21 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_FALSE(pay_owed(owed, kIdentity)) << "no more than is owed";
 }
 
+// The first identity to come was asked for before the stop, whose OK is still on its way.
+TEST_F(BarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
+  auto it = barrier("");
+  it.start(at(0));
+  it.restart(at(100));
+  EXPECT_THAT(lines, ElementsAre("*IDN?", "*IDN?"));
+  EXPECT_TRUE(it.on_line(kIdentity, at(110)));
+  it.advance(at(300));
+  EXPECT_EQ(it.state(), Barrier::State::probing);
+  EXPECT_FALSE(it.on_line("OK", at(310)));
+  EXPECT_TRUE(it.on_line(kIdentity, at(320)));
+  it.advance(at(370));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+}
+
 TEST_F(BarrierTest, AStopInBetweenBeginsItAnewWithoutTheEcho) {
   auto it = barrier("G:1");
   it.start(at(0));
