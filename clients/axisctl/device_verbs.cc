@@ -38,6 +38,10 @@ std::string axis_text(const v1::Axis& axis) {
 
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
+  if (device.device_epoch() == 0) {
+    print_line("nothing is known of the controller yet: it has not answered since the daemon started");
+    return;
+  }
   print_line(fmt::format("controller  {} {} {}  serial number {}  mode {}  format {}  epoch {}", device.vendor(),
                          device.model(), device.firmware(), device.serial_number(), device.mode(), device.format(),
                          device.device_epoch()));

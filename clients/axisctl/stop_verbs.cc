@@ -15,7 +15,7 @@ std::string describe(const v1::Device& device, const v1::AxisStop& stop) {
   if (!stop.named()) {
     text += "not asked to stop, its motor is off";
   } else if (stop.wire_reply().empty()) {
-    text += "no answer";
+    text += "no answer to the stop";
   } else {
     text += "answered " + stop.wire_reply();
   }

@@ -108,8 +108,12 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
     if (result.reply || !result.written || inside_barrier) break;
   }
   job->report.problem = result.problem;
+  if (!result.written && result.problem) {
+    job->report.problem->message.insert(0, "the stop could not be written: ");
+    job->report.problem->hint = "use the wired emergency stop if the axes move";
+  }
   for (auto& axis : job->report.axes) {
-    axis.named = result.written && named.has(axis.axis);
+    axis.named = named.has(axis.axis);
     if (axis.named && result.reply) axis.wire_reply = result.reply->text;
   }
   if (!result.refused() || job->emergency || named.count() < 2) co_return;
