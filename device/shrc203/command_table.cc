@@ -66,6 +66,11 @@ constexpr CommandRow number_question(std::string_view name, std::string_view des
   return row;
 }
 
+constexpr CommandRow closed(CommandRow row) {
+  row.separation = Separation::closed;
+  return row;
+}
+
 constexpr CommandRow any_mode(CommandRow row) {
   row.needs.any_mode = true;
   return row;
@@ -135,7 +140,7 @@ constexpr CommandRow kRows[] = {
     question("?:EP", "?:EP[,<u>]", "arc set, prebuffer", 23, kUnitOnly, "arc"),
     question("?:K", "?:K[,<u>]", "straight line set, execution buffer", 24, kUnitOnly, "line"),
     question("?:KP", "?:KP[,<u>]", "straight line set, prebuffer", 25, kUnitOnly, "line"),
-    number_question("?:O", "general-purpose outputs", 26, "number:0:63"),
+    closed(number_question("?:O", "general-purpose outputs", 26, "number:0:63")),
     number_question("?:W", "wait before READY, in 0.1 s", 27, "number:0:2550"),
     axis_question("?:WT", "?:WT[<a>]", "wait set, prebuffer, in 0.1 s", 28, kAxesOnly, "number_or_NS:0:2550*"),
     axis_question("?:WI", "?:WI[<a>]", "input pattern waited for, prebuffer", 29, kAxesOnly, "number_or_NS:0:63*"),
@@ -178,7 +183,7 @@ constexpr CommandRow kRows[] = {
     completes(command("G:", "G:[<a>]", "start what was set", 86, kAxesOnly, Effect::motion, kReadyExcited)),
     command("GC:", "GC:[<a>]", "delete what M, A, E and K have set", 87, kAxesOnly, Effect::setting, kReadyExcited),
     command("D:", "D:<a>{S<spds>F<spdf>R<r>| }", "set speeds S, F and time R", 89, kSpeeds, Effect::setting, kReady),
-    number_question("I:", "general-purpose inputs", 95, "number:0:63"),
+    closed(number_question("I:", "general-purpose inputs", 95, "number:0:63")),
 };
 
 }  // namespace

@@ -33,6 +33,7 @@ enum class Separation {
   grammar,   // the answer is never a bare axis number
   all_axes,  // asked for all axes and the wanted fields picked, so that the answer has commas
   waits,     // not sent while a possible completion lies within the answer's range
+  closed,    // while a single motion runs: closed by an !:S and asked until two answers agree; else as `waits`
 };
 
 // What the manual demands for the command to be accepted.

@@ -48,7 +48,8 @@ struct ExchangeEnded {
   std::string line, reply;
   Lane lane = Lane::question;
   Outcome outcome = Outcome::ok;
-  Duration latency{};  // from the write to the reply's last byte
+  Duration latency{};   // from the write to the reply's last byte
+  bool closed = false;  // the reply was known only when an !:S behind it had been answered
 };
 std::string_view name(ExchangeEnded::Outcome outcome);  // "ok", "ok_d", "timed_out", ..., as metric labels have it
 

@@ -4,128 +4,12 @@
 #include <algorithm>
 
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr std::size_t kLinesMax = 100;
-
-// A motion setting left without a start would run on somebody else's; a start without one would run what is there.
-Result<void> check_transaction(const std::vector<Command>& commands) {
-  bool set = false;
-  for (const Command& command : commands) {
-    const auto& row = *command.row;
-    if (row.effect == Effect::motion_setting) set = true;
-    const bool is_start = row.name == "G" || row.name == "G:";
-    if (row.effect == Effect::stop && commands.size() > 1) {
-      return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
-                  "send it by itself, or use `axisctl stop`");
-    }
-    if (is_start && !set) {
-      return fail(Reason::incomplete_transaction, fmt::format("{} alone would start whatever was set before", row.name),
-                  "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
-    }
-  }
-  const auto start =
-      std::ranges::find_if(commands, [](const Command& c) { return c.row->name.starts_with("G") && c.row->moves(); });
-  if (set && start == commands.end()) {
-    return fail(Reason::incomplete_transaction,
-                "a motion that is set and not started would run on somebody else's start",
-                "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
-  }
-  return {};
-}
-
-Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) {
-  std::vector<Command> commands;
-  if (lines.empty() || lines.size() > kLinesMax) {
-    return fail(Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax));
-  }
-  for (std::size_t index = 0; index < lines.size(); ++index) {
-    auto command = parse_command(lines[index]);
-    if (!command && lines.size() > 1) command.error().message.insert(0, fmt::format("line {}: ", index + 1));
-    if (!command) return tl::unexpected(command.error());
-    commands.push_back(*std::move(command));
-  }
-  if (const auto good = check_transaction(commands); !good) return tl::unexpected(good.error());
-  return commands;
-}
-
-bool needs_gate(const std::vector<Command>& commands) {
-  return std::ranges::any_of(commands, [](const Command& command) {
-    return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
-           command.row->name != "BEC:";
-  });
-}
-
-AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable) {
-  AxisSet axes;
-  for (const Command& command : commands) {
-    if (command.row->moves() || command.row->effect == Effect::motion_setting) {
-      axes = axes | command.axes(controllable);
-    }
-  }
-  return axes & controllable;
-}
-
-bool completes(const std::vector<Command>& commands) {
-  return std::ranges::any_of(commands, [](const Command& command) {
-    return command.row->completes &&
-           (command.row->effect == Effect::motion_setting || command.row->scope == CommandScope::axes) &&
-           !command.row->name.starts_with("G");
-  });
-}
-
-Unit unit_of(std::string_view letter) {
-  if (letter == "N") return Unit::nanometers;
-  if (letter == "U") return Unit::micrometers;
-  if (letter == "M") return Unit::millimeters;
-  if (letter == "D") return Unit::degrees;
-  return Unit::pulses;
-}
-
-// The ways or targets that a setter names, as a request of ours, for the same checks of travel.
-std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
-  std::vector<AxisMove> moves;
-  const auto axes = command.axes(controllable).list();
-  std::int64_t sign = 1;
-  Unit unit = Unit::pulses;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter == "m") sign = value == "-" ? -1 : 1;
-    if (letter == "u") unit = unit_of(value);
-    if (letter != "y" || moves.size() >= axes.size()) continue;
-    Decimal amount = *parse_decimal(value);
-    amount.digits *= sign;
-    moves.push_back({axes[moves.size()], {amount, unit}, {}});
-  }
-  return moves;
-}
-
-// Asked for all axes, so that the answer has commas; the fields of the axes that were meant are picked.
-Command as_sent(const Command& command) {
-  if (command.row->separation != Separation::all_axes || !command.arguments.first("a")) return command;
-  Arguments without;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter != "a") without.add(letter, value);
-  }
-  return make_command(command.row->name, without);
-}
-
-std::string picked(const Command& asked, const Reply& reply, AxisSet controllable) {
-  if (reply.kind != Reply::Kind::data || as_sent(asked).line == asked.line) return reply.text;
-  const AxisSet wanted = asked.axes(controllable);
-  const bool whole = reply.fields.size() == kAxisCount;
-  std::string answer;
-  std::size_t place = 0;
-  for (const int axis : (whole ? AxisSet::all() : controllable).list()) {
-    if (place >= reply.fields.size()) break;
-    const auto& field = reply.fields[place++];
-    if (!wanted.has(axis)) continue;
-    if (!answer.empty()) answer += ',';
-    answer += field;
-  }
-  return answer;
-}
+constexpr int kClosedTries = 5;
 
 // One caller's transaction.
 class Transaction {
@@ -140,6 +24,8 @@ class Transaction {
   Task<Result<void>> begin();
   Task<bool> send_all();
   Task<bool> send(std::size_t index);
+  Task<ExchangeResult> exchange(const Command& command);
+  bool single_motion() const;
   Result<void> check_travel();
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
@@ -208,15 +94,53 @@ ExchangeRequest Transaction::request_for(const Command& command) {
   return request;
 }
 
+// In a chain completions follow one another, so nothing can be told apart before its end.
+bool Transaction::single_motion() const {
+  return std::ranges::none_of(impl_.live_, [](const auto& entry) {
+    const MotionKind kind = entry.second->motion.kind;
+    return kind == MotionKind::path || kind == MotionKind::execute;
+  });
+}
+
+Task<ExchangeResult> Transaction::exchange(const Command& command) {
+  const bool closed = command.row->separation == Separation::closed && single_motion();
+  std::vector<int> before;
+  ExchangeResult result;
+  for (int attempt = 0; attempt < kClosedTries; ++attempt) {
+    auto request = request_for(command);
+    request.closed = closed;
+    auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
+    result = co_await pending;
+    if (result.candidates.empty()) co_return result;
+    const auto agreed = std::ranges::find_first_of(result.candidates, before);
+    if (agreed != result.candidates.end()) {
+      const int answer = *agreed;
+      result.reply->text = std::to_string(answer);
+      result.candidates.erase(agreed);
+      before.erase(std::ranges::find(before, answer));
+      // What is left over is no answer, so it was a completion.
+      for (const int axis : before) impl_.completion_seen(axis, true, impl_.now_);
+      for (const int axis : result.candidates) impl_.completion_seen(axis, true, impl_.now_);
+      co_return result;
+    }
+    before = std::exchange(result.candidates, {});
+  }
+  result.problem = Problem{Reason::completion_outstanding,
+                           "the answer could not be told from an axis number",
+                           "ask again once the motion has ended",
+                           {},
+                           command.line,
+                           {}};
+  co_return result;
+}
+
 Task<bool> Transaction::send(std::size_t index) {
   const Command& command = commands_[index];
-  auto request = request_for(command);
   ExecuteEvent event;
   event.line = index;
-  event.sent = request.command.line;
+  event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
-  auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
-  const auto result = co_await pending;
+  const auto result = co_await exchange(command);
   if (command.row->moves()) {
     started_ = started_ || result.accepted();
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();

@@ -59,7 +59,7 @@ void Line::give_up(const std::string& why, TimePoint now) {
     doubted_.reset();
   }
   if (in_flight_) {
-    finish({.written = true, .reply = {}, .problem = lost}, ExchangeEnded::Outcome::link_lost, now);
+    finish({.written = true, .reply = {}, .problem = lost, .candidates = {}}, ExchangeEnded::Outcome::link_lost, now);
   }
   withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, lost);
   listener_.line_lost(why, now);
@@ -80,7 +80,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   const bool is_stop = request.lane == Lane::stop;
   if (!port_open_ && !is_stop) {
     const Problem down = problem_of(Reason::link_down, "the line to the controller is down", request.command.line);
-    answer.deliver({.written = false, .reply = {}, .problem = down});
+    answer.deliver({.written = false, .reply = {}, .problem = down, .candidates = {}});
     return answer;
   }
   if (request.command.row->effect == Effect::question) {
@@ -88,7 +88,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     queue_.for_each([&](const WaitingPtr& waiting) {
       const auto& other = waiting->request;
       if (other.command.line == request.command.line && other.lane == request.lane &&
-          other.handshake == request.handshake) {
+          other.handshake == request.handshake && other.closed == request.closed) {
         same = waiting;
       }
     });
@@ -109,7 +109,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
         {},
         waiting->request.command.line,
         {}};
-    answer.deliver({.written = false, .reply = {}, .problem = full});
+    answer.deliver({.written = false, .reply = {}, .problem = full, .candidates = {}});
     return answer;
   }
   if (is_stop && !port_open_ && !reopening_at_once_) {
@@ -128,7 +128,7 @@ void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, c
                  Problem told = problem;
                  told.sent = waiting->request.command.line;
                  for (auto& answer : waiting->answers) {
-                   answer.deliver({.written = false, .reply = {}, .problem = told});
+                   answer.deliver({.written = false, .reply = {}, .problem = told, .candidates = {}});
                  }
                });
 }
@@ -137,7 +137,8 @@ void Line::expire(TimePoint now) {
   const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
     const Problem problem = why_expired(waiting->request);
-    for (auto& answer : waiting->answers) answer.deliver({.written = false, .reply = {}, .problem = problem});
+    for (auto& answer : waiting->answers)
+      answer.deliver({.written = false, .reply = {}, .problem = problem, .candidates = {}});
   });
 }
 
@@ -147,7 +148,7 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
     return {
         Reason::link_down, "the line to the controller is down", "see `axisctl status` for the reason", {}, line, {}};
   }
-  if (!conflicts(*request.command.row).empty()) {
+  if (!conflicts(request).empty()) {
     return {Reason::completion_outstanding,
             "an axis number may still come over the line, and could not be told from this command's answer",
             "ask again once the motion has ended",
@@ -164,9 +165,12 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
 }
 
 // The axes whose numbers could not be told from the answer.
-AxisSet Line::conflicts(const CommandRow& row) const {
+AxisSet Line::conflicts(const ExchangeRequest& request) const {
+  const CommandRow& row = *request.command.row;
+  if (request.closed) return {};
   const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
-  if (row.separation != Separation::waits && !asked_alone) return {};
+  const bool asked_whole = row.separation == Separation::waits || row.separation == Separation::closed;
+  if (!asked_whole && !asked_alone) return {};
   const auto range = bare_number_range(row);
   AxisSet found;
   for (const int axis : completions_.possible().list()) {
@@ -179,7 +183,7 @@ AxisSet Line::conflicts(const CommandRow& row) const {
 std::optional<TimePoint> Line::conflicts_settle_from() const {
   std::optional<TimePoint> earliest;
   queue_.for_each([&](const WaitingPtr& waiting) {
-    const AxisSet axes = conflicts(*waiting->request.command.row);
+    const AxisSet axes = conflicts(waiting->request);
     const auto from = axes.empty() ? std::nullopt : completions_.settles_from(axes);
     if (from && (!earliest || *from < *earliest)) earliest = from;
   });
@@ -188,7 +192,7 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
 
 bool Line::may_send(const ExchangeRequest& request) const {
   if (!handshake_passed_ && !request.handshake && request.lane != Lane::stop) return false;
-  return conflicts(*request.command.row).empty();
+  return conflicts(request).empty();
 }
 
 void Line::pump(TimePoint now) {
@@ -230,7 +234,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
   if (!request.completes.empty()) completions_.started(request.completes, now);
   write_line(request.command.line);
-  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire};
+  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, {}};
 }
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
@@ -249,7 +253,7 @@ void Line::send_stops_now(TimePoint now) {
                                        waiting->request.command.line,
                                        {}};
                  for (auto& answer : waiting->answers)
-                   answer.deliver({.written = true, .reply = {}, .problem = problem});
+                   answer.deliver({.written = true, .reply = {}, .problem = problem, .candidates = {}});
                });
   if (any && state_ != LinkState::connecting) barrier_->restart(now);
 }
@@ -268,8 +272,8 @@ void Line::advance(TimePoint now) {
     const auto& sent = in_flight_->waiting->request.command.line;
     Problem late{Reason::reply_timed_out, fmt::format("\"{}\" was not answered in time", sent), {}, {}, sent, {}};
     const std::string why = late.message;
-    enter_barrier({.written = true, .reply = {}, .problem = std::move(late)}, ExchangeEnded::Outcome::timed_out, why,
-                  now);
+    enter_barrier({.written = true, .reply = {}, .problem = std::move(late), .candidates = {}},
+                  ExchangeEnded::Outcome::timed_out, why, now);
   }
   expire(now);
   pump(now);

@@ -35,12 +35,16 @@ struct ExchangeRequest {
   MotionId motion = 0;     // the motion it belongs to
   AxisSet completes;       // the axes whose numbers may come once it is written
   bool handshake = false;  // may be sent before open()
+  bool closed = false;     // an !:S follows a number that could be a completion, so that all of them are in
 };
 
 struct ExchangeResult {
   bool written = false;            // false: the controller has certainly not seen it
   std::optional<Reply> reply;      // set when an answer was matched
   std::optional<Problem> problem;  // why there is no answer that can be believed; also set for NG_I
+
+  // Of a closed exchange whose answer could not be told from completions: every number that came. `reply` is the first.
+  std::vector<int> candidates;
 
   bool accepted() const { return reply && reply->accepted() && !problem; }
   bool refused() const { return reply && reply->kind == Reply::Kind::ng; }
@@ -92,6 +96,7 @@ class Line {
   struct InFlight {
     WaitingPtr waiting;
     TimePoint written, limit;
+    std::vector<int> numbers;  // not empty: an !:S has been written behind it
   };
 
   bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
@@ -100,7 +105,7 @@ class Line {
   void send_stops_now(TimePoint now);
   void write_line(std::string_view line);
   bool may_send(const ExchangeRequest& request) const;
-  AxisSet conflicts(const CommandRow& row) const;
+  AxisSet conflicts(const ExchangeRequest& request) const;
   std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);
   Problem why_expired(const ExchangeRequest& request) const;
@@ -109,6 +114,9 @@ class Line {
   void on_line(const LineFramer::Line& line, TimePoint now);
   void doubt_answer(std::string_view text, TimePoint now);
   bool on_axis_number(std::string_view text, TimePoint now);
+  void on_number(int number, TimePoint now);
+  void on_line_while_closing(std::string_view text, TimePoint now);
+  void close(TimePoint now);
   void on_reply(Reply reply, TimePoint now);
   void finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now);
   void enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why, TimePoint now);

@@ -1,6 +1,9 @@
 // What comes in over the line: replies, completions, garbage, and the way back to certainty.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
+
 #include "device/core/escape.h"
 #include "device/shrc203/line.h"
 
@@ -8,6 +11,7 @@ namespace axisgate::shrc203 {
 namespace {
 
 // A command that the line has cut in two is refused twice: the second NG must not meet the next command.
+constexpr std::string_view kClosing = "!:S";
 constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
@@ -45,6 +49,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
     return;
   }
+  if (!in_flight_->numbers.empty()) return on_line_while_closing(line.text, now);
   const auto& row = *in_flight_->waiting->request.command.row;
   if (owed_.identities > 0 && (line.text == "NG" || line.text == "NG_I")) {
     // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
@@ -75,8 +80,8 @@ void Line::doubt_answer(std::string_view text, TimePoint now) {
                   sent,
                   std::string(text)};
   const std::string why = garbage.message;
-  enter_barrier({.written = true, .reply = {}, .problem = std::move(garbage)}, ExchangeEnded::Outcome::garbled, why,
-                now);
+  enter_barrier({.written = true, .reply = {}, .problem = std::move(garbage), .candidates = {}},
+                ExchangeEnded::Outcome::garbled, why, now);
 }
 
 // True: the text was an axis number, and has been dealt with as a completion.
@@ -84,12 +89,52 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
   const int axis = text[0] - '0';
   const bool possible = completions_.possible(axis);
+  if (in_flight_ && in_flight_->waiting->request.closed && (possible || !in_flight_->numbers.empty())) {
+    on_number(axis, now);
+    return true;
+  }
   if (in_flight_ && !possible) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
   }
   listener_.completion_seen(axis, !possible || barrier_ != nullptr, now);
   return true;
+}
+
+// A number that may be the answer or a completion. The controller answers in order, so once an !:S behind it has been
+// answered, the answer is among the numbers that came.
+void Line::on_number(int number, TimePoint now) {
+  if (in_flight_->numbers.empty()) {
+    write_line(kClosing);
+    in_flight_->limit = now + barrier_limits().reply;
+  }
+  in_flight_->numbers.push_back(number);
+}
+
+void Line::on_line_while_closing(std::string_view text, TimePoint now) {
+  const auto number = text.size() <= 2 ? parse_integer(text) : std::nullopt;
+  if (number && *number >= 0) return on_number(static_cast<int>(*number), now);
+  const auto ready = parse_reply(command_row(kClosing), text, controllable_.count());
+  if (ready && ready->kind == Reply::Kind::data) return close(now);
+  doubt_answer(text, now);
+}
+
+void Line::close(TimePoint now) {
+  auto numbers = in_flight_->numbers;
+  const auto may_be_axis = [this](int number) { return number >= 1 && number <= 3 && completions_.possible(number); };
+  const auto certain = std::ranges::find_if_not(numbers, may_be_axis);
+  ExchangeResult result{.written = true, .reply = {}, .problem = {}, .candidates = {}};
+  if (certain == numbers.end()) {
+    result.reply = Reply{Reply::Kind::data, std::to_string(numbers.front()), {std::to_string(numbers.front())}};
+    result.candidates = numbers;
+  } else {
+    result.reply = Reply{Reply::Kind::data, std::to_string(*certain), {std::to_string(*certain)}};
+    numbers.erase(certain);
+  }
+  std::vector<int> completed;
+  if (result.candidates.empty()) std::ranges::copy_if(numbers, std::back_inserter(completed), may_be_axis);
+  finish(std::move(result), ExchangeEnded::Outcome::data, now);
+  for (const int axis : completed) listener_.completion_seen(axis, true, now);
 }
 
 void Line::on_reply(Reply reply, TimePoint now) {
@@ -105,11 +150,12 @@ void Line::on_reply(Reply reply, TimePoint now) {
                   request.command.line,
                   reply.text};
     const std::string why = fault.message;
-    enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault)}, outcome, why, now);
+    enter_barrier({.written = true, .reply = std::move(reply), .problem = std::move(fault), .candidates = {}}, outcome,
+                  why, now);
     return;
   }
   if (reply.kind == Reply::Kind::ng) quiet_until_ = now + kQuietAfterRefusal;
-  finish({.written = true, .reply = std::move(reply), .problem = {}}, outcome, now);
+  finish({.written = true, .reply = std::move(reply), .problem = {}, .candidates = {}}, outcome, now);
 }
 
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
@@ -119,7 +165,7 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   const auto& request = done.waiting->request;
   ExchangeEnded ended{
       request.command.row->name, request.command.line, result.reply ? result.reply->text : "", request.lane, outcome,
-      now - done.written};
+      now - done.written,        !done.numbers.empty()};
   listener_.line_event(ended, now);
   for (auto& answer : done.waiting->answers) answer.deliver(result);
 }
@@ -127,6 +173,7 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
 void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why,
                          TimePoint now) {
   doubted_waiting_ = in_flight_->waiting;
+  std::string last_line(in_flight_->numbers.empty() ? doubted_waiting_->request.command.line : kClosing);
   doubted_ = std::move(doubted);
   ExchangeEnded ended{doubted_waiting_->request.command.row->name,
                       doubted_waiting_->request.command.line,
@@ -138,7 +185,7 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
   listener_.line_event(ended, now);
   state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
   listener_.barrier_entered(why, now);
-  barrier_ = make_barrier(doubted_waiting_->request.command.line);
+  barrier_ = make_barrier(std::move(last_line));
   barrier_->start(now);
   send_stops_now(now);
 }

@@ -102,6 +102,7 @@ Task<void> PathRun::run() {
     tell(PathProgress::Step::started, running_);
   }
   if (over()) co_return;
+  live_->completed = {};  // of the segments before; the last one's are still to come
   live_->on_success = [this] { tell(PathProgress::Step::done, count()); };
   co_await impl_.watch(live_, false);
 }

@@ -247,7 +247,10 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   const auto error = error_of(*live);
   // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
   const bool evident = live->motion.kind != MotionKind::home || stirred;
-  if (at_targets(*live) && !error && evident) {
+  // One flipped bit makes an R of a B; where no axis number bears a READY out, a second reading does.
+  const bool borne_out =
+      live->completed == live->motion.axes || (check.ready && positions_of(state_) == check.positions);
+  if (at_targets(*live) && !error && evident && borne_out) {
     end_motion(live, MotionState::succeeded, {});
     return;
   }

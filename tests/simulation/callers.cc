@@ -14,11 +14,13 @@ const std::vector<std::string> kQuestions = {"?:C1", "?:F1",  "?:SLEEP", "?:BO",
                                              "?:W",  "I:",    "?:M1",    "?:MP2", "?:A3",   "?:WT1",  "?:WI2",  "?:P3",
                                              "?:V",  "*IDN?", "!:",      "Q:",    "?:CMD",  "SRQ:",   "?:D1",   "?:K"};
 
+constexpr int kInputs = 2;  // IN2: the very digit that a completion of axis 2 is
+
 std::string who(Random& random) { return fmt::format("caller-{}", random.between(1, 4)); }
 
 }  // namespace
 
-Callers::Callers(World& world) : world_(world) {}
+Callers::Callers(World& world) : world_(world) { world_.device().set_inputs(kInputs); }
 
 void Callers::act_for(Duration duration) {
   const TimePoint end = world_.now() + duration;
@@ -108,9 +110,11 @@ void Callers::stop() {
 void Callers::ask() {
   auto& random = world_.random();
   ++unfinished_questions_;
-  world_.controller().execute({{random.pick(kQuestions)}, world_.context(who(random), seconds(10))}, world_.now(),
-                              [this](const ExecuteEvent& event) {
+  const std::string question = random.pick(kQuestions);
+  world_.controller().execute({{question}, world_.context(who(random), seconds(10))}, world_.now(),
+                              [this, question](const ExecuteEvent& event) {
                                 if (event.kind == ExecuteEvent::Kind::ended) --unfinished_questions_;
+                                if (event.kind == ExecuteEvent::Kind::reply) check_answer(question, event.answer);
                               });
 }
 
@@ -126,6 +130,13 @@ void Callers::set_and_go() {
       world_.now(), [this](const ExecuteEvent& event) {
         if (event.kind == ExecuteEvent::Kind::ended) --unfinished_questions_;
       });
+}
+
+// Questions that are closed by an !:S are judged by their answer.
+void Callers::check_answer(const std::string& question, const std::string& answer) {
+  if (world_.wire().faults_by_kind().contains("line: reply flipped") || answer.starts_with("NG")) return;
+  const std::string right = question == "I:" ? std::to_string(kInputs) : question == "?:O" ? "0" : answer;
+  if (answer != right) world_.violation(fmt::format("{} was answered by {} instead of {}", question, answer, right));
 }
 
 // A command that a fault has turned into another may start what nobody asked for; the gateway cannot know.

@@ -26,6 +26,7 @@ class Callers {
   void ask();
   void set_and_go();
   void check_starts();
+  void check_answer(const std::string& question, const std::string& answer);
 
   World& world_;
   std::map<shrc203::MotionId, bool> asked_;

@@ -108,6 +108,19 @@ std::vector<std::string> heard_with_late_ok(World& world, Duration delay) {
   return heard;
 }
 
+// Inputs and outputs can be read while a single motion runs, though their answer looks like its completion.
+TEST(Hazard, H01_InputsAreReadDuringAMotion) {
+  World world(quiet());
+  world.device().set_inputs(1);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(milliseconds(500));
+  EXPECT_THAT(execute(world, {"I:"}), ElementsAre("1"));
+  EXPECT_TRUE(world.outcomes().empty()) << world.replay();
+  EXPECT_TRUE(world.completions().empty()) << world.replay();
+  EXPECT_TRUE(world.device().busy(1));
+}
+
 TEST(Hazard, H02_OkWithinTheTimeLimit) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

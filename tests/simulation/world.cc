@@ -100,6 +100,11 @@ void World::check_exchange(const ExchangeEnded& ended) {
   if (origin->kind != Origin::Kind::reply) {
     return violation(fmt::format("{} took \"{}\" for its reply, which was none", ended.line, ended.reply));
   }
+  if (ended.closed) {
+    // What came before the !:S is judged by the answer that the caller gets.
+    if (wire_.commands()[origin->command] != "!:S") violation(ended.line + " was closed by no !:S");
+    return;
+  }
   if (wire_.commands()[origin->command] != ended.line || origin->command + 1 != wire_.commands().size()) {
     violation(fmt::format("{} took \"{}\" for its reply, which answered {}", ended.line, ended.reply,
                           wire_.commands()[origin->command]));

@@ -1,0 +1,36 @@
+// What the lines of a caller's transaction come to, before and after they are sent.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "device/shrc203/codec.h"
+#include "device/shrc203/controller.h"
+#include "device/shrc203/reply.h"
+
+namespace axisgate::shrc203 {
+
+// Parsed and checked as a whole: what parse_command() refuses, incomplete_transaction for a setting without a start or
+// a start without a setting, invalid_request for too many lines or a stop among others.
+Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines);
+
+// Whether the lines must not come between another's.
+bool needs_gate(const std::vector<Command>& commands);
+
+// The axes that they set in motion or make ready to be.
+AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable);
+
+// Whether axis numbers follow.
+bool completes(const std::vector<Command>& commands);
+
+// The ways or targets that a setter names, as a request of ours, for the same checks of travel.
+std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable);
+
+// The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
+Command as_sent(const Command& command);
+
+// The fields of the answer to as_sent(asked) that were asked for.
+std::string picked(const Command& asked, const Reply& reply, AxisSet controllable);
+
+}  // namespace axisgate::shrc203
