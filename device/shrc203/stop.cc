@@ -71,7 +71,20 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   co_await write_stop(job);
   job->answered = true;
   registers_.forget();
-  const bool line_works = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
+  const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
+  const bool line_works = written && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
+  if (written && !line_works) {
+    // Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
+    const bool off_host = !state_.mode.empty() && state_.mode != "HOST";
+    job->report.problem =
+        Problem{off_host ? Reason::wrong_mode : Reason::outcome_unknown,
+                off_host ? fmt::format("the controller is in {} mode, where it takes no stop from here", state_.mode)
+                         : "the stop was written, but nobody can tell yet what became of it: " + state_.link_problem,
+                "use the front panel, or the wired emergency stop",
+                {},
+                {},
+                {}};
+  }
   if (line_works) co_await wait_for_standstill(job);
   if (line_works && job->emergency) {
     // Whether the motors stay excited depends on a memory switch (manual 66)).

@@ -141,6 +141,22 @@ TEST(Hazard, H35_StopBetweenSetAndGo) {
   EXPECT_GT(cut, 5) << "no stop has come between a set and its go";
 }
 
+// Design rule 6: where the mode allows no stop, the caller hears so at once.
+TEST(Hazard, H18_StopOffHostIsRefusedAtOnce) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.device().set_mode("MANUAL", world.now());
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.controller().state().mode, "MANUAL");
+  std::optional<StopReport> report;
+  world.controller().stop({}, world.context("other"), world.now(), [&](StopReport told) { report = told; });
+  ASSERT_TRUE(world.run_until([&] { return report.has_value(); }, seconds(3))) << world.replay();
+  ASSERT_TRUE(report->problem);
+  EXPECT_EQ(report->problem->reason, Reason::wrong_mode) << report->problem->message;
+  world.device().set_mode("HOST", world.now());
+  EXPECT_TRUE(world.run_until_up()) << world.replay();
+}
+
 TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
