@@ -232,6 +232,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const auto limit =
       request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
   const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
+  if (framer_.mid_line()) framer_.clear();  // only a stop does not wait: what is half in must not end as its answer
   if (!request.completes.empty()) completions_.started(request.completes, now);
   write_line(request.command.line);
   in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, {}};

@@ -39,9 +39,9 @@ TEST_P(Seeds, NothingIsMixedUp) {
 
 // 10085: a command cut in two by the line is refused twice. 10270: the OK of a stop written inside a barrier came after
 // an identity that had been asked for before it. 10875: an owed identity was taken for the answer to ?:CMD. 31352: one
-// flipped bit made an R of a B while an axis settled.
+// flipped bit made an R of a B while an axis settled. 40555: the second half of a doubled OK met a stop.
 TEST(SeedsThatOnceFailed, StayMended) {
-  for (const std::uint64_t seed : {10085u, 10270u, 10875u, 31352u}) {
+  for (const std::uint64_t seed : {10085u, 10270u, 10875u, 31352u, 40555u}) {
     if (!HasFatalFailure()) run_seed(seed);
   }
 }
