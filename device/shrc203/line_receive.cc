@@ -10,8 +10,8 @@
 namespace axisgate::shrc203 {
 namespace {
 
+constexpr std::string_view kClosing = "!:S";  // behind a number that may be a completion
 // A command that the line has cut in two is refused twice: the second NG must not meet the next command.
-constexpr std::string_view kClosing = "!:S";
 constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {

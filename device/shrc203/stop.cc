@@ -9,14 +9,11 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kStopTries = 3;
-constexpr Duration kReopenLimit = std::chrono::seconds(1);  // how long a stop waits for a line that is down
-constexpr Duration kWriteLimit = std::chrono::seconds(10);
+constexpr Duration kReopenLimit = std::chrono::seconds(1);       // how long a stop waits for a line that is down
+constexpr Duration kWriteLimit = std::chrono::seconds(10);       // and for its turn on one that is open
 constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
 constexpr Duration kAgainAfter = std::chrono::seconds(1);        // a stop without effect by then is written again
 constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
-
-// Motions that a stop of `axes` ends.
-bool concerns(const LiveMotion& live, AxisSet axes) { return live.motion.axes.touches(axes); }
 
 }  // namespace
 
@@ -47,7 +44,7 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
   AxisSet all = emergency ? AxisSet::all() : axes;
   std::vector<MotionId> stopped;
   for (const auto& [id, live] : live_) {
-    if (!concerns(*live, all)) continue;
+    if (!live->motion.axes.touches(all)) continue;
     live->stop_requested = true;
     live->stopped_by = context.who;
     live->woken = true;

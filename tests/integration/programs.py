@@ -76,7 +76,7 @@ class Daemon:
             if self._process.poll() is not None or time.monotonic() > deadline:
                 self.stop()
                 raise AssertionError("the daemon did not get ready")
-            time.sleep(0.05)
+            time.sleep(0.05)  # between two looks; the deadline above decides
 
     def command(self, *arguments):
         return [BIN / "axisctl", "--target", self.socket, *arguments]
