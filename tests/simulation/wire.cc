@@ -15,6 +15,31 @@ Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(cou
 
 }  // namespace
 
+Faults Faults::mild() {
+  Faults f;
+  f.drop_reply = f.drop_notice = f.late_reply = f.late_notice = 0.001;
+  f.split = 0.01;
+  f.mishaps_an_hour = 1;
+  return f;
+}
+
+Faults Faults::rough() {
+  Faults f = mild();
+  f.drop_command = f.drop_reply = f.late_reply = 0.005;
+  f.double_notice = f.drop_notice = f.late_notice = 0.02;
+  f.noise = f.flip_reply = 0.001;
+  f.mishaps_an_hour = 5;
+  return f;
+}
+
+std::optional<Faults> Faults::named(std::string_view profile) {
+  if (profile == "quiet") return none();
+  if (profile == "mild") return mild();
+  if (profile == "rough") return rough();
+  if (profile == "hostile") return hostile();
+  return {};
+}
+
 Faults Faults::hostile() {
   Faults f;
   f.drop_command = f.drop_reply = 0.01;
@@ -27,6 +52,7 @@ Faults Faults::hostile() {
   f.split = 0.02;
   f.drop_notice = f.late_notice = f.double_notice = 0.05;
   f.flood_notice = 0.01;
+  f.mishaps_an_hour = 20;
   return f;
 }
 
@@ -35,11 +61,13 @@ void Wire::note(TimePoint now, const std::string& text) {
   if (log_.size() > kLogLines) log_.pop_front();
 }
 
-bool Wire::strikes(double probability, const char* kind) {
-  if (!random_.chance(probability)) return false;
-  ++injected_;
-  ++by_kind_[kind];
-  note(now_, fmt::format("   fault: {}", kind));
+bool Wire::strikes(double probability, const char* kind) { return random_.chance(probability) && inject(kind); }
+
+bool Wire::inject(const char* kind) {
+  const std::uint64_t number = drawn_++;
+  if (spared_.contains(number)) return false;
+  ++by_kind_[kind][static_cast<std::size_t>(phase_ ? phase_() : Phase::idle)];
+  note(now_, fmt::format("   fault {}: {}", number, kind));
   return true;
 }
 
@@ -191,6 +219,7 @@ void Wire::deliver(const Delivery& delivery, TimePoint now) {
     answering_ = true;
     device_->receive(delivery.bytes, now);
     answering_ = false;
+    unanswered_.clear();  // the device answers at once or, while it restarts, never
     return;
   }
   note(now, "< " + escaped(delivery.bytes));
