@@ -29,10 +29,12 @@ void Mishaps::strike() {
   auto& wire = world_.wire();
   const int axis = static_cast<int>(random_.between(1, kAxisCount));
   const Duration while_it_lasts = milliseconds(random_.between(200, 8000));
-  switch (random_.between(0, 5)) {
+  switch (random_.between(0, 9)) {
     case 0:
-      if (wire.inject("device: reboot")) world_.power_cycle();
-      return;
+      if (!wire.inject("device: reboot")) return;
+      device.set_boot({.mode = random_.chance(0.2) ? "MANUAL" : "HOST"});
+      world_.power_cycle();
+      return later(seconds(1) + while_it_lasts, [this] { world_.device().set_mode("HOST", world_.now()); });
     case 1:
       if (!wire.inject("device: mode")) return;
       device.set_mode("MANUAL", world_.now());
@@ -51,6 +53,19 @@ void Mishaps::strike() {
         put_right();
       });
     }
+    case 5:
+      if (!wire.inject("device: dialect")) return;
+      device.set_format("HIT", world_.now());
+      return later(while_it_lasts, [this] { world_.device().set_format("SHOT_FC", world_.now()); });
+    case 6:
+      if (wire.inject("device: overflow")) device.set_error(axis, simulator::AxisError::overflow, true, world_.now());
+      return later(while_it_lasts, [this] { put_right(); });
+    case 7:
+      if (wire.inject("device: slow")) device.set_answer_delay(milliseconds(random_.between(20, 700)), world_.now());
+      return later(while_it_lasts, [this] { world_.device().set_answer_delay({}, world_.now()); });
+    case 8:
+      if (wire.inject("device: stuck")) device.be_stuck(milliseconds(random_.between(100, 3000)), world_.now());
+      return;
     default:
       if (wire.inject("link: unplugged")) wire.cut(world_.now(), while_it_lasts);
   }

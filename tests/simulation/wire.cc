@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::size_t kLogLines = 120;
 
-bool is_axis_number(const std::string& text) { return text.size() == 1 && text[0] >= '1' && text[0] <= '3'; }
-
 Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(count); }
 
 }  // namespace
@@ -132,16 +130,15 @@ void Wire::from_device(std::string_view bytes) {
   }
 }
 
-// The device answers commands in order; a bare axis number is a reply only while a question that can have one waits.
+// The device answers commands in order. One that a fault has cut in two is answered twice.
 void Wire::device_line(std::string text) {
   Origin origin{Origin::Kind::notice, 0};
-  const bool asked_number = !unanswered_.empty() && commands_[unanswered_.front()].find('?') != std::string::npos;
-  const bool inputs = !unanswered_.empty() && commands_[unanswered_.front()] == "I:";
-  if (!unanswered_.empty() && (!is_axis_number(text) || ((asked_number || inputs) && answering_))) {
-    origin = {Origin::Kind::reply, unanswered_.front()};
-    unanswered_.pop_front();
-  } else if (answering_ && last_delivered_ && !is_axis_number(text)) {
-    origin = {Origin::Kind::reply, *last_delivered_};  // a fault has cut a command in two, and it is answered twice
+  if (device_answers_()) {
+    if (!unanswered_.empty()) {
+      last_answered_ = unanswered_.front();
+      unanswered_.pop_front();
+    }
+    origin = {Origin::Kind::reply, last_answered_.value_or(0)};
   }
   if (!open_) return;
   const bool is_reply = origin.kind == Origin::Kind::reply;
@@ -214,12 +211,8 @@ void Wire::advance(TimePoint now) {
 
 void Wire::deliver(const Delivery& delivery, TimePoint now) {
   if (delivery.to_device) {
-    unanswered_.push_back(delivery.command);
-    last_delivered_ = delivery.command;
-    answering_ = true;
+    if (device_reads_()) unanswered_.push_back(delivery.command);
     device_->receive(delivery.bytes, now);
-    answering_ = false;
-    unanswered_.clear();  // the device answers at once or, while it restarts, never
     return;
   }
   note(now, "< " + escaped(delivery.bytes));

@@ -88,6 +88,12 @@ class Wire {
   // What the gateway wrote, oldest first, and what a delivered line was while it is being delivered.
   const std::vector<std::string>& commands() const { return commands_; }
   bool answered() const { return unanswered_.empty(); }  // by the device; the reply may be under way
+  // Whether what the device writes now answers a command, and whether it reads at all (it does not while it restarts).
+  void set_device(std::function<bool()> answers, std::function<bool()> reads) {
+    device_answers_ = std::move(answers);
+    device_reads_ = std::move(reads);
+  }
+  void device_restarts() { unanswered_.clear(); }
   const std::optional<Origin>& delivering() const { return delivering_; }
   const std::deque<std::string>& log() const { return log_; }
   void note(TimePoint now, const std::string& text);
@@ -142,14 +148,14 @@ class Wire {
   LineMachine* device_ = nullptr;
   TimePoint now_{};
   bool open_ = false;
-  bool answering_ = false;  // the device is taking a command: what it writes now answers it
+  std::function<bool()> device_answers_, device_reads_;
   std::optional<TimePoint> opens_at_;
   TimePoint to_device_free_{}, to_gateway_free_{};
   std::multimap<TimePoint, Delivery> in_transit_;
   std::multimap<TimePoint, std::string> held_notices_;  // that the device is slow to send
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
-  std::optional<std::size_t> last_delivered_;
+  std::optional<std::size_t> last_answered_;
   std::string device_partial_;
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;

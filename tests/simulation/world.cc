@@ -32,6 +32,7 @@ World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire
   controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this);
   wire_.connect(*controller_, *device_);
   wire_.set_phase([this] { return phase(); });
+  wire_.set_device([this] { return device_->answering(); }, [this] { return !restarting(); });
   wire_.set_faults(setup_.faults);
   wire_.open(now_);
 }
@@ -140,12 +141,14 @@ void World::power_cycle() {
     before_reboot_[static_cast<std::size_t>(axis - 1)] = device_->position(axis);
   }
   device_->power_cycle(now_);
+  wire_.device_restarts();
 }
+
+bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + std::chrono::seconds(1); }
 
 // Where the axis stood when the device last told anything: while it restarts, that is before the restart.
 std::int64_t World::told_position(int axis) const {
-  const bool restarting = rebooted_ && now_ < *rebooted_ + std::chrono::seconds(1);
-  return restarting ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
+  return restarting() ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
 }
 
 // A success is a place where the device truly stands.

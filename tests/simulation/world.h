@@ -73,6 +73,7 @@ class World : public shrc203::EventSink {
   void check_exchange(const shrc203::ExchangeEnded& ended);
   void check_outcome(const shrc203::Motion& motion);
   std::int64_t told_position(int axis) const;
+  bool restarting() const;
 
   Setup setup_;
   Random random_;
