@@ -54,7 +54,8 @@ struct SpeedSetting {
 
   friend bool operator==(const SpeedSetting&, const SpeedSetting&) = default;
 };
-std::optional<SpeedSetting> parse_speed_setting(std::string_view field);  // S100F1000R50
+// S100F1000R50. Nothing outside the ranges of manual 89) D:, which only a disturbed line tells.
+std::optional<SpeedSetting> parse_speed_setting(std::string_view field);
 
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
