@@ -103,6 +103,7 @@ class Line {
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
+  bool write_waiting_stops();  // whether there were any
   void write_line(std::string_view line);
   bool may_send(const ExchangeRequest& request) const;
   AxisSet conflicts(const ExchangeRequest& request) const;
