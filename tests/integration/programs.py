@@ -69,6 +69,7 @@ class Daemon:
         self._log = open(self.log, "a+", encoding="utf-8")
         self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT)
+        self.pid = self._process.pid
         self._wait_until_ready()
 
     def _wait_until_ready(self):
