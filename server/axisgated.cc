@@ -71,7 +71,7 @@ int serve(const server::Config& config) {
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};
-  spdlog::info("gRPC on {} and unix:{}", to_string((*server)->listen()), config.socket);
+  spdlog::info("gRPC on {} and unix:{}", to_string((*server)->listen()), (*server)->socket());
   spdlog::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
     spdlog::info("device {}: SHRC-203 on {}", device->name(), device->line_description());

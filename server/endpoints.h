@@ -30,6 +30,7 @@ class UnixListener {
 
   // The non-blocking socket; the file stays this object's.
   Descriptor take_socket() { return std::move(socket_); }
+  const std::string& path() const { return path_; }
 
  private:
   UnixListener(std::string path, Descriptor socket);

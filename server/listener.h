@@ -25,7 +25,8 @@ class Listener {
   // Hands connections over, on its thread. Call it once.
   void start(ConnectionLimits limits, Acceptor::OnConnection on_connection);
 
-  const TcpAddress& address() const { return address_; }     // with the port really taken
+  const TcpAddress& address() const { return address_; }  // with the port really taken
+  const std::string& socket() const { return unix_.path(); }
   ConnectionCounts counts() { return acceptor_->counts(); }  // after start(), from any thread
 
  private:

@@ -1,5 +1,6 @@
 #include "server/connections/acceptor.h"
 
+#include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <spdlog/spdlog.h>
@@ -14,7 +15,8 @@ namespace axisgate::server {
 namespace {
 
 // How long a listener rests that could not accept, and how often ended connections of the reserve are looked for.
-constexpr auto kLookAgain = std::chrono::milliseconds(50);
+// Short: a stop may wait behind many who displace each other.
+constexpr auto kLookAgain = std::chrono::milliseconds(5);
 
 bool is_out_of_descriptors(int error) {
   return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
@@ -66,32 +68,34 @@ void Acceptor::wait(Listener& listener) {
 
 Acceptor::Next Acceptor::accept_one(Listener& listener) {
   if (!open_.has_room()) {
-    if (tell_reserved_.due()) {
-      spdlog::warn("{} connections are open, and no more are served: a new one gets a stop through, nothing else",
-                   limits_.open);
-    }
+    warn_seldom(fmt::format("as many connections are open as are allowed: {}", limits_.open));
     return accept_reserved(listener);
   }
+  // The reserve comes first: what its connections leave behind is not for ordinary ones, or it would wear away.
+  if (!reserve_.restore()) return accept_out_of_descriptors(listener, EMFILE);
   Descriptor connection(accept_(listener.native_handle()));
+  const int error = errno;
   if (connection.valid()) {
     open_.add(connection.get());
     hand_over(std::move(connection), Service::all);
     return Next::wait;
   }
-  const int error = errno;
-  if (!is_out_of_descriptors(error)) return is_passing(error) ? Next::wait : Next::pause;
+  if (is_out_of_descriptors(error)) return accept_out_of_descriptors(listener, error);
+  return is_passing(error) ? Next::wait : Next::pause;
+}
+
+Acceptor::Next Acceptor::accept_out_of_descriptors(Listener& listener, int error) {
   ++out_of_descriptors_;
-  if (tell_reserved_.due()) {
-    spdlog::warn(
-        "no descriptors are free ({}): a new connection gets a stop through, nothing else; raise the limit of "
-        "open files (ulimit -n, or LimitNOFILE= of the service)",
-        std::generic_category().message(error));
-  }
+  warn_seldom(
+      fmt::format("no descriptors are free ({}); raise the limit of open files (ulimit -n, or LimitNOFILE= of "
+                  "the service)",
+                  std::generic_category().message(error)));
   return accept_reserved(listener);
 }
 
 Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
-  reserve_.open_place();
+  look_again_later();
+  if (!reserve_.open_place()) return Next::pause;
   displaced_ = reserve_.displaced();
   Descriptor connection(accept_(listener.native_handle()));
   const int error = connection.valid() ? 0 : errno;
@@ -100,13 +104,16 @@ Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
     ++reserved_;
     hand_over(std::move(connection), Service::stop_only);
   }
-  look_again_later();
   return error == 0 || is_passing(error) ? Next::wait : Next::pause;
 }
 
 void Acceptor::hand_over(Descriptor connection, Service service) {
   ++accepted_;
   on_connection_(std::move(connection), service);
+}
+
+void Acceptor::warn_seldom(const std::string& what) {
+  if (warning_.due()) spdlog::warn("{}; a new connection gets a stop through, nothing else", what);
 }
 
 void Acceptor::look_again_later() {
@@ -119,7 +126,7 @@ void Acceptor::look_again_later() {
 
 void Acceptor::look_again() {
   timer_runs_ = false;
-  if (!reserve_.restore()) look_again_later();
+  if (!reserve_.restore() || reserve_.in_use()) look_again_later();
   for (Listener* listener : std::exchange(paused_, {})) wait(*listener);
 }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <string>
 #include <vector>
 
 #include "device/core/time.h"
@@ -19,7 +20,7 @@ namespace axisgate::server {
 
 struct ConnectionLimits {
   std::size_t open = 0;     // at once, those in the reserve not counted
-  std::size_t reserve = 8;  // beyond that, or without free descriptors
+  std::size_t reserve = 8;  // beyond that, or without free descriptors; 1 at least
 };
 
 struct ConnectionCounts {
@@ -27,7 +28,7 @@ struct ConnectionCounts {
   std::uint64_t accepted = 0;            // since the start, those into the reserve among them
   std::uint64_t reserved = 0;            // into the reserve
   std::uint64_t displaced = 0;           // out of the reserve, by a newer one
-  std::uint64_t out_of_descriptors = 0;  // times accept() found none free
+  std::uint64_t out_of_descriptors = 0;  // times that a connection found none free
 };
 
 // Called on its strand, but for counts().
@@ -54,8 +55,10 @@ class Acceptor {
 
   void wait(Listener& listener);
   Next accept_one(Listener& listener);
+  Next accept_out_of_descriptors(Listener& listener, int error);
   Next accept_reserved(Listener& listener);
   void hand_over(Descriptor connection, Service service);
+  void warn_seldom(const std::string& what);
   void look_again_later();
   void look_again();
 
@@ -69,7 +72,7 @@ class Acceptor {
   std::vector<Listener*> paused_;
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
-  Seldom tell_reserved_;
+  Seldom warning_;
   std::atomic<std::uint64_t> accepted_ = 0;
   std::atomic<std::uint64_t> reserved_ = 0;
   std::atomic<std::uint64_t> displaced_ = 0;

@@ -2,6 +2,7 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <sys/eventfd.h>
 #include <sys/socket.h>
 
 namespace axisgate::server {
@@ -17,15 +18,16 @@ bool ended(const Descriptor& connection) {
 
 Reserve::Reserve(std::size_t places) : places_(places) { restore(); }
 
-void Reserve::open_place() {
-  forget_ended();
-  if (connections_.size() >= places_) {
-    // The one that serves it sees its end as if the client had left, and closes its descriptor.
-    ::shutdown(connections_.front().get(), SHUT_RDWR);
-    connections_.pop_front();
-    ++displaced_;
-  }
-  for (std::size_t i = 0; i < kDescriptorsEach && !spare_.empty(); ++i) spare_.pop_back();
+bool Reserve::open_place() {
+  restore();
+  if (spare_.size() < kDescriptorsEach) return false;
+  spare_.resize(spare_.size() - kDescriptorsEach);
+  if (connections_.size() < places_) return true;
+  // Whoever serves it sees its end as if the client had left, and closes its descriptor.
+  ::shutdown(connections_.front().get(), SHUT_RDWR);
+  connections_.pop_front();
+  ++displaced_;
+  return true;
 }
 
 void Reserve::keep(int connection) {
@@ -35,14 +37,14 @@ void Reserve::keep(int connection) {
 
 bool Reserve::restore() {
   forget_ended();
-  // One place more than connections, since the descriptor of a displaced one takes a moment to be closed.
+  // One place more, so that a newcomer need not wait until the one that it displaces has been closed.
   const std::size_t wanted = (places_ + 1 - connections_.size()) * kDescriptorsEach;
   while (spare_.size() < wanted) {
-    Descriptor spare(::open("/dev/null", O_RDONLY | O_CLOEXEC));
+    Descriptor spare(::eventfd(0, EFD_CLOEXEC));
     if (!spare.valid()) return false;
     spare_.push_back(std::move(spare));
   }
-  return connections_.empty();
+  return true;
 }
 
 void Reserve::forget_ended() { std::erase_if(connections_, ended); }

@@ -10,21 +10,24 @@
 
 namespace axisgate::server {
 
-// Holds /dev/null open as often as the reserved connections need descriptors, and closes that for one of them when it
-// comes. A newcomer displaces the connection that has been there longest, so that a program that opens connections and
-// leaves them open does not fill the reserve. Not thread safe.
+// Holds as many descriptors open as its connections will need, and closes those of one of them when it comes. A
+// newcomer displaces the connection that has been there longest, so that a program that opens connections and leaves
+// them open does not fill the reserve. Not thread safe.
 class Reserve {
  public:
-  // For this many connections at once. Without free descriptors it begins empty and fills itself by restore().
+  // For this many connections at once, 1 at least. Without free descriptors it begins empty and fills itself by
+  // restore().
   explicit Reserve(std::size_t places);
 
-  // Frees what one connection needs: accept it next.
-  void open_place();
+  // Frees what one connection needs: accept it next. False when that is not there yet, since a displaced connection
+  // takes a moment to be closed.
+  bool open_place();
   // Keeps a second descriptor of a connection that was just accepted, by which its end is seen and it is displaced.
   // Without a free one the connection is left to end by itself.
   void keep(int connection);
-  // Takes back what ended connections have left. False as long as there is something to take back.
+  // Takes back what ended connections have left. False as long as it has not all that further connections need.
   bool restore();
+  bool in_use() const { return !connections_.empty(); }  // as of the last of the calls above
 
   std::uint64_t displaced() const { return displaced_; }  // since the start
 

@@ -23,7 +23,7 @@ constexpr int kSilentMs = 20'000;
 // In the reserve a client that was refused soon makes room, and finds an ordinary place when it connects anew. A stop
 // under way is waited for.
 constexpr int kReserveIdleMs = 1'000;
-constexpr int kReserveAgeMs = 5'000;
+constexpr int kReserveAgeMs = 2'000;
 constexpr int kReserveGraceMs = 30'000;
 
 // gRPC's own lines tell nothing that ours do not, and would stand among them unasked.
@@ -39,7 +39,8 @@ Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> liste
       events_(gateway, streams_),
       commands_(gateway, streams_),
       health_(streams_),
-      stop_only_(stage_) {}
+      stops_(stage_),
+      names_(devices_) {}
 
 Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, const server::TcpAddress& listen,
                                               const std::string& socket, const server::ConnectionLimits& limits) {
@@ -79,7 +80,8 @@ void Server::build_reserve() {
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kReserveIdleMs);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kReserveAgeMs);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kReserveGraceMs);
-  builder.RegisterService(&stop_only_);
+  builder.RegisterService(&stops_);
+  builder.RegisterService(&names_);
   builder.RegisterCallbackGenericService(&refusing_);
   reserve_.entrances.emplace(builder, callers_);
   reserve_.server = builder.BuildAndStart();

@@ -27,14 +27,15 @@ namespace axisgate::rpc {
 class Server {
  public:
   // Serves at once. Refuses an address that somebody else serves, and a socket whose directory cannot be trusted.
-  // Connections beyond `limits` are served a stop only. `gateway` outlives the server.
+  // Connections beyond `limits` are served a stop only (stop_only.h). `gateway` outlives the server.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, const server::TcpAddress& listen,
                                                const std::string& socket, const server::ConnectionLimits& limits);
   // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
   ~Server();
 
   const server::TcpAddress& listen() const { return listener_->address(); }  // with the port really taken
-  server::ConnectionCounts connections() { return listener_->counts(); }     // from any thread
+  const std::string& socket() const { return listener_->socket(); }
+  server::ConnectionCounts connections() { return listener_->counts(); }  // from any thread
 
  private:
   // A gRPC server and the ways into it.
@@ -55,7 +56,8 @@ class Server {
   EventService events_;
   CommandService commands_;
   HealthService health_;
-  StopService stop_only_;
+  StopService stops_;
+  NamesService names_;
   RefusingService refusing_;
   // Two, since how long a connection may be idle is a matter of the whole server.
   Part ordinary_;

@@ -23,25 +23,6 @@ class Refusal final : public grpc::ServerGenericBidiReactor {
 
 }  // namespace
 
-StopService::StopService(StageService& stage) : stage_(stage) {
-  const auto* service = api::StopRequest::descriptor()->file()->FindServiceByName("StageService");
-  for (int i = 0; i < service->method_count(); ++i) {
-    const std::string& name = service->method(i)->name();
-    if (name != "Stop" && name != "EmergencyStop") MarkMethodGeneric(i);
-  }
-}
-
-grpc::ServerUnaryReactor* StopService::Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
-                                            api::StopResponse* response) {
-  return stage_.Stop(context, request, response);
-}
-
-grpc::ServerUnaryReactor* StopService::EmergencyStop(grpc::CallbackServerContext* context,
-                                                     const api::EmergencyStopRequest* request,
-                                                     api::EmergencyStopResponse* response) {
-  return stage_.EmergencyStop(context, request, response);
-}
-
 grpc::ServerGenericBidiReactor* RefusingService::CreateReactor(grpc::GenericCallbackServerContext*) {
   return new Refusal;
 }
