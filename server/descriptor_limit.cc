@@ -9,7 +9,7 @@ namespace {
 
 // Each costs some 100 kB.
 constexpr std::size_t kConnectionsMax = 4096;
-// An idle daemon with one device has about 50 open, the reserve's among them.
+// An idle daemon with one device has about 40 open, the reserve's among them.
 constexpr std::size_t kSetAside = 192;
 
 }  // namespace
