@@ -11,6 +11,7 @@
 #include <string>
 
 #include "server/config.h"
+#include "server/descriptor_limit.h"
 #include "server/explain.h"
 #include "server/gateway.h"
 #include "server/logging.h"
@@ -65,7 +66,8 @@ int serve(const server::Config& config) {
   server::Gateway gateway(config);
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
-  const auto server = rpc::Server::start(gateway, config.listen, config.socket);
+  const server::ConnectionLimits limits{server::raise_descriptor_limit()};
+  const auto server = rpc::Server::start(gateway, config.listen, config.socket, limits);
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};

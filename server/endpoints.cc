@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <fmt/format.h>
 #include <netdb.h>
+#include <netinet/in.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
@@ -13,6 +14,7 @@
 #include <filesystem>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include "device/link/descriptor.h"
 
@@ -36,11 +38,16 @@ Addresses resolve(const TcpAddress& address) {
   return {found, &::freeaddrinfo};
 }
 
-// Whether a connection is accepted there; any other error than a refusal counts as somebody, who is left alone.
-bool somebody_listens(const std::string& path) {
+sockaddr_un unix_address(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   path.copy(address.sun_path, sizeof(address.sun_path) - 1);
+  return address;
+}
+
+// Whether a connection is accepted there; any other error than a refusal counts as somebody, who is left alone.
+bool somebody_listens(const std::string& path) {
+  const sockaddr_un address = unix_address(path);
   const Descriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   return ::connect(probe.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) == 0 ||
          errno != ECONNREFUSED;
@@ -64,22 +71,7 @@ Result<void> prepare_directory(const std::filesystem::path& directory) {
                 "remove it, or set another path with the key `socket` in the configuration");
 }
 
-}  // namespace
-
-Result<void> check_port_free(const TcpAddress& address) {
-  const Addresses where = resolve(address);
-  if (where == nullptr) return refuse(to_string(address) + " is not an address of this machine", "");
-  const Descriptor probe(::socket(where->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  const int on = 1;
-  ::setsockopt(probe.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
-  if (::bind(probe.get(), where->ai_addr, where->ai_addrlen) == 0) return {};
-  return refuse(fmt::format("cannot listen on {}: {}", to_string(address), error_text(errno)),
-                errno == EADDRINUSE ? "stop the program that holds the port (another axisgated?), or set another "
-                                      "address with the key `listen` in the configuration"
-                                    : "set another address with the key `listen` in the configuration");
-}
-
-Result<void> prepare_socket(const std::string& path) {
+Result<void> prepare_path(const std::string& path) {
   const Result<void> directory = prepare_directory(std::filesystem::path(path).parent_path());
   if (!directory) return directory;
   struct stat status {};
@@ -97,6 +89,65 @@ Result<void> prepare_socket(const std::string& path) {
                 "remove it, or set another path with the key `socket` in the configuration");
 }
 
-void open_socket_to_users(const std::string& path) { ::chmod(path.c_str(), 0666); }
+tl::unexpected<Problem> refuse_address(const TcpAddress& address, int error) {
+  return refuse(fmt::format("cannot listen on {}: {}", to_string(address), error_text(error)),
+                error == EADDRINUSE ? "stop the program that holds the port (another axisgated?), or set another "
+                                      "address with the key `listen` in the configuration"
+                                    : "set another address with the key `listen` in the configuration");
+}
+
+std::uint16_t port_of(const Descriptor& socket) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  ::getsockname(socket.get(), reinterpret_cast<sockaddr*>(&address), &size);
+  // sockaddr_in6 has its port at the same place.
+  return ntohs(reinterpret_cast<const sockaddr_in&>(address).sin_port);
+}
+
+}  // namespace
+
+Result<Descriptor> listen_on(TcpAddress& address) {
+  const Addresses where = resolve(address);
+  if (where == nullptr) return refuse(to_string(address) + " is not an address of this machine", "");
+  Descriptor socket(::socket(where->ai_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  // A daemon that starts again does not wait for the connections of the last one to be forgotten.
+  const int on = 1;
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof(on));
+  if (::bind(socket.get(), where->ai_addr, where->ai_addrlen) != 0 || ::listen(socket.get(), SOMAXCONN) != 0) {
+    return refuse_address(address, errno);
+  }
+  address.port = port_of(socket);
+  return socket;
+}
+
+UnixListener::UnixListener(std::string path, Descriptor socket) : path_(std::move(path)), socket_(std::move(socket)) {
+  struct stat status {};
+  if (::lstat(path_.c_str(), &status) != 0) return;
+  device_ = status.st_dev;
+  inode_ = status.st_ino;
+}
+
+UnixListener::~UnixListener() {
+  struct stat status {};
+  if (path_.empty() || ::lstat(path_.c_str(), &status) != 0) return;
+  if (status.st_dev == device_ && status.st_ino == inode_) ::unlink(path_.c_str());
+}
+
+Result<UnixListener> UnixListener::open(const std::string& path) {
+  if (const Result<void> ready = prepare_path(path); !ready) return tl::unexpected(ready.error());
+  const sockaddr_un address = unix_address(path);
+  Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
+    return refuse(fmt::format("cannot make the socket {}: {}", path, error_text(errno)),
+                  "set another path with the key `socket` in the configuration");
+  }
+  // The file is there from here on, and goes with this.
+  UnixListener listener(path, std::move(socket));
+  if (::chmod(path.c_str(), 0666) != 0 || ::listen(listener.socket_.get(), SOMAXCONN) != 0) {
+    return refuse(fmt::format("cannot listen on the socket {}: {}", path, error_text(errno)),
+                  "set another path with the key `socket` in the configuration");
+  }
+  return listener;
+}
 
 }  // namespace axisgate::server

@@ -1,22 +1,44 @@
-// Addresses to listen on, looked at before they are handed over, so that what is wrong with them can be said.
+// The sockets that the daemon listens on. What is wrong with an address is said so that a person can mend it.
 #pragma once
 
+#include <sys/stat.h>
+
 #include <string>
+#include <utility>
 
 #include "device/core/problem.h"
+#include "device/link/descriptor.h"
 #include "server/config.h"
 
 namespace axisgate::server {
 
-// Whether nobody listens there yet. Somebody may come in between: the listener then still fails, with fewer words.
-Result<void> check_port_free(const TcpAddress& address);
+// Listens there, on a non-blocking socket; with port 0 on any free one, which `address` then names.
+Result<Descriptor> listen_on(TcpAddress& address);
 
-// Makes the directory, one level, if it is missing (0755 under /run, else 0700: for this user alone) and removes a
-// socket that nobody listens on any more. Refuses a directory in /tmp that is another's or open to others, a path that
-// is not a socket, and a socket that somebody serves.
-Result<void> prepare_socket(const std::string& path);
+// A Unix socket that is listened on, and its file. Every local user may connect, as to the loopback port; the directory
+// decides who reaches the socket.
+class UnixListener {
+ public:
+  // Makes the directory, one level, if it is missing (0755 under /run, else 0700: for this user alone) and removes a
+  // socket that nobody listens on any more. Refuses a directory in /tmp that is another's or open to others, a path
+  // that is not a socket, and a socket that somebody serves.
+  static Result<UnixListener> open(const std::string& path);
+  // Removes the file, unless another has been put in its place.
+  ~UnixListener();
+  UnixListener(UnixListener&& other) noexcept = default;
+  UnixListener& operator=(UnixListener&&) = delete;
 
-// Every local user may connect, as to the loopback port; the directory decides who reaches the socket.
-void open_socket_to_users(const std::string& path);
+  // The non-blocking socket; the file stays this object's.
+  Descriptor take_socket() { return std::move(socket_); }
+  const std::string& path() const { return path_; }
+
+ private:
+  UnixListener(std::string path, Descriptor socket);
+
+  std::string path_;  // empty once moved from
+  Descriptor socket_;
+  dev_t device_ = 0;
+  ino_t inode_ = 0;
+};
 
 }  // namespace axisgate::server

@@ -18,9 +18,15 @@ Executor posting_to(boost::asio::io_context& context) {
   return [&context](std::function<void()> task) { boost::asio::post(context, std::move(task)); };
 }
 
+// Asio opens what its timers need with the first of them, and throws without a free descriptor: while it starts a
+// daemon may fail so, later not.
+void open_timers(boost::asio::io_context& context) { const boost::asio::steady_timer first(context); }
+
 }  // namespace
 
 Gateway::Gateway(const Config& config) : run_(random_run()), events_(posting_to(readers_)) {
+  open_timers(lines_);
+  open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, Strand(lines_.get_executor()));
     devices_.push_back(std::make_unique<Device>(device.profile, std::move(line), Strand(lines_.get_executor()), events_,

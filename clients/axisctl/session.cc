@@ -10,12 +10,10 @@
 namespace axisgate::axisctl {
 namespace {
 
-v1::Device only_device(const Connection& connection) {
-  const v1::ListDevicesResponse answer = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
-                                                         v1::ListDevicesRequest(), kQuestionLimit);
-  if (answer.devices_size() == 1) return answer.devices(0);
+v1::Device only_device(const v1::ListDevicesResponse& there) {
+  if (there.devices_size() == 1) return there.devices(0);
   std::vector<std::string_view> names;
-  for (const v1::Device& device : answer.devices()) names.push_back(last_part(device.name()));
+  for (const v1::Device& device : there.devices()) names.push_back(last_part(device.name()));
   throw usage(fmt::format("the daemon has {} devices", names.size()),
               names.empty() ? "configure one" : fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
 }
@@ -23,12 +21,18 @@ v1::Device only_device(const Connection& connection) {
 }  // namespace
 
 v1::Device chosen_device(const Session& session) {
-  if (session.options.device.empty()) return only_device(session.connection);
+  const Connection& connection = session.connection;
+  // The one question that the daemon answers even when it has no connection left but for a stop.
+  const v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
+                                                        v1::ListDevicesRequest(), kQuestionLimit);
+  if (session.options.device.empty()) return only_device(there);
+  for (const v1::Device& device : there.devices()) {
+    if (device.name() == session.options.device) return device;
+  }
+  // The daemon says what is wrong with the name.
   v1::GetDeviceRequest request;
   request.set_name(session.options.device);
-  return session.connection
-      .call(session.connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit)
-      .device();
+  return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
 }
 
 }  // namespace axisgate::axisctl

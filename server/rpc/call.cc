@@ -6,9 +6,11 @@
 #include <charconv>
 #include <chrono>
 #include <optional>
+#include <utility>
 
 #include "device/core/escape.h"
 #include "server/events/wall_time.h"
+#include "server/rpc/entrances.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -21,10 +23,10 @@ constexpr std::size_t kRequestIdMax = 128;
 constexpr Duration kMotionPatience = std::chrono::seconds(5);
 constexpr Duration kPatience = std::chrono::seconds(20);
 
-// "unix" or "tcp 127.0.0.1:39482": gRPC says "unix:" and "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".
+// "unix alice" or "tcp 127.0.0.1:39482": of the latter gRPC says "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".
 std::string caller(const grpc::CallbackServerContext& call) {
+  if (std::optional<std::string> user = unix_caller(call)) return *std::move(user);
   const std::string peer = call.peer();
-  if (peer.starts_with("unix:")) return "unix";
   const std::size_t colon = peer.find(':');
   return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
 }

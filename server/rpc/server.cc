@@ -3,71 +3,100 @@
 #include <fmt/format.h>
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
-#include <grpcpp/security/server_credentials.h>
 #include <grpcpp/server_builder.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
+#include <initializer_list>
 #include <utility>
-
-#include "server/endpoints.h"
 
 namespace axisgate::rpc {
 namespace {
 
 constexpr auto kShutdownWait = std::chrono::milliseconds(500);
 
+// Of users on the Unix socket who are told apart.
+constexpr std::size_t kCallerSlots = 32;
+
+// A connection on which nobody speaks HTTP/2 does not hold its place for gRPC's two minutes.
+constexpr int kSilentMs = 20'000;
+// In the reserve a client that was refused soon makes room, and finds an ordinary place when it connects anew. A stop
+// under way is waited for.
+constexpr int kReserveIdleMs = 1'000;
+constexpr int kReserveAgeMs = 2'000;
+constexpr int kReserveGraceMs = 30'000;
+
 // gRPC's own lines tell nothing that ours do not, and would stand among them unasked.
 void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->message); }
 
 }  // namespace
 
-Server::Server(server::Gateway& gateway, server::TcpAddress listen, std::string socket)
-    : listen_(std::move(listen)),
-      socket_(std::move(socket)),
+Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> listener)
+    : listener_(std::move(listener)),
+      callers_(kCallerSlots),
       devices_(gateway, streams_),
       stage_(gateway, streams_),
       events_(gateway, streams_),
       commands_(gateway, streams_),
-      health_(streams_) {}
+      health_(streams_),
+      stops_(stage_),
+      names_(devices_) {}
 
 Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, const server::TcpAddress& listen,
-                                              const std::string& socket) {
+                                              const std::string& socket, const server::ConnectionLimits& limits) {
   gpr_set_log_function(log_quietly);
-  if (const Result<void> free = server::check_port_free(listen); !free) return tl::unexpected(free.error());
-  if (const Result<void> ready = server::prepare_socket(socket); !ready) return tl::unexpected(ready.error());
-  std::unique_ptr<Server> server(new Server(gateway, listen, socket));
-  if (const Result<void> built = server->build(); !built) return tl::unexpected(built.error());
-  server::open_socket_to_users(socket);
+  auto listener = server::Listener::open(listen, socket);
+  if (!listener) return tl::unexpected(listener.error());
+  std::unique_ptr<Server> server(new Server(gateway, *std::move(listener)));
+  server->build_ordinary();
+  server->build_reserve();
+  if (server->ordinary_.server == nullptr || server->reserve_.server == nullptr) {
+    return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
+  }
+  server->listener_->start(limits, [raw = server.get()](Descriptor connection, server::Acceptor::Service service) {
+    const std::optional<uid_t> user = server::peer_uid(connection.get());
+    const auto slot = user ? std::optional(raw->callers_.slot_of(*user)) : std::nullopt;
+    Part& part = service == server::Acceptor::Service::all ? raw->ordinary_ : raw->reserve_;
+    part.entrances->enter(std::move(connection), slot);
+  });
   return server;
 }
 
-Result<void> Server::build() {
+void Server::build_ordinary() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
-  // With it a second daemon would take half of the first one's connections instead of being refused.
-  builder.AddChannelArgument(GRPC_ARG_ALLOW_REUSEPORT, 0);
-  int tcp_port = 0;
-  int socket_port = 0;
-  builder.AddListeningPort(to_string(listen_), grpc::InsecureServerCredentials(), &tcp_port);
-  builder.AddListeningPort("unix:" + socket_, grpc::InsecureServerCredentials(), &socket_port);
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
   for (grpc::Service* service :
        std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &health_}) {
     builder.RegisterService(service);
   }
-  server_ = builder.BuildAndStart();
-  if (server_ == nullptr || tcp_port == 0 || socket_port == 0) {
-    return fail(Reason::internal, fmt::format("cannot serve gRPC on {} and {}", to_string(listen_), socket_),
-                "SPDLOG_LEVEL=debug shows what gRPC says about it");
-  }
-  listen_.port = static_cast<std::uint16_t>(tcp_port);
-  return {};
+  ordinary_.entrances.emplace(builder, callers_);
+  ordinary_.server = builder.BuildAndStart();
+}
+
+void Server::build_reserve() {
+  grpc::ServerBuilder builder;
+  builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kReserveAgeMs);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kReserveIdleMs);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_MS, kReserveAgeMs);
+  builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_AGE_GRACE_MS, kReserveGraceMs);
+  builder.RegisterService(&stops_);
+  builder.RegisterService(&names_);
+  builder.RegisterCallbackGenericService(&refusing_);
+  reserve_.entrances.emplace(builder, callers_);
+  reserve_.server = builder.BuildAndStart();
 }
 
 Server::~Server() {
-  if (server_ == nullptr) return;
-  server_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
-  server_->Wait();
+  // gRPC would not close what is still handed to it.
+  listener_.reset();
+  const auto deadline = std::chrono::system_clock::now() + kShutdownWait;
+  for (const Part* part : {&ordinary_, &reserve_}) {
+    if (part->server != nullptr) part->server->Shutdown(deadline);
+  }
+  for (const Part* part : {&ordinary_, &reserve_}) {
+    if (part->server != nullptr) part->server->Wait();
+  }
 }
 
 }  // namespace axisgate::rpc

@@ -4,16 +4,22 @@
 #include <grpcpp/server.h>
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "device/core/problem.h"
 #include "server/config.h"
+#include "server/connections/acceptor.h"
+#include "server/connections/callers.h"
 #include "server/gateway.h"
+#include "server/listener.h"
 #include "server/rpc/command_service.h"
 #include "server/rpc/device_service.h"
+#include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
 #include "server/rpc/stage_service.h"
+#include "server/rpc/stop_only.h"
 #include "server/rpc/stream_limit.h"
 
 namespace axisgate::rpc {
@@ -21,28 +27,41 @@ namespace axisgate::rpc {
 class Server {
  public:
   // Serves at once. Refuses an address that somebody else serves, and a socket whose directory cannot be trusted.
-  // `gateway` outlives the server.
+  // Connections beyond `limits` are served a stop only (stop_only.h). `gateway` outlives the server.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, const server::TcpAddress& listen,
-                                               const std::string& socket);
+                                               const std::string& socket, const server::ConnectionLimits& limits);
   // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
   ~Server();
 
-  const server::TcpAddress& listen() const { return listen_; }  // with the port really taken
-  const std::string& socket() const { return socket_; }
+  const server::TcpAddress& listen() const { return listener_->address(); }  // with the port really taken
+  const std::string& socket() const { return listener_->socket(); }
+  server::ConnectionCounts connections() { return listener_->counts(); }  // from any thread
 
  private:
-  Server(server::Gateway& gateway, server::TcpAddress listen, std::string socket);
-  Result<void> build();
+  // A gRPC server and the ways into it.
+  struct Part {
+    std::unique_ptr<grpc::Server> server;
+    std::optional<Entrances> entrances;
+  };
 
-  server::TcpAddress listen_;
-  std::string socket_;
+  Server(server::Gateway& gateway, std::unique_ptr<server::Listener> listener);
+  void build_ordinary();
+  void build_reserve();
+
+  std::unique_ptr<server::Listener> listener_;
+  server::CallerSlots callers_;
   StreamLimit streams_;
   DeviceService devices_;
   StageService stage_;
   EventService events_;
   CommandService commands_;
   HealthService health_;
-  std::unique_ptr<grpc::Server> server_;
+  StopService stops_;
+  NamesService names_;
+  RefusingService refusing_;
+  // Two, since how long a connection may be idle is a matter of the whole server.
+  Part ordinary_;
+  Part reserve_;
 };
 
 }  // namespace axisgate::rpc

@@ -60,7 +60,9 @@ class Lines:
 
 
 class Daemon:
-    def __init__(self, folder, config):
+    """`process` goes to subprocess.Popen."""
+
+    def __init__(self, folder, config, **process):
         self.socket = os.path.join(folder, "axisgate.sock")
         path = os.path.join(folder, "axisgate.toml")
         with open(path, "w", encoding="utf-8") as file:
@@ -68,7 +70,7 @@ class Daemon:
         self.log = pathlib.Path(folder, "axisgated.log")
         self._log = open(self.log, "a+", encoding="utf-8")
         self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
-                                         stderr=subprocess.STDOUT)
+                                         stderr=subprocess.STDOUT, **process)
         self.pid = self._process.pid
         self._wait_until_ready()
 

@@ -29,7 +29,7 @@ class RpcTest : public ::testing::Test {
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
     config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
     gateway_ = std::make_unique<server::Gateway>(config);
-    auto started = Server::start(*gateway_, config.listen, config.socket);
+    auto started = Server::start(*gateway_, config.listen, config.socket, limits_);
     ASSERT_TRUE(started) << started.error().message;
     server_ = *std::move(started);
     gateway_->start();
@@ -115,6 +115,7 @@ class RpcTest : public ::testing::Test {
     return problem.ParseFromString(details.details(0).value()) ? problem.reason() : api::REASON_UNSPECIFIED;
   }
 
+  server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
   std::unique_ptr<server::Gateway> gateway_;
   std::unique_ptr<Server> server_;

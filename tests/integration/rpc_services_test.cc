@@ -3,6 +3,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/connections/callers.h"
 #include "tests/integration/rpc_fixture.h"
 
 namespace axisgate::rpc {
@@ -14,7 +15,7 @@ TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
   api::Motion motion;
   ASSERT_TRUE(move(move_request(1, "1"), &motion).ok());
   EXPECT_EQ(motion.name(), "devices/stage/motions/1");
-  EXPECT_EQ(motion.who(), "unix");
+  EXPECT_EQ(motion.who(), server::caller_name(::geteuid()));
   EXPECT_GT(motion.revision(), 0u);
   const api::Motion ended = outcome(motion.name());
   EXPECT_EQ(ended.state(), api::MOTION_STATE_SUCCEEDED);
@@ -242,10 +243,10 @@ TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
 }
 
 TEST_F(RpcTest, ASecondServerIsRefused) {
-  const auto tcp = Server::start(*gateway_, server_->listen(), server_->socket() + "2");
+  const auto tcp = Server::start(*gateway_, server_->listen(), server_->socket() + "2", limits_);
   ASSERT_FALSE(tcp);
   EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
-  const auto socket = Server::start(*gateway_, {"127.0.0.1", 0}, server_->socket());
+  const auto socket = Server::start(*gateway_, {"127.0.0.1", 0}, server_->socket(), limits_);
   ASSERT_FALSE(socket);
   EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
 }

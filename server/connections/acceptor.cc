@@ -1,0 +1,133 @@
+#include "server/connections/acceptor.h"
+
+#include <fmt/format.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <cerrno>
+#include <chrono>
+#include <system_error>
+#include <utility>
+
+namespace axisgate::server {
+namespace {
+
+// How long a listener rests that could not accept, and how often ended connections of the reserve are looked for.
+// Short: a stop may wait behind many who displace each other.
+constexpr auto kLookAgain = std::chrono::milliseconds(5);
+
+bool is_out_of_descriptors(int error) {
+  return error == EMFILE || error == ENFILE || error == ENOBUFS || error == ENOMEM;
+}
+
+// Nothing is wrong with the listener: nobody was there any more, or we were interrupted.
+bool is_passing(int error) {
+  return error == EAGAIN || error == EINTR || error == ECONNABORTED || error == EPROTO || error == EPERM;
+}
+
+}  // namespace
+
+Acceptor::Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_connection, Accept accept)
+    : strand_(std::move(strand)),
+      limits_(limits),
+      on_connection_(std::move(on_connection)),
+      accept_(std::move(accept)),
+      open_(limits.open),
+      reserve_(limits.reserve),
+      timer_(strand_) {}
+
+int Acceptor::accept_connection(int listener) {
+  const int connection = ::accept4(listener, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC);
+  // A Unix socket refuses it, and needs none.
+  const int on = 1;
+  if (connection >= 0) ::setsockopt(connection, IPPROTO_TCP, TCP_NODELAY, &on, sizeof(on));
+  return connection;
+}
+
+void Acceptor::listen(Descriptor listener) {
+  Listener& added = listeners_.emplace_back(strand_);
+  added.assign(listener.release());
+  wait(added);
+}
+
+ConnectionCounts Acceptor::counts() { return {open_.count(), accepted_, reserved_, displaced_, out_of_descriptors_}; }
+
+void Acceptor::wait(Listener& listener) {
+  listener.async_wait(Listener::wait_read, [this, &listener](const boost::system::error_code& error) {
+    if (error == boost::asio::error::operation_aborted) return;
+    if (!error && accept_one(listener) == Next::wait) {
+      wait(listener);
+    } else {
+      paused_.push_back(&listener);
+      look_again_later();
+    }
+  });
+}
+
+Acceptor::Next Acceptor::accept_one(Listener& listener) {
+  if (!open_.has_room()) {
+    warn_seldom(fmt::format("as many connections are open as are allowed: {}", limits_.open));
+    return accept_reserved(listener);
+  }
+  // The reserve comes first: what its connections leave behind is not for ordinary ones, or it would wear away.
+  if (!reserve_.restore()) return accept_out_of_descriptors(listener, EMFILE);
+  Descriptor connection(accept_(listener.native_handle()));
+  const int error = errno;
+  if (connection.valid()) {
+    open_.add(connection.get());
+    hand_over(std::move(connection), Service::all);
+    return Next::wait;
+  }
+  if (is_out_of_descriptors(error)) return accept_out_of_descriptors(listener, error);
+  return is_passing(error) ? Next::wait : Next::pause;
+}
+
+Acceptor::Next Acceptor::accept_out_of_descriptors(Listener& listener, int error) {
+  ++out_of_descriptors_;
+  warn_seldom(
+      fmt::format("no descriptors are free ({}); raise the limit of open files (ulimit -n, or LimitNOFILE= of "
+                  "the service)",
+                  std::generic_category().message(error)));
+  return accept_reserved(listener);
+}
+
+Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
+  look_again_later();
+  if (!reserve_.open_place()) return Next::pause;
+  displaced_ = reserve_.displaced();
+  Descriptor connection(accept_(listener.native_handle()));
+  const int error = connection.valid() ? 0 : errno;
+  if (connection.valid()) {
+    reserve_.keep(connection.get());
+    ++reserved_;
+    hand_over(std::move(connection), Service::stop_only);
+  }
+  return error == 0 || is_passing(error) ? Next::wait : Next::pause;
+}
+
+void Acceptor::hand_over(Descriptor connection, Service service) {
+  ++accepted_;
+  on_connection_(std::move(connection), service);
+}
+
+void Acceptor::warn_seldom(const std::string& what) {
+  if (warning_.due()) spdlog::warn("{}; a new connection gets a stop through, nothing else", what);
+}
+
+void Acceptor::look_again_later() {
+  if (std::exchange(timer_runs_, true)) return;
+  timer_.expires_after(kLookAgain);
+  timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) look_again();
+  });
+}
+
+void Acceptor::look_again() {
+  timer_runs_ = false;
+  if (!reserve_.restore() || reserve_.in_use()) look_again_later();
+  for (Listener* listener : std::exchange(paused_, {})) wait(*listener);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,82 @@
+// Accepts connections for as long as the daemon lives, whatever happens to its descriptors.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "device/core/time.h"
+#include "device/link/asio.h"
+#include "device/link/descriptor.h"
+#include "server/connections/open_connections.h"
+#include "server/connections/reserve.h"
+#include "server/connections/seldom.h"
+
+namespace axisgate::server {
+
+struct ConnectionLimits {
+  std::size_t open = 0;     // at once, those in the reserve not counted
+  std::size_t reserve = 8;  // beyond that, or without free descriptors; 1 at least
+};
+
+struct ConnectionCounts {
+  std::size_t open = 0;                  // now, those in the reserve not counted
+  std::uint64_t accepted = 0;            // since the start, those into the reserve among them
+  std::uint64_t reserved = 0;            // into the reserve
+  std::uint64_t displaced = 0;           // out of the reserve, by a newer one
+  std::uint64_t out_of_descriptors = 0;  // times that a connection found none free
+};
+
+// Called on its strand, but for counts().
+class Acceptor {
+ public:
+  enum class Service { all, stop_only };
+  // A connection, non-blocking; whoever gets it closes it.
+  using OnConnection = std::function<void(Descriptor connection, Service service)>;
+  // As accept(2): a descriptor, or -1 and errno.
+  using Accept = std::function<int(int listener)>;
+
+  Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_connection, Accept accept = accept_connection);
+
+  // Accepts there, too; a non-blocking listening socket.
+  void listen(Descriptor listener);
+
+  ConnectionCounts counts();  // from any thread
+
+  static int accept_connection(int listener);
+
+ private:
+  using Listener = boost::asio::posix::stream_descriptor;
+  enum class Next { wait, pause };
+
+  void wait(Listener& listener);
+  Next accept_one(Listener& listener);
+  Next accept_out_of_descriptors(Listener& listener, int error);
+  Next accept_reserved(Listener& listener);
+  void hand_over(Descriptor connection, Service service);
+  void warn_seldom(const std::string& what);
+  void look_again_later();
+  void look_again();
+
+  const Strand strand_;
+  const ConnectionLimits limits_;
+  const OnConnection on_connection_;
+  const Accept accept_;
+  OpenConnections open_;
+  Reserve reserve_;
+  std::deque<Listener> listeners_;
+  std::vector<Listener*> paused_;
+  boost::asio::steady_timer timer_;
+  bool timer_runs_ = false;
+  Seldom warning_;
+  std::atomic<std::uint64_t> accepted_ = 0;
+  std::atomic<std::uint64_t> reserved_ = 0;
+  std::atomic<std::uint64_t> displaced_ = 0;
+  std::atomic<std::uint64_t> out_of_descriptors_ = 0;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,37 @@
+// Who is at the other end of a Unix socket: the kernel knows.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace axisgate::server {
+
+// The user who connected; none for a TCP connection.
+std::optional<uid_t> peer_uid(int connection);
+
+// "unix alice", after the machine's own /etc/passwd, or "unix uid 1234". Directories over the network are not asked:
+// a stop would wait for them.
+std::string caller_name(uid_t uid);
+
+// gRPC 1.51 has no name for the client of a Unix socket, and takes one only for a whole entrance. So there is an
+// entrance for each user, made before anybody came: the first to come gets the first. Users beyond them share the last.
+class CallerSlots {
+ public:
+  explicit CallerSlots(std::size_t slots);
+
+  std::size_t size() const { return names_.size(); }
+  std::size_t slot_of(uid_t uid);  // from one thread
+
+  // Of the users of a slot, "unix" for the shared one. From any thread, once slot_of() has returned the slot.
+  const std::string& name(std::size_t slot) const { return names_[slot]; }
+
+ private:
+  std::vector<uid_t> users_;
+  std::vector<std::string> names_;
+};
+
+}  // namespace axisgate::server

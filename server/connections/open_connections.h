@@ -1,0 +1,36 @@
+// Which of the connections that were handed over are still open.
+#pragma once
+
+#include <sys/types.h>
+
+#include <cstddef>
+#include <mutex>
+#include <vector>
+
+namespace axisgate::server {
+
+// gRPC closes a connection itself and tells nobody, so each is known by its descriptor and its inode, and looked at
+// when the number matters. Thread safe.
+class OpenConnections {
+ public:
+  // At most `limit` have room.
+  explicit OpenConnections(std::size_t limit) : limit_(limit) {}
+
+  bool has_room();
+  // Before it is handed over: afterwards the number may be another's at any time.
+  void add(int descriptor);
+  std::size_t count();
+
+ private:
+  struct Connection {
+    int descriptor;
+    ino_t inode;  // the kernel gives every socket one of its own
+  };
+  void forget_closed();
+
+  const std::size_t limit_;
+  std::mutex mutex_;
+  std::vector<Connection> connections_;  // those closed since the last look among them
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,80 @@
+// What a connection of the reserve is served: stops, and the names of the devices; anything else is refused at once.
+#pragma once
+
+#include <google/protobuf/descriptor.h>
+#include <grpcpp/generic/async_generic_service.h>
+
+#include <algorithm>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+
+#include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/stage.grpc.pb.h"
+#include "server/rpc/device_service.h"
+#include "server/rpc/stage_service.h"
+
+namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
+
+// A service of which some methods are served, the rest left to the server's generic service.
+template <class Service>
+class Partly : public Service {
+ protected:
+  Partly(std::string_view name, const google::protobuf::FileDescriptor& file,
+         std::initializer_list<std::string_view> served) {
+    const google::protobuf::ServiceDescriptor& service = *file.FindServiceByName(std::string(name));
+    for (int i = 0; i < service.method_count(); ++i) {
+      if (std::find(served.begin(), served.end(), service.method(i)->name()) == served.end()) {
+        this->MarkMethodGeneric(i);
+      }
+    }
+  }
+};
+
+class StopService final : public Partly<api::StageService::WithCallbackMethod_Stop<
+                              api::StageService::WithCallbackMethod_EmergencyStop<api::StageService::Service>>> {
+ public:
+  // `stage` outlives this.
+  explicit StopService(StageService& stage)
+      : Partly("StageService", *api::StopRequest::descriptor()->file(), {"Stop", "EmergencyStop"}), stage_(stage) {}
+
+  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
+                                 api::StopResponse* response) override {
+    return stage_.Stop(context, request, response);
+  }
+  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context,
+                                          const api::EmergencyStopRequest* request,
+                                          api::EmergencyStopResponse* response) override {
+    return stage_.EmergencyStop(context, request, response);
+  }
+
+ private:
+  StageService& stage_;
+};
+
+// A stop names its device: whoever does not know it asks here. It is answered from memory.
+class NamesService final
+    : public Partly<api::DeviceService::WithCallbackMethod_ListDevices<api::DeviceService::Service>> {
+ public:
+  // `devices` outlives this.
+  explicit NamesService(DeviceService& devices)
+      : Partly("DeviceService", *api::ListDevicesRequest::descriptor()->file(), {"ListDevices"}), devices_(devices) {}
+
+  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const api::ListDevicesRequest* request,
+                                        api::ListDevicesResponse* response) override {
+    return devices_.ListDevices(context, request, response);
+  }
+
+ private:
+  DeviceService& devices_;
+};
+
+// Answers every call of any service with queue_full and what to do about it.
+class RefusingService final : public grpc::CallbackGenericService {
+ public:
+  grpc::ServerGenericBidiReactor* CreateReactor(grpc::GenericCallbackServerContext* context) override;
+};
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,116 @@
+#include <arpa/inet.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+
+#include <array>
+
+#include "server/connections/callers.h"
+#include "server/connections/open_connections.h"
+#include "server/connections/reserve.h"
+#include "server/descriptor_limit.h"
+#include "tests/unit/connection_fixtures.h"
+
+namespace axisgate::server {
+namespace {
+
+std::array<Descriptor, 2> socket_pair() {
+  std::array<int, 2> ends{};
+  EXPECT_EQ(::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends.data()), 0);
+  return {Descriptor(ends[0]), Descriptor(ends[1])};
+}
+
+TEST(OpenConnections, ANumberThatIsAnothersNowIsNotCounted) {
+  OpenConnections open(1);
+  auto [one, other] = socket_pair();
+  open.add(one.get());
+  EXPECT_FALSE(open.has_room());
+  // As when the number was closed and given out anew.
+  ASSERT_EQ(::dup2(other.get(), one.get()), one.get());
+  EXPECT_TRUE(open.has_room());
+  EXPECT_EQ(open.count(), 0u);
+}
+
+TEST(Reserve, FreesWhatOneConnectionNeedsAndTakesItBack) {
+  const std::size_t before = open_descriptors();
+  Reserve reserve(2);
+  EXPECT_EQ(open_descriptors(), before + 6);
+  EXPECT_TRUE(reserve.open_place());
+  EXPECT_EQ(open_descriptors(), before + 4);
+  EXPECT_TRUE(reserve.restore());
+  EXPECT_EQ(open_descriptors(), before + 6);
+}
+
+TEST(Reserve, WithoutDescriptorsItIsFilledWhenThereAreSome) {
+  std::optional<Reserve> reserve;
+  {
+    const NoDescriptors none;
+    reserve.emplace(2);
+    EXPECT_FALSE(reserve->restore());
+    EXPECT_FALSE(reserve->open_place());
+  }
+  EXPECT_TRUE(reserve->restore());
+}
+
+TEST(Reserve, AConnectionThatItCouldNotKeepIsLeftAlone) {
+  Reserve reserve(1);
+  auto [one, other] = socket_pair();
+  {
+    const NoDescriptors none;
+    reserve.keep(one.get());
+  }
+  EXPECT_TRUE(reserve.open_place());
+  EXPECT_FALSE(ended(other));
+  EXPECT_EQ(reserve.displaced(), 0u);
+}
+
+TEST(Callers, TheKernelNamesTheUserOfAUnixSocketAlone) {
+  const UnixServer server;
+  const auto pair = socket_pair();
+  EXPECT_EQ(peer_uid(pair[0].get()), ::geteuid());
+  const Descriptor tcp(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  EXPECT_EQ(peer_uid(tcp.get()), std::nullopt);
+}
+
+TEST(Callers, ANameIsTheLoginOrTheNumber) {
+  EXPECT_EQ(caller_name(0), "unix root");
+  EXPECT_EQ(caller_name(3'000'000'000), "unix uid 3000000000");
+}
+
+TEST(Callers, EachUserHasASlotAndThoseBeyondShareTheLast) {
+  CallerSlots slots(3);
+  EXPECT_EQ(slots.slot_of(3'000'000'000), 0u);
+  EXPECT_EQ(slots.slot_of(0), 1u);
+  EXPECT_EQ(slots.slot_of(3'000'000'000), 0u);
+  EXPECT_EQ(slots.slot_of(3'000'000'001), 2u);
+  EXPECT_EQ(slots.slot_of(3'000'000'002), 2u);
+  EXPECT_EQ(slots.slot_of(0), 1u);
+  EXPECT_EQ(slots.name(0), "unix uid 3000000000");
+  EXPECT_EQ(slots.name(1), "unix root");
+  EXPECT_EQ(slots.name(2), "unix");
+}
+
+TEST(DescriptorLimit, LeavesRoomForTheRest) {
+  EXPECT_EQ(connections_within(64), 32u);
+  EXPECT_EQ(connections_within(384), 192u);
+  EXPECT_EQ(connections_within(1024), 832u);
+  EXPECT_EQ(connections_within(4288), 4096u);
+  EXPECT_EQ(connections_within(1'000'000), 4096u);
+}
+
+TEST(DescriptorLimit, IsRaisedAsFarAsAllowed) {
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_NOFILE, &before), 0);
+  ASSERT_GT(before.rlim_max, 512u);
+  const rlimit low{256, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_NOFILE, &low), 0);
+  const std::size_t connections = raise_descriptor_limit();
+  rlimit raised{};
+  ::getrlimit(RLIMIT_NOFILE, &raised);
+  EXPECT_EQ(raised.rlim_cur, std::min<rlim_t>(4288, before.rlim_max));
+  EXPECT_EQ(connections, connections_within(raised.rlim_cur));
+  ::setrlimit(RLIMIT_NOFILE, &before);
+}
+
+}  // namespace
+}  // namespace axisgate::server
