@@ -165,6 +165,11 @@ class OnTheLine(SimulatorTest):
             self.assertEqual(client.ask("*IDN?"), IDN)
             self.assertEqual(client.ask("!:"), READY)
 
+    def test_another_unit(self):
+        self.start("--serial-number", "2106001002")
+        with self.client() as client:
+            self.assertEqual(client.ask("*IDN?"), IDN.replace("2106001001", "2106001002"))
+
     def test_takes_several_lines_in_one_write_with_any_end_of_line_and_case(self):
         self.start()
         with self.client() as client:

@@ -39,9 +39,14 @@ class Axis {
   Speed speed;         // manual 89) D:
   Speed origin_speed;  // manual 94) B:
   bool excited = true;
-  bool open_loop = true;     // manual 51) F:
-  bool emergency = false;    // bit 6 of the status
-  bool limit_error = false;  // bit 8
+  bool open_loop = true;        // manual 51) F:
+  bool emergency = false;       // bit 6 of the status
+  bool limit_error = false;     // bit 8
+  bool overflow_error = false;  // bit 5
+  // These last as long as their cause, whatever is sent (manual 53) BEC: does not name them).
+  bool scale_error = false;          // bit 3
+  bool disconnection_error = false;  // bit 4
+  bool error_stop() const { return emergency || overflow_error || scale_error || disconnection_error; }
 
   // --- sensors --------------------------------------------------------------------------------------------------
   bool limit_sensor(int direction, TimePoint now) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <utility>
 
 #include "device/shrc203/simulator/questions.h"
 
@@ -45,22 +46,59 @@ void Machine::receive(std::string_view bytes, TimePoint now) {
   advance(now);
   for (const char byte : bytes) {
     if (boots_until_) return;
-    if (const auto line = cutter_.push(byte)) handle(*line);
+    if (auto line = cutter_.push(byte)) take(std::move(*line));
+  }
+}
+
+void Machine::take(LineCutter::Line line) {
+  remember(line.text);
+  const TimePoint due = std::max(rig_.now, waiting_.empty() ? rig_.now : waiting_.back().due) + answer_delay_;
+  if (waiting_.empty() && std::max(due, stuck_until_) <= rig_.now) {
+    handle(line);
+  } else if (waiting_.size() < kWaitingMax) {
+    waiting_.push_back({std::move(line), due});
   }
 }
 
 void Machine::advance(TimePoint now) {
+  while (!waiting_.empty() && std::max(waiting_.front().due, stuck_until_) <= now) {
+    const Waiting next = std::move(waiting_.front());
+    waiting_.pop_front();
+    run_to(std::max(next.due, stuck_until_));
+    handle(next.line);
+  }
+  run_to(now);
+}
+
+// What happens by itself until then.
+void Machine::run_to(TimePoint now) {
   rig_.motions.process(now);
   rig_.now = std::max(rig_.now, now);
   send_completions();
   if (boots_until_ && rig_.now >= *boots_until_) boots_until_.reset();
 }
 
+std::optional<TimePoint> Machine::next_event() const {
+  std::optional<TimePoint> next = rig_.motions.next_event();
+  const auto consider = [&next](TimePoint time) { next = next ? std::min(*next, time) : time; };
+  if (stuck_until_ > rig_.now) consider(stuck_until_);
+  if (!waiting_.empty()) consider(std::max(waiting_.front().due, stuck_until_));
+  return next;
+}
+
 void Machine::reboot(TimePoint now) {
   advance(now);
+  restart();
+}
+
+void Machine::restart() {
   rig_.power_on();
+  rig_.mode = boot_.mode;
+  rig_.hit_format = boot_.format == "HIT";
   cutter_.clear();
-  boots_until_ = now + kBoot;
+  waiting_.clear();
+  stuck_until_ = rig_.now;
+  boots_until_ = rig_.now + boot_.silence;
 }
 
 void Machine::remember(const std::string& text) {
@@ -69,16 +107,15 @@ void Machine::remember(const std::string& text) {
 }
 
 void Machine::handle(const LineCutter::Line& line) {
-  remember(line.text);
   if (line.bad_byte) {
     rig_.command_error = true;
-    send("NG_I");
+    reply("NG_I");
     return;
   }
   const std::string command = plain(line.text);
   if (line.overlong || !knows(command)) {
     rig_.command_error = true;
-    send("NG");
+    reply("NG");
     if (!line.overlong && rig_.options.is("previous_command_counts_refused", "yes")) rig_.previous_line = line.text;
     return;
   }
@@ -111,13 +148,20 @@ void Machine::respond(const std::string& command, const std::string& as_sent) {
   rig_.motions.process(rig_.now);
   const bool completion_first = rig_.options.is("late_go_order", "completion_first");
   if (completion_first) send_completions();
-  send(text ? std::string_view(*text) : text_of(done));
+  reply(text ? std::string_view(*text) : text_of(done));
   send_completions();
-  if (command == "RESET:") reboot(rig_.now);
+  if (command == "RESET:") restart();
 }
 
 void Machine::send_completions() {
+  if (rig_.now < stuck_until_) return;
   for (const int axis : rig_.motions.take_completions()) send(std::to_string(axis));
+}
+
+void Machine::reply(std::string_view text) {
+  answering_ = true;
+  send(text);
+  answering_ = false;
 }
 
 void Machine::send(std::string_view text) { line_.write(std::string(text) + "\r\n"); }

@@ -44,6 +44,7 @@ class Motions {
   void stop(const Axes& axes, TimePoint now);
   void emergency_stop(TimePoint now);
   void lose_excitation(int axis, TimePoint now);
+  void error_stop(int axis, TimePoint now);       // no further pulse; counts as a stop by L:
   void release(const Axes& axes, TimePoint now);  // manual 53) BEC: ends the wait for READY
   void end_wait(Kind kind, const Axes& axes, TimePoint now);
   void inputs_are(int pattern, TimePoint now);

@@ -128,6 +128,10 @@ void Motions::stop(const Axes& axes, TimePoint now) {
 
 void Motions::lose_excitation(int number, TimePoint now) {
   axis(number).excited = false;
+  error_stop(number, now);
+}
+
+void Motions::error_stop(int number, TimePoint now) {
   Run* run = run_of(number);
   if (run == nullptr) return;
   apply_stop_to_prebuffer({number});

@@ -23,7 +23,7 @@ struct PlainQuestion {
 constexpr std::array kPlain = {
     PlainQuestion{"V", [](const Rig& rig) { return rig.options.firmware; }},
     PlainQuestion{"N", [](const Rig&) { return std::string("SHRC-203"); }},
-    PlainQuestion{"SN", [](const Rig& rig) { return rig.options.serial_number; }},
+    PlainQuestion{"SN", [](const Rig& rig) { return rig.serial_number; }},
     PlainQuestion{"AXIS", [](const Rig& rig) { return std::to_string(rig.options.axis_setting); }},
     PlainQuestion{"MODE", [](const Rig& rig) { return rig.mode; }},
     PlainQuestion{"FMT", [](const Rig& rig) { return std::string(rig.hit_format ? "HIT" : "SHOT_FC"); }},
@@ -106,7 +106,7 @@ bool is_question(std::string_view line) {
 
 std::optional<std::string> answer(const Rig& rig, std::string_view line) {
   if (line == "*IDN?") {
-    return fmt::format("SIGMAKOKI,SHRC-203,{},{}", rig.options.serial_number, rig.options.firmware);
+    return fmt::format("SIGMAKOKI,SHRC-203,{},{}", rig.serial_number, rig.options.firmware);
   }
   if (line == "I:") return std::to_string(rig.inputs);
   // Manual 31), 32), 39) write these three differently in one place.

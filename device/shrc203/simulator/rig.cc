@@ -9,7 +9,8 @@ Rig::Rig(Options chosen)
     : options(std::move(chosen)),
       controllable(axes_of_setting(options.axis_setting)),
       axes{Axis(options.axes[0]), Axis(options.axes[1]), Axis(options.axes[2])},
-      motions(options, axes) {
+      motions(options, axes),
+      serial_number(options.serial_number) {
   power_on();
 }
 
@@ -25,7 +26,7 @@ bool Rig::is_excited(const Axes& named) const {
 bool Rig::can_move(const Axes& named) const {
   const auto list = named.list();
   return !sleeping && is_excited(named) &&
-         std::none_of(list.begin(), list.end(), [this](int number) { return axis(number).emergency; });
+         std::none_of(list.begin(), list.end(), [this](int number) { return axis(number).error_stop(); });
 }
 
 std::optional<std::int64_t> Rig::to_pulses(Number number, char unit, int axis_number) const {

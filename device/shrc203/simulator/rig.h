@@ -23,7 +23,7 @@ struct Rig {
   // "In the case of Busy": of these axes, or of any, as busy_scope has it.
   bool is_free(const Axes& named) const;
   bool is_excited(const Axes& named) const;
-  bool can_move(const Axes& named) const;  // excited, awake, no emergency stop
+  bool can_move(const Axes& named) const;  // excited, awake, no error but a limit's
 
   std::optional<std::int64_t> to_pulses(Number number, char unit, int axis_number) const;
 
@@ -35,6 +35,7 @@ struct Rig {
   std::array<Axis, kAxes> axes;
   Motions motions;
   TimePoint now{};
+  std::string serial_number;
   std::string mode;
   bool hit_format = false;
   bool sleeping = false;

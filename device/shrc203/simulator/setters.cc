@@ -78,7 +78,10 @@ Answer excite(Rig& rig, Reader reader) { return switch_axes(rig, reader, &Axis::
 Answer clear_errors(Rig& rig, Reader reader) {
   const auto axes = reader.take_axes_or_all(rig.controllable);
   if (!axes || !reader.done()) return Answer::ng;
-  for (const int axis : axes->list()) rig.axis(axis).emergency = rig.axis(axis).limit_error = false;
+  for (const int number : axes->list()) {
+    Axis& axis = rig.axis(number);
+    axis.emergency = axis.limit_error = axis.overflow_error = false;
+  }
   rig.motions.release(*axes, rig.now);
   return Answer::ok;
 }

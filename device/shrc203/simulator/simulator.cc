@@ -33,7 +33,7 @@ void Simulator::link_down(TimePoint now, std::string_view) {
 
 void Simulator::receive(std::string_view bytes, TimePoint now) { device_->receive(bytes, now); }
 void Simulator::advance(TimePoint now) { device_->advance(now); }
-std::optional<TimePoint> Simulator::next_deadline() const { return device_->rig().motions.next_event(); }
+std::optional<TimePoint> Simulator::next_deadline() const { return device_->next_event(); }
 
 std::int64_t Simulator::position(int axis) const { return device_->rig().axis(axis).coordinate(device_->rig().now); }
 
@@ -65,7 +65,20 @@ void Simulator::set_inputs(int pattern) {
   device_->settle_consequences();
 }
 
+void Simulator::set_format(std::string_view format, TimePoint now) {
+  device_->advance(now);
+  device_->rig().hit_format = format == "HIT";
+}
+
+bool Simulator::set_sleep(bool asleep, TimePoint now) {
+  device_->advance(now);
+  if (device_->rig().motions.busy(device_->rig().controllable)) return false;
+  device_->rig().sleeping = asleep;
+  return true;
+}
+
 void Simulator::power_cycle(TimePoint now) { device_->reboot(now); }
+void Simulator::set_boot(Boot boot) { device_->set_boot(std::move(boot)); }
 
 void Simulator::set_limit(int axis, int direction, bool on, TimePoint now) {
   device_->advance(now);
@@ -73,7 +86,38 @@ void Simulator::set_limit(int axis, int direction, bool on, TimePoint now) {
   device_->settle_consequences();
 }
 
+void Simulator::set_error(int axis, AxisError error, bool on, TimePoint now) {
+  device_->advance(now);
+  Axis& struck = device_->rig().axis(axis);
+  switch (error) {
+    case AxisError::scale:
+      struck.scale_error = on;
+      break;
+    case AxisError::disconnection:
+      struck.disconnection_error = on;
+      break;
+    case AxisError::overflow:
+      struck.overflow_error = on;
+      break;
+  }
+  if (on) device_->rig().motions.error_stop(axis, now);
+  device_->settle_consequences();
+}
+
+void Simulator::set_answer_delay(Duration delay, TimePoint now) {
+  device_->advance(now);
+  device_->set_answer_delay(delay);
+}
+
+void Simulator::be_stuck(Duration time, TimePoint now) {
+  device_->advance(now);
+  device_->be_stuck(now + time);
+}
+
+void Simulator::set_serial_number(std::string number) { device_->rig().serial_number = std::move(number); }
+
 int Simulator::starts(int axis) const { return device_->rig().motions.starts(axis); }
 const std::vector<std::string>& Simulator::received() const { return device_->received(); }
+bool Simulator::answering() const { return device_->answering(); }
 
 }  // namespace axisgate::shrc203::simulator

@@ -12,9 +12,13 @@
 
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
+#include "device/shrc203/simulator/boot.h"
 #include "device/shrc203/simulator/options.h"
 
 namespace axisgate::shrc203::simulator {
+
+// What stops an axis beside a limit and the emergency stop (manual 5) Q:S: S1, S2, S4).
+enum class AxisError { scale, disconnection, overflow };
 
 // The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time runs only by the `now` given;
 // events that became due before it happen in their order, each at its own time. Not thread safe.
@@ -35,15 +39,28 @@ class Simulator : public LineMachine {
   bool busy(int axis) const;
   void set_excitation(int axis, bool on, TimePoint now);
   void press_emergency(TimePoint now);
-  void set_mode(std::string_view mode, TimePoint now);  // "HOST", "MANUAL", ...
-  void set_inputs(int pattern);                         // IN1..IN6, 0..63
-  void power_cycle(TimePoint now);  // as RESET: does, the stages stay where they are; a second of silence
+  void set_mode(std::string_view mode, TimePoint now);      // "HOST", "MANUAL", ...; what moves goes on
+  void set_format(std::string_view format, TimePoint now);  // "SHOT_FC" or "HIT"; in HIT only !: and Q: tell anything
+  bool set_sleep(bool asleep, TimePoint now);               // false: something moves, and nothing was changed
+  void set_inputs(int pattern);                             // IN1..IN6, 0..63
+  void power_cycle(TimePoint now);                          // as RESET: does; the stages stay where they are
+  void set_boot(Boot boot);                                 // of every reboot from now on
   void set_limit(int axis, int direction, bool on, TimePoint now);  // a limit sensor; direction +1 is CW
+  // Stops the axis. An overflow error ends by BEC: or a reboot too, the others only by on = false.
+  void set_error(int axis, AxisError error, bool on, TimePoint now);
+
+  // Faults of its electronics. Slow: a line is carried out and answered `delay` after it came, or after its predecessor
+  // was. Stuck: for `time`, lines are read and nothing is written; then all of it comes, in order.
+  void set_answer_delay(Duration delay, TimePoint now);
+  void be_stuck(Duration time, TimePoint now);
+  // Another unit stands in its place: what *IDN? and ?:SN say. Its settings are another matter: power_cycle().
+  void set_serial_number(std::string number);
 
   // For tests: how often an axis was set in motion since construction (each segment of a chain counts), and the lines
   // received, oldest first: the last 100,000 at least.
   int starts(int axis) const;
   const std::vector<std::string>& received() const;
+  bool answering() const;  // while it writes: whether this answers a line (and is no completion)
 
  private:
   class Device;

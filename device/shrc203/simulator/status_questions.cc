@@ -13,6 +13,9 @@ namespace {
 enum StatusBit {
   kNormal = 1,
   kCommandError = 2,
+  kScaleError = 3,
+  kDisconnectionError = 4,
+  kOverflowError = 5,
   kEmergency = 6,
   kLimitError = 8,
   kCounterOverflow = 9,
@@ -34,8 +37,11 @@ std::uint32_t status_of(const Rig& rig, int number) {
   const auto raise = [&status](StatusBit bit, bool on) { status |= on ? 1u << (bit - 1) : 0u; };
   const bool hidden = rig.command_error && rig.options.is("command_error_status", "normal_clears");
   const bool overflows = counter_overflows(rig, number);
-  raise(kNormal, !axis.emergency && !axis.limit_error && !overflows && !hidden);
+  raise(kNormal, !axis.error_stop() && !axis.limit_error && !overflows && !hidden);
   raise(kCommandError, rig.command_error);
+  raise(kScaleError, axis.scale_error);
+  raise(kDisconnectionError, axis.disconnection_error);
+  raise(kOverflowError, axis.overflow_error);
   raise(kEmergency, axis.emergency);
   raise(kLimitError, axis.limit_error);
   raise(kCounterOverflow, overflows);
@@ -63,7 +69,7 @@ std::string summary(const Rig& rig) {
   bool error = false;
   for (const int axis : rig.controllable.list()) {
     if (rig.axis(axis).limit_error) at_limit.add(axis);
-    error = error || rig.axis(axis).emergency || counter_overflows(rig, axis);
+    error = error || rig.axis(axis).error_stop() || counter_overflows(rig, axis);
   }
   const char status = error ? 'R' : at_limit.empty() ? 'K' : limit_stop_letter(at_limit);
   return fmt::format("{},{},{}", rig.command_error ? 'X' : 'K', status,

@@ -28,6 +28,7 @@ struct Arguments {
   double speed = 1;
   int baud = 0;
   int reply_delay_ms = 0;
+  std::string serial_number = simulator::Options().serial_number;
   std::vector<std::string> options;
   bool list_options = false;
 };
@@ -49,6 +50,8 @@ void describe(CLI::App& program, Arguments& arguments) {
   program.add_option("--reply-delay", arguments.reply_delay_ms, "Milliseconds from a command's end to its reply")
       ->check(CLI::Range(0, 60'000))
       ->capture_default_str();
+  program.add_option("--serial-number", arguments.serial_number, "What *IDN? and ?:SN say: another unit")
+      ->capture_default_str();
   program.add_option("--option", arguments.options, "NAME=VALUE: a reading of the manual; may be repeated")
       ->allow_extra_args(false);
   program.add_flag("--list-options", arguments.list_options, "Print every option and its values, and end")
@@ -62,9 +65,10 @@ void list_options() {
   }
 }
 
-Result<simulator::Options> choose_options(const std::vector<std::string>& settings) {
+Result<simulator::Options> choose_options(const Arguments& arguments) {
   simulator::Options options;
-  for (const std::string& setting : settings) {
+  options.serial_number = arguments.serial_number;
+  for (const std::string& setting : arguments.options) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos) {
       return fail(Reason::invalid_request, fmt::format("--option {}: expected NAME=VALUE", setting),
@@ -125,7 +129,7 @@ int main_program(int count, char** words) {
   if (arguments.pty.empty()) {
     return complain(kExitUsage, {Reason::invalid_request, "--pty LINK is required", "See --help.", {}, {}, {}});
   }
-  const auto options = choose_options(arguments.options);
+  const auto options = choose_options(arguments);
   if (!options) return complain(kExitUsage, options.error());
   return run(arguments, *options);
 }
