@@ -28,6 +28,16 @@ quietly() {
   fi
 }
 
+# Debian would start the server of package prometheus at once and at every boot, open to every network. The tests start
+# one of their own; `systemctl unmask prometheus` gives the service back.
+mask_service() {
+  local unit="/etc/systemd/system/$1.service"
+  if [[ ! -e "$unit" && ! -L "$unit" ]]; then
+    "${as_root[@]}" mkdir -p "${unit%/*}"
+    "${as_root[@]}" ln -s /dev/null "$unit"
+  fi
+}
+
 main() {
   if ! command -v dpkg-query >/dev/null; then
     echo "install-packages: this is no Debian system; install by hand what $list lists" >&2
@@ -47,6 +57,9 @@ main() {
     as_root=(sudo)
   fi
   printf 'Installing %d packages: %s\n' "${#missing[@]}" "${missing[*]}"
+  if [[ " ${missing[*]} " == *" prometheus "* ]]; then
+    mask_service prometheus
+  fi
   quietly "${as_root[@]}" apt-get update --quiet
   quietly "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install --quiet --yes --no-install-recommends \
     "${missing[@]}"

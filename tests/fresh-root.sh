@@ -6,45 +6,23 @@
 # usage: tests/fresh-root.sh [--if-changed]    with --if-changed only if the inputs differ from those recorded
 set -euo pipefail
 
-repository="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
+name=fresh-root
+# shellcheck source=tests/recorded-proof.sh
+source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/recorded-proof.sh"
 record="$repository/tests/fresh-root.passed"
 cache="${CCACHE_DIR:-$HOME/.cache/ccache}"
 root=""
 
-fail() {
-  printf 'fresh-root: %s\n' "$*" >&2
-  exit 1
-}
-
-# What decides whether a bare Debian can build and run this; the code itself is what tests/run.sh is for. Taken from
-# HEAD, as the clone is: uncommitted changes are not what passed.
-inputs_hash() {
-  git -C "$repository" ls-tree -r HEAD -- deploy/ CMakeLists.txt CMakePresets.json tests/run.sh tests/fresh-root.sh |
-    grep -E '(\.sh|\.txt|\.json)$' | sha256sum | cut -d ' ' -f 1
-}
-
-recorded() {
-  if [[ -f "$record" ]]; then
-    sed -n "s/^$1 //p" "$record"
-  fi
-}
-
-debian_sources() {
-  # shellcheck disable=SC2016  # the dollar signs are apt's
-  apt-get indextargets --format 'deb $(REPO_URI) $(RELEASE) $(COMPONENT)' 'Created-By: Packages' 'Origin: Debian' |
-    grep ' bookworm' | sort -u
-}
-
-timed() {
-  local label="$1" start=$SECONDS
-  shift
-  "$@" || fail "failed: $label"
-  printf '== fresh-root: %s took %d s\n' "$label" $((SECONDS - start))
+# What decides whether a bare Debian can build and run this; the code itself is what tests/run.sh is for.
+input_paths() {
+  git -C "$repository" ls-tree -r --name-only HEAD -- deploy/ CMakeLists.txt CMakePresets.json tests/run.sh \
+    tests/fresh-root.sh tests/recorded-proof.sh |
+    grep -E '(\.sh|\.txt|CMakePresets\.json)$'
 }
 
 make_root() {
   local sources
-  sources="$(debian_sources)" || fail "this machine's apt names no Debian 12 mirror; run apt-get update first"
+  sources="$(debian_sources)" || return
   mmdebstrap --quiet --variant=minbase bookworm "$root" - <<<"$sources"
 }
 
@@ -85,16 +63,4 @@ prove() {
   timed "tests/run.sh" inside "$repository/tests/run.sh"
 }
 
-main() {
-  if [[ "${1-}" == --if-changed && "$(recorded inputs)" == "$(inputs_hash)" ]]; then
-    printf 'fresh-root: its inputs have not changed since commit %s, where it passed\n' "$(recorded commit)"
-    return 0
-  fi
-  local commit
-  commit="$(git -C "$repository" rev-parse HEAD)"
-  prove
-  printf 'commit %s\ninputs %s\n' "$commit" "$(inputs_hash)" >"$record"
-  printf 'fresh-root: passed at %s; commit %s with it\n' "$commit" "${record#"$repository"/}"
-}
-
-main "$@"
+recorded_proof "$@"

@@ -41,6 +41,8 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   state_.link = LinkState::down;
   state_.link_problem = why;
   for (auto& axis : state_.axes) {
+    // It may be nobody's here that moves.
+    state_.moving_unknown = state_.moving_unknown || axis.busy.value_or(false);
     axis.position_pulses.reset();
     axis.busy.reset();
   }
@@ -48,7 +50,8 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     if (!live->inside_gate) continue;
     live->line_lost = true;
     live->line_problem = why;
-    state_.moving_unknown = state_.moving_unknown || live->motion.state != MotionState::queued;
+    // What it wrote last may have been its start, though no answer has come.
+    state_.moving_unknown = state_.moving_unknown || live->wrote;
     live->news.notify();
   }
   gate_.withdraw([](MotionId) { return true; },

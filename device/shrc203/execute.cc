@@ -283,8 +283,8 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
     done(tl::unexpected(*result.problem));
     co_return;
   }
-  const auto excitation = co_await read_excitation(context.who);
-  const auto read = excitation ? co_await read_positions(Lane::question, context.who) : excitation;
+  auto read = co_await read_excitation(context.who);
+  if (read) read = co_await read_positions(Lane::question, context.who);
   if (!result.accepted()) {
     done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
   } else if (!read) {

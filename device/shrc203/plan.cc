@@ -29,6 +29,11 @@ Result<void> check_axis(int axis, const Profile& profile, const State& state) {
   if (axis < 1 || axis > kAxisCount) {
     return fail(Reason::unknown_axis, fmt::format("there is no axis {}: an SHRC-203 has axes 1 to 3", axis));
   }
+  if (state.controllable().empty()) {
+    return fail(Reason::link_down,
+                "the device has not been up yet" + (state.link_problem.empty() ? "" : ": " + state.link_problem),
+                "try again when it is up");
+  }
   if (!state.axis(axis).controllable) {
     return on_axis(
         axis, {Reason::unknown_axis,

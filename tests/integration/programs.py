@@ -65,7 +65,8 @@ class Daemon:
         path = os.path.join(folder, "axisgate.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(config.format(socket=self.socket))
-        self._log = open(os.path.join(folder, "axisgated.log"), "a+", encoding="utf-8")
+        self.log = pathlib.Path(folder, "axisgated.log")
+        self._log = open(self.log, "a+", encoding="utf-8")
         self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT)
         self._wait_until_ready()

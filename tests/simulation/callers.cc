@@ -20,13 +20,17 @@ std::string who(Random& random) { return fmt::format("caller-{}", random.between
 
 }  // namespace
 
-Callers::Callers(World& world) : world_(world) { world_.device().set_inputs(kInputs); }
+Callers::Callers(World& world, std::uint64_t seed, double mishaps_an_hour)
+    : world_(world), mishaps_(world, seed, mishaps_an_hour) {
+  world_.device().set_inputs(kInputs);
+}
 
 void Callers::act_for(Duration duration) {
   const TimePoint end = world_.now() + duration;
   while (world_.now() < end && world_.violations().empty()) {
     world_.run_for(milliseconds(world_.random().between(1, 1500)));
     act();
+    mishaps_.act();
     check_starts();
   }
 }
@@ -135,8 +139,7 @@ void Callers::set_and_go() {
 // Questions that are closed by an !:S are judged by their answer; one flipped bit makes another number of it, or an O:
 // of a G:, which sets the outputs.
 void Callers::check_answer(const std::string& question, const std::string& answer) {
-  const auto& faults = world_.wire().faults_by_kind();
-  if (faults.contains("line: reply flipped") || faults.contains("line: command flipped")) return;
+  if (world_.wire().happened("line: reply flipped") || world_.wire().happened("line: command flipped")) return;
   if (answer.starts_with("NG")) return;
   const std::string right = question == "I:" ? std::to_string(kInputs) : question == "?:O" ? "0" : answer;
   if (answer != right) world_.violation(fmt::format("{} was answered by {} instead of {}", question, answer, right));
@@ -144,9 +147,7 @@ void Callers::check_answer(const std::string& question, const std::string& answe
 
 // A command that a fault has turned into another may start what nobody asked for; the gateway cannot know.
 void Callers::check_starts() {
-  for (const char* kind : {"line: command flipped"}) {
-    if (world_.wire().faults_by_kind().contains(kind)) return;
-  }
+  if (world_.wire().happened("line: command flipped")) return;
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     const int allowed = starts_allowed_[static_cast<std::size_t>(axis - 1)];
     if (world_.device().starts(axis) > allowed) {
@@ -158,6 +159,8 @@ void Callers::check_starts() {
 
 void Callers::come_to_rest() {
   world_.set_faults(Faults::none());
+  mishaps_.undo_all();
+  world_.run_for(seconds(2));  // the last mishap may have been a restart, during which nothing is answered
   const auto at_rest = [this] {
     for (const Motion& motion : world_.controller().motions()) {
       if (!is_outcome(motion.state)) return false;

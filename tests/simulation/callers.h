@@ -5,13 +5,14 @@
 #include <string>
 #include <vector>
 
+#include "tests/simulation/mishaps.h"
 #include "tests/simulation/world.h"
 
 namespace axisgate::simulation {
 
 class Callers {
  public:
-  explicit Callers(World& world);
+  explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0);
 
   void act_for(Duration duration);
   // The line is made perfect; every motion must end and the device must answer.
@@ -29,6 +30,7 @@ class Callers {
   void check_answer(const std::string& question, const std::string& answer);
 
   World& world_;
+  Mishaps mishaps_;
   std::map<shrc203::MotionId, bool> asked_;
   std::array<int, shrc203::kAxisCount> starts_allowed_{};
   int unfinished_questions_ = 0;

@@ -186,6 +186,20 @@ TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   moved(world, {{2, 1000}});
 }
 
+// What cannot be read back after the clearing is told as a problem.
+TEST(Hazard, H20_ClearingOnALineThatLosesTheAnswer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.device().press_emergency(world.now());
+  world.wire().set_script(drop_first(world, LineKind::reply, "?:C"));
+  std::optional<Result<void>> cleared;
+  world.controller().clear_errors({}, world.context("keeper"), world.now(),
+                                  [&](Result<void> result) { cleared = std::move(result); });
+  ASSERT_TRUE(world.run_until([&] { return cleared.has_value(); }, seconds(10))) << world.replay();
+  ASSERT_FALSE(cleared->has_value());
+  EXPECT_EQ(cleared->error().reason, Reason::reply_timed_out);
+}
+
 class Refusals : public testing::Test {
  protected:
   Refusals() : world(limited()) { EXPECT_TRUE(world.run_until_up()) << world.replay(); }

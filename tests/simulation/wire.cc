@@ -9,11 +9,34 @@ namespace {
 
 constexpr std::size_t kLogLines = 120;
 
-bool is_axis_number(const std::string& text) { return text.size() == 1 && text[0] >= '1' && text[0] <= '3'; }
-
 Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(count); }
 
 }  // namespace
+
+Faults Faults::mild() {
+  Faults f;
+  f.drop_reply = f.drop_notice = f.late_reply = f.late_notice = 0.001;
+  f.split = 0.01;
+  f.mishaps_an_hour = 1;
+  return f;
+}
+
+Faults Faults::rough() {
+  Faults f = mild();
+  f.drop_command = f.drop_reply = f.late_reply = 0.005;
+  f.double_notice = f.drop_notice = f.late_notice = 0.02;
+  f.noise = f.flip_reply = 0.001;
+  f.mishaps_an_hour = 5;
+  return f;
+}
+
+std::optional<Faults> Faults::named(std::string_view profile) {
+  if (profile == "quiet") return none();
+  if (profile == "mild") return mild();
+  if (profile == "rough") return rough();
+  if (profile == "hostile") return hostile();
+  return {};
+}
 
 Faults Faults::hostile() {
   Faults f;
@@ -27,6 +50,7 @@ Faults Faults::hostile() {
   f.split = 0.02;
   f.drop_notice = f.late_notice = f.double_notice = 0.05;
   f.flood_notice = 0.01;
+  f.mishaps_an_hour = 20;
   return f;
 }
 
@@ -35,11 +59,13 @@ void Wire::note(TimePoint now, const std::string& text) {
   if (log_.size() > kLogLines) log_.pop_front();
 }
 
-bool Wire::strikes(double probability, const char* kind) {
-  if (!random_.chance(probability)) return false;
-  ++injected_;
-  ++by_kind_[kind];
-  note(now_, fmt::format("   fault: {}", kind));
+bool Wire::strikes(double probability, const char* kind) { return random_.chance(probability) && inject(kind); }
+
+bool Wire::inject(const char* kind) {
+  const std::uint64_t number = drawn_++;
+  if (spared_.contains(number)) return false;
+  ++by_kind_[kind][static_cast<std::size_t>(phase_ ? phase_() : Phase::idle)];
+  note(now_, fmt::format("   fault {}: {}", number, kind));
   return true;
 }
 
@@ -104,16 +130,15 @@ void Wire::from_device(std::string_view bytes) {
   }
 }
 
-// The device answers commands in order; a bare axis number is a reply only while a question that can have one waits.
+// The device answers commands in order. One that a fault has cut in two is answered twice.
 void Wire::device_line(std::string text) {
   Origin origin{Origin::Kind::notice, 0};
-  const bool asked_number = !unanswered_.empty() && commands_[unanswered_.front()].find('?') != std::string::npos;
-  const bool inputs = !unanswered_.empty() && commands_[unanswered_.front()] == "I:";
-  if (!unanswered_.empty() && (!is_axis_number(text) || ((asked_number || inputs) && answering_))) {
-    origin = {Origin::Kind::reply, unanswered_.front()};
-    unanswered_.pop_front();
-  } else if (answering_ && last_delivered_ && !is_axis_number(text)) {
-    origin = {Origin::Kind::reply, *last_delivered_};  // a fault has cut a command in two, and it is answered twice
+  if (device_answers_()) {
+    if (!unanswered_.empty()) {
+      last_answered_ = unanswered_.front();
+      unanswered_.pop_front();
+    }
+    origin = {Origin::Kind::reply, last_answered_.value_or(0)};
   }
   if (!open_) return;
   const bool is_reply = origin.kind == Origin::Kind::reply;
@@ -186,11 +211,8 @@ void Wire::advance(TimePoint now) {
 
 void Wire::deliver(const Delivery& delivery, TimePoint now) {
   if (delivery.to_device) {
-    unanswered_.push_back(delivery.command);
-    last_delivered_ = delivery.command;
-    answering_ = true;
+    if (device_reads_()) unanswered_.push_back(delivery.command);
     device_->receive(delivery.bytes, now);
-    answering_ = false;
     return;
   }
   note(now, "< " + escaped(delivery.bytes));

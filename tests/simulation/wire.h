@@ -2,12 +2,15 @@
 // carries the number of the command that it answers, which the gateway does not see and the checks do.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <deque>
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "device/core/line_machine.h"
@@ -15,7 +18,7 @@
 
 namespace axisgate::simulation {
 
-// Probabilities a line. Zero everywhere: a perfect line.
+// Probabilities a line, and for what befalls device and link an hour. Zero everywhere: a perfect line.
 struct Faults {
   double drop_command = 0;     // line: a command never arrives
   double flip_command = 0;     // line: one bit of a command is wrong
@@ -30,11 +33,22 @@ struct Faults {
   double drop_notice = 0;
   double late_notice = 0;
   double double_notice = 0;
-  double flood_notice = 0;  // notice: one number many times
+  double flood_notice = 0;     // notice: one number many times
+  double mishaps_an_hour = 0;  // device and link: mishaps.h
 
   static Faults none() { return {}; }
+  static Faults mild();
+  static Faults rough();
   static Faults hostile();
+  // "quiet", "mild", "rough", "hostile"; nothing for another name.
+  static std::optional<Faults> named(std::string_view profile);
 };
+
+// What was going on when a fault struck.
+enum class Phase { idle, set, acknowledged, started, moving, completing, barrier, path };
+inline constexpr std::array<std::string_view, 8> kPhaseNames = {"idle",   "set",        "acknowledged", "started",
+                                                                "moving", "completing", "barrier",      "path"};
+inline std::string_view name(Phase phase) { return kPhaseNames[static_cast<std::size_t>(phase)]; }
 
 struct Origin {
   enum class Kind { reply, notice, noise } kind = Kind::reply;
@@ -73,11 +87,26 @@ class Wire {
 
   // What the gateway wrote, oldest first, and what a delivered line was while it is being delivered.
   const std::vector<std::string>& commands() const { return commands_; }
+  bool answered() const { return unanswered_.empty(); }  // by the device; the reply may be under way
+  // Whether what the device writes now answers a command, and whether it reads at all (it does not while it restarts).
+  void set_device(std::function<bool()> answers, std::function<bool()> reads) {
+    device_answers_ = std::move(answers);
+    device_reads_ = std::move(reads);
+  }
+  void device_restarts() { unanswered_.clear(); }
   const std::optional<Origin>& delivering() const { return delivering_; }
   const std::deque<std::string>& log() const { return log_; }
   void note(TimePoint now, const std::string& text);
-  std::uint64_t faults_injected() const { return injected_; }
-  const std::map<std::string, std::uint64_t>& faults_by_kind() const { return by_kind_; }
+
+  // Faults count from 0 in the order in which they would strike; those named here do not.
+  void spare(std::set<std::uint64_t> faults) { spared_ = std::move(faults); }
+  void set_phase(std::function<Phase()> phase) { phase_ = std::move(phase); }
+  // For a fault that another injects: counted, noted, or spared.
+  bool inject(const char* kind);
+  std::uint64_t faults_drawn() const { return drawn_; }
+  bool happened(const std::string& kind) const { return by_kind_.contains(kind); }
+  using ByPhase = std::array<std::uint64_t, kPhaseNames.size()>;
+  const std::map<std::string, ByPhase>& faults_by_kind() const { return by_kind_; }
 
  private:
   struct GatewayEnd : ByteLink {
@@ -119,19 +148,21 @@ class Wire {
   LineMachine* device_ = nullptr;
   TimePoint now_{};
   bool open_ = false;
-  bool answering_ = false;  // the device is taking a command: what it writes now answers it
+  std::function<bool()> device_answers_, device_reads_;
   std::optional<TimePoint> opens_at_;
   TimePoint to_device_free_{}, to_gateway_free_{};
   std::multimap<TimePoint, Delivery> in_transit_;
   std::multimap<TimePoint, std::string> held_notices_;  // that the device is slow to send
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
-  std::optional<std::size_t> last_delivered_;
+  std::optional<std::size_t> last_answered_;
   std::string device_partial_;
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;
-  std::uint64_t injected_ = 0;
-  std::map<std::string, std::uint64_t> by_kind_;
+  std::uint64_t drawn_ = 0;
+  std::set<std::uint64_t> spared_;
+  std::function<Phase()> phase_;
+  std::map<std::string, ByPhase> by_kind_;
 };
 
 }  // namespace axisgate::simulation

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numeric>
 
 namespace axisgate::simulation {
 
@@ -30,6 +31,8 @@ World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire
   device_ = std::make_unique<simulator::Simulator>(setup_.options, wire_.device_end());
   controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this);
   wire_.connect(*controller_, *device_);
+  wire_.set_phase([this] { return phase(); });
+  wire_.set_device([this] { return device_->answering(); }, [this] { return !restarting(); });
   wire_.set_faults(setup_.faults);
   wire_.open(now_);
 }
@@ -44,10 +47,31 @@ void World::violation(const std::string& what) {
 std::string World::replay() const {
   std::string text =
       fmt::format("replay with AXISGATE_SEED={}\nreadings: {}\nfaults:", setup_.seed, setup_.options.describe());
-  for (const auto& [kind, count] : wire_.faults_by_kind()) text += fmt::format(" {} {};", count, kind);
+  for (const auto& [kind, phases] : wire_.faults_by_kind()) {
+    text += fmt::format(" {} {};", std::accumulate(phases.begin(), phases.end(), std::uint64_t{0}), kind);
+  }
   text += "\nthe last lines of the wire:\n";
   for (const auto& line : wire_.log()) text += line + "\n";
   return text;
+}
+
+// Told by what was last written, what the device does and what the controller says of its line.
+Phase World::phase() const {
+  if (controller_->state().link != LinkState::up) return Phase::barrier;
+  bool moves = false;
+  for (int axis = 1; axis <= kAxisCount; ++axis) moves = moves || device_->busy(axis);
+  for (const Motion& motion : controller_->motions()) {
+    if (is_outcome(motion.state)) continue;
+    if (motion.kind == MotionKind::path && motion.state != MotionState::queued) return Phase::path;
+    const bool running = motion.state != MotionState::queued;
+    if (running) return moves ? Phase::moving : Phase::completing;
+  }
+  const std::string last = wire_.commands().empty() ? "" : wire_.commands().back();
+  const std::string_view verb = std::string_view(last).substr(0, last.find(':'));
+  if (verb == "G" || verb == "HRT" || verb == "ZRT") return Phase::started;
+  const bool setter = verb == "M" || verb == "A" || verb == "MP" || verb == "AP" || verb == "KP" || verb == "D";
+  if (setter) return wire_.answered() ? Phase::acknowledged : Phase::set;
+  return moves ? Phase::moving : Phase::idle;
 }
 
 void World::step(TimePoint limit) {
@@ -111,16 +135,32 @@ void World::check_exchange(const ExchangeEnded& ended) {
   }
 }
 
+void World::power_cycle() {
+  rebooted_ = now_;
+  for (int axis = 1; axis <= kAxisCount; ++axis) {
+    before_reboot_[static_cast<std::size_t>(axis - 1)] = device_->position(axis);
+  }
+  device_->power_cycle(now_);
+  wire_.device_restarts();
+}
+
+bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + std::chrono::seconds(1); }
+
+// Where the axis stood when the device last told anything: while it restarts, that is before the restart.
+std::int64_t World::told_position(int axis) const {
+  return restarting() ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
+}
+
 // A success is a place where the device truly stands.
 void World::check_outcome(const Motion& motion) {
   if (motion.state != MotionState::succeeded) return;
   for (const auto& result : motion.results) {
     if (!result.target_pulses) {
       violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));
-    } else if (device_->position(result.axis) != *result.target_pulses) {
+    } else if (told_position(result.axis) != *result.target_pulses) {
       violation(fmt::format("motion {} succeeded, but axis {} stands at {} instead of {}", motion.id, result.axis,
-                            device_->position(result.axis), *result.target_pulses));
-    } else if (device_->busy(result.axis) && !wire_.faults_by_kind().contains("line: reply flipped")) {
+                            told_position(result.axis), *result.target_pulses));
+    } else if (device_->busy(result.axis) && !wire_.happened("line: reply flipped")) {
       // One flipped bit makes an R of the B of an axis that settles at its target.
       violation(fmt::format("motion {} succeeded, but axis {} is still busy", motion.id, result.axis));
     }

@@ -45,6 +45,7 @@ class World : public shrc203::EventSink {
   bool run_until_up() {
     return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
   }
+  void power_cycle();
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
   shrc203::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
@@ -55,6 +56,7 @@ class World : public shrc203::EventSink {
   const std::vector<std::string>& violations() const { return violations_; }
   void violation(const std::string& what);
   std::string replay() const;  // how to see a failure again
+  Phase phase() const;
 
   void on_event(const shrc203::Event& event, TimePoint now) override;
   const std::vector<shrc203::Motion>& outcomes() const { return outcomes_; }
@@ -70,12 +72,16 @@ class World : public shrc203::EventSink {
   void step(TimePoint limit);
   void check_exchange(const shrc203::ExchangeEnded& ended);
   void check_outcome(const shrc203::Motion& motion);
+  std::int64_t told_position(int axis) const;
+  bool restarting() const;
 
   Setup setup_;
   Random random_;
   Wire wire_;
   std::unique_ptr<shrc203::simulator::Simulator> device_;
   std::unique_ptr<shrc203::Controller> controller_;
+  std::optional<TimePoint> rebooted_;
+  std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
   TimePoint now_{};
   int steps_here_ = 0;
   std::vector<std::string> violations_;

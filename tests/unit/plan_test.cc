@@ -60,6 +60,15 @@ TEST_F(PlanTest, MovesInAxisOrderAndExactPulses) {
   EXPECT_FALSE(plan->axes[0].speed);
 }
 
+TEST_F(PlanTest, BeforeTheDeviceHasToldItsAxesNoneIsSaidToBeMissing) {
+  state = {};
+  state.link_problem = "no such device";
+  const auto plan = move({{3, pulses(1), {}}}, false);
+  ASSERT_FALSE(plan);
+  EXPECT_EQ(plan.error().reason, Reason::link_down);
+  EXPECT_THAT(plan.error().message, testing::EndsWith("no such device"));
+}
+
 TEST_F(PlanTest, ARelativeMoveEndsWhereItsStartAndWayTell) {
   state.axes[1].position_pulses = 300;
   const auto plan = move({{2, pulses(-1000), {}}}, true);

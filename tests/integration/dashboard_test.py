@@ -1,0 +1,173 @@
+#!/usr/bin/env python3
+"""Every query of the Grafana dashboard against a real Prometheus that scrapes a real daemon at work."""
+
+import json
+import os
+import re
+import subprocess
+import tempfile
+import threading
+import time
+import unittest
+import urllib.error
+import urllib.parse
+import urllib.request
+
+import yaml
+
+import dashboard
+from programs import LIMIT_S, ROOT, Daemon
+
+CONFIG = """
+listen = "127.0.0.1:0"
+metrics = "127.0.0.1:0"
+socket = "{socket}"
+
+[[device]]
+name = "stage"
+connection = "simulated"
+baud = 38400
+"""
+
+# One round of the load; each entry is a call of axisctl, which succeeds.
+PATH = "1=+200um 2=0um speed=2mm/s\n1=0um 2=+200um\n1=-200um 2=-200um\n"
+ROUND = (["home"], ["move", "1=+500um", "2=-200um", "--relative"], ["status"], ["path", "-", "--speed", "2mm/s"],
+         ["move", "1=+5mm", "--relative", "--speed", "1mm/s", "--no-wait"], ["position"], ["stop"],
+         ["exec", "?:P1"])
+
+
+def wait_for(what, look):
+    deadline = time.monotonic() + LIMIT_S
+    while not (found := look()):
+        if time.monotonic() > deadline:
+            raise AssertionError(f"waited {LIMIT_S} s for {what}")
+        time.sleep(0.05)  # between two looks; the deadline above decides
+    return found
+
+
+class Prometheus:
+    """With the configuration of deploy/, on the daemon's real port and in a hurry."""
+
+    def __init__(self, folder, metrics_address):
+        config = yaml.safe_load((ROOT / "deploy/prometheus/prometheus.yml").read_text(encoding="utf-8"))
+        config["global"]["scrape_interval"] = "200ms"
+        config["scrape_configs"][0]["static_configs"][0]["targets"] = [metrics_address]
+        path = os.path.join(folder, "prometheus.yml")
+        with open(path, "w", encoding="utf-8") as file:
+            yaml.safe_dump(config, file)
+        self._log_path = os.path.join(folder, "prometheus.log")
+        with open(self._log_path, "w", encoding="utf-8") as log:
+            self._process = subprocess.Popen(
+                ["prometheus", f"--config.file={path}", f"--storage.tsdb.path={folder}/data",
+                 "--web.listen-address=127.0.0.1:0"], stdout=log, stderr=subprocess.STDOUT)
+        self._address = ""
+
+    def _log(self):
+        with open(self._log_path, encoding="utf-8") as log:
+            return log.read()
+
+    def wait_until_ready(self):
+        self._address = wait_for("Prometheus's port",
+                                 lambda: re.search(r'msg="Listening on" address=(\S+)', self._log()))[1]
+        wait_for("the first scrape", lambda: self.ask("query", query="up == 1")["data"]["result"])
+
+    def ask(self, what, **parameters):
+        """The API's answer; one that says what is wrong with the query is an answer, too."""
+        url = f"http://{self._address}/api/v1/{what}?{urllib.parse.urlencode(parameters)}"
+        try:
+            with urllib.request.urlopen(url, timeout=LIMIT_S) as answer:
+                return json.load(answer)
+        except urllib.error.HTTPError as error:
+            if error.code == 503:  # it is still starting
+                return {"status": "error", "error": "503", "data": {"result": []}}
+            return json.load(error)
+
+    def stop(self):
+        self._process.terminate()
+        self._process.wait(timeout=LIMIT_S)
+
+
+class Load:
+    """Keeps the stage moving, and one watcher watching, until it is stopped."""
+
+    def __init__(self, daemon):
+        self._daemon = daemon
+        self._watcher = daemon.start("watch")
+        self._ending = threading.Event()
+        self.failures = []
+        self._thread = threading.Thread(target=self._run)
+        self._thread.start()
+
+    def _run(self):
+        while not self._ending.is_set():
+            for arguments in ROUND:
+                if self._ending.is_set():
+                    return
+                answer = self._daemon.run(*arguments, stdin=PATH if arguments[0] == "path" else "")
+                if answer.returncode != 0:
+                    self.failures.append((arguments, answer.stderr))
+
+    def stop(self):
+        self._ending.set()
+        self._thread.join()
+        self._watcher.kill()
+
+
+class AgainstPrometheus(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        folder = tempfile.TemporaryDirectory(prefix="axisgate-dashboard-")
+        cls.addClassCleanup(folder.cleanup)
+        daemon = Daemon(folder.name, CONFIG)
+        cls.addClassCleanup(daemon.stop)
+        metrics = re.search(r"metrics on http://(\S+)/metrics", daemon.log.read_text(encoding="utf-8"))[1]
+        cls.prometheus = Prometheus(folder.name, metrics)
+        cls.addClassCleanup(cls.prometheus.stop)
+        cls.load = Load(daemon)
+        cls.addClassCleanup(cls.load.stop)
+        cls.prometheus.wait_until_ready()
+
+    def problem(self, target):
+        answer = self.prometheus.ask("query", query=dashboard.fill_in(target["expr"]))
+        return dashboard.problem(target, answer)
+
+    def test_every_query_returns_a_series(self):
+        pending = [(title, target) for title, target in dashboard.targets(dashboard.load())]
+        self.assertGreater(len(pending), 10)
+        deadline = time.monotonic() + LIMIT_S
+        while pending and time.monotonic() < deadline:
+            pending = [(title, target) for title, target in pending if self.problem(target)]
+            time.sleep(0.2)  # a scrape; the deadline above decides
+        found = [f"{title} {target['refId']}: {self.problem(target)}: {target['expr']}" for title, target in pending]
+        if found:
+            self.fail("\n".join(["", *found]))
+        self.assertEqual(self.load.failures, [])
+
+    def test_every_family_of_the_daemon_is_shown(self):
+        names = self.prometheus.ask("label/__name__/values", **{"match[]": '{job="axisgate"}'})["data"]
+        families = {re.sub(r"_(bucket|sum|count)$", "", name) for name in names if name.startswith("axisgate_")}
+        self.assertGreater(len(families), 5)
+        shown = " ".join(target["expr"] for _, target in dashboard.targets(dashboard.load()))
+        self.assertEqual([family for family in sorted(families) if family not in shown], [])
+
+    def test_the_devices_to_choose_from(self):
+        variables = {one["name"]: one for one in dashboard.load()["templating"]["list"]}
+        metric, label = re.fullmatch(r"label_values\((\w+), (\w+)\)", variables["device"]["query"]["query"]).groups()
+        answer = self.prometheus.ask(f"label/{label}/values", **{"match[]": metric})
+        self.assertEqual(answer["data"], ["stage"])
+
+    def test_what_is_wrong_is_seen(self):
+        for expression, legend, expected in (
+                ("axisgate_link_up{device=~\"$device\"}", "{{device}}", None),
+                ("axisgate_link_down", "", "no series"),
+                ("axisgate_link_up{device=\"other\"}", "", "no series"),
+                ("0 * axisgate_link_up / 0", "", "no series"),
+                ("sum by (lane) (axisgate_link_up)", "{{lane}}", "label lane"),
+                ("rate(axisgate_link_up)", "", "parse error")):
+            with self.subTest(expression):
+                found = self.problem({"expr": expression, "legendFormat": legend})
+                self.assertRegex(found or "", expected or r"\A\Z")
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)

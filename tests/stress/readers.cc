@@ -1,0 +1,137 @@
+#include "tests/stress/readers.h"
+
+#include <arpa/inet.h>
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <array>
+#include <chrono>
+
+#include "device/link/clock.h"
+#include "device/link/descriptor.h"
+
+namespace axisgate::stress {
+namespace {
+
+constexpr std::size_t kPortion = 200;
+
+void take_a_breath() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
+
+}  // namespace
+
+QuickReader::QuickReader(server::EventBus& bus) : bus_(bus), subscription_(bus.subscribe([this] { read(); })) {}
+
+void QuickReader::read() {
+  for (;;) {
+    const server::EventBus::Reading reading = bus_.read(next_, kPortion);
+    ASSERT_FALSE(reading.compacted) << "at revision " << next_;
+    if (reading.facts.empty()) return;
+    std::uint64_t expected = next_;
+    for (const auto& record : reading.facts) {
+      EXPECT_EQ(record->revision, expected++);
+      follow(*record);
+    }
+    next_ = reading.next;
+  }
+}
+
+void QuickReader::follow(const server::FactRecord& record) {
+  const auto* changed = std::get_if<shrc203::MotionChanged>(&record.fact);
+  if (changed == nullptr) return;
+  const auto [known, begun] = motions_.try_emplace({record.device, changed->motion.id}, changed->motion.state);
+  if (begun) {
+    EXPECT_EQ(changed->motion.state, shrc203::MotionState::queued) << record.device << " " << changed->motion.id;
+    ++motions_open_;
+    return;
+  }
+  EXPECT_GT(changed->motion.state, known->second) << record.device << " " << changed->motion.id;
+  EXPECT_FALSE(shrc203::is_outcome(known->second)) << record.device << " " << changed->motion.id;
+  known->second = changed->motion.state;
+  if (shrc203::is_outcome(known->second)) --motions_open_;
+}
+
+bool QuickReader::wait_until_all_ended() const {
+  const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
+  while (motions_open_ > 0 && monotonic_now() < limit) take_a_breath();
+  return motions_open_ == 0;
+}
+
+StateReader::StateReader(Bench& bench, std::size_t device)
+    : states_(bench.device(device).newest_state()),
+      device_(device),
+      subscription_(states_.subscribe([this] { read(); })) {}
+
+void StateReader::read() {
+  const auto [state, version] = states_.get();
+  EXPECT_GE(version, version_);
+  version_ = version;
+  if (!state->serial_number.empty()) {
+    EXPECT_EQ(state->serial_number, serial_number(device_));
+  }
+}
+
+int read_slowly(server::EventBus& bus, const std::atomic<bool>& ended) {
+  int told = 0;
+  std::uint64_t next = 1;
+  while (!ended || next <= bus.newest_revision()) {
+    if (!ended && bus.newest_revision() < next + server::EventBus::kFactsKept + kPortion) {
+      take_a_breath();
+      continue;
+    }
+    const server::EventBus::Reading reading = bus.read(next, kPortion);
+    if (reading.compacted) {
+      ++told;
+      EXPECT_GT(reading.next, next);
+    }
+    for (const auto& record : reading.facts) EXPECT_EQ(record->revision, next++);
+    next = reading.next;
+  }
+  return told;
+}
+
+void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts) {
+  const TimePoint limit = monotonic_now() + std::chrono::minutes(2);
+  for (int i = 0; i < facts; ++i) {
+    const TimePoint now = monotonic_now();
+    const std::uint64_t revision = bus.publish("nobody", shrc203::StopRequested{}, server::to_wall(now), now);
+    while (revision > reader.next() + server::EventBus::kFactsKept / 4) {
+      ASSERT_LT(monotonic_now(), limit) << "the quick reader is not woken";
+      take_a_breath();
+    }
+  }
+}
+
+void come_and_go(server::Gateway& gateway, int times) {
+  auto fired = std::make_shared<std::atomic<int>>(0);
+  for (int i = 0; i < times; ++i) {
+    gateway.after(std::chrono::microseconds(i % 500), [fired] { ++*fired; });
+    std::atomic<std::uint64_t> seen = 0;
+    const auto subscription = gateway.events().subscribe([&] { seen = gateway.events().newest_revision(); });
+    (void)gateway.events().read(0, 10);
+  }
+  const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
+  while (*fired != times && monotonic_now() < limit) take_a_breath();
+  EXPECT_EQ(*fired, times);
+}
+
+std::string metrics_page(int port) {
+  const Descriptor page(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(static_cast<std::uint16_t>(port));
+  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+  if (::connect(page.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return "no connection";
+  const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
+  if (::send(page.get(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return "the connection broke";
+  std::string text;
+  std::array<char, 16384> piece;
+  for (ssize_t size = 0; (size = ::read(page.get(), piece.data(), piece.size())) > 0;) {
+    text.append(piece.data(), static_cast<std::size_t>(size));
+  }
+  return text;
+}
+
+}  // namespace axisgate::stress
