@@ -176,6 +176,7 @@ class Controller::Impl : public LineListener {
   Executor executor_;
   Line line_;
   State state_;
+  std::string unit_;               // the serial number that has passed a handshake
   Registers registers_;
   MotionGate gate_;
   std::map<MotionId, LiveMotionPtr> live_;  // without an outcome yet
