@@ -197,4 +197,24 @@ Task<void> Controller::Impl::follow_mode() {
   line_.give_up(wrong_panel(state_), now_);
 }
 
+// After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
+// decided. Where all showed 0 before, nothing tells, and what is not known to be the same counts as another.
+Task<void> Controller::Impl::look_for_restart(std::uint64_t connection) {
+  Result<void> read;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    read = co_await read_positions(Lane::question, kGateway, true);
+    if (connection != connection_) co_return;
+    if (read) break;
+  }
+  const bool elsewhere = std::ranges::any_of(
+      state_.axes, [](const AxisState& axis) { return axis.controllable && axis.position_pulses.value_or(0) != 0; });
+  if (!read || !elsewhere) {
+    line_.give_up("the controller seems to have restarted", now_);
+    co_return;
+  }
+  restart_possible_ = false;
+  if (state_.link == LinkState::doubtful) state_.link = LinkState::up;
+  line_.still_the_same(now_);
+}
+
 }  // namespace axisgate::shrc203

@@ -135,8 +135,9 @@ void World::check_exchange(const ExchangeEnded& ended) {
   }
 }
 
-void World::power_cycle() {
+void World::power_cycle(Duration silence) {
   rebooted_ = now_;
+  restart_lasts_ = silence;
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     before_reboot_[static_cast<std::size_t>(axis - 1)] = device_->position(axis);
   }
@@ -144,7 +145,7 @@ void World::power_cycle() {
   wire_.device_restarts();
 }
 
-bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + std::chrono::seconds(1); }
+bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + restart_lasts_; }
 
 // Where the axis stood when the device last told anything: while it restarts, that is before the restart.
 std::int64_t World::told_position(int axis) const {
