@@ -23,7 +23,7 @@ void Barrier::start(TimePoint now) { begin(line_in_doubt_.empty() ? Step::identi
 
 void Barrier::restart(TimePoint now) {
   if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) stale_ += probes_;
+  if (step_ == Step::identity) ++owed_.identities;
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
   begin(Step::identity, now);
 }
@@ -31,6 +31,7 @@ void Barrier::restart(TimePoint now) {
 void Barrier::begin(Step step, TimePoint now) {
   step_ = step;
   probes_ = 0;
+  older_ = owed_.identities;
   if (step == Step::silence) {
     deadline_ = now + limits_.silence;
     silence_limit_ = now + kSilenceWaitMax;
@@ -57,9 +58,9 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     return true;
   }
   if (step_ == Step::identity) {
-    if (stale_ > 0 && parse_identity(line)) {
-      --stale_;
-      return true;
+    if (older_ > 0 && parse_identity(line)) {
+      --older_;
+      return pay_owed(owed_, line);
     }
     if (auto identity = parse_identity(line)) {
       identity_ = std::move(identity);
@@ -79,7 +80,7 @@ void Barrier::advance(TimePoint now) {
     return;
   }
   if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) owed_.identities += 1 + std::exchange(stale_, 0);
+  if (step_ == Step::identity) ++owed_.identities;
   if (probes_ >= kProbesMax) {
     state_ = State::failed;
   } else {

@@ -68,7 +68,9 @@ class Barrier {
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;
-  int stale_ = 0;  // identities asked for before the last Stop: their answers come before the Stop's
+  // Identities asked for before this step began, in an earlier barrier or before a Stop: the controller answers in
+  // order, so theirs come first and tell nothing.
+  int older_ = 0;
   TimePoint deadline_{};
   TimePoint silence_limit_{};
   std::optional<bool> received_;

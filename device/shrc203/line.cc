@@ -34,7 +34,7 @@ void Line::link_up(TimePoint now) {
   continuity_.connected();
   suspected_ = false;
   barrier_ = make_barrier({});
-  send_stops_now(now);
+  write_waiting_stops();
   barrier_->start(now);
 }
 
@@ -279,7 +279,10 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
 void Line::send_stops_now(TimePoint now) {
-  if (!port_open_ || !barrier_) return;
+  if (port_open_ && barrier_ && write_waiting_stops()) barrier_->restart(now);
+}
+
+bool Line::write_waiting_stops() {
   bool any = false;
   queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },
                [&](const WaitingPtr& waiting) {
@@ -295,7 +298,7 @@ void Line::send_stops_now(TimePoint now) {
                  for (auto& answer : waiting->answers)
                    answer.deliver({.written = true, .reply = {}, .problem = problem, .candidates = {}});
                });
-  if (any && state_ != LinkState::connecting) barrier_->restart(now);
+  return any;
 }
 
 void Line::write_line(std::string_view line) {

@@ -110,6 +110,7 @@ class Line {
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
+  bool write_waiting_stops();  // whether there were any
   void write_line(std::string_view line);
   bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
   bool may_send(const ExchangeRequest& request) const;

@@ -61,7 +61,8 @@ void Mishaps::strike() {
       if (wire.inject("device: overflow")) device.set_error(axis, simulator::AxisError::overflow, true, world_.now());
       return later(while_it_lasts, [this] { put_right(); });
     case 7:
-      if (wire.inject("device: slow")) device.set_answer_delay(milliseconds(random_.between(20, 700)), world_.now());
+      // Within the reply limit: of a device that is slower for long, nobody can tell the old answers from the new.
+      if (wire.inject("device: slow")) device.set_answer_delay(milliseconds(random_.between(20, 400)), world_.now());
       return later(while_it_lasts, [this] { world_.device().set_answer_delay({}, world_.now()); });
     case 8:
       if (wire.inject("device: stuck")) device.be_stuck(milliseconds(random_.between(100, 3000)), world_.now());

@@ -97,8 +97,6 @@ void Wire::cut(TimePoint now, Duration until_back) {
 void Wire::reopen(Duration wait) {
   note(now_, "   gateway reopens the line");
   in_transit_.clear();
-  unanswered_.clear();
-  device_partial_.clear();
   open_ = false;
   opens_at_ = now_ + wait;
 }

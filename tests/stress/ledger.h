@@ -34,8 +34,8 @@ class Ledger {
   // Waits until at most `count` requests are unanswered. False when that takes absurdly long.
   [[nodiscard]] bool wait_until_open(std::size_t count);
 
-  // What was asked and not answered once, or answered and still held by somebody. Call it when nobody can answer any
-  // more; with `dropped`, no answer is as good as one.
+  // The first ten requests that were not answered once, or are still held by somebody. Call it when nobody can answer
+  // any more; with `dropped`, no answer is as good as one.
   std::string wrong(bool dropped) const;
 
  private:

@@ -18,6 +18,11 @@ namespace {
 
 constexpr std::size_t kPortion = 200;
 
+std::uint64_t publish_fact(server::EventBus& bus) {
+  const TimePoint now = monotonic_now();
+  return bus.publish("nobody", shrc203::StopRequested{}, server::to_wall(now), now);
+}
+
 void take_a_breath() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
 
 }  // namespace
@@ -95,8 +100,7 @@ int read_slowly(server::EventBus& bus, const std::atomic<bool>& ended) {
 void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts) {
   const TimePoint limit = monotonic_now() + std::chrono::minutes(2);
   for (int i = 0; i < facts; ++i) {
-    const TimePoint now = monotonic_now();
-    const std::uint64_t revision = bus.publish("nobody", shrc203::StopRequested{}, server::to_wall(now), now);
+    const std::uint64_t revision = publish_fact(bus);
     while (revision > reader.next() + server::EventBus::kFactsKept / 4) {
       ASSERT_LT(monotonic_now(), limit) << "the quick reader is not woken";
       take_a_breath();
@@ -105,14 +109,20 @@ void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts) 
 }
 
 void come_and_go(server::Gateway& gateway, int times) {
+  const TimePoint limit = monotonic_now() + std::chrono::minutes(2);
   auto fired = std::make_shared<std::atomic<int>>(0);
   for (int i = 0; i < times; ++i) {
     gateway.after(std::chrono::microseconds(i % 500), [fired] { ++*fired; });
-    std::atomic<std::uint64_t> seen = 0;
-    const auto subscription = gateway.events().subscribe([&] { seen = gateway.events().newest_revision(); });
-    (void)gateway.events().read(0, 10);
+    std::atomic<int> woken = 0;
+    const auto subscription = gateway.events().subscribe([&] { ++woken; });
+    for (int due = 1; due <= i % 3; ++due) {
+      publish_fact(gateway.events());
+      while (woken < due && monotonic_now() < limit) take_a_breath();
+    }
+    // Some leave before the next wake-up, some after it, some during it.
+    const std::uint64_t revision = publish_fact(gateway.events());
+    for (int look = 0; look <= i % 300; ++look) EXPECT_GE(gateway.events().newest_revision(), revision);
   }
-  const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
   while (*fired != times && monotonic_now() < limit) take_a_breath();
   EXPECT_EQ(*fired, times);
 }

@@ -57,7 +57,7 @@ int read_slowly(server::EventBus& bus, const std::atomic<bool>& ended);
 // Publishes so many facts of nobody's, in portions that `reader` can follow.
 void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts);
 
-// Subscribes, reads once and leaves, again and again, and lets timers run.
+// Subscribes, publishes and leaves, again and again, and lets timers run.
 void come_and_go(server::Gateway& gateway, int times);
 
 // Asks for /metrics and returns the page, or what went wrong in its place.
