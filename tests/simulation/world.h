@@ -82,6 +82,7 @@ class World : public shrc203::EventSink {
   std::unique_ptr<shrc203::Controller> controller_;
   std::optional<TimePoint> rebooted_;
   Duration restart_lasts_{};
+  std::size_t written_before_reboot_ = 0;
   std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
   TimePoint now_{};
   int steps_here_ = 0;
