@@ -53,6 +53,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     // A repeated ?:CMD is answered with the ?:CMD before it.
     if (line == line_in_doubt_) received_ = true;
     if (line != line_in_doubt_ && line != "?:CMD") received_ = false;
+    echo_ = line;
     begin(Step::identity, now);
     return true;
   }

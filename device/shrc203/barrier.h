@@ -51,6 +51,8 @@ class Barrier {
 
   // Whether the controller had received the line in doubt; nothing while ?:CMD has told nothing.
   std::optional<bool> received() const { return received_; }
+  // What ?:CMD was answered.
+  const std::optional<std::string>& echo() const { return echo_; }
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
@@ -72,6 +74,7 @@ class Barrier {
   TimePoint deadline_{};
   TimePoint silence_limit_{};
   std::optional<bool> received_;
+  std::optional<std::string> echo_;
   std::optional<Identity> identity_;
 };
 

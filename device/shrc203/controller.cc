@@ -36,6 +36,7 @@ void Controller::Impl::line_connected(const Identity& identity, TimePoint) {
 void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   ++connection_;
   settled_ = false;
+  restart_possible_ = false;
   registers_.forget();
   const bool news = state_.link != LinkState::down || state_.link_problem != why;
   state_.link = LinkState::down;
@@ -78,7 +79,14 @@ void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
     line_.give_up("another controller answers: " + identity.model + " " + identity.serial_number, now_);
     return;
   }
-  state_.link = LinkState::up;
+  if (!restart_possible_) state_.link = LinkState::up;
+}
+
+void Controller::Impl::restart_suspected(TimePoint) {
+  settled_ = false;
+  restart_possible_ = true;
+  if (state_.link == LinkState::up) state_.link = LinkState::doubtful;
+  executor_.spawn(look_for_restart(connection_));
 }
 
 void Controller::Impl::completion_seen(int axis, bool doubtful, TimePoint now) {

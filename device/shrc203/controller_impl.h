@@ -82,6 +82,7 @@ class Controller::Impl : public LineListener {
   void line_lost(const std::string& why, TimePoint now) override;
   void barrier_entered(const std::string& why, TimePoint now) override;
   void barrier_passed(const Identity& identity, TimePoint now) override;
+  void restart_suspected(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
 
@@ -92,6 +93,7 @@ class Controller::Impl : public LineListener {
   Task<bool> read_settings(std::uint64_t connection);
   Task<void> poll();
   Task<void> follow_mode();
+  Task<void> look_for_restart(std::uint64_t connection);
 
   // reading.cc
   Task<ExchangeResult> ask(std::string_view question, Lane lane, std::string caller, bool in_handshake = false);
@@ -176,6 +178,8 @@ class Controller::Impl : public LineListener {
   Executor executor_;
   Line line_;
   State state_;
+  std::string unit_;               // the serial number that has passed a handshake
+  bool restart_possible_ = false;  // look_for_restart() runs
   Registers registers_;
   MotionGate gate_;
   std::map<MotionId, LiveMotionPtr> live_;  // without an outcome yet

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "device/core/escape.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -18,15 +19,22 @@ bool is_data(const ExchangeResult& result) {
   return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
 }
 
+std::string wrong_panel(const State& state) {
+  return state.mode != "HOST" ? fmt::format("the controller is in {} mode; HOST is needed", state.mode)
+                              : fmt::format("the command format is {}; SHOT_FC is needed", state.format);
+}
+
 }  // namespace
 
 Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connection) {
-  const bool wrong_model = identity.model != profile_.model;
-  const bool wrong_serial = !profile_.serial_number.empty() && identity.serial_number != profile_.serial_number;
-  if (wrong_model || wrong_serial) {
-    line_.give_up(fmt::format("{} {} answers, but {} {} is configured", identity.model, identity.serial_number,
-                              profile_.model, profile_.serial_number),
-                  now_);
+  const bool configured = !profile_.serial_number.empty();
+  const std::string& serial_number = configured ? profile_.serial_number : unit_;
+  const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
+  if (identity.model != profile_.model || wrong_serial) {
+    line_.give_up(
+        fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
+                    profile_.model, serial_number, configured || unit_.empty() ? "is configured" : "was here before"),
+        now_);
     co_return;
   }
   state_.vendor = identity.vendor;
@@ -45,6 +53,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   ++state_.device_epoch;
   for (auto& axis : state_.axes) axis.homed = false;
   registers_.forget();
+  unit_ = state_.serial_number;
   state_.link = LinkState::up;
   state_.link_problem.clear();
   emit(LinkChanged{LinkState::up, ""});
@@ -71,9 +80,7 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
       if (state_.format == "SHOT_FC") co_return true;
       if (!is_data(format)) ++failures;
     }
-    state_.link_problem = state_.mode != "HOST"
-                              ? fmt::format("the controller is in {} mode; HOST is needed", state_.mode)
-                              : fmt::format("the command format is {}; SHOT_FC is needed", state_.format);
+    state_.link_problem = wrong_panel(state_);
     publish_state();
     auto wait = tick_.wait_until(now_ + kModePoll);
     co_await wait;
@@ -174,13 +181,40 @@ Task<void> Controller::Impl::poll() {
   }
 }
 
-// A refused Q: means that somebody has changed the mode at the front panel (hazard: the front panel leaves HOST).
+// A refused Q: means that somebody has changed the mode or the dialect at the front panel (hazard: the front panel
+// leaves HOST).
 Task<void> Controller::Impl::follow_mode() {
-  const auto mode = co_await ask("?:MODE", Lane::question, kGateway);
-  if (!is_data(mode) || mode.reply->text == state_.mode) co_return;
+  const std::uint64_t connection = connection_;
+  const auto mode = co_await ask("?:MODE", Lane::question, kGateway, true);
+  if (!is_data(mode) || connection != connection_) co_return;
   state_.mode = mode.reply->text;
-  if (state_.mode == "HOST") co_return;
-  line_.give_up(fmt::format("the controller is in {} mode; HOST is needed", state_.mode), now_);
+  if (state_.mode == "HOST") {
+    const auto format = co_await ask("?:FMT", Lane::question, kGateway, true);
+    if (!is_data(format) || connection != connection_) co_return;
+    state_.format = format.reply->text;
+  }
+  if (state_.mode == "HOST" && state_.format == "SHOT_FC") co_return;
+  line_.give_up(wrong_panel(state_), now_);
+}
+
+// After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
+// decided. Where all showed 0 before, nothing tells, and what is not known to be the same counts as another.
+Task<void> Controller::Impl::look_for_restart(std::uint64_t connection) {
+  Result<void> read;
+  for (int attempt = 0; attempt < kTries; ++attempt) {
+    read = co_await read_positions(Lane::question, kGateway, true);
+    if (connection != connection_) co_return;
+    if (read) break;
+  }
+  const bool elsewhere = std::ranges::any_of(
+      state_.axes, [](const AxisState& axis) { return axis.controllable && axis.position_pulses.value_or(0) != 0; });
+  if (!read || !elsewhere) {
+    line_.give_up("the controller seems to have restarted", now_);
+    co_return;
+  }
+  restart_possible_ = false;
+  if (state_.link == LinkState::doubtful) state_.link = LinkState::up;
+  line_.still_the_same(now_);
 }
 
 }  // namespace axisgate::shrc203

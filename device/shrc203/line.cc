@@ -23,6 +23,7 @@ Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListe
     : profile_(profile), link_(link), executor_(executor), listener_(listener), backoff_(kBackoffMin) {}
 
 void Line::link_up(TimePoint now) {
+  now_ = now;
   port_open_ = true;
   reopening_at_once_ = false;
   state_ = LinkState::connecting;
@@ -30,6 +31,8 @@ void Line::link_up(TimePoint now) {
   framer_.clear();
   owed_ = {};
   completions_.connected();
+  continuity_.connected();
+  suspected_ = false;
   barrier_ = make_barrier({});
   write_waiting_stops();
   barrier_->start(now);
@@ -68,6 +71,8 @@ void Line::give_up(const std::string& why, TimePoint now) {
 }
 
 void Line::open(AxisSet controllable, TimePoint now) {
+  now_ = now;
+  continuity_.begin(now);
   controllable_ = controllable;
   handshake_passed_ = true;
   state_ = LinkState::up;
@@ -75,7 +80,15 @@ void Line::open(AxisSet controllable, TimePoint now) {
   pump(now);
 }
 
+void Line::still_the_same(TimePoint now) {
+  now_ = now;
+  suspected_ = false;
+  continuity_.begin(now);
+  pump(now);
+}
+
 OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
+  now_ = now;
   OneShot<ExchangeResult> answer(executor_);
   const bool is_stop = request.lane == Lane::stop;
   if (!port_open_ && !is_stop) {
@@ -191,7 +204,8 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
 }
 
 bool Line::may_send(const ExchangeRequest& request) const {
-  if (!handshake_passed_ && !request.handshake && request.lane != Lane::stop) return false;
+  const bool certain = handshake_passed_ && !continuity_.open();
+  if (!certain && !request.handshake && request.lane != Lane::stop) return false;
   return conflicts(request).empty();
 }
 
@@ -199,18 +213,37 @@ void Line::pump(TimePoint now) {
   if (!can_send()) return;
   expire(now);
   const bool coming = line_is_coming(now) || now < quiet_until_;
-  auto next = queue_.take([&](const WaitingPtr& waiting) {
+  const auto may_go = [&](const WaitingPtr& waiting) {
     return (!coming || waiting->request.lane == Lane::stop) && may_send(waiting->request);
-  });
+  };
+  const auto settles = coming ? std::nullopt : conflicts_settle_from();
+  const bool settle = settles && now >= *settles;
+  if (must_ask_before(may_go, settle, now)) {
+    ExchangeRequest question;
+    question.command = make_command(kLineBefore);
+    send(std::make_shared<Waiting>(Waiting{std::move(question), {}}), now);
+    return;
+  }
+  auto next = queue_.take(may_go);
   if (next) {
     send(std::move(*next), now);
     return;
   }
-  const auto settles = coming ? std::nullopt : conflicts_settle_from();
-  if (!settles || now < *settles) return;
+  if (!settle) return;
   ExchangeRequest probe;
   probe.command = make_command("!:");
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}}), now);
+}
+
+// After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
+bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
+  if (!handshake_passed_ || continuity_.open() || !continuity_.due(now)) return false;
+  bool any = settle, stop = false;
+  queue_.for_each([&](const WaitingPtr& waiting) {
+    stop = stop || waiting->request.lane == Lane::stop;
+    any = any || (may_go(waiting) && waiting->request.command.line != kLineBefore);
+  });
+  return any && !stop;
 }
 
 // While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.
@@ -220,11 +253,15 @@ bool Line::line_is_coming(TimePoint now) {
     return false;
   }
   if (!partial_since_) partial_since_ = now;
-  if (now < *partial_since_ + kPartialLineMax) return true;
+  return !drop_unended(now);
+}
+
+bool Line::drop_unended(TimePoint now) {
+  if (!partial_since_ || now < *partial_since_ + kPartialLineMax) return false;
   framer_.clear();
   partial_since_.reset();
   unexpected("(a line that did not end)", now);
-  return false;
+  return true;
 }
 
 void Line::send(WaitingPtr waiting, TimePoint now) {
@@ -234,8 +271,10 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
   if (framer_.mid_line()) framer_.clear();  // only a stop does not wait: what is half in must not end as its answer
   if (!request.completes.empty()) completions_.started(request.completes, now);
+  const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
+  if (echo_first) write_line(kLineBefore);
   write_line(request.command.line);
-  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, {}};
+  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, {}, echo_first};
 }
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
@@ -265,14 +304,17 @@ bool Line::write_waiting_stops() {
 void Line::write_line(std::string_view line) {
   std::string bytes(line);
   bytes += "\r\n";
+  continuity_.wrote(line, now_);
   link_.write(bytes);
 }
 
 void Line::advance(TimePoint now) {
+  now_ = now;
   if (barrier_) {
     barrier_->advance(now);
     barrier_moved(now);
   } else if (in_flight_ && now >= in_flight_->limit) {
+    drop_unended(now);  // or the first answer in the barrier would be its end
     const auto& sent = in_flight_->waiting->request.command.line;
     Problem late{Reason::reply_timed_out, fmt::format("\"{}\" was not answered in time", sent), {}, {}, sent, {}};
     const std::string why = late.message;

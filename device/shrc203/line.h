@@ -20,6 +20,7 @@
 #include "device/shrc203/barrier.h"
 #include "device/shrc203/codec.h"
 #include "device/shrc203/completions.h"
+#include "device/shrc203/continuity.h"
 #include "device/shrc203/event.h"
 #include "device/shrc203/motion.h"
 #include "device/shrc203/profile.h"
@@ -60,6 +61,8 @@ class LineListener {
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
   virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
+  // Nothing but a stop and what belongs to the handshake is sent before still_the_same() or give_up().
+  virtual void restart_suspected(TimePoint now) = 0;
   // `doubtful`: not expected now, or seen in a barrier.
   virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
   virtual void line_event(const Event& event, TimePoint now) = 0;
@@ -83,6 +86,7 @@ class Line {
 
   void open(AxisSet controllable, TimePoint now);       // the handshake has passed
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
+  void still_the_same(TimePoint now);                   // the suspected restart was none
 
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
@@ -97,7 +101,10 @@ class Line {
     WaitingPtr waiting;
     TimePoint written, limit;
     std::vector<int> numbers;  // not empty: an !:S has been written behind it
+    bool echo_first = false;   // a ?:CMD has been written before it and not been answered
   };
+
+  static constexpr std::string_view kLineBefore = "?:CMD";
 
   bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
   void pump(TimePoint now);
@@ -105,12 +112,14 @@ class Line {
   void send_stops_now(TimePoint now);
   bool write_waiting_stops();  // whether there were any
   void write_line(std::string_view line);
+  bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
   bool may_send(const ExchangeRequest& request) const;
   AxisSet conflicts(const ExchangeRequest& request) const;
   std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);
   Problem why_expired(const ExchangeRequest& request) const;
   bool line_is_coming(TimePoint now);
+  bool drop_unended(TimePoint now);
 
   void on_line(const LineFramer::Line& line, TimePoint now);
   void doubt_answer(std::string_view text, TimePoint now);
@@ -122,6 +131,9 @@ class Line {
   void finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now);
   void enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why, TimePoint now);
   void barrier_moved(TimePoint now);
+  void in_barrier(std::string_view text, TimePoint now);
+  void hear_echo(std::string_view line_before, TimePoint now);
+  void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
   Duration time_of(std::size_t bytes) const;
   Barrier::Limits barrier_limits() const;
@@ -137,6 +149,9 @@ class Line {
   Duration backoff_;
   LineFramer framer_;
   Completions completions_;
+  Continuity continuity_;
+  bool suspected_ = false;  // the listener has been told
+  TimePoint now_{};         // of the call from outside
   AxisSet controllable_;
   bool handshake_passed_ = false;
   LaneQueue<WaitingPtr> queue_;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "device/core/escape.h"
 #include "device/shrc203/line.h"
@@ -12,6 +13,7 @@ namespace {
 
 constexpr std::string_view kClosing = "!:S";  // behind a number that may be a completion
 // A command that the line has cut in two is refused twice: the second NG must not meet the next command.
+// The same holds for a ?:CMD of which one part is a question of its own.
 constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
@@ -33,18 +35,21 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
 }  // namespace
 
 void Line::receive(std::string_view bytes, TimePoint now) {
+  now_ = now;
+  if (!framer_.mid_line()) partial_since_.reset();
   framer_.push(bytes);
-  while (auto line = framer_.next()) on_line(*line, now);
+  while (auto line = framer_.next()) {
+    partial_since_.reset();
+    on_line(*line, now);
+  }
+  if (framer_.mid_line() && !partial_since_) partial_since_ = now;
+  look_at_continuity(now);
   pump(now);
 }
 
 void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   if (!line.overlong && on_axis_number(line.text, now)) return;
-  if (barrier_) {
-    if (!barrier_->on_line(line.text, now)) unexpected(line.text, now);
-    barrier_moved(now);
-    return;
-  }
+  if (barrier_) return in_barrier(line.text, now);
   if (!in_flight_) {
     if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
     return;
@@ -62,6 +67,9 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     --owed_.identities;
     return;
   }
+  const bool line_before = in_flight_->echo_first || row.name == kLineBefore;
+  if (line_before && (line.overlong || !continuity_.tells(line.text))) return doubt_answer(line.text, now);
+  if (std::exchange(in_flight_->echo_first, false)) return hear_echo(line.text, now);
   auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
   if (reply) {
     on_reply(std::move(*reply), now);
@@ -69,6 +77,33 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   }
   if (pay_owed(owed_, line.text)) return;
   doubt_answer(line.text, now);
+}
+
+void Line::in_barrier(std::string_view text, TimePoint now) {
+  const bool echoed = barrier_->echo().has_value(), identified = barrier_->identity().has_value();
+  if (!barrier_->on_line(text, now)) unexpected(text, now);
+  if (!echoed && barrier_->echo()) hear_echo(*barrier_->echo(), now);
+  if (!barrier_) return;  // given up
+  if (!identified && barrier_->identity()) continuity_.answered(true, now);
+  barrier_moved(now);
+}
+
+// Who else writes may have set anything, and moved the frame: as after a restart, nothing is known any more.
+void Line::hear_echo(std::string_view line_before, TimePoint now) {
+  const auto verdict = continuity_.told(line_before, now);
+  if (verdict != Continuity::Verdict::same) quiet_until_ = now + kQuietAfterRefusal;
+  if (verdict == Continuity::Verdict::foreign) {
+    give_up(fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
+                        "line is disturbed",
+                        escaped(line_before)),
+            now);
+  }
+}
+
+void Line::look_at_continuity(TimePoint now) {
+  if (!handshake_passed_ || !continuity_.open() || suspected_) return;
+  suspected_ = true;
+  listener_.restart_suspected(now);
 }
 
 void Line::doubt_answer(std::string_view text, TimePoint now) {
@@ -104,6 +139,7 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
 // A number that may be the answer or a completion. The controller answers in order, so once an !:S behind it has been
 // answered, the answer is among the numbers that came.
 void Line::on_number(int number, TimePoint now) {
+  continuity_.answered(false, now);
   if (in_flight_->numbers.empty()) {
     write_line(kClosing);
     in_flight_->limit = now + barrier_limits().reply;
@@ -120,6 +156,7 @@ void Line::on_line_while_closing(std::string_view text, TimePoint now) {
 }
 
 void Line::close(TimePoint now) {
+  continuity_.answered(true, now);
   auto numbers = in_flight_->numbers;
   const auto may_be_axis = [this](int number) { return number >= 1 && number <= 3 && completions_.possible(number); };
   const auto certain = std::ranges::find_if_not(numbers, may_be_axis);
@@ -139,6 +176,9 @@ void Line::close(TimePoint now) {
 
 void Line::on_reply(Reply reply, TimePoint now) {
   const auto& request = in_flight_->waiting->request;
+  const bool line_before = request.command.line == kLineBefore;
+  const std::string told = line_before ? reply.text : "";
+  if (!line_before) continuity_.answered(reply.kind != Reply::Kind::ng && reply.kind != Reply::Kind::ng_i, now);
   const auto outcome = outcome_of(reply.kind);
   if (reply.kind == Reply::Kind::ng_i) {
     Problem fault{Reason::line_fault,
@@ -156,6 +196,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
   }
   if (reply.kind == Reply::Kind::ng) quiet_until_ = now + kQuietAfterRefusal;
   finish({.written = true, .reply = std::move(reply), .problem = {}, .candidates = {}}, outcome, now);
+  if (line_before) hear_echo(told, now);
 }
 
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {

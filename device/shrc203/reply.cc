@@ -251,7 +251,10 @@ std::optional<SpeedSetting> parse_speed_setting(std::string_view field) {
   if (!field.starts_with('S') || f == std::string_view::npos || r == std::string_view::npos || r < f) return {};
   const auto minimum = parse_integer(field.substr(1, f - 1)), maximum = parse_integer(field.substr(f + 1, r - f - 1)),
              time = parse_integer(field.substr(r + 1));
-  const auto within = [](const auto& value, std::int64_t most) { return value && *value >= 1 && *value <= most; };
+  const auto within = [](const std::optional<std::int64_t>& value, std::int64_t most) {
+    return value && *value >= 1 && *value <= most;
+  };
+  // Manual 89) D:. A number outside that was no speed of an axis; it could not be sent back either.
   if (!within(minimum, 1'000'000) || !within(maximum, 1'000'000) || !within(time, 1000)) return {};
   return SpeedSetting{*minimum, *maximum, static_cast<int>(*time)};
 }

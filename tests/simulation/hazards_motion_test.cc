@@ -14,8 +14,6 @@ using std::chrono::seconds;
 using testing::AnyOf;
 using testing::ElementsAre;
 
-Reason reason_of(const Motion& motion) { return motion.problem ? motion.problem->reason : Reason::unspecified; }
-
 TEST(Hazard, H03_OkOfGoLostButTheMoveStarted) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -164,15 +162,6 @@ TEST_P(HazardH12, LeftOverThatCannotBeClearedRefusesMotion) {
 
 INSTANTIATE_TEST_SUITE_P(Settings, HazardH12,
                          testing::Values("MP:1+P500", "AP:3+P500", "KP:A+P500+P500", "J:1+", "AP:2+P500", "WT:1,5"));
-
-PathRequest line_of(const World& world, int segments) {
-  PathRequest path;
-  path.context = world.context("tester");
-  for (int i = 0; i < segments; ++i) {
-    path.segments.push_back({{{1, pulses(i % 2 ? 2000 : -1000), {}}, {2, pulses(2000), {}}}, true, pulses(20000), {}});
-  }
-  return path;
-}
 
 TEST(Hazard, H13_OkWhereOkDWasDue) {
   World world(quiet());

@@ -30,11 +30,14 @@ void Mishaps::strike() {
   const int axis = static_cast<int>(random_.between(1, kAxisCount));
   const Duration while_it_lasts = milliseconds(random_.between(200, 8000));
   switch (random_.between(0, 9)) {
-    case 0:
+    case 0: {
+      // Too short for a poll to be lost, or long enough for three probes.
+      const Duration silence = milliseconds(random_.between(200, 2500));
       if (!wire.inject("device: reboot")) return;
-      device.set_boot({.mode = random_.chance(0.2) ? "MANUAL" : "HOST"});
-      world_.power_cycle();
-      return later(seconds(1) + while_it_lasts, [this] { world_.device().set_mode("HOST", world_.now()); });
+      device.set_boot({.mode = random_.chance(0.2) ? "MANUAL" : "HOST", .silence = silence});
+      world_.power_cycle(silence);
+      return later(silence + while_it_lasts, [this] { world_.device().set_mode("HOST", world_.now()); });
+    }
     case 1:
       if (!wire.inject("device: mode")) return;
       device.set_mode("MANUAL", world_.now());

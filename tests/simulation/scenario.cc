@@ -28,6 +28,21 @@ void move_by(World& world, const Ways& ways) {
   world.controller().move(move_of(world, ways, true), world.now(), [](Result<Motion>) {});
 }
 
+PathRequest line_of(const World& world, int segments) {
+  PathRequest path;
+  path.context = world.context("tester");
+  for (int i = 0; i < segments; ++i) {
+    path.segments.push_back({{{1, pulses(i % 2 ? 2000 : -1000), {}}, {2, pulses(2000), {}}}, true, pulses(20000), {}});
+  }
+  return path;
+}
+
+void home(World& world, AxisSet axes) {
+  world.controller().home({axes, world.context("tester")}, world.now(), [](Result<Motion>) {});
+}
+
+Reason reason_of(const Motion& motion) { return motion.problem ? motion.problem->reason : Reason::unspecified; }
+
 std::vector<std::string> execute(World& world, std::vector<std::string> lines) {
   std::vector<std::string> heard;
   bool over = false;

@@ -135,8 +135,10 @@ void World::check_exchange(const ExchangeEnded& ended) {
   }
 }
 
-void World::power_cycle() {
+void World::power_cycle(Duration silence) {
   rebooted_ = now_;
+  written_before_reboot_ = wire_.commands().size();
+  restart_lasts_ = silence;
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     before_reboot_[static_cast<std::size_t>(axis - 1)] = device_->position(axis);
   }
@@ -144,16 +146,20 @@ void World::power_cycle() {
   wire_.device_restarts();
 }
 
-bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + std::chrono::seconds(1); }
+bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + restart_lasts_; }
 
 // Where the axis stood when the device last told anything: while it restarts, that is before the restart.
 std::int64_t World::told_position(int axis) const {
   return restarting() ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
 }
 
-// A success is a place where the device truly stands.
+// A success is a place where the device truly stands, in the frame of the time when it was asked for.
 void World::check_outcome(const Motion& motion) {
   if (motion.state != MotionState::succeeded) return;
+  const bool read_since = !wire_.delivering() || wire_.delivering()->command >= written_before_reboot_;
+  if (rebooted_ && motion.created < *rebooted_ && read_since) {
+    violation(fmt::format("motion {} succeeded, but the device has restarted since it was asked for", motion.id));
+  }
   for (const auto& result : motion.results) {
     if (!result.target_pulses) {
       violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));

@@ -45,7 +45,7 @@ class World : public shrc203::EventSink {
   bool run_until_up() {
     return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
   }
-  void power_cycle();
+  void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
   shrc203::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
@@ -81,6 +81,8 @@ class World : public shrc203::EventSink {
   std::unique_ptr<shrc203::simulator::Simulator> device_;
   std::unique_ptr<shrc203::Controller> controller_;
   std::optional<TimePoint> rebooted_;
+  Duration restart_lasts_{};
+  std::size_t written_before_reboot_ = 0;
   std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
   TimePoint now_{};
   int steps_here_ = 0;

@@ -171,7 +171,7 @@ TEST(Reply, SpeedSettings) {
   EXPECT_EQ(speed->maximum, 1000);
   EXPECT_EQ(speed->acceleration_ms, 50);
   for (const char* field : {"", "S100F1000", "S100R50F1000", "100F1000R50", "SF1000R50", "S1x0F1000R50", "S0F1000R50",
-                            "S100F1000001R50", "S100F1000R0", "S100F1000R1001"}) {
+                            "S100F1000001R50", "S100F1000R0", "S100F1000R1001", "S100F-1000R50"}) {
     EXPECT_FALSE(parse_speed_setting(field)) << field;
   }
 }

@@ -1,0 +1,69 @@
+#include "device/shrc203/continuity.h"
+
+#include <algorithm>
+#include <cctype>
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::string_view kQuestion = "?:CMD";
+
+// Others may send what the table here has not (PSET: ...): a verb and its colon (manual 4.).
+bool looks_like_command(std::string_view line) {
+  const auto colon = line.find(':');
+  return colon != std::string_view::npos && colon > 0 &&
+         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '?' || c == '!'; });
+}
+
+}  // namespace
+
+void Continuity::connected() {
+  before_.clear();
+  answered_ = true;
+  open_ = false;
+}
+
+void Continuity::begin(TimePoint now) {
+  open_ = false;
+  in_time_ = true;
+  alive_ = now;
+}
+
+void Continuity::wrote(std::string_view line, TimePoint now) {
+  // A controller that restarted in the pause before the line now left unanswered would tell that line as well.
+  if (!answered_ && !in_time_) std::erase(before_, newest_);
+  newest_ = line;
+  answered_ = false;
+  in_time_ = !due(now);
+  if (in_time_) before_.push_back(newest_);
+}
+
+void Continuity::answered(bool taken, TimePoint now) {
+  alive_ = now;
+  answered_ = true;
+  if (!in_time_) open_ = true;
+  if (taken) {
+    before_ = {newest_};
+  } else if (std::ranges::find(before_, newest_) == before_.end()) {
+    before_.push_back(newest_);
+  }
+}
+
+bool Continuity::tells(std::string_view line) const {
+  return std::ranges::find(before_, line) != before_.end() || looks_like_command(line);
+}
+
+Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now) {
+  const bool known = std::ranges::find(before_, line_before) != before_.end();
+  const bool foreign = !known && line_before != kQuestion && looks_like_command(line_before);
+  alive_ = now;
+  answered_ = newest_ == kQuestion;
+  open_ = open_ || !known;
+  in_time_ = true;
+  before_ = {std::string(kQuestion)};
+  if (newest_ != kQuestion) before_.push_back(newest_);
+  return known ? Verdict::same : foreign ? Verdict::foreign : Verdict::open;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,51 @@
+// Whether the controller that answers now has been running ever since it answered before.
+//
+// A restart takes a while in which nothing is read, and afterwards ?:CMD no longer tells the line before it (manual
+// 40), 46) RESET:). So where a line is written soon after an answer, nothing can have happened in between; after a
+// longer pause ?:CMD must be the first line, because any other would be what ?:CMD tells from then on. The same answer
+// shows that somebody else has written to the controller.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/time.h"
+
+namespace axisgate::shrc203 {
+
+class Continuity {
+ public:
+  // No controller restarts in so short a time, the answer's and the line's way included.
+  static constexpr Duration kPause = std::chrono::milliseconds(150);
+
+  // After a connect nothing is known of what the controller took before.
+  void connected();
+  // The handshake has passed, or other facts show that it is still the same.
+  void begin(TimePoint now);
+
+  // Whether ?:CMD is to be asked before anything else is.
+  bool due(TimePoint now) const { return now - alive_ > kPause; }
+  // Nothing tells whether the controller has restarted: other facts must.
+  bool open() const { return open_; }
+
+  void wrote(std::string_view line, TimePoint now);
+  // The newest line was answered. `taken`: by other than NG; whether ?:CMD tells a refused line is an open question.
+  void answered(bool taken, TimePoint now);
+
+  // Whether this can be what ?:CMD tells. After a restart it may tell what it likes; that too is left to other facts.
+  bool tells(std::string_view line) const;
+  enum class Verdict { same, open, foreign };
+  // What ?:CMD was answered.
+  Verdict told(std::string_view line_before, TimePoint now);
+
+ private:
+  std::vector<std::string> before_;  // what ?:CMD may tell when there was no restart
+  std::string newest_;
+  bool answered_ = true;  // the newest line was
+  bool in_time_ = false;  // the newest line was written before any restart could have ended
+  bool open_ = false;
+  TimePoint alive_{};
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,150 @@
+// Hazards of what a person does at the device: the front panel, motors switched off. Numbers as in the table of what
+// can go wrong on a shared line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+
+// An axis known to be off is not named, so that the others are stopped by the first line.
+TEST(Hazard, H17_AnAxisWithoutExcitationIsNotNamed) {
+  World world(quiet());
+  world.device().set_excitation(3, false, world.now());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  const StopReport report = stopped(world);
+  EXPECT_FALSE(report.problem) << report.problem->message;
+  EXPECT_EQ(written(world, "L:"), 1) << world.replay();
+  EXPECT_EQ(written(world, "L:A"), 1) << world.replay();
+  ASSERT_EQ(report.axes.size(), 3u);
+  EXPECT_TRUE(report.axes[0].named && report.axes[1].named);
+  EXPECT_EQ(report.axes[0].wire_reply, "OK");
+  EXPECT_FALSE(report.axes[2].named);
+  EXPECT_EQ(report.axes[2].wire_reply, "");
+  EXPECT_FALSE(world.device().busy(1));
+}
+
+// Switched off at the front panel, unknown to the gateway: L: of all is NG, and each axis is stopped for itself.
+TEST(Hazard, H17_AnAxisSwitchedOffAtThePanel) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}, {2, -400000}});
+  world.run_for(seconds(1));
+  world.device().set_excitation(3, false, world.now());
+  const StopReport report = stopped(world);
+  EXPECT_EQ(written(world, "L:"), 4) << world.replay();
+  ASSERT_EQ(report.axes.size(), 3u);
+  for (const auto& axis : report.axes) {
+    EXPECT_EQ(axis.wire_reply, axis.axis == 3 ? "NG" : "OK") << axis.axis;
+    EXPECT_EQ(axis.ready, true) << axis.axis;
+    EXPECT_EQ(axis.position_pulses, world.device().position(axis.axis)) << axis.axis;
+  }
+  EXPECT_FALSE(world.device().busy(1) || world.device().busy(2));
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+}
+
+// The very axis that moves loses its motor: that is no success.
+TEST(Hazard, H17_TheMovingAxisIsSwitchedOff) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  world.device().set_excitation(1, false, world.now());
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::failed) << world.replay();
+  move_by(world, {{1, 10}});
+  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::not_excited) << world.replay();
+}
+
+struct Panel {
+  const char* mode;
+  const char* format;
+};
+void PrintTo(const Panel& panel, std::ostream* out) { *out << panel.mode << " " << panel.format; }
+
+class HazardH19 : public testing::TestWithParam<Panel> {
+ protected:
+  void leave(World& world) {
+    world.device().set_mode(GetParam().mode, world.now());
+    world.device().set_format(GetParam().format, world.now());
+  }
+
+  // Nothing that was read before may be shown as the state of now.
+  static bool telemetry_is_void(World& world) {
+    const State& state = world.controller().state();
+    for (const AxisState& axis : state.axes) {
+      if (axis.position_pulses || axis.busy) return false;
+    }
+    return state.link != LinkState::up;
+  }
+
+  void expect_it_stays_out(World& world) {
+    const std::size_t first = world.wire().commands().size(), outcomes = world.outcomes().size();
+    for (int i = 0; i < 20; ++i) {
+      move_by(world, {{2, 100}});
+      home(world, AxisSet::of(3));
+      world.run_for(milliseconds(700));
+      EXPECT_TRUE(telemetry_is_void(world)) << world.replay();
+    }
+    EXPECT_EQ(world.outcomes().size(), outcomes + 40) << world.replay();
+    for (std::size_t i = outcomes; i < world.outcomes().size(); ++i) {
+      EXPECT_EQ(world.outcomes()[i].state, MotionState::failed);
+      ASSERT_TRUE(world.outcomes()[i].problem);
+    }
+    const std::string why = std::string_view(GetParam().mode) == "HOST" ? GetParam().format : GetParam().mode;
+    EXPECT_THAT(world.outcomes().back().problem->message, HasSubstr(why));
+    EXPECT_EQ(motion_lines(world, first), 0) << world.replay();
+    EXPECT_EQ(written(world, "MODE:") + written(world, "FMT:"), 0) << "switched by the gateway";
+  }
+
+  void come_back(World& world) {
+    const std::uint64_t epoch = world.controller().state().device_epoch;
+    world.device().set_mode("HOST", world.now());
+    world.device().set_format("SHOT_FC", world.now());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    EXPECT_GT(world.controller().state().device_epoch, epoch);
+    moved(world, {{2, 100}});
+  }
+};
+
+TEST_P(HazardH19, LeavesHostAtRest) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 700}});
+  world.run_for(seconds(2));
+  leave(world);
+  const Duration two_polls = 2 * world.controller().profile().idle_poll;
+  EXPECT_TRUE(world.run_until([&] { return telemetry_is_void(world); }, two_polls)) << world.replay();
+  expect_it_stays_out(world);
+  come_back(world);
+}
+
+TEST_P(HazardH19, LeavesHostInMidMove) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  leave(world);
+  const Duration two_polls = 2 * world.controller().profile().moving_poll;
+  EXPECT_TRUE(world.run_until([&] { return telemetry_is_void(world); }, two_polls)) << world.replay();
+  EXPECT_TRUE(world.controller().state().moving_unknown) << world.replay();
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::unknown) << world.replay();
+  expect_it_stays_out(world);
+  come_back(world);
+  EXPECT_FALSE(world.controller().state().moving_unknown);
+  EXPECT_EQ(world.controller().state().axis(1).position_pulses, world.device().position(1));
+}
+
+INSTANTIATE_TEST_SUITE_P(FrontPanel, HazardH19,
+                         testing::Values(Panel{"MANUAL", "SHOT_FC"}, Panel{"REMOTE", "SHOT_FC"}, Panel{"HOST", "HIT"},
+                                         Panel{"EDIT", "HIT"}));
+
+}  // namespace
+}  // namespace axisgate::simulation
