@@ -7,6 +7,7 @@
 
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
+#include "device/link/tcp_socket.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/paced_line.h"
 #include "device/shrc203/simulator/simulator.h"
@@ -16,22 +17,33 @@ namespace {
 
 namespace simulator = shrc203::simulator;
 
-class SerialLine final : public Line {
+// A device outside of this process.
+class OutsideLine final : public Line {
  public:
-  explicit SerialLine(SerialSettings settings)
-      : settings_(std::move(settings)), description_(fmt::format("{} at {} baud", settings_.path, settings_.baud)) {}
+  OutsideLine(Opener opener, std::string description)
+      : opener_(std::move(opener)), description_(std::move(description)) {}
 
-  Opener opener() override {
-    return [settings = settings_] { return open_serial(settings); };
-  }
+  Opener opener() override { return opener_; }
   const std::string& description() const override { return description_; }
   void start() override {}
   void shutdown() override {}
 
  private:
-  const SerialSettings settings_;
+  const Opener opener_;
   const std::string description_;
 };
+
+// On a thread, since an adapter that hangs may keep its driver busy for seconds.
+std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
+  Opener opener =
+      opener_on_thread([settings] { return open_serial(settings).map([](int port) { return Descriptor(port); }); });
+  return std::make_unique<OutsideLine>(std::move(opener), fmt::format("{} at {} baud", settings.path, settings.baud));
+}
+
+std::unique_ptr<Line> make_tcp(const TcpSettings& settings, const shrc203::Profile& profile) {
+  return std::make_unique<OutsideLine>(tcp_opener(settings),
+                                       fmt::format("tcp {} at {} baud", to_string(settings), profile.baud));
+}
 
 class SimulatedLine final : public Line {
  public:
@@ -69,8 +81,9 @@ std::unique_ptr<Line> make_simulated(const SimulatedConnection& connection, cons
 
 std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand) {
   if (const auto* serial = std::get_if<SerialSettings>(&config.connection)) {
-    return std::make_unique<SerialLine>(*serial);
+    return make_serial(*serial);
   }
+  if (const auto* tcp = std::get_if<TcpSettings>(&config.connection)) return make_tcp(*tcp, config.profile);
   return make_simulated(std::get<SimulatedConnection>(config.connection), config.profile, std::move(strand));
 }
 

@@ -1,4 +1,5 @@
-// What lies under a device's Runner: a serial port, or the built-in simulator at the other end of a socket pair.
+// What lies under a device's Runner: a serial port, a serial server, or the built-in simulator at the other end of a
+// socket pair.
 #pragma once
 
 #include <memory>

@@ -44,8 +44,10 @@ class Runner::Line : public MachineHost {
   void wait_for_room();
   void lose(std::string_view why);
   void close();
+  void discard_unsent();
 
   Opener opener_;
+  Opening opening_;
   boost::asio::posix::stream_descriptor descriptor_;
   boost::asio::steady_timer reopen_timer_;
   std::uint64_t generation_ = 0;
@@ -57,11 +59,13 @@ class Runner::Line : public MachineHost {
 };
 
 void Runner::Line::open() {
-  if (!attached() || !opener_) return;
-  const Result<int> opened = opener_();
-  if (opened) return adopt(Descriptor(*opened));
-  const Problem& problem = opened.error();
-  lose(problem.hint.empty() ? problem.message : problem.message + ". " + problem.hint);
+  if (!attached() || !opener_ || opening_) return;
+  opening_ = opener_(strand(), [this](OpenedLine opened) {
+    opening_.reset();
+    if (opened) return adopt(std::move(*opened));
+    const Problem& problem = opened.error();
+    lose(problem.hint.empty() ? problem.message : problem.message + ". " + problem.hint);
+  });
 }
 
 void Runner::Line::adopt(Descriptor opened) {
@@ -79,12 +83,27 @@ void Runner::Line::adopt(Descriptor opened) {
 
 void Runner::Line::shut() {
   detach();
+  opener_ = {};
   close();
+}
+
+// A command must not reach a device later, when nobody waits for its answer any more. And closing a tty with bytes that
+// flow control holds back would block for as long as its driver waits for them. At the end of all, a socket may send.
+void Runner::Line::discard_unsent() {
+  const int line = descriptor_.native_handle();
+  const linger none{.l_onoff = 1, .l_linger = 0};
+  if (!socket_) {
+    ::tcflush(line, TCIOFLUSH);
+  } else if (attached()) {
+    ::setsockopt(line, SOL_SOCKET, SO_LINGER, &none, sizeof none);
+  }
 }
 
 void Runner::Line::close() {
   ++generation_;
+  opening_.reset();
   error_code ignored;
+  if (descriptor_.is_open()) discard_unsent();
   descriptor_.close(ignored);
   reopen_timer_.cancel();
   queued_.clear();
@@ -107,10 +126,7 @@ void Runner::Line::write(std::string_view bytes) {
 }
 
 void Runner::Line::reopen(Duration wait) {
-  // Closing a port with bytes that flow control holds back would block for as long as the driver waits for them.
-  if (descriptor_.is_open() && ::isatty(descriptor_.native_handle())) {
-    ::tcflush(descriptor_.native_handle(), TCIOFLUSH);
-  }
+  if (opening_) return;
   close();
   reopen_timer_.expires_after(wait);
   reopen_timer_.async_wait([self = self(), generation = generation_](const error_code& error) {

@@ -6,14 +6,10 @@
 #include <string_view>
 
 #include "device/core/line_machine.h"
-#include "device/core/problem.h"
 #include "device/link/asio.h"
+#include "device/link/opener.h"
 
 namespace axisgate {
-
-// Returns an open, non-blocking descriptor, which the caller then owns, or the problem for people. Called on the
-// strand; must not block for long.
-using Opener = std::function<Result<int>()>;
 
 // Threads: write() and reopen() belong to the machine, which calls them from within its own members, on the strand.
 // Everything else may be called from any thread. The machine is only ever called on the strand.
@@ -37,8 +33,9 @@ class Runner : public ByteLink {
   // for the machine to call reopen() with its own backoff.
   void start();
 
-  // Closes the line, without discarding what the kernel still has to send, and never calls the machine again.
-  // Takes effect at once on the strand, else as soon as the strand is free.
+  // Closes the line, or gives up opening it, and never calls the machine again. What a socket still has to send goes
+  // out; what a tty's flow control holds back does not. Takes effect at once on the strand, else as soon as the strand
+  // is free.
   void shutdown();
 
   // Takes over a descriptor in place of the present one. The machine hears link_up.
@@ -49,6 +46,7 @@ class Runner : public ByteLink {
   void post(std::function<void(TimePoint now)> request);
 
   void write(std::string_view bytes) override;
+  // While the line is being opened already, that attempt goes on.
   void reopen(Duration wait) override;
 
  private:

@@ -18,12 +18,12 @@ Result<SocketPair> open_socket_pair() {
 }
 
 Opener line_to(Runner& device) {
-  return [&device]() -> Result<int> {
+  return opener_on_strand([&device] {
     return open_socket_pair().map([&](const SocketPair& pair) {
       device.adopt(pair.device);
-      return pair.host;
+      return Descriptor(pair.host);
     });
-  };
+  });
 }
 
 }  // namespace axisgate

@@ -5,7 +5,9 @@
 
 #include "device/link/clock.h"
 #include "device/link/descriptor.h"
+#include "device/link/pty.h"
 #include "device/link/runner.h"
+#include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "tests/unit/link_fixtures.h"
 
@@ -22,7 +24,7 @@ using testing::Test;
 class RunnerTest : public Test {
  protected:
   // Every opening makes a new pair and keeps its far end; refusals are used up first.
-  Result<int> open() {
+  OpenedLine open() {
     ++openings_;
     if (refusals_ > 0) {
       --refusals_;
@@ -31,7 +33,7 @@ class RunnerTest : public Test {
     const auto pair = open_socket_pair();
     EXPECT_TRUE(pair);
     far_.push_back(Descriptor(pair->device));
-    return pair->host;
+    return Descriptor(pair->host);
   }
 
   void start() {
@@ -59,7 +61,7 @@ class RunnerTest : public Test {
   int openings_ = 0;
   int refusals_ = 0;
   std::vector<Descriptor> far_;
-  Runner runner_{loop_.strand(), [this] { return open(); }};
+  Runner runner_{loop_.strand(), opener_on_strand([this] { return open(); })};
   RecordingMachine machine_{runner_};
 };
 
@@ -229,12 +231,35 @@ TEST_F(RunnerTest, AfterShutdownTheMachineHearsNothing) {
   EXPECT_EQ(::recv(far(), rest.data(), rest.size(), 0), 0) << "the line is closed";
 }
 
+// Closing a port whose flow control holds bytes back would wait for them; and a held command must not run later.
+TEST(RunnerOnATty, ALineThatIsGivenUpDropsWhatItHasNotSent) {
+  EventLoop loop;
+  const link_test::TemporaryDirectory directory;
+  const SerialSettings settings{.path = directory / "tty"};
+  const auto pty = open_pty(settings.path);
+  ASSERT_TRUE(pty) << pty.error().message;
+  Runner runner(loop.strand(),
+                opener_on_thread([&] { return open_serial(settings).map([](int port) { return Descriptor(port); }); }));
+  RecordingMachine machine(runner);
+  runner.attach(machine);
+  runner.start();
+  ASSERT_TRUE(loop.run_until([&] { return machine.count("up") == 1; }));
+  const std::string piece(1024, 'x');
+  ASSERT_TRUE(loop.run_until([&] {
+    runner.post([&](TimePoint) { runner.write(piece); });
+    return machine.count("down") == 1;
+  }));
+  // What the master's own end of the pseudo terminal has taken, one page, cannot be called back.
+  EXPECT_LE(read_now(pty->master()).size(), 4096u);
+}
+
 TEST(RunnerLifetime, HandlersThatOutliveTheRunnerDoNothing) {
   EventLoop loop;
   const auto pair = open_socket_pair();
   ASSERT_TRUE(pair);
   const Descriptor far(pair->device);
-  auto runner = std::make_unique<Runner>(loop.strand(), [&]() -> Result<int> { return pair->host; });
+  auto runner =
+      std::make_unique<Runner>(loop.strand(), opener_on_strand([&]() -> OpenedLine { return Descriptor(pair->host); }));
   RecordingMachine machine(*runner);
   runner->attach(machine);
   runner->start();
@@ -256,8 +281,8 @@ TEST(LineInsideTheProcess, HostTalksToADeviceAndMayOpenItAgain) {
   RecordingMachine host(host_runner);
   host.echo = false;
   host_runner.attach(host);
+  host.on_up = [&](TimePoint) { host_runner.write("first"); };
   host_runner.start();
-  host_runner.post([&](TimePoint) { host_runner.write("first"); });
   ASSERT_TRUE(loop.run_until([&] { return host.received == "first"; }));
 
   host.on_up = [&](TimePoint) { host_runner.write("second"); };
