@@ -1,5 +1,6 @@
 #include "server/config.h"
 
+#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -34,7 +35,9 @@ constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
     {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
 constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
     {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
-constexpr std::array<std::pair<std::string_view, bool>, 2> kConnections = {{{"serial", true}, {"simulated", false}}};
+enum class Connection { serial, tcp, simulated };
+constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
+    {{"serial", Connection::serial}, {"tcp", Connection::tcp}, {"simulated", Connection::simulated}}};
 constexpr std::array<std::pair<std::string_view, bool>, 1> kKinds = {{{"shrc203", true}}};
 
 constexpr std::string_view kNameRule =
@@ -46,6 +49,13 @@ bool is_name(std::string_view name) {
   return !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
          std::all_of(name.begin(), name.end(),
                      [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; });
+}
+
+// Names are for the name server to judge; a port or a blank in one is a slip.
+bool is_host(std::string_view host) {
+  in6_addr address{};
+  const bool version_6 = ::inet_pton(AF_INET6, std::string(host).c_str(), &address) == 1;
+  return version_6 || (!host.empty() && host.size() <= 253 && host.find_first_of(" \t:/[]") == std::string_view::npos);
 }
 
 bool is_loopback(std::string_view host) { return host == "::1" || host == "127.0.0.1"; }
@@ -132,17 +142,22 @@ class ConfigReader {
   }
 
   void read_line(ConfigTable& table, DeviceConfig& device) {
-    const std::optional<bool> serial = table.choice<bool>("connection", kConnections);
-    if (!serial && !table.has("connection")) table.missing("connection", "\"serial\" or \"simulated\"");
+    const auto connection = table.choice<Connection>("connection", kConnections);
+    if (!connection && !table.has("connection")) {
+      table.missing("connection", "\"serial\", \"tcp\" or \"simulated\"");
+    }
     const std::optional<std::int64_t> baud = table.integer("baud", 300, 4'000'000);
     if (baud) device.profile.baud = static_cast<int>(*baud);
-    if (!serial) {
+    if (!connection) {
       // Without the connection it is not known which of these keys belong here: none is called unknown.
-      for (const char* key : {"path", "parity", "stop_bits", "flow_control", "serial_number", "speed", "options"}) {
+      for (const char* key :
+           {"path", "parity", "stop_bits", "flow_control", "host", "port", "serial_number", "speed", "options"}) {
         table.allow(key);
       }
-    } else if (*serial) {
+    } else if (*connection == Connection::serial) {
       device.connection = read_serial(table, device.profile);
+    } else if (*connection == Connection::tcp) {
+      device.connection = read_tcp(table, device.profile);
     } else {
       SimulatedConnection simulated = read_simulated(table);
       simulated.paced = baud.has_value();
@@ -157,7 +172,7 @@ class ConfigReader {
       table.missing("path", "the tty, e.g. \"/dev/ttyUSB0\" or one of /dev/serial/by-id");
     if (path && (path->empty() || path->front() != '/')) {
       table.error("path", fmt::format("\"{}\" is not an absolute path, e.g. \"/dev/ttyUSB0\"", *path));
-    } else if (path && !ttys_.insert(*path).second) {
+    } else if (path && !lines_.insert(*path).second) {
       table.error("path", fmt::format("\"{}\" is the line of another device, too; each has its own", *path));
     }
     serial.path = path.value_or("");
@@ -167,6 +182,25 @@ class ConfigReader {
     serial.baud = profile.baud;
     profile.serial_number = table.text("serial_number").value_or("");
     return serial;
+  }
+
+  TcpSettings read_tcp(ConfigTable& table, Profile& profile) {
+    const std::optional<std::string> host = table.text("host");
+    if (!host && !table.has("host"))
+      table.missing("host", "the serial server's name or address, e.g. \"192.168.0.20\"");
+    if (host && !is_host(*host)) {
+      table.error("host", fmt::format("\"{}\" is neither a host name nor an address; the port has a key of its own, "
+                                      "and an IPv6 address stands without brackets",
+                                      *host));
+    }
+    const std::optional<std::int64_t> port = table.integer("port", 1, 65535);
+    if (!port && !table.has("port")) table.missing("port", "the port on which the serial server offers the raw line");
+    TcpSettings tcp{host.value_or(""), static_cast<std::uint16_t>(port.value_or(0))};
+    if (host && port && !lines_.insert(to_string(tcp)).second) {
+      table.error("port", fmt::format("{} is the line of another device, too; each has its own", to_string(tcp)));
+    }
+    profile.serial_number = table.text("serial_number").value_or("");
+    return tcp;
   }
 
   SimulatedConnection read_simulated(ConfigTable& table) {
@@ -289,7 +323,7 @@ class ConfigReader {
   std::string file_;
   std::vector<ConfigError>& errors_;
   std::set<std::string> names_;
-  std::set<std::string> ttys_;
+  std::set<std::string> lines_;
 };
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device/link/serial_port.h"
+#include "device/link/tcp_socket.h"
 #include "device/shrc203/profile.h"
 
 namespace axisgate::server {
@@ -32,7 +33,7 @@ struct SimulatedConnection {
 
 struct DeviceConfig {
   shrc203::Profile profile;
-  std::variant<SimulatedConnection, SerialSettings> connection;
+  std::variant<SimulatedConnection, SerialSettings, TcpSettings> connection;
 };
 
 struct Config {

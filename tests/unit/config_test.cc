@@ -105,6 +105,47 @@ TEST(Config, SerialDefaultsAre38400WithRtsCts) {
   EXPECT_EQ(serial.flow, FlowControl::rts_cts);
 }
 
+TEST(Config, ReadsASerialServersPort) {
+  const auto config = parse_config(R"([[device]]
+name = "s"
+connection = "tcp"
+host = "moxa.lab"
+port = 4001
+baud = 9600
+serial_number = "7"
+)",
+                                   "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const DeviceConfig& device = config->devices.at(0);
+  EXPECT_EQ(to_string(std::get<TcpSettings>(device.connection)), "moxa.lab:4001");
+  EXPECT_EQ(device.profile.baud, 9600);
+  EXPECT_EQ(device.profile.serial_number, "7");
+}
+
+TEST(Config, AnIpV6AddressIsAHost) {
+  const auto config =
+      parse_config("[[device]]\nname = \"s\"\nconnection = \"tcp\"\nhost = \"fe80::1\"\nport = 1\n", "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(std::get<TcpSettings>(config->devices.at(0).connection).host, "fe80::1");
+}
+
+TEST(Config, ASerialServersHostAndPortAreChecked) {
+  const std::string tcp = "[[device]]\nname = \"s\"\nconnection = \"tcp\"\n";
+  EXPECT_THAT(errors_of(tcp), ElementsAre(StartsWith("lab.toml:1: device.host: is missing; use "),
+                                          StartsWith("lab.toml:1: device.port: is missing; use ")));
+  EXPECT_THAT(errors_of(tcp + "host = \"moxa:4001\"\nport = 65536\n"),
+              ElementsAre(StartsWith("lab.toml:4: device.host: \"moxa:4001\" is neither a host name nor an address"),
+                          "lab.toml:5: device.port: 65536 is out of range; use a whole number from 1 to 65535"));
+  EXPECT_THAT(errors_of(tcp + "host = \"moxa\"\nport = 4001\nparity = \"even\"\n"),
+              ElementsAre(StartsWith("lab.toml:6: device.parity: is not a key here; use ")));
+}
+
+TEST(Config, TwoDevicesCannotShareASerialServersPort) {
+  const std::string line = "connection = \"tcp\"\nhost = \"moxa\"\nport = 4001\n";
+  EXPECT_THAT(errors_of("[[device]]\nname = \"a\"\n" + line + "[[device]]\nname = \"b\"\n" + line),
+              ElementsAre("lab.toml:10: device.port: moxa:4001 is the line of another device, too; each has its own"));
+}
+
 TEST(Config, ReadsASimulatedDevice) {
   const auto config =
       parse_config(std::string(kStage) + "speed = 10\nbaud = 38400\noptions = { busy_scope = \"controller\" }\n", "l");
