@@ -112,6 +112,7 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   }
   const auto problem = error_of(*live);
   if (problem) co_return tl::unexpected(*problem);
+  if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   co_return Result<void>();
 }
 

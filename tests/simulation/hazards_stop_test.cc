@@ -120,6 +120,25 @@ TEST(Hazard, H54_ReceiveLineDead) {
   }
 }
 
+// The same of an origin return, which is one line: a stop before it is the end of it.
+TEST(Hazard, H35_StopBeforeAnOriginReturn) {
+  int kept_back = 0;
+  for (Duration offset{}; offset < milliseconds(80) && !HasFailure(); offset += microseconds(410)) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    world.controller().home({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+    world.run_for(offset);
+    const bool gone = written(world, "HRT:") > 0;
+    const std::size_t at = world.wire().commands().size();
+    EXPECT_FALSE(stopped(world).problem) << world.replay();
+    EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+    EXPECT_EQ(world.device().starts(1), gone ? 1 : 0) << world.replay();
+    EXPECT_EQ(motion_lines(world, at), 0) << world.replay();
+    if (!gone) ++kept_back;
+  }
+  EXPECT_GT(kept_back, 0);
+}
+
 // A stop at any instant of set and go: whatever had been set is not started any more.
 TEST(Hazard, H35_StopBetweenSetAndGo) {
   int cut = 0;
