@@ -1,6 +1,5 @@
 // axisgated: owns the lines of the configured stage controllers and shares them over gRPC.
 #include <fmt/format.h>
-#include <pthread.h>
 #include <spdlog/spdlog.h>
 
 #include <CLI/CLI.hpp>
@@ -12,6 +11,7 @@
 
 #include "server/config.h"
 #include "server/descriptor_limit.h"
+#include "server/end_signals.h"
 #include "server/explain.h"
 #include "server/gateway.h"
 #include "server/logging.h"
@@ -48,20 +48,10 @@ int complain(const std::vector<server::ConfigError>& errors) {
   return kExitUsage;
 }
 
-// Blocked in every thread started from here on, to be waited for in this one.
-sigset_t block_end_signals() {
-  sigset_t signals;
-  sigemptyset(&signals);
-  sigaddset(&signals, SIGINT);
-  sigaddset(&signals, SIGTERM);
-  pthread_sigmask(SIG_BLOCK, &signals, nullptr);
+int serve(const server::Config& config) {
+  server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
   std::signal(SIGPIPE, SIG_IGN);
-  return signals;
-}
-
-int serve(const server::Config& config) {
-  const sigset_t end_signals = block_end_signals();
   server::start_logging();
   server::Gateway gateway(config);
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
@@ -78,10 +68,7 @@ int serve(const server::Config& config) {
   }
   spdlog::default_logger()->flush();
   gateway.start();
-
-  int signal = 0;
-  sigwait(&end_signals, &signal);
-  spdlog::info("ending: {}", signal == SIGINT ? "SIGINT" : "SIGTERM");
+  end_signals.wait(gateway);
   return 0;
 }
 

@@ -21,6 +21,7 @@
 namespace axisgate::server {
 namespace {
 
+using shrc203::AtExit;
 using shrc203::AxisProfile;
 using shrc203::Profile;
 using shrc203::Scope;
@@ -38,6 +39,8 @@ constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls 
 enum class Connection { serial, tcp, simulated };
 constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
     {{"serial", Connection::serial}, {"tcp", Connection::tcp}, {"simulated", Connection::simulated}}};
+constexpr std::array<std::pair<std::string_view, AtExit>, 2> kAtExit = {
+    {{"stop", AtExit::stop}, {"finish", AtExit::finish}}};
 constexpr std::array<std::pair<std::string_view, bool>, 1> kKinds = {{{"shrc203", true}}};
 
 constexpr std::string_view kNameRule =
@@ -226,6 +229,7 @@ class ConfigReader {
   void read_limits(ConfigTable& table, Profile& profile) {
     profile.busy_scope = table.choice<Scope>("busy_scope", kScopes).value_or(profile.busy_scope);
     profile.prebuffer_scope = table.choice<Scope>("prebuffer_scope", kScopes).value_or(profile.prebuffer_scope);
+    profile.at_exit = table.choice<AtExit>("at_exit", kAtExit).value_or(profile.at_exit);
     read_milliseconds(table, "reply_limit_ms", 50, 60'000, profile.reply_limit);
     read_milliseconds(table, "idle_poll_ms", 10, 60'000, profile.idle_poll);
     read_milliseconds(table, "moving_poll_ms", 10, 10'000, profile.moving_poll);

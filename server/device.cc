@@ -1,8 +1,27 @@
 #include "server/device.h"
 
+#include <spdlog/spdlog.h>
+
+#include <map>
 #include <utility>
 
+#include "server/explain.h"
+
 namespace axisgate::server {
+namespace {
+
+// "1 STOPPED, 3 FAILED", by outcome.
+std::string count_by_outcome(const std::vector<shrc203::Motion>& motions) {
+  std::map<shrc203::MotionState, int> counts;
+  for (const shrc203::Motion& motion : motions) ++counts[motion.state];
+  std::string text;
+  for (const auto& [state, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, shrc203::name(state));
+  }
+  return text;
+}
+
+}  // namespace
 
 Device::Device(shrc203::Profile profile, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
                const Executor& readers)
@@ -23,6 +42,25 @@ void Device::post(Request request) {
 void Device::start() {
   line_->start();
   runner_.start();
+}
+
+void Device::wind_down(std::function<void()> done) {
+  post([this, done = std::move(done)](shrc203::Controller& controller, TimePoint now) {
+    controller.wind_down(now, [this, done](const shrc203::WindDownReport& report) {
+      on_wound_down(report);
+      done();
+    });
+  });
+}
+
+// Closed from within the answer, so that nothing comes in between.
+void Device::on_wound_down(const shrc203::WindDownReport& report) {
+  state_due_ = true;
+  publish_due();
+  shutdown();
+  if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
+  spdlog::info("{}: the line is closed; motions that were under way: {}", name(),
+               report.motions.empty() ? "none" : count_by_outcome(report.motions));
 }
 
 void Device::shutdown() {

@@ -36,9 +36,13 @@ class Device {
   std::uint64_t motion_revision(shrc203::MotionId motion) const { return events_.motion_revision(motion); }
 
   void start();
+  // Calls `done` on the strand when every motion has its outcome and the line is closed: Controller::wind_down(). From
+  // any thread, once; not after shutdown().
+  void wind_down(std::function<void()> done);
   void shutdown();
 
  private:
+  void on_wound_down(const shrc203::WindDownReport& report);
   void on_due(DeviceEvents::Due due);
   void publish_due();
 

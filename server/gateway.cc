@@ -3,11 +3,15 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <atomic>
 #include <random>
 #include <utility>
 
 namespace axisgate::server {
 namespace {
+
+// Longer than any reply's time limit and the barrier behind it.
+constexpr Duration kLastExchangeLimit = std::chrono::seconds(10);
 
 std::string random_run() {
   std::random_device random;
@@ -49,6 +53,22 @@ void Gateway::start() {
   lines_thread_ = std::thread([this] { lines_.run(); });
   readers_thread_ = std::thread([this] { readers_.run(); });
   for (const auto& device : devices_) device->start();
+}
+
+void Gateway::wind_down(std::function<void()> done) {
+  const auto left = std::make_shared<std::atomic<std::size_t>>(devices_.size());
+  for (const auto& device : devices_) {
+    device->wind_down([left, done] {
+      if (--*left == 0) done();
+    });
+  }
+}
+
+Duration Gateway::wind_down_limit() const {
+  using shrc203::Controller;
+  const bool finishes = std::ranges::any_of(
+      devices_, [](const auto& device) { return device->profile().at_exit == shrc203::AtExit::finish; });
+  return Controller::kStopLimit + kLastExchangeLimit + (finishes ? Controller::kFinishLimit : Duration::zero());
 }
 
 Device* Gateway::find(std::string_view name) const {

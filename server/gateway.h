@@ -29,6 +29,11 @@ class Gateway {
 
   void start();
 
+  // Winds all devices down at once, then calls `done` on the lines' thread. Once.
+  void wind_down(std::function<void()> done);
+  // By then it is over, unless a line hangs in its driver.
+  Duration wind_down_limit() const;
+
   // Another text for every start of the daemon, when revisions and motions count from 1 anew.
   const std::string& run() const { return run_; }
 

@@ -142,22 +142,27 @@ const Profile& Controller::profile() const { return impl_->profile_; }
 const State& Controller::state() const { return impl_->state_; }
 
 void Controller::refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) {
+  if (impl_->ending_) return done(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->executor_.spawn(impl_->refresh(max_age, context, std::move(done))); });
 }
 
 void Controller::move(MoveRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->move(std::move(request), std::move(started)); });
 }
 
 void Controller::home(HomeRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->home(MotionKind::home, std::move(request), std::move(started)); });
 }
 
 void Controller::return_to_origin(HomeRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->home(MotionKind::return_to_origin, std::move(request), std::move(started)); });
 }
 
 void Controller::run_path(PathRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->run_path(std::move(request), std::move(started)); });
 }
 
@@ -183,6 +188,7 @@ void Controller::emergency_stop(const RequestContext& context, TimePoint now, On
 }
 
 void Controller::clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) {
+  if (impl_->ending_) return done(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->executor_.spawn(impl_->clear_errors(axes, context, std::move(done))); });
 }
 
@@ -206,6 +212,10 @@ std::optional<Motion> Controller::find_motion(MotionId id) const {
 
 void Controller::cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) {
   impl_->at(now, [&] { impl_->cancel(id, context, std::move(done)); });
+}
+
+void Controller::wind_down(TimePoint now, OnWoundDown done) {
+  impl_->at(now, [&] { impl_->executor_.spawn(impl_->wind_down(std::move(done))); });
 }
 
 std::size_t Controller::queued(Lane lane) const {

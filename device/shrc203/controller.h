@@ -75,6 +75,12 @@ struct StopReport {
   std::optional<Problem> problem;  // outcome_unknown, link_down, left_over_setting ...
 };
 
+// What became of the motions that there were when the gateway began to end.
+struct WindDownReport {
+  std::vector<Motion> motions;     // with their outcomes
+  std::optional<Problem> problem;  // of the stop: not written, or the axes were not seen to stand
+};
+
 struct ExecuteRequest {
   std::vector<std::string> lines;  // one transaction: nobody else's motion comes between
   RequestContext context;
@@ -141,6 +147,14 @@ class Controller : public LineMachine {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done);
 
   std::size_t queued(Lane lane) const;
+
+  // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
+  // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers
+  // when all have their outcomes, which are unknown after kStopLimit, and the exchange on the wire has ended; nothing
+  // but a stop is written any more then.
+  static constexpr Duration kFinishLimit = std::chrono::seconds(60), kStopLimit = std::chrono::seconds(10);
+  using OnWoundDown = std::function<void(WindDownReport)>;
+  void wind_down(TimePoint now, OnWoundDown done);
 
   class Impl;  // controller_impl.h: this folder's own business
 

@@ -4,6 +4,7 @@
 //   move.cc       set, go, watch                        home.cc     origin returns
 //   path.cc       the double buffer's chain             stop.cc     L: and L:E
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
+//   wind_down.cc  the end
 #pragma once
 
 #include <deque>
@@ -167,6 +168,11 @@ class Controller::Impl : public LineListener {
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
   Task<void> clear_errors(AxisSet axes, RequestContext context, OnDone done);
 
+  // wind_down.cc
+  Task<void> wind_down(OnWoundDown done);
+  void stop_at_the_end(bool running_too, std::shared_ptr<WindDownReport> report);
+  Task<void> wait_for_rest(TimePoint limit);
+
   TimePoint default_limit(TimePoint asked, Duration otherwise) const {
     return asked == TimePoint{} ? now_ + otherwise : asked;
   }
@@ -188,8 +194,9 @@ class Controller::Impl : public LineListener {
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one
   std::vector<StopJobPtr> stops_;
   Signal wake_poll_;
-  Signal tick_;           // never notified: to wait for a time
-  bool settled_ = false;  // the last reading was READY and nothing has happened since
+  Signal tick_;                    // never notified: to wait for a time
+  bool settled_ = false;           // the last reading was READY and nothing has happened since
+  std::optional<Problem> ending_;  // what is told to everybody who comes too late
 };
 
 // Lines that begin a motion wait this long for it to begin, when the caller sets no limit.

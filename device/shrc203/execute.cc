@@ -225,6 +225,7 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   auto checked = check_lines(request.lines);
   if (!checked) return refuse(checked.error());
   std::vector<Command> commands = *std::move(checked);
+  if (ending_ && commands.front().row->effect != Effect::stop) return refuse(*ending_);
   if (state_.controllable().empty() || state_.link == LinkState::down) {
     if (commands.front().row->effect != Effect::stop) {
       return refuse(

@@ -155,9 +155,7 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     const auto speed = parse_speed_setting(field(speeds, number));
     if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
     axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
-    axis.minimum_speed = speed->minimum;
-    axis.maximum_speed = speed->maximum;
-    axis.acceleration_ms = speed->acceleration_ms;
+    note_speeds({{number, *speed}});
     axis.excited = field(excitation, number) == "1";
   }
   const auto positions = co_await read_positions(Lane::question, kGateway, true);

@@ -91,6 +91,11 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   now_ = now;
   OneShot<ExchangeResult> answer(executor_);
   const bool is_stop = request.lane == Lane::stop;
+  // A handshake just rests: refused, it would be taken for failed.
+  if (sealed_ && !is_stop && !request.handshake) {
+    answer.deliver({.written = false, .reply = {}, .problem = *sealed_, .candidates = {}});
+    return answer;
+  }
   if (!port_open_ && !is_stop) {
     const Problem down = problem_of(Reason::link_down, "the line to the controller is down", request.command.line);
     answer.deliver({.written = false, .reply = {}, .problem = down, .candidates = {}});
@@ -144,6 +149,16 @@ void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, c
                    answer.deliver({.written = false, .reply = {}, .problem = told, .candidates = {}});
                  }
                });
+}
+
+void Line::seal(const Problem& problem) {
+  sealed_ = problem;
+  withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop && !request.handshake; }, problem);
+}
+
+MotionId Line::starting() const {
+  const bool starts = in_flight_ && in_flight_->waiting->request.command.row->moves();
+  return starts ? in_flight_->waiting->request.motion : 0;
 }
 
 void Line::expire(TimePoint now) {
@@ -205,6 +220,7 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
 
 bool Line::may_send(const ExchangeRequest& request) const {
   const bool certain = handshake_passed_ && !continuity_.open();
+  if (sealed_ && request.lane != Lane::stop) return false;
   if (!certain && !request.handshake && request.lane != Lane::stop) return false;
   return conflicts(request).empty();
 }

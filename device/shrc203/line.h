@@ -84,6 +84,13 @@ class Line {
   // Ends all waiting exchanges for which chosen(request) holds, unwritten, with `problem`.
   void withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem);
 
+  // Nothing but a stop is written from now on: what waits ends unwritten with `problem`, and so does what comes.
+  void seal(const Problem& problem);
+  // Something is on the wire, or its answer is held back by the barrier.
+  bool exchanging() const { return in_flight_ || doubted_waiting_; }
+  // The motion whose start is on the wire; 0 for none.
+  MotionId starting() const;
+
   void open(AxisSet controllable, TimePoint now);       // the handshake has passed
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
   void still_the_same(TimePoint now);                   // the suspected restart was none
@@ -162,6 +169,7 @@ class Line {
   std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
   WaitingPtr doubted_waiting_;
   OwedAnswers owed_;
+  std::optional<Problem> sealed_;
 };
 
 }  // namespace axisgate::shrc203

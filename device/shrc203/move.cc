@@ -182,13 +182,17 @@ Task<bool> Controller::Impl::start_never_came(LiveMotionPtr live, Command setter
   co_return stands;
 }
 
-// What the controller now has set by D:. The speeds given with MP:, AP: and KP: overwrite it (manual 68)).
+// What the controller now has set by D:. The speeds given with MP:, AP: and KP: overwrite it (manual 68)). One flipped
+// bit of an answer makes a speed that no D: sets, which is as good as unknown.
 void Controller::Impl::note_speeds(const Speeds& speeds) {
   for (const auto& [axis, speed] : speeds) {
+    Arguments setting;
+    setting.axes(AxisSet::of(axis)).speeds(speed.minimum, speed.maximum, speed.acceleration_ms);
+    const bool possible = encode(command_row("D:"), setting).has_value();
     auto& known = state_.axis(axis);
-    known.minimum_speed = speed.minimum;
-    known.maximum_speed = speed.maximum;
-    known.acceleration_ms = speed.acceleration_ms;
+    known.minimum_speed = possible ? std::optional(speed.minimum) : std::nullopt;
+    known.maximum_speed = possible ? std::optional(speed.maximum) : std::nullopt;
+    known.acceleration_ms = possible ? std::optional(speed.acceleration_ms) : std::nullopt;
   }
 }
 

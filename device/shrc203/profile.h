@@ -22,6 +22,9 @@ struct AxisProfile {
 // How far one axis's business concerns the others, where the manual does not say (device/shrc203/README.md).
 enum class Scope { axis, controller };
 
+// What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
+enum class AtExit { stop, finish };
+
 struct Profile {
   std::string name = "stage";
   std::array<AxisProfile, kAxisCount> axes;
@@ -33,6 +36,7 @@ struct Profile {
   Duration reply_limit = std::chrono::milliseconds(500);  // from the last byte sent to the reply's last byte
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);
+  AtExit at_exit = AtExit::stop;
 };
 
 }  // namespace axisgate::shrc203

@@ -107,10 +107,7 @@ Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
   for (const int number : named.list()) {
     const auto speed = parse_speed_setting(result.reply->fields[place++]);
     if (!speed || !state_.controllable().has(number)) continue;
-    auto& axis = state_.axis(number);
-    axis.minimum_speed = speed->minimum;
-    axis.maximum_speed = speed->maximum;
-    axis.acceleration_ms = speed->acceleration_ms;
+    note_speeds({{number, *speed}});
   }
   co_return Result<void>();
 }

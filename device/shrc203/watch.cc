@@ -87,7 +87,8 @@ Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuff
   co_return Result<void>();
 }
 
-// Before anything is set: the axes stand, no late axis number can come, and nothing is left over in the registers.
+// Before anything is set: the axes stand, no late axis number can come, nothing is left over in the registers, and the
+// speeds are known.
 Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
     co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
@@ -112,6 +113,10 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   }
   const auto problem = error_of(*live);
   if (problem) co_return tl::unexpected(*problem);
+  if (known_speeds(axes).size() < static_cast<std::size_t>(axes.count())) {
+    const auto read = co_await read_speeds(live->context.who);
+    if (!read) co_return read;
+  }
   if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   co_return Result<void>();
 }

@@ -120,7 +120,7 @@ class AgainstPrometheus(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         daemon = Daemon(folder.name, CONFIG)
         cls.addClassCleanup(daemon.stop)
-        metrics = re.search(r"metrics on http://(\S+)/metrics", daemon.log.read_text(encoding="utf-8"))[1]
+        metrics = re.search(r"metrics on http://(\S+)/metrics", daemon.log())[1]
         cls.prometheus = Prometheus(folder.name, metrics)
         cls.addClassCleanup(cls.prometheus.stop)
         cls.load = Load(daemon)

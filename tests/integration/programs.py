@@ -67,8 +67,8 @@ class Daemon:
         path = os.path.join(folder, "axisgate.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(config.format(socket=self.socket))
-        self.log = pathlib.Path(folder, "axisgated.log")
-        self._log = open(self.log, "a+", encoding="utf-8")
+        self._log_path = os.path.join(folder, "axisgated.log")
+        self._log = open(self._log_path, "a+", encoding="utf-8")
         self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT, **process)
         self.pid = self._process.pid
@@ -91,6 +91,23 @@ class Daemon:
 
     def start(self, *arguments):
         return Lines(self.command(*arguments))
+
+    def log(self):
+        with open(self._log_path, encoding="utf-8") as file:
+            return file.read()
+
+    def wait_for_log(self, pattern):
+        deadline = time.monotonic() + LIMIT_S
+        while not re.search(pattern, self.log()):
+            if time.monotonic() > deadline:
+                raise AssertionError(f"the log does not say {pattern}: {self.log()}")
+            time.sleep(0.02)  # between two looks; the deadline above decides
+
+    def signal(self, number):
+        self._process.send_signal(number)
+
+    def exit_code(self):
+        return self._process.wait(timeout=LIMIT_S)
 
     def stop(self):
         self._process.terminate()

@@ -57,6 +57,25 @@ class RealTty(unittest.TestCase):
         watch.until("UP")
         self.assertEqual(self.daemon.run("exec", "?:N").stdout, "SHRC-203\n")
 
+    def test_a_stable_path_that_leads_elsewhere_after_an_unplug(self):
+        stable = os.path.join(self.folder, "by-id")
+        os.symlink(self.tty, stable)
+        second = tempfile.TemporaryDirectory(prefix="axisgate-tty-")
+        self.addCleanup(second.cleanup)
+        self.daemon.stop()
+        daemon = Daemon(second.name, CONFIG.replace("TTY", stable))
+        self.addCleanup(daemon.stop)
+        unplugged, before = self.simulator, os.path.realpath(stable)
+        self.tty = os.path.join(self.folder, "tty-plugged-in-again")
+        self.start_simulator()  # while the first is there, or it might get the same name
+        unplugged.kill()
+        daemon.wait_for_log("link is DOWN")
+        os.symlink(self.tty, stable + ".new")
+        os.replace(stable + ".new", stable)
+        daemon.wait_for_log("link is UP(.|\n)*link is UP")
+        self.assertEqual(daemon.run("exec", "?:N").stdout, "SHRC-203\n")
+        self.assertNotEqual(os.path.realpath(stable), before)
+
     def test_another_process_holds_the_tty(self):
         second = tempfile.TemporaryDirectory(prefix="axisgate-tty-")
         self.addCleanup(second.cleanup)

@@ -54,6 +54,7 @@ flow_control = "none"
 serial_number = "2106001001"
 busy_scope = "axis"
 prebuffer_scope = "axis"
+at_exit = "finish"
 reply_limit_ms = 750
 idle_poll_ms = 2000
 moving_poll_ms = 50
@@ -75,6 +76,7 @@ maximum_speed = "2mm/s"
   EXPECT_EQ(profile.serial_number, "2106001001");
   EXPECT_EQ(profile.busy_scope, shrc203::Scope::axis);
   EXPECT_EQ(profile.prebuffer_scope, shrc203::Scope::axis);
+  EXPECT_EQ(profile.at_exit, shrc203::AtExit::finish);
   EXPECT_EQ(profile.baud, 9600);
   EXPECT_EQ(profile.reply_limit, std::chrono::milliseconds(750));
   EXPECT_EQ(profile.idle_poll, std::chrono::seconds(2));
