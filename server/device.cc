@@ -81,6 +81,7 @@ void Device::publish_due() {
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
     metrics_.set_queued(static_cast<Lane>(lane), controller_.queued(static_cast<Lane>(lane)));
   }
+  metrics_.set_owed_answers(controller_.owed_answers());
   if (!std::exchange(state_due_, false)) return;
   const shrc203::State& state = controller_.state();
   metrics_.set_state(state);

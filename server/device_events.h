@@ -39,6 +39,9 @@ class DeviceEvents : public shrc203::EventSink {
   void tell(const shrc203::PathProgress& progress, TimePoint now);
   void tell(const shrc203::BarrierEntered& barrier, TimePoint now);
   void tell(const shrc203::UnexpectedLine& line, TimePoint now);
+  void tell(const shrc203::BytesWritten&, TimePoint) {}
+  void tell(const shrc203::BytesReceived&, TimePoint) {}
+  void tell(const shrc203::TimeLimitPassed&, TimePoint) {}
   void tell(const shrc203::ExchangeEnded&, TimePoint) { due_(Due::queues); }
   void tell(const shrc203::StateChanged&, TimePoint) { due_(Due::state); }
 

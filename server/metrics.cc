@@ -29,6 +29,11 @@ Family<Gauge>& gauge(prometheus::Registry& registry, const char* name, const cha
 const Histogram::BucketBoundaries kExchangeSeconds = {0.0005, 0.001, 0.002, 0.005, 0.01, 0.02,
                                                       0.05,   0.1,   0.2,   0.5,   1,    5};
 
+// Seconds. On an idle line a command waits for nothing, behind one exchange some 12 ms, behind a barrier up to 2 s.
+const Histogram::BucketBoundaries kQueueWaitSeconds = {0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};
+
+double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
+
 }  // namespace
 
 Metrics::Metrics()
@@ -41,6 +46,21 @@ Metrics::Metrics()
                             .Help("Time from writing a command to the last byte of its reply.")
                             .Register(*registry_)),
       queue_depth_(gauge(*registry_, "axisgate_queue_depth", "Commands that wait for the line.")),
+      queue_wait_(prometheus::BuildHistogram()
+                      .Name("axisgate_queue_wait_seconds")
+                      .Help("Time from asking for a command to writing it, by lane.")
+                      .Register(*registry_)),
+      line_busy_(
+          counter(*registry_, "axisgate_line_busy_seconds_total",
+                  "Time during which a command had been written and its reply was awaited; its rate is the share "
+                  "of the line that is used.")),
+      line_bytes_(
+          counter(*registry_, "axisgate_line_bytes_total", "Bytes on the line, out to the controller and in from it.")),
+      time_limits_(
+          counter(*registry_, "axisgate_time_limits_total",
+                  "Time limits that passed: of a reply, of a probe in a barrier, or of a command in its queue.")),
+      owed_answers_(gauge(*registry_, "axisgate_owed_answers",
+                          "Answers to abandoned probes that may still come, and will be dropped.")),
       completions_(counter(*registry_, "axisgate_completions_total",
                            "Axis numbers that came over the line by themselves: the axis said that it arrived.")),
       motions_(counter(*registry_, "axisgate_motions_total", "Motions that ended, by kind and outcome.")),
@@ -77,9 +97,20 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
       link_up_(metrics.link_up_.Add({{"device", device_}})),
       barriers_(metrics.barriers_.Add({{"device", device_}})),
       underruns_(metrics.underruns_.Add({{"device", device_}})),
-      unexpected_lines_(metrics.unexpected_lines_.Add({{"device", device_}})) {
+      unexpected_lines_(metrics.unexpected_lines_.Add({{"device", device_}})),
+      line_busy_(metrics.line_busy_.Add({{"device", device_}})),
+      bytes_in_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "in"}})),
+      bytes_out_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "out"}})),
+      owed_answers_(metrics.owed_answers_.Add({{"device", device_}})) {
+  using Limit = shrc203::TimeLimitPassed::Kind;
+  for (const Limit kind : {Limit::reply, Limit::probe, Limit::queue}) {
+    time_limits_.at(static_cast<std::size_t>(kind)) =
+        &metrics.time_limits_.Add({{"device", device_}, {"kind", std::string(shrc203::name(kind))}});
+  }
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
-    lanes_[lane] = &metrics.queue_depth_.Add({{"device", device_}, {"lane", std::string(kLaneNames[lane])}});
+    const prometheus::Labels labels{{"device", device_}, {"lane", std::string(kLaneNames[lane])}};
+    lanes_[lane] = &metrics.queue_depth_.Add(labels);
+    waits_[lane] = &metrics.queue_wait_.Add(labels, kQueueWaitSeconds);
   }
   for (std::size_t axis = 0; axis < completions_.size(); ++axis) {
     completions_[axis] = &metrics.completions_.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
@@ -120,7 +151,9 @@ void DeviceMetrics::count(const shrc203::ExchangeEnded& exchange) {
     series.seconds = &metrics_.exchange_seconds_.Add({{"device", device_}, {"command", std::string(exchange.command)}},
                                                      kExchangeSeconds);
   }
-  series.seconds->Observe(std::chrono::duration<double>(exchange.latency).count());
+  series.seconds->Observe(seconds(exchange.latency));
+  waits_[static_cast<std::size_t>(exchange.lane)]->Observe(seconds(exchange.waited));
+  line_busy_.Increment(seconds(exchange.latency));
 }
 
 void DeviceMetrics::count(const shrc203::MotionChanged& change) {

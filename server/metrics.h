@@ -39,6 +39,11 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& exchanges_;
   prometheus::Family<prometheus::Histogram>& exchange_seconds_;
   prometheus::Family<prometheus::Gauge>& queue_depth_;
+  prometheus::Family<prometheus::Histogram>& queue_wait_;
+  prometheus::Family<prometheus::Counter>& line_busy_;
+  prometheus::Family<prometheus::Counter>& line_bytes_;
+  prometheus::Family<prometheus::Counter>& time_limits_;
+  prometheus::Family<prometheus::Gauge>& owed_answers_;
   prometheus::Family<prometheus::Counter>& completions_;
   prometheus::Family<prometheus::Counter>& motions_;
   prometheus::Family<prometheus::Counter>& stops_;
@@ -58,6 +63,7 @@ class DeviceMetrics {
   void on_event(const shrc203::Event& event);
   void set_state(const shrc203::State& state);
   void set_queued(Lane lane, std::size_t commands);
+  void set_owed_answers(int answers) { owed_answers_.Set(answers); }
 
  private:
   static constexpr std::size_t kOutcomeCount = 8;
@@ -67,6 +73,13 @@ class DeviceMetrics {
   };
 
   void count(const shrc203::ExchangeEnded& exchange);
+  void count(const shrc203::BytesWritten& written) { bytes_out_.Increment(static_cast<double>(written.bytes.size())); }
+  void count(const shrc203::BytesReceived& received) {
+    bytes_in_.Increment(static_cast<double>(received.bytes.size()));
+  }
+  void count(const shrc203::TimeLimitPassed& limit) {
+    time_limits_.at(static_cast<std::size_t>(limit.kind))->Increment();
+  }
   void count(const shrc203::MotionChanged& change);
   void count(const shrc203::CompletionSeen& completion);
   void count(const shrc203::PathProgress& progress);
@@ -80,6 +93,8 @@ class DeviceMetrics {
   const std::string device_;
   std::unordered_map<std::string_view, CommandSeries> commands_;  // keys are the command table's own names
   std::array<prometheus::Gauge*, kLaneCount> lanes_{};
+  std::array<prometheus::Histogram*, kLaneCount> waits_{};
+  std::array<prometheus::Counter*, 3> time_limits_{};  // by TimeLimitPassed::Kind
   std::array<prometheus::Counter*, shrc203::kAxisCount> completions_{};
   std::array<prometheus::Gauge*, shrc203::kAxisCount> positions_{};  // null until a position is known
   prometheus::Counter& normal_stops_;
@@ -88,6 +103,10 @@ class DeviceMetrics {
   prometheus::Counter& barriers_;
   prometheus::Counter& underruns_;
   prometheus::Counter& unexpected_lines_;
+  prometheus::Counter& line_busy_;
+  prometheus::Counter& bytes_in_;
+  prometheus::Counter& bytes_out_;
+  prometheus::Gauge& owed_answers_;
 };
 
 }  // namespace axisgate::server

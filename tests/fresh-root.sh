@@ -23,7 +23,8 @@ input_paths() {
 make_root() {
   local sources
   sources="$(debian_sources)" || return
-  mmdebstrap --quiet --variant=minbase bookworm "$root" - <<<"$sources"
+  mmdebstrap --quiet --variant=minbase bookworm "$root" - <<<"$sources" || return
+  printf '127.0.0.1 localhost\n' >"$root/etc/hosts"  # as the installer of every Debian does
 }
 
 # At the same path as here, so that the compiler cache recognises what it compiled for this checkout.

@@ -218,6 +218,8 @@ void Controller::wind_down(TimePoint now, OnWoundDown done) {
   impl_->at(now, [&] { impl_->executor_.spawn(impl_->wind_down(std::move(done))); });
 }
 
+int Controller::owed_answers() const { return impl_->line_.owed(); }
+
 std::size_t Controller::queued(Lane lane) const {
   return impl_->line_.queued(lane) + (lane == Lane::motion ? impl_->gate_.waiting() : 0);
 }

@@ -147,6 +147,8 @@ class Controller : public LineMachine {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done);
 
   std::size_t queued(Lane lane) const;
+  // Answers to abandoned probes of the line that may still come.
+  int owed_answers() const;
 
   // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
   // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers

@@ -2,6 +2,18 @@
 
 namespace axisgate::shrc203 {
 
+std::string_view name(TimeLimitPassed::Kind kind) {
+  switch (kind) {
+    case TimeLimitPassed::Kind::reply:
+      return "reply";
+    case TimeLimitPassed::Kind::probe:
+      return "probe";
+    case TimeLimitPassed::Kind::queue:
+      break;
+  }
+  return "queue";
+}
+
 std::string_view name(ExchangeEnded::Outcome outcome) {
   switch (outcome) {
     case ExchangeEnded::Outcome::ok:

@@ -1,6 +1,7 @@
 // What a controller tells: facts, each delivered once and in order, and news of the newest state.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <variant>
@@ -41,6 +42,27 @@ struct StopRequested {
   std::string who;
 };
 
+// A line was written, its CR LF included. For the recorder and metrics, as are the other news of the line itself.
+struct BytesWritten {
+  std::string bytes;
+  // Counts from 1 with each command sent, and belongs to what closes it, too. 0: a probe that belongs to none.
+  std::uint64_t exchange = 0;
+  std::string who;  // who asked for it; empty: the line itself
+  Lane lane = Lane::question;
+};
+
+// What came in, cut as the driver cut it.
+struct BytesReceived {
+  std::string bytes;
+};
+
+// A time ran out: of a reply, of a probe in a barrier, or of a command that waited to be sent.
+struct TimeLimitPassed {
+  enum class Kind { reply, probe, queue };
+  Kind kind = Kind::reply;
+};
+std::string_view name(TimeLimitPassed::Kind kind);  // "reply", "probe", "queue", as metric labels have it
+
 // One exchange on the line ended. For metrics and the live view of the line; not a fact with a revision.
 struct ExchangeEnded {
   enum class Outcome { ok, ok_d, ng, ng_i, data, timed_out, garbled, link_lost };
@@ -48,8 +70,11 @@ struct ExchangeEnded {
   std::string line, reply;
   Lane lane = Lane::question;
   Outcome outcome = Outcome::ok;
-  Duration latency{};   // from the write to the reply's last byte
-  bool closed = false;  // the reply was known only when an !:S behind it had been answered
+  Duration latency{};          // from the write to the reply's last byte
+  bool closed = false;         // the reply was known only when an !:S behind it had been answered
+  std::uint64_t exchange = 0;  // as in BytesWritten
+  std::string who;             // who asked first; empty: the line itself
+  Duration waited{};           // from the asking to the write
 };
 std::string_view name(ExchangeEnded::Outcome outcome);  // "ok", "ok_d", "timed_out", ..., as metric labels have it
 
@@ -65,8 +90,8 @@ struct UnexpectedLine {
 // Positions, mode, excitation or the like are newer; ask Controller::state().
 struct StateChanged {};
 
-using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ExchangeEnded,
-                           BarrierEntered, UnexpectedLine, StateChanged>;
+using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, BytesWritten,
+                           BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, UnexpectedLine, StateChanged>;
 
 class EventSink {
  public:

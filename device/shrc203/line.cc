@@ -118,7 +118,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   }
   const Lane lane = request.lane;
   const std::string caller = request.caller;
-  auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}});
+  auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}, now});
   if (!queue_.push(lane, caller, waiting)) {
     const Problem full{
         Reason::queue_full,
@@ -165,6 +165,7 @@ void Line::expire(TimePoint now) {
   const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
     const Problem problem = why_expired(waiting->request);
+    listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::queue}, now);
     for (auto& answer : waiting->answers)
       answer.deliver({.written = false, .reply = {}, .problem = problem, .candidates = {}});
   });
@@ -237,7 +238,7 @@ void Line::pump(TimePoint now) {
   if (must_ask_before(may_go, settle, now)) {
     ExchangeRequest question;
     question.command = make_command(kLineBefore);
-    send(std::make_shared<Waiting>(Waiting{std::move(question), {}}), now);
+    send(std::make_shared<Waiting>(Waiting{std::move(question), {}, now}), now);
     return;
   }
   auto next = queue_.take(may_go);
@@ -248,7 +249,7 @@ void Line::pump(TimePoint now) {
   if (!settle) return;
   ExchangeRequest probe;
   probe.command = make_command("!:");
-  send(std::make_shared<Waiting>(Waiting{std::move(probe), {}}), now);
+  send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
 }
 
 // After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
@@ -289,8 +290,8 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   if (!request.completes.empty()) completions_.started(request.completes, now);
   const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
   if (echo_first) write_line(kLineBefore);
-  write_line(request.command.line);
-  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, {}, echo_first};
+  write_line(request.command.line, ++exchanges_, &request);
+  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
 }
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
@@ -303,7 +304,7 @@ bool Line::write_waiting_stops() {
   queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },
                [&](const WaitingPtr& waiting) {
                  any = true;
-                 write_line(waiting->request.command.line);
+                 write_line(waiting->request.command.line, ++exchanges_, &waiting->request);
                  const Problem problem{Reason::outcome_unknown,
                                        "the stop was written while the line was being resynchronised; its answer "
                                        "cannot be believed",
@@ -317,19 +318,24 @@ bool Line::write_waiting_stops() {
   return any;
 }
 
-void Line::write_line(std::string_view line) {
+void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
   std::string bytes(line);
   bytes += "\r\n";
   continuity_.wrote(line, now_);
   link_.write(bytes);
+  const Lane lane = cause ? cause->lane : Lane::question;
+  listener_.line_event(BytesWritten{std::move(bytes), exchange, cause ? cause->caller : "", lane}, now_);
 }
 
 void Line::advance(TimePoint now) {
   now_ = now;
   if (barrier_) {
+    const int owed_before = owed();
     barrier_->advance(now);
+    if (owed() > owed_before) listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::probe}, now);
     barrier_moved(now);
   } else if (in_flight_ && now >= in_flight_->limit) {
+    listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::reply}, now);
     drop_unended(now);  // or the first answer in the barrier would be its end
     const auto& sent = in_flight_->waiting->request.command.line;
     Problem late{Reason::reply_timed_out, fmt::format("\"{}\" was not answered in time", sent), {}, {}, sent, {}};

@@ -97,16 +97,20 @@ class Line {
 
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
+  // Answers to abandoned probes that may still come.
+  int owed() const { return owed_.echoes + owed_.identities; }
 
  private:
   struct Waiting {
     ExchangeRequest request;
     std::vector<OneShot<ExchangeResult>> answers;
+    TimePoint asked;
   };
   using WaitingPtr = std::shared_ptr<Waiting>;
   struct InFlight {
     WaitingPtr waiting;
     TimePoint written, limit;
+    std::uint64_t exchange = 0;
     std::vector<int> numbers;  // not empty: an !:S has been written behind it
     bool echo_first = false;   // a ?:CMD has been written before it and not been answered
   };
@@ -118,7 +122,10 @@ class Line {
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
   bool write_waiting_stops();  // whether there were any
-  void write_line(std::string_view line);
+  // `cause` is null for what the line asks for itself.
+  void write_line(std::string_view line, std::uint64_t exchange = 0, const ExchangeRequest* cause = nullptr);
+  ExchangeEnded ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,
+                      TimePoint now) const;
   bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
   bool may_send(const ExchangeRequest& request) const;
   AxisSet conflicts(const ExchangeRequest& request) const;
@@ -162,6 +169,7 @@ class Line {
   AxisSet controllable_;
   bool handshake_passed_ = false;
   LaneQueue<WaitingPtr> queue_;
+  std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;
   TimePoint quiet_until_{};                 // after a refusal; only a stop is sent before
   std::optional<TimePoint> partial_since_;  // an incomplete line has been coming in since then

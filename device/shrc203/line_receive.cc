@@ -36,6 +36,7 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
 
 void Line::receive(std::string_view bytes, TimePoint now) {
   now_ = now;
+  listener_.line_event(BytesReceived{std::string(bytes)}, now);
   if (!framer_.mid_line()) partial_since_.reset();
   framer_.push(bytes);
   while (auto line = framer_.next()) {
@@ -141,7 +142,7 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
 void Line::on_number(int number, TimePoint now) {
   continuity_.answered(false, now);
   if (in_flight_->numbers.empty()) {
-    write_line(kClosing);
+    write_line(kClosing, in_flight_->exchange, &in_flight_->waiting->request);
     in_flight_->limit = now + barrier_limits().reply;
   }
   in_flight_->numbers.push_back(number);
@@ -199,15 +200,26 @@ void Line::on_reply(Reply reply, TimePoint now) {
   if (line_before) hear_echo(told, now);
 }
 
+ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,
+                          TimePoint now) const {
+  const ExchangeRequest& request = exchange.waiting->request;
+  return {.command = request.command.row->name,
+          .line = request.command.line,
+          .reply = result.reply ? result.reply->text : "",
+          .lane = request.lane,
+          .outcome = outcome,
+          .latency = now - exchange.written,
+          .closed = !exchange.numbers.empty(),
+          .exchange = exchange.exchange,
+          .who = request.caller,
+          .waited = exchange.written - exchange.waiting->asked};
+}
+
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
   if (result.reply) completions_.answered(done.written);
-  const auto& request = done.waiting->request;
-  ExchangeEnded ended{
-      request.command.row->name, request.command.line, result.reply ? result.reply->text : "", request.lane, outcome,
-      now - done.written,        !done.numbers.empty()};
-  listener_.line_event(ended, now);
+  listener_.line_event(ended(done, result, outcome, now), now);
   for (auto& answer : done.waiting->answers) answer.deliver(result);
 }
 
@@ -216,14 +228,9 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
   doubted_waiting_ = in_flight_->waiting;
   std::string last_line(in_flight_->numbers.empty() ? doubted_waiting_->request.command.line : kClosing);
   doubted_ = std::move(doubted);
-  ExchangeEnded ended{doubted_waiting_->request.command.row->name,
-                      doubted_waiting_->request.command.line,
-                      doubted_->reply ? doubted_->reply->text : "",
-                      doubted_waiting_->request.lane,
-                      outcome,
-                      now - in_flight_->written};
+  const InFlight given_up = std::move(*in_flight_);
   in_flight_.reset();
-  listener_.line_event(ended, now);
+  listener_.line_event(ended(given_up, *doubted_, outcome, now), now);
   state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
   listener_.barrier_entered(why, now);
   barrier_ = make_barrier(std::move(last_line));

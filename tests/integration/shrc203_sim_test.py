@@ -37,7 +37,14 @@ class Client:
         os.close(self.fd)
 
     def send(self, data):
-        os.write(self.fd, data)
+        limit = time.monotonic() + PATIENCE_S
+        while data:
+            try:
+                data = data[os.write(self.fd, data):]
+            except BlockingIOError:  # Linux refuses while the tty's settings are being changed at its other end
+                if time.monotonic() > limit:
+                    raise
+                select.select([], [self.fd], [], 0.01)
 
     def line(self):
         limit = time.monotonic() + PATIENCE_S

@@ -187,25 +187,24 @@ TEST(Hazard, H09_UnterminatedLineIsNeverACompleteOne) {
   EXPECT_THAT(execute(world, {"?:V"}), ElementsAre("V2.00.000"));
 }
 
-// One flipped bit makes S above F of a speed, or more than any axis runs. What no D: sets is asked for again.
+// One flipped bit makes S above F of a speed. What no D: sets is asked for again.
 TEST(Hazard, H08_ASpeedMisreadIsNotPutBack) {
-  for (const std::string misread : {"S9000F500R100", "S1000F9000000R100", "S0F50000R100", "S1000F50000R0"}) {
-    World world(quiet());
-    int asked = 0;
-    world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {
-      const bool first = kind == LineKind::reply && world.wire().commands().back() == "?:D" && ++asked == 1;
-      if (!first) return {};
-      return {.drop = false, .delay = {}, .instead = misread + ",S1000F50000R100," + misread + "\r\n"};
-    });
-    ASSERT_TRUE(world.run_until_up()) << world.replay();
-    EXPECT_FALSE(world.controller().state().axis(1).maximum_speed) << misread;
-    MoveRequest move = move_of(world, {{1, 3000}, {2, 3000}}, true);
-    move.moves[1].profile = SpeedProfile{pulses(500), pulses(7000), 70};
-    world.controller().move(std::move(move), world.now(), [](Result<Motion>) {});
-    EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
-    EXPECT_EQ(world.controller().state().axis(1).maximum_speed, 50000);
-    EXPECT_EQ(written(world, "MP:"), written(world, "MP:A+P3000+P3000,S1000F50000R100 S500F7000R70")) << world.replay();
-  }
+  const std::string misread = "S9000F500R100";  // each within its range, but manual 89) D: has S below F
+  World world(quiet());
+  int asked = 0;
+  world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {
+    const bool first = kind == LineKind::reply && world.wire().commands().back() == "?:D" && ++asked == 1;
+    if (!first) return {};
+    return {.drop = false, .delay = {}, .instead = misread + ",S1000F50000R100," + misread + "\r\n"};
+  });
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_FALSE(world.controller().state().axis(1).maximum_speed);
+  MoveRequest move = move_of(world, {{1, 3000}, {2, 3000}}, true);
+  move.moves[1].profile = SpeedProfile{pulses(500), pulses(7000), 70};
+  world.controller().move(std::move(move), world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.controller().state().axis(1).maximum_speed, 50000);
+  EXPECT_EQ(written(world, "MP:"), written(world, "MP:A+P3000+P3000,S1000F50000R100 S500F7000R70")) << world.replay();
 }
 
 }  // namespace

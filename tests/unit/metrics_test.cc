@@ -22,7 +22,11 @@ class MetricsTest : public ::testing::Test {
 };
 
 TEST_F(MetricsTest, ExchangesAreCountedByCommandAndOutcomeWithTheirTime) {
-  ExchangeEnded exchange{"Q:S", "Q:S", "", Lane::poll, ExchangeEnded::Outcome::data, std::chrono::milliseconds(12)};
+  ExchangeEnded exchange;
+  exchange.command = exchange.line = "Q:S";
+  exchange.lane = Lane::poll;
+  exchange.outcome = ExchangeEnded::Outcome::data;
+  exchange.latency = std::chrono::milliseconds(12);
   device_.on_event(exchange);
   device_.on_event(exchange);
   exchange.outcome = ExchangeEnded::Outcome::timed_out;
@@ -33,6 +37,28 @@ TEST_F(MetricsTest, ExchangesAreCountedByCommandAndOutcomeWithTheirTime) {
   EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_count{command=\"Q:S\",device=\"stage\"} 3\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_bucket{command=\"Q:S\",device=\"stage\",le=\"0.01\"} 0\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_exchange_seconds_bucket{command=\"Q:S\",device=\"stage\",le=\"0.02\"} 3\n"));
+}
+
+TEST_F(MetricsTest, TheLineTellsItsBytesItsTimeAndWhatRanOut) {
+  device_.on_event(shrc203::BytesWritten{"Q:S\r\n", 1, "unix", Lane::poll});
+  device_.on_event(shrc203::BytesReceived{"NG\r\n"});
+  device_.on_event(shrc203::TimeLimitPassed{shrc203::TimeLimitPassed::Kind::probe});
+  ExchangeEnded exchange;
+  exchange.command = exchange.line = "Q:S";
+  exchange.lane = Lane::poll;
+  exchange.latency = std::chrono::milliseconds(250);
+  exchange.waited = std::chrono::milliseconds(15);
+  device_.on_event(exchange);
+  device_.set_owed_answers(2);
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_line_bytes_total{device=\"stage\",direction=\"out\"} 5\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_line_bytes_total{device=\"stage\",direction=\"in\"} 4\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_time_limits_total{device=\"stage\",kind=\"probe\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_time_limits_total{device=\"stage\",kind=\"reply\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_line_busy_seconds_total{device=\"stage\"} 0.25\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_queue_wait_seconds_bucket{device=\"stage\",lane=\"poll\",le=\"0.01\"} 0\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_queue_wait_seconds_bucket{device=\"stage\",lane=\"poll\",le=\"0.02\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_owed_answers{device=\"stage\"} 2\n"));
 }
 
 TEST_F(MetricsTest, OnlyEndedMotionsCount) {
