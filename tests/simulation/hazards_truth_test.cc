@@ -38,24 +38,27 @@ TEST(Hazard, H44_AnErrorAtTheVeryTargetIsNoSuccess) {
 
 // One flipped bit makes an R of the B of an axis that settles at its target, and no completion bears it out.
 TEST(Hazard, H04_OneMisreadReadyIsNotTheEnd) {
-  auto setup = quiet();
-  setup.profile.moving_poll = milliseconds(5);
-  World world(setup);
-  ASSERT_TRUE(world.run_until_up()) << world.replay();
   int misread = 0;
-  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
-    if (kind == LineKind::notice) return {.drop = true, .delay = {}, .instead = {}};
-    const auto busy = line.find(",B,");
-    if (kind != LineKind::reply || busy == std::string::npos || misread > 0) return {};
-    if (world.device().position(1) != 3000) return {};
-    ++misread;
-    return {.drop = false, .delay = {}, .instead = std::string(line).replace(busy, 3, ",R,") + "\r\n"};
-  });
-  world.on_motion = [&](const Motion& motion) {
-    EXPECT_FALSE(motion.state == MotionState::succeeded && world.device().busy(1)) << world.replay();
-  };
-  moved(world, {{1, 3000}});
-  EXPECT_EQ(misread, 1);
+  for (std::int64_t target = 3000; target < 3400 && !HasFailure(); target += 10) {
+    auto setup = quiet();
+    setup.profile.moving_poll = milliseconds(5);
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    world.wire().set_script([&, done = false](LineKind kind, const std::string& line) mutable -> Scripted {
+      if (kind == LineKind::notice) return {.drop = true, .delay = {}, .instead = {}};
+      const auto busy = line.find(",B,");
+      if (done || kind != LineKind::reply || busy == std::string::npos) return {};
+      if (world.device().position(1) != target) return {};
+      done = true;
+      ++misread;
+      return {.drop = false, .delay = {}, .instead = std::string(line).replace(busy, 3, ",R,") + "\r\n"};
+    });
+    world.on_motion = [&](const Motion& motion) {
+      EXPECT_FALSE(motion.state == MotionState::succeeded && world.device().busy(1)) << world.replay();
+    };
+    moved(world, {{1, target}});
+  }
+  EXPECT_GT(misread, 0) << "no reading has met the settling";
 }
 
 // For a while after the start the status is the one of before (manual 85) G:).
@@ -140,14 +143,16 @@ TEST(Hazard, H37_AStoppedMotionThatWaitsEndsAtOnce) {
 TEST(Hazard, H35_NothingIsSetAgainAfterAStop) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 700}});
+  const std::size_t first = world.wire().commands().size();
   world.wire().set_script(drop_first(world, LineKind::command, "MP:"));
   move_by(world, {{1, 4000}});
   world.run_for(milliseconds(300));
-  ASSERT_EQ(written(world, "MP:"), 1) << world.replay();
+  ASSERT_EQ(written(world, "MP:", first), 1) << world.replay();
   stopped(world);
-  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::stopped) << world.replay();
   world.run_for(seconds(5));
-  EXPECT_EQ(written(world, "MP:"), 1) << world.replay();
+  EXPECT_EQ(written(world, "MP:", first), 1) << world.replay();
 }
 
 TEST(Hazard, H17_AStopThatWasLostIsWrittenAgain) {
@@ -226,39 +231,47 @@ TEST_F(LeftOver, H12_ByACallersOwnLines) {
   expect_refused();
 }
 
-// An error on one axis ends a motion of two; what still moves is waited for.
+// Something moves that was not started from here, and nothing but the status tells.
 TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  home(world, AxisSet::of(1));
-  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded);
   move_by(world, {{1, 500000}});
   world.run_for(milliseconds(500));
   world.device().set_limit(1, +1, true, world.now());
-  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::limit_detected);
-  world.device().set_limit(1, +1, false, world.now());
-  // Somebody beside the gateway sets another axis going.
+  EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::limit_detected);
+  bool unheard = true;
+  world.wire().set_script([&](LineKind kind, const std::string&) {
+    return Scripted{.drop = unheard && kind != LineKind::command, .delay = {}, .instead = {}};
+  });
   world.device().receive("M:2+P60000\r\nG:2\r\n", world.now());
+  unheard = false;
   move_by(world, {{2, 100}});
-  EXPECT_NE(reason_of(outcome_of(world, 3)), Reason::axis_busy) << world.replay();
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().position(2), 60100);
 }
 
 // The late completion of a stopped move is not the next one's (manual 65) leaves open whether there is one).
 TEST(Hazard, H57_TheLateCompletionOfAStoppedMove) {
-  World world(with_option("completion_after_stop", "sent"));
-  ASSERT_TRUE(world.run_until_up()) << world.replay();
-  move_by(world, {{1, 500000}});
-  world.run_for(seconds(1));
-  world.wire().set_script([](LineKind kind, const std::string&) {
-    return Scripted{.drop = false, .delay = kind == LineKind::notice ? milliseconds(150) : Duration{}, .instead = {}};
-  });
-  EXPECT_FALSE(stopped(world).problem) << world.replay();
-  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped);
-  move_by(world, {{1, 100000}});
-  const Motion second = outcome_of(world, 2);
-  EXPECT_EQ(second.state, MotionState::succeeded) << world.replay();
-  world.run_for(seconds(1));
-  EXPECT_EQ(std::ranges::count(world.completions(), second.id, &CompletionSeen::motion), 1) << world.replay();
+  for (int late = 150; late < 225 && !HasFailure(); late += 3) {
+    auto setup = with_option("completion_after_stop", "sent");
+    setup.baud = setup.profile.baud = 115200;
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    move_by(world, {{1, 500000}});
+    world.run_for(seconds(1));
+    world.wire().set_script([late, numbers = 0](LineKind kind, const std::string&) mutable -> Scripted {
+      const bool of_the_stop = kind == LineKind::notice && ++numbers == 1;
+      return {.drop = false, .delay = milliseconds(of_the_stop ? late : 0), .instead = {}};
+    });
+    EXPECT_FALSE(stopped(world).problem) << world.replay();
+    EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped);
+    move_by(world, {{1, 100000}});
+    const Motion second = outcome_of(world, 2);
+    EXPECT_EQ(second.state, MotionState::succeeded) << world.replay();
+    world.run_for(seconds(1));
+    EXPECT_EQ(std::ranges::count(world.completions(), second.id, &CompletionSeen::motion), 1) << late << "\n"
+                                                                                              << world.replay();
+  }
 }
 
 Setup axes_for_themselves() {
