@@ -1,9 +1,12 @@
 #include "device/shrc203/completions.h"
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 
 void Completions::connected() {
-  for (Axis& axis : axes_) axis = {.possible = true, .arrived = false, .started = {}, .until = {}};
+  for (Axis& axis : axes_)
+    axis = {.possible = guarded(Guard::possible_after_connect), .arrived = false, .started = {}, .until = {}};
 }
 
 void Completions::started(AxisSet axes, TimePoint now) {
@@ -23,8 +26,9 @@ AxisSet Completions::outstanding() const {
 void Completions::ready(AxisSet axes, TimePoint now) {
   for (const int number : axes.list()) {
     Axis& one = axis(number);
-    const bool settled = !one.started || now - *one.started >= kStartSettles;
-    if (one.possible && !one.until && settled) one.until = now + kAfterReady;
+    const bool settled = !guarded(Guard::start_settles) || !one.started || now - *one.started >= kStartSettles;
+    if (one.possible && !one.until && settled)
+      one.until = guarded(Guard::possible_after_ready) ? now + kAfterReady : now;
   }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -37,13 +38,13 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   ++connection_;
   settled_ = false;
   restart_possible_ = false;
-  registers_.forget();
+  if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   const bool news = state_.link != LinkState::down || state_.link_problem != why;
   state_.link = LinkState::down;
   state_.link_problem = why;
   for (auto& axis : state_.axes) {
     // It may be nobody's here that moves.
-    state_.moving_unknown = state_.moving_unknown || axis.busy.value_or(false);
+    state_.moving_unknown = state_.moving_unknown || (axis.busy.value_or(false) && guarded(Guard::moving_unknown));
     axis.position_pulses.reset();
     axis.busy.reset();
   }
@@ -52,7 +53,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     live->line_lost = true;
     live->line_problem = why;
     // What it wrote last may have been its start, though no answer has come.
-    state_.moving_unknown = state_.moving_unknown || live->wrote;
+    state_.moving_unknown = state_.moving_unknown || (live->wrote && guarded(Guard::moving_unknown));
     live->news.notify();
   }
   gate_.withdraw([](MotionId) { return true; },
@@ -75,7 +76,8 @@ void Controller::Impl::barrier_entered(const std::string& why, TimePoint) {
 
 void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
   if (state_.link != LinkState::doubtful) return;
-  if (identity.serial_number != state_.serial_number || identity.model != state_.model) {
+  const bool same = identity.serial_number == state_.serial_number && identity.model == state_.model;
+  if (!same && guarded(Guard::serial_number_after_barrier)) {
     line_.give_up("another controller answers: " + identity.model + " " + identity.serial_number, now_);
     return;
   }

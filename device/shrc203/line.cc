@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -45,7 +47,7 @@ void Line::link_down(TimePoint now, std::string_view why) {
   }
   reopening_at_once_ = false;
   listener_.line_lost(std::string(why), now);
-  link_.reopen(backoff_);
+  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
   backoff_ = std::min(backoff_ * 2, kBackoffMax);
 }
 
@@ -66,7 +68,7 @@ void Line::give_up(const std::string& why, TimePoint now) {
   }
   withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, lost);
   listener_.line_lost(why, now);
-  link_.reopen(backoff_);
+  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
   backoff_ = std::min(backoff_ * 2, kBackoffMax);
 }
 
@@ -105,8 +107,9 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     WaitingPtr same;
     queue_.for_each([&](const WaitingPtr& waiting) {
       const auto& other = waiting->request;
-      if (other.command.line == request.command.line && other.lane == request.lane &&
-          other.handshake == request.handshake && other.closed == request.closed) {
+      const bool same_line = other.command.line == request.command.line || !guarded(Guard::shared_questions);
+      if (same_line && other.lane == request.lane && other.handshake == request.handshake &&
+          other.closed == request.closed) {
         same = waiting;
       }
     });
@@ -119,7 +122,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   const Lane lane = request.lane;
   const std::string caller = request.caller;
   auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}, now});
-  if (!queue_.push(lane, caller, waiting)) {
+  if (!queue_.push(guarded(Guard::stop_lane) || !is_stop ? lane : Lane::poll, caller, waiting)) {
     const Problem full{
         Reason::queue_full,
         fmt::format("the {} lane already holds {} requests", name(lane), LaneQueue<WaitingPtr>::kLaneMax),
@@ -162,7 +165,9 @@ MotionId Line::starting() const {
 }
 
 void Line::expire(TimePoint now) {
-  const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
+  const auto late = [now](const WaitingPtr& waiting) {
+    return waiting->request.not_after < now && guarded(Guard::waiting_lines_expire);
+  };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
     const Problem problem = why_expired(waiting->request);
     listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::queue}, now);
@@ -196,7 +201,7 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
 // The axes whose numbers could not be told from the answer.
 AxisSet Line::conflicts(const ExchangeRequest& request) const {
   const CommandRow& row = *request.command.row;
-  if (request.closed) return {};
+  if (request.closed || !guarded(Guard::number_questions_wait)) return {};
   const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
   const bool asked_whole = row.separation == Separation::waits || row.separation == Separation::closed;
   if (!asked_whole && !asked_alone) return {};
@@ -229,7 +234,8 @@ bool Line::may_send(const ExchangeRequest& request) const {
 void Line::pump(TimePoint now) {
   if (!can_send()) return;
   expire(now);
-  const bool coming = line_is_coming(now) || now < quiet_until_;
+  const bool quiet = now < quiet_until_ && guarded(Guard::quiet_after_refusal);
+  const bool coming = line_is_coming(now) || quiet;
   const auto may_go = [&](const WaitingPtr& waiting) {
     return (!coming || waiting->request.lane == Lane::stop) && may_send(waiting->request);
   };
@@ -255,6 +261,7 @@ void Line::pump(TimePoint now) {
 // After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
 bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
   if (!handshake_passed_ || continuity_.open() || !continuity_.due(now)) return false;
+  if (!guarded(Guard::question_before_pause_ends)) return false;
   bool any = settle, stop = false;
   queue_.for_each([&](const WaitingPtr& waiting) {
     stop = stop || waiting->request.lane == Lane::stop;
@@ -270,11 +277,11 @@ bool Line::line_is_coming(TimePoint now) {
     return false;
   }
   if (!partial_since_) partial_since_ = now;
-  return !drop_unended(now);
+  return !drop_unended(now) && guarded(Guard::half_lines_hold);
 }
 
 bool Line::drop_unended(TimePoint now) {
-  if (!partial_since_ || now < *partial_since_ + kPartialLineMax) return false;
+  if (!partial_since_ || now < *partial_since_ + kPartialLineMax || !guarded(Guard::unended_lines)) return false;
   framer_.clear();
   partial_since_.reset();
   unexpected("(a line that did not end)", now);
@@ -286,7 +293,8 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const auto limit =
       request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
   const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
-  if (framer_.mid_line()) framer_.clear();  // only a stop does not wait: what is half in must not end as its answer
+  // Only a stop does not wait: what is half in must not end as its answer.
+  if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
   const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
   if (echo_first) write_line(kLineBefore);
@@ -296,7 +304,8 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
 void Line::send_stops_now(TimePoint now) {
-  if (port_open_ && barrier_ && write_waiting_stops()) barrier_->restart(now);
+  if (!port_open_ || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
+  if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);
 }
 
 bool Line::write_waiting_stops() {

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -137,7 +138,7 @@ Task<bool> PathRun::refill(int number) {
   if (result.accepted()) {
     note_speed(number);
     tell(PathProgress::Step::sent, number, result.reply->text);
-    if (result.reply->kind == Reply::Kind::ok_d) {
+    if (result.reply->kind == Reply::Kind::ok_d || !guarded(Guard::underruns_told)) {
       sent_ = number;
       co_return true;
     }
@@ -155,7 +156,7 @@ Task<bool> PathRun::refill(int number) {
 // The number that ends a segment is believed when it comes neither too soon nor out of a barrier, and none is missing.
 bool PathRun::completion_counts(const LiveMotion::Completion& completion) {
   if (clock_axis_ == 0) clock_axis_ = completion.axis;
-  return completion.axis == clock_axis_;
+  return completion.axis == clock_axis_ || !guarded(Guard::one_axis_is_the_clock);
 }
 
 Task<bool> PathRun::wait_for_segment_end() {
@@ -171,8 +172,11 @@ Task<bool> PathRun::wait_for_segment_end() {
       const auto completion = live_->completions.front();
       live_->completions.pop_front();
       if (!completion_counts(completion)) continue;
-      const bool early = completion.at < segment_began_ + now_running.shortest - kEarly;
-      if (!early && !completion.doubtful && missed_ == 0) co_return true;
+      const bool early =
+          completion.at < segment_began_ + now_running.shortest - kEarly && guarded(Guard::early_numbers_checked);
+      const bool doubtful = completion.doubtful && guarded(Guard::doubtful_numbers_checked);
+      const bool missed = missed_ > 0 && guarded(Guard::missed_numbers_counted);
+      if (!early && !doubtful && !missed) co_return true;
       if (missed_ > 0 && !completion.doubtful) --missed_;
     } else {
       ++missed_;
@@ -244,7 +248,7 @@ Task<void> PathRun::resume_from_ready() {
     ++matches;
     done = candidate;
   }
-  if (matches != 1) {
+  if (matches == 0 || (matches > 1 && guarded(Guard::path_place_is_unique))) {
     give_up(MotionState::unknown, Problem{Reason::outcome_unknown,
                                           "the path came to rest at a place that does not tell which segments ran",
                                           "look at the positions before moving on",
