@@ -38,6 +38,7 @@ class DeviceEvents : public shrc203::EventSink {
   void tell(const shrc203::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
   void tell(const shrc203::PathProgress& progress, TimePoint now);
   void tell(const shrc203::BarrierEntered& barrier, TimePoint now);
+  void tell(const shrc203::LineLearned&, TimePoint) {}
   void tell(const shrc203::UnexpectedLine& line, TimePoint now);
   void tell(const shrc203::BytesWritten&, TimePoint) {}
   void tell(const shrc203::BytesReceived&, TimePoint) {}

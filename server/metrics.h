@@ -86,6 +86,7 @@ class DeviceMetrics {
   void count(const shrc203::StopRequested& stop);
   void count(const shrc203::LinkChanged& change);
   void count(const shrc203::BarrierEntered&) { barriers_.Increment(); }
+  void count(const shrc203::LineLearned&) {}
   void count(const shrc203::UnexpectedLine&) { unexpected_lines_.Increment(); }
   void count(const shrc203::StateChanged&) {}
 

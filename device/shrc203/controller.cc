@@ -92,12 +92,16 @@ void Controller::Impl::restart_suspected(TimePoint) {
 }
 
 void Controller::Impl::completion_seen(int axis, bool doubtful, TimePoint now) {
+  note_completion(axis, doubtful, false, now);
+}
+
+void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, TimePoint now) {
   line_.completions().arrived(axis);
   LiveMotionPtr owner;
   for (const auto& [id, live] : live_) {
     if (live->inside_gate && live->motion.axes.has(axis) && live->motion.state != MotionState::queued) owner = live;
   }
-  emit(CompletionSeen{axis, owner ? owner->motion.id : 0});
+  emit(CompletionSeen{axis, owner ? owner->motion.id : 0, deduced});
   if (!owner) return;
   owner->completed.add(axis);
   for (auto& result : owner->motion.results) {

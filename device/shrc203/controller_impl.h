@@ -86,6 +86,7 @@ class Controller::Impl : public LineListener {
   void restart_suspected(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
+  void note_completion(int axis, bool doubtful, bool deduced, TimePoint now);
 
   // handshake.cc
   Task<void> handshake(Identity identity, std::uint64_t connection);

@@ -86,6 +86,7 @@ void Line::still_the_same(TimePoint now) {
   now_ = now;
   suspected_ = false;
   continuity_.begin(now);
+  learned(LineLearned::What::same_controller);
   pump(now);
 }
 
@@ -332,8 +333,15 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
   bytes += "\r\n";
   continuity_.wrote(line, now_);
   link_.write(bytes);
-  const Lane lane = cause ? cause->lane : Lane::question;
-  listener_.line_event(BytesWritten{std::move(bytes), exchange, cause ? cause->caller : "", lane}, now_);
+  BytesWritten written;
+  written.bytes = std::move(bytes);
+  written.exchange = exchange;
+  if (cause) {
+    written.who = cause->caller;
+    written.lane = cause->lane;
+    written.completes = cause->completes;
+  }
+  listener_.line_event(written, now_);
 }
 
 void Line::advance(TimePoint now) {

@@ -95,6 +95,9 @@ class Line {
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
   void still_the_same(TimePoint now);                   // the suspected restart was none
 
+  // A reading told these axes to stand, or to move.
+  void ready(AxisSet axes, TimePoint now);
+  void busy(AxisSet axes, TimePoint now);
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
   // Answers to abandoned probes that may still come.
@@ -149,6 +152,7 @@ class Line {
   void hear_echo(std::string_view line_before, TimePoint now);
   void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
+  void learned(LineLearned::What what, AxisSet axes = {});
   Duration time_of(std::size_t bytes) const;
   Barrier::Limits barrier_limits() const;
   std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt);

@@ -261,6 +261,7 @@ void Line::barrier_moved(TimePoint now) {
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   owed_.echoes = 0;
   barrier_.reset();
+  learned(LineLearned::What::barrier_passed);
   const bool connecting = !handshake_passed_ && !doubted_waiting_;
   if (doubted_waiting_) {
     if (const auto received = barrier_told) {
@@ -279,6 +280,20 @@ void Line::barrier_moved(TimePoint now) {
   }
   pump(now);
 }
+
+void Line::ready(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.ready(axes, now);
+  if (!news.empty()) learned(LineLearned::What::ready, news);
+}
+
+void Line::busy(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.busy(axes);
+  if (!news.empty()) learned(LineLearned::What::busy, news);
+}
+
+void Line::learned(LineLearned::What what, AxisSet axes) { listener_.line_event(LineLearned{what, axes}, now_); }
 
 void Line::unexpected(std::string_view text, TimePoint now) {
   listener_.line_event(UnexpectedLine{std::string(text)}, now);
