@@ -120,8 +120,7 @@ class AgainstPrometheus(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         daemon = Daemon(folder.name, CONFIG)
         cls.addClassCleanup(daemon.stop)
-        metrics = re.search(r"metrics on http://(\S+)/metrics", daemon.log())[1]
-        cls.prometheus = Prometheus(folder.name, metrics)
+        cls.prometheus = Prometheus(folder.name, daemon.metrics_address())
         cls.addClassCleanup(cls.prometheus.stop)
         cls.load = Load(daemon)
         cls.addClassCleanup(cls.load.stop)
@@ -133,7 +132,7 @@ class AgainstPrometheus(unittest.TestCase):
 
     def test_every_query_returns_a_series(self):
         pending = [(title, target) for title, target in dashboard.targets(dashboard.load())]
-        self.assertGreater(len(pending), 10)
+        self.assertGreater(len(pending), 20)
         deadline = time.monotonic() + LIMIT_S
         while pending and time.monotonic() < deadline:
             pending = [(title, target) for title, target in pending if self.problem(target)]
@@ -146,9 +145,9 @@ class AgainstPrometheus(unittest.TestCase):
     def test_every_family_of_the_daemon_is_shown(self):
         names = self.prometheus.ask("label/__name__/values", **{"match[]": '{job="axisgate"}'})["data"]
         families = {re.sub(r"_(bucket|sum|count)$", "", name) for name in names if name.startswith("axisgate_")}
-        self.assertGreater(len(families), 5)
+        self.assertGreater(len(families), 20)
         shown = " ".join(target["expr"] for _, target in dashboard.targets(dashboard.load()))
-        self.assertEqual([family for family in sorted(families) if family not in shown], [])
+        self.assertEqual([family for family in sorted(families) if not re.search(rf"\b{family}(_bucket)?\b", shown)], [])
 
     def test_the_devices_to_choose_from(self):
         variables = {one["name"]: one for one in dashboard.load()["templating"]["list"]}

@@ -5,7 +5,6 @@ import re
 import subprocess
 import tempfile
 import unittest
-import urllib.request
 
 from programs import LIMIT_S, ROOT, Daemon
 
@@ -55,10 +54,8 @@ class AtWork(unittest.TestCase):
         cls.addClassCleanup(daemon.stop)
         for arguments in (["home"], ["move", "1=+10um", "--relative"], ["move", "1=+1m"], ["exec", "?:P1"], ["stop"]):
             daemon.run(*arguments)
-        address = re.search(r"metrics on (http://\S+)", daemon.log())[1]
-        for _ in range(2):  # what the page says of itself begins with the second
-            with urllib.request.urlopen(address, timeout=LIMIT_S) as answer:
-                cls.page = answer.read().decode("utf-8")
+        daemon.metrics_page()  # what the page says of itself begins with the second
+        cls.page = daemon.metrics_page()
 
     def test_promtool_finds_nothing(self):
         self.assertEqual(problems(self.page), "")
