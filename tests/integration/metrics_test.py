@@ -28,13 +28,13 @@ def problems(page):
 
 
 def families(page):
-    """{name: (type, {label names of a series, ...})}; `le` and `quantile` belong to the type."""
+    """{name: (type, {label names of a series in order, ...})}; `le` and `quantile` belong to the type."""
     types = dict(re.findall(r"(?m)^# TYPE (\S+) (\S+)$", page))
     found = {name: (kind, set()) for name, kind in types.items()}
     for name, labels in re.findall(r"(?m)^(\w+)(?:{(.*)})? \S+$", page):
         family = name if name in types else re.sub(r"_(bucket|sum|count)$", "", name)
         names = re.findall(r'(\w+)="(?:[^"\\]|\\.)*"', labels)
-        found[family][1].add(frozenset(names) - {"le", "quantile"})
+        found[family][1].add(tuple(sorted(set(names) - {"le", "quantile"})))
     return found
 
 
@@ -42,7 +42,7 @@ def documented():
     """The same from the table in server/README.md."""
     text = (ROOT / "server" / "README.md").read_text(encoding="utf-8")
     rows = re.findall(r"(?m)^\| `((?:axisgate|exposer)_\w+)` \| (\w+) \|(.*?)\| .+ \|$", text)
-    return {name: (kind, {frozenset(re.findall(r"`(\w+)`", labels))}) for name, kind, labels in rows}
+    return {name: (kind, {tuple(sorted(re.findall(r"`(\w+)`", labels)))}) for name, kind, labels in rows}
 
 
 class AtWork(unittest.TestCase):
@@ -73,8 +73,8 @@ class AtWork(unittest.TestCase):
         page = ('# TYPE a counter\na{x="1",y="a\\"} b=\\""} 1\n'
                 '# TYPE b histogram\nb_bucket{x="1",le="+Inf"} 0\nb_sum{x="1"} 0\nb_count{x="1"} 0\n'
                 '# TYPE c gauge\nc 1\nc{z="1"} Nan\n')
-        self.assertEqual(families(page), {"a": ("counter", {frozenset("xy")}), "b": ("histogram", {frozenset("x")}),
-                                          "c": ("gauge", {frozenset(), frozenset("z")})})
+        self.assertEqual(families(page), {"a": ("counter", {("x", "y")}), "b": ("histogram", {("x",)}),
+                                          "c": ("gauge", {(), ("z",)})})
 
 
 if __name__ == "__main__":
