@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
+#include <chrono>
+#include <future>
 #include <optional>
 #include <string>
 
@@ -32,6 +35,31 @@ TEST(ConnectionMetrics, AreAskedForAsThePageIsAndOnlyWhileTheyLive) {
   EXPECT_THAT(page, HasSubstr("axisgate_descriptors_exhausted_total 5\n"));
   connections.reset();
   EXPECT_THAT(metrics_page(*port), Not(HasSubstr("axisgate_connections")));
+}
+
+TEST(ConnectionMetrics, WhoeverEndsThemWaitsForAPageThatIsBeingMade) {
+  Metrics metrics;
+  const Result<int> port = metrics.expose({"127.0.0.1", 0});
+  ASSERT_TRUE(port) << port.error().message;
+  std::promise<void> asked, answer;
+  std::atomic<bool> answered = false;
+  std::optional<ConnectionMetrics> connections;
+  connections.emplace(metrics, [&] {
+    asked.set_value();
+    answer.get_future().wait();
+    answered = true;
+    return ConnectionCounts{};
+  });
+  const auto page = std::async(std::launch::async, [&] { return metrics_page(*port); });
+  asked.get_future().wait();
+  auto ended = std::async(std::launch::async, [&] {
+    connections.reset();
+    return answered.load();
+  });
+  // Nothing says that the other thread waits; without the waiting it is through long before.
+  EXPECT_EQ(ended.wait_for(std::chrono::milliseconds(50)), std::future_status::timeout);
+  answer.set_value();
+  EXPECT_TRUE(ended.get());
 }
 
 TEST(ConnectionMetrics, MayComeBeforeThePage) {
