@@ -9,6 +9,7 @@
 
 #include "device/core/problem.h"
 #include "server/config.h"
+#include "server/connection_metrics.h"
 #include "server/connections/acceptor.h"
 #include "server/connections/callers.h"
 #include "server/gateway.h"
@@ -18,6 +19,7 @@
 #include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
+#include "server/rpc/rpc_metrics.h"
 #include "server/rpc/stage_service.h"
 #include "server/rpc/stop_only.h"
 #include "server/rpc/stream_limit.h"
@@ -49,6 +51,8 @@ class Server {
   void build_reserve();
 
   std::unique_ptr<server::Listener> listener_;
+  std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
+  RpcMetrics rpc_metrics_;
   server::CallerSlots callers_;
   StreamLimit streams_;
   DeviceService devices_;

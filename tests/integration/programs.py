@@ -7,6 +7,7 @@ import re
 import subprocess
 import threading
 import time
+import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("AXISGATE_BIN", ROOT / "build" / "bin"))
@@ -95,6 +96,13 @@ class Daemon:
     def log(self):
         with open(self._log_path, encoding="utf-8") as file:
             return file.read()
+
+    def metrics_address(self):
+        return re.search(r"metrics on http://(\S+)/metrics", self.log())[1]
+
+    def metrics_page(self):
+        with urllib.request.urlopen(f"http://{self.metrics_address()}/metrics", timeout=LIMIT_S) as answer:
+            return answer.read().decode("utf-8")
 
     def wait_for_log(self, pattern):
         deadline = time.monotonic() + LIMIT_S

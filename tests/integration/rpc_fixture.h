@@ -1,6 +1,7 @@
 // A whole gateway inside the test: built-in simulator, services, and a client on its Unix socket.
 #pragma once
 
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -106,6 +107,36 @@ class RpcTest : public ::testing::Test {
     api::ListMotionsResponse response;
     EXPECT_TRUE(stage_->ListMotions(&context, request, &response).ok());
     return response.motions_size();
+  }
+
+  // On a connection of its own.
+  std::shared_ptr<grpc::Channel> new_channel() const {
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    return grpc::CreateCustomChannel("unix:" + directory_ + "/axisgate.sock", grpc::InsecureChannelCredentials(),
+                                     arguments);
+  }
+
+  // An empty request to a method of whatever kind.
+  static grpc::Status call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method) {
+    grpc::GenericStub stub(channel);
+    grpc::CompletionQueue queue;
+    grpc::ClientContext context;
+    limit(context);
+    const grpc::Slice nothing;
+    const grpc::ByteBuffer request(&nothing, 1);
+    const auto reader = stub.PrepareUnaryCall(&context, method, request, &queue);
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    reader->StartCall();
+    reader->Finish(&response, &status, nullptr);
+    void* tag = nullptr;
+    bool ok = false;
+    queue.Next(&tag, &ok);
+    queue.Shutdown();
+    while (queue.Next(&tag, &ok)) {
+    }
+    return status;
   }
 
   static api::Reason reason(const grpc::Status& status) {

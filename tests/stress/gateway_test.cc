@@ -15,6 +15,7 @@
 #include "tests/stress/bench.h"
 #include "tests/stress/caller.h"
 #include "tests/stress/readers.h"
+#include "tests/unit/metrics_page.h"
 
 namespace axisgate::stress {
 namespace {
@@ -64,7 +65,7 @@ void join(std::vector<std::thread>& threads) {
 
 void look_at_metrics(int port, int pages) {
   for (int i = 0; i < pages; ++i) {
-    EXPECT_THAT(metrics_page(port),
+    EXPECT_THAT(server::metrics_page(port),
                 AllOf(HasSubstr("HTTP/1.1 200 OK"), HasSubstr("axisgate_link_up{device=\"stage1\"}"),
                       HasSubstr("axisgate_queue_depth{device=\"stage3\",lane=\"poll\"}")));
   }
