@@ -180,7 +180,7 @@ Result<void> Controller::check(const MoveRequest& request) const {
 }
 
 Result<void> Controller::check(const PathRequest& request) const {
-  const auto plan = plan_path(request, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+  const auto plan = impl_->plan_feasible_path(request);
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }

@@ -151,7 +151,9 @@ class Controller::Impl : public LineListener {
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
-  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request);
+  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request, Register reg);
+  // As plan_path, and: the line can feed it.
+  Result<PathPlan> plan_feasible_path(const PathRequest& request) const;
 
   // stop.cc
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);

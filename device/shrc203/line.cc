@@ -13,7 +13,6 @@ constexpr Duration kBackoffMin = std::chrono::milliseconds(250);
 constexpr Duration kBackoffMax = std::chrono::seconds(5);
 constexpr Duration kSilenceMin = std::chrono::milliseconds(50);
 constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
-constexpr std::size_t kReplyBytesMax = 64;  // the longest reply of this table: Q:SPC with three long coordinates
 
 Problem problem_of(Reason reason, std::string message, std::string_view sent) {
   return {reason, std::move(message), {}, {}, std::string(sent), {}};
@@ -22,7 +21,12 @@ Problem problem_of(Reason reason, std::string message, std::string_view sent) {
 }  // namespace
 
 Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener)
-    : profile_(profile), link_(link), executor_(executor), listener_(listener), backoff_(kBackoffMin) {}
+    : profile_(profile),
+      link_(link),
+      executor_(executor),
+      listener_(listener),
+      backoff_(kBackoffMin),
+      pace_(profile.baud) {}
 
 void Line::link_up(TimePoint now) {
   now_ = now;
@@ -32,6 +36,7 @@ void Line::link_up(TimePoint now) {
   handshake_passed_ = false;
   framer_.clear();
   owed_ = {};
+  pace_.connected();
   completions_.connected();
   continuity_.connected();
   suspected_ = false;
@@ -56,6 +61,7 @@ void Line::give_up(const std::string& why, TimePoint now) {
   handshake_passed_ = false;
   state_ = LinkState::down;
   barrier_.reset();
+  reservations_.clear();
   framer_.clear();
   const Problem lost = problem_of(Reason::link_down, "the line to the controller is down: " + why, {});
   if (doubted_waiting_) {
@@ -191,6 +197,14 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
             line,
             {}};
   }
+  if (!reservations_.empty() && request.lane > Lane::path_refill) {
+    return {Reason::deadline_passed,
+            "the segments of a running path are so short that the line had no time for this command",
+            "ask again once the path has ended, or give it longer segments",
+            {},
+            line,
+            {}};
+  }
   return {Reason::deadline_passed,
           "the time allowed for this command ran out before the line was free",
           "allow more time, or try again",
@@ -238,10 +252,11 @@ void Line::pump(TimePoint now) {
   const bool quiet = now < quiet_until_ && guarded(Guard::quiet_after_refusal);
   const bool coming = line_is_coming(now) || quiet;
   const auto may_go = [&](const WaitingPtr& waiting) {
-    return (!coming || waiting->request.lane == Lane::stop) && may_send(waiting->request);
+    const auto& request = waiting->request;
+    return (!coming || request.lane == Lane::stop) && may_send(request) && leaves_refills_alone(request, now);
   };
   const auto settles = coming ? std::nullopt : conflicts_settle_from();
-  const bool settle = settles && now >= *settles;
+  const bool settle = settles && now >= *settles && may_settle(now);
   if (must_ask_before(may_go, settle, now)) {
     ExchangeRequest question;
     question.command = make_command(kLineBefore);
@@ -255,7 +270,7 @@ void Line::pump(TimePoint now) {
   }
   if (!settle) return;
   ExchangeRequest probe;
-  probe.command = make_command("!:");
+  probe.command = make_command(kSettling);
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
 }
 
@@ -293,7 +308,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const auto& request = waiting->request;
   const auto limit =
       request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
-  const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
+  const Duration on_the_wire = pace_.time_of(request.command.line.size() + 2 + Pace::kReplyBytesMax);
   // Only a stop does not wait: what is half in must not end as its answer.
   if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
@@ -375,18 +390,20 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
     TimePoint held = quiet_until_;
     if (partial_since_) held = std::max(held, *partial_since_ + kPartialLineMax);
     if (held > now || partial_since_) sooner(held);
-    if (const auto settles = conflicts_settle_from()) sooner(std::max(*settles, held));
+    const auto expiry = reservations_.next_expiry(now);
+    if (expiry) sooner(*expiry);
+    if (const auto settles = conflicts_settle_from()) {
+      const TimePoint at = std::max(*settles, held);
+      sooner(at <= now && expiry ? *expiry : at);
+    }
   }
   queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
   return next;
 }
 
-Duration Line::time_of(std::size_t bytes) const {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(bytes) * 10 * 1'000'000'000 / profile_.baud);
-}
-
 Barrier::Limits Line::barrier_limits() const {
-  return {profile_.reply_limit + time_of(kReplyBytesMax), std::max(kSilenceMin, 3 * time_of(kReplyBytesMax))};
+  const Duration longest_reply = pace_.time_of(Pace::kReplyBytesMax);
+  return {profile_.reply_limit + longest_reply, std::max(kSilenceMin, 3 * longest_reply)};
 }
 
 std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt) {
