@@ -52,6 +52,7 @@ struct BytesWritten {
   std::string who;  // who asked for it; empty: the line itself
   Lane lane = Lane::question;
   AxisSet completes{};  // the axes whose numbers may come from now on
+  bool closed = false;  // an !:S follows an answer that could be such a number
 };
 
 // What came in, cut as the driver cut it.

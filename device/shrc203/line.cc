@@ -355,6 +355,7 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
     written.who = cause->caller;
     written.lane = cause->lane;
     written.completes = cause->completes;
+    written.closed = cause->closed;
   }
   listener_.line_event(written, now_);
 }

@@ -31,6 +31,7 @@ void Recorder::tell(const BytesWritten& written) {
       open_->lane = written.lane;
       open_->who = written.who;
       open_->completes = written.completes;
+      open_->closed = written.closed;
     }
   }
   add(Item::written, written.bytes);

@@ -34,6 +34,7 @@ std::string text_of(const RecordedExchange& exchange) {
     text += fmt::format(" {} {}", name(*exchange.lane), quoted_bytes(exchange.who));
     if (exchange.waited > Duration::zero()) text += fmt::format(" {} {}", kWaited, seconds_of(exchange.waited));
     if (!exchange.completes.empty()) text += fmt::format(" {} {}", kCompletes, digits_of(exchange.completes));
+    if (exchange.closed) text += fmt::format(" {}", kClosed);
   }
   std::string after = seconds_of(Duration::zero());
   for (const RecordedItem& item : exchange.items) {

@@ -21,16 +21,16 @@ namespace axisgate::shrc203 {
 
 // All times of a recording are told in microseconds, cut off.
 struct RecordingHeader {
-  std::string device;         // its name in the configuration
-  std::string serial_number;  // the configured one; may be empty
+  std::string device{};         // its name in the configuration
+  std::string serial_number{};  // the configured one; may be empty
   int baud = Profile{}.baud;
   Duration reply_limit = Profile{}.reply_limit;
-  std::string started;  // the wall time of time 0, for people
+  std::string started{};  // the wall time of time 0, for people
 
   // Of a recording that begins when the line is up: the controllable axes, and those whose numbers may come because
   // they were started before.
-  std::optional<AxisSet> axes;
-  AxisSet may_complete;
+  std::optional<AxisSet> axes{};
+  AxisSet may_complete{};
 };
 
 struct RecordedItem {
@@ -57,6 +57,7 @@ struct RecordedExchange {
   std::string who;      // empty: the line itself
   Duration waited{};    // from the asking to the write
   AxisSet completes{};  // the axes whose numbers may come from then on
+  bool closed = false;  // an !:S follows an answer that could be such a number
   std::vector<RecordedItem> items;
 
   friend bool operator==(const RecordedExchange&, const RecordedExchange&) = default;

@@ -152,6 +152,10 @@ void parse_cause(Cursor& line, RecordedExchange& exchange) {
     exchange.completes = line.axes();
     line.want(" ");
   }
+  if (line.take(kClosed)) {
+    exchange.closed = true;
+    line.want(" ");
+  }
   if (line.good() && !line.starts_with(">")) line.fail("an exchange with a lane begins with what was written");
 }
 

@@ -14,7 +14,7 @@ inline constexpr std::string_view kKindKey = "kind", kDeviceKey = "device", kSer
                                   kBaudKey = "baud", kReplyLimitKey = "reply-limit", kStartedKey = "started",
                                   kAxesKey = "axes", kMayCompleteKey = "may-complete";
 inline constexpr std::string_view kNoAxes = "none";
-inline constexpr std::string_view kWaited = "waited", kCompletes = "completes";
+inline constexpr std::string_view kWaited = "waited", kCompletes = "completes", kClosed = "closed";
 
 inline constexpr std::array kItemKinds = {RecordedItem::Kind::written, RecordedItem::Kind::received,
                                           RecordedItem::Kind::ended, RecordedItem::Kind::completion,
