@@ -128,6 +128,7 @@ class Line {
   };
 
   static constexpr std::string_view kLineBefore = "?:CMD", kSettling = "!:";
+  static constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
 
   bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
   void pump(TimePoint now);
