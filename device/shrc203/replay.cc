@@ -51,6 +51,7 @@ class Replay : LineListener, ByteLink {
 
   void connect_before(TimePoint first);
   void take(std::size_t index);
+  void let_stops_wait(std::size_t index);
   void feed(std::size_t index);
   void expect(std::size_t index);
   void check_number(const Moment& moment);
@@ -168,6 +169,7 @@ ReplayReport Replay::run() {
 void Replay::take(std::size_t index) {
   const Moment& moment = moments_[index];
   let_time_pass(moment.at);
+  if (moment.what == What::received || moment.what == What::ended) let_stops_wait(index);
   switch (moment.what) {
     case What::received:
     case What::connecting:
@@ -179,6 +181,20 @@ void Replay::take(std::size_t index) {
       return feed(index);
     default:
       return expect(index);
+  }
+}
+
+// Stops that wait while an exchange runs are written together when it ends in a barrier: they must be there before.
+void Replay::let_stops_wait(std::size_t index) {
+  const TimePoint at = moments_[index].at;
+  const auto same = [&](std::size_t next) {
+    return next < moments_.size() && moments_[next].at == at && moments_[next].what != What::received;
+  };
+  std::size_t next = index + 1;
+  while (same(next) && moments_[next].what != What::barrier) ++next;
+  if (!same(next) || !same(next + 1) || moments_[next + 1].what != What::written) return;
+  for (next += 2; is_stop_at_once(next, at); ++next) {
+    if (!asked_.contains(next)) ask(next);
   }
 }
 
