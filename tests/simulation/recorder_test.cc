@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <algorithm>
 
 #include "device/shrc203/replay.h"
 #include "tests/simulation/callers.h"
@@ -116,7 +116,6 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   ASSERT_TRUE(world.violations().empty()) << world.violations().front();
 
   const std::string text = recorded.text();
-  if (const char* keep = std::getenv("KEEP")) std::ofstream(fmt::format("{}/{}.recording", keep, GetParam())) << text;
   const Recording recording = parsed(text);
   std::string written;
   for (const auto& line : world.wire().commands()) written += line + "\r\n";
