@@ -75,6 +75,8 @@ Metrics::Metrics()
                          "Path segments that came after the chain had ended: OK where OK_D was due.")),
       unexpected_lines_(counter(*registry_, "axisgate_unexpected_lines_total",
                                 "Lines from the controller that nothing waited for; they are dropped.")),
+      recorder_drops_(counter(*registry_, "axisgate_recorder_dropped_total",
+                              "Recorded lines that a reader of the recording, or its file, was too slow for.")),
       slow_readers_(counter(*registry_, "axisgate_slow_readers_total",
                             "Times that the reader of a stream fell behind the facts that are kept, and missed some.")
                         .Add({})),
@@ -111,6 +113,7 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
       barriers_(metrics.barriers_.Add({{"device", device_}})),
       underruns_(metrics.underruns_.Add({{"device", device_}})),
       unexpected_lines_(metrics.unexpected_lines_.Add({{"device", device_}})),
+      recorder_drops_(metrics.recorder_drops_.Add({{"device", device_}})),
       line_busy_(metrics.line_busy_.Add({{"device", device_}})),
       bytes_in_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "in"}})),
       bytes_out_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "out"}})),

@@ -59,6 +59,7 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& barriers_;
   prometheus::Family<prometheus::Counter>& underruns_;
   prometheus::Family<prometheus::Counter>& unexpected_lines_;
+  prometheus::Family<prometheus::Counter>& recorder_drops_;
   prometheus::Counter& slow_readers_;
   std::vector<std::weak_ptr<prometheus::Collectable>> parts_;
   std::unique_ptr<prometheus::Exposer> exposer_;
@@ -73,6 +74,9 @@ class DeviceMetrics {
   void set_state(const shrc203::State& state);
   void set_queued(Lane lane, std::size_t commands);
   void set_owed_answers(int answers) { owed_answers_.Set(answers); }
+  void count_recorder_drops(std::uint64_t lines) {
+    recorder_drops_.Increment(static_cast<double>(lines));
+  }  // any thread
 
  private:
   static constexpr std::size_t kOutcomeCount = 8;
@@ -114,6 +118,7 @@ class DeviceMetrics {
   prometheus::Counter& barriers_;
   prometheus::Counter& underruns_;
   prometheus::Counter& unexpected_lines_;
+  prometheus::Counter& recorder_drops_;
   prometheus::Counter& line_busy_;
   prometheus::Counter& bytes_in_;
   prometheus::Counter& bytes_out_;

@@ -39,6 +39,7 @@ Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> liste
       stage_(gateway, streams_),
       events_(gateway, streams_),
       commands_(gateway, streams_),
+      diagnostics_(gateway, streams_),
       health_(streams_),
       stops_(stage_),
       names_(devices_) {}
@@ -69,7 +70,7 @@ void Server::build_ordinary() {
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
   for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &health_}) {
+       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &diagnostics_, &health_}) {
     builder.RegisterService(service);
   }
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());

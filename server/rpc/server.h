@@ -16,6 +16,7 @@
 #include "server/listener.h"
 #include "server/rpc/command_service.h"
 #include "server/rpc/device_service.h"
+#include "server/rpc/diagnostics_service.h"
 #include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
@@ -59,6 +60,7 @@ class Server {
   StageService stage_;
   EventService events_;
   CommandService commands_;
+  DiagnosticsService diagnostics_;
   HealthService health_;
   StopService stops_;
   NamesService names_;

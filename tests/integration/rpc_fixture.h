@@ -13,6 +13,7 @@
 
 #include "axisgate/v1/command.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "server/events/wall_time.h"
@@ -39,6 +40,7 @@ class RpcTest : public ::testing::Test {
     stage_ = api::StageService::NewStub(channel_);
     events_ = api::EventService::NewStub(channel_);
     commands_ = api::CommandService::NewStub(channel_);
+    diagnostics_ = api::DiagnosticsService::NewStub(channel_);
     wait_until_up();
   }
 
@@ -155,6 +157,7 @@ class RpcTest : public ::testing::Test {
   std::unique_ptr<api::StageService::Stub> stage_;
   std::unique_ptr<api::EventService::Stub> events_;
   std::unique_ptr<api::CommandService::Stub> commands_;
+  std::unique_ptr<api::DiagnosticsService::Stub> diagnostics_;
 };
 
 }  // namespace axisgate::rpc

@@ -32,7 +32,8 @@ std::vector<std::string> methods_of_the_api() {
   std::vector<std::string> methods;
   for (const google::protobuf::Message* request : std::initializer_list<const google::protobuf::Message*>{
            &api::ListDevicesRequest::default_instance(), &api::MoveRequest::default_instance(),
-           &api::WatchRequest::default_instance(), &api::ExecuteRequest::default_instance()}) {
+           &api::WatchRequest::default_instance(), &api::ExecuteRequest::default_instance(),
+           &api::RecordRequest::default_instance()}) {
     const google::protobuf::FileDescriptor* file = request->GetDescriptor()->file();
     for (int i = 0; i < file->service_count(); ++i) {
       for (int k = 0; k < file->service(i)->method_count(); ++k) {
