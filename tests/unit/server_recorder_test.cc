@@ -1,5 +1,3 @@
-#include "server/recorder.h"
-
 #include <gmock/gmock.h>
 #include <prometheus/text_serializer.h>
 
@@ -8,6 +6,7 @@
 #include <string>
 
 #include "device/link/clock.h"
+#include "server/recorder.h"
 
 namespace axisgate::server {
 namespace {
@@ -18,7 +17,7 @@ using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::StartsWith;
 
-class RecorderTest : public ::testing::Test {
+class ServerRecorderTest : public ::testing::Test {
  protected:
   // One line of the recording, finished.
   void record(const std::string& written) {
@@ -34,7 +33,7 @@ class RecorderTest : public ::testing::Test {
   std::uint64_t exchange_ = 0;
 };
 
-TEST_F(RecorderTest, AReaderGetsEachLineOnce) {
+TEST_F(ServerRecorderTest, AReaderGetsEachLineOnce) {
   record("Q:S\r\n");
   const RecordingRing::Beginning oldest = recorder_.ring().oldest();
   EXPECT_THAT(oldest.header, AllOf(StartsWith("# axisgate recording 1\n"), HasSubstr("# device: \"stage\"\n"),
@@ -46,7 +45,7 @@ TEST_F(RecorderTest, AReaderGetsEachLineOnce) {
   EXPECT_THAT(reader.next(), EndsWith(" > \"!:\\r\\n\"\n"));
 }
 
-TEST_F(RecorderTest, ABeginningIsBehindTheLineUnderWay) {
+TEST_F(ServerRecorderTest, ABeginningIsBehindTheLineUnderWay) {
   recorder_.on_event(shrc203::BytesWritten{"Q:S\r\n", 1, "", Lane::poll, {}}, monotonic_now());
   EXPECT_EQ(recorder_.ring().newest().line, 0u);
   const RecordingRing::Beginning beginning = recorder_.begin();
@@ -54,7 +53,7 @@ TEST_F(RecorderTest, ABeginningIsBehindTheLineUnderWay) {
   EXPECT_EQ(beginning.position, recorder_.ring().newest());
 }
 
-TEST_F(RecorderTest, ASlowReaderIsToldWhatItLostAndBeginsAnew) {
+TEST_F(ServerRecorderTest, ASlowReaderIsToldWhatItLostAndBeginsAnew) {
   DeviceRecorder::Reader slow(recorder_, recorder_.ring().oldest().position);
   DeviceRecorder::Reader quick(recorder_, recorder_.ring().oldest().position);
   std::ptrdiff_t lines = 0;
