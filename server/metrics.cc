@@ -99,9 +99,9 @@ Result<int> Metrics::expose(const TcpAddress& address) {
   return exposer_->GetListeningPorts().front();
 }
 
-void Metrics::add(const std::shared_ptr<prometheus::Collectable>& part) {
-  parts_.push_back(part);
+void Metrics::add(std::shared_ptr<prometheus::Collectable> part) {
   if (exposer_) exposer_->RegisterCollectable(part);
+  parts_.push_back(std::move(part));
 }
 
 DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)

@@ -32,8 +32,9 @@ class Metrics {
   // Serves /metrics at the address and returns the port taken, or says why not (a port in use). Call it once.
   Result<int> expose(const TcpAddress& address);
 
-  // Stands on the page, too, for as long as it lives: for what is not counted but asked when the page is.
-  void add(const std::shared_ptr<prometheus::Collectable>& part);
+  // Stands on the page, too: for what is not counted but asked when the page is. Kept as long as the page, so that none
+  // of the page's threads is the last to hold it.
+  void add(std::shared_ptr<prometheus::Collectable> part);
 
   const std::shared_ptr<prometheus::Registry>& registry() const { return registry_; }
 
@@ -61,7 +62,7 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& unexpected_lines_;
   prometheus::Family<prometheus::Counter>& recorder_drops_;
   prometheus::Counter& slow_readers_;
-  std::vector<std::weak_ptr<prometheus::Collectable>> parts_;
+  std::vector<std::shared_ptr<prometheus::Collectable>> parts_;
   std::unique_ptr<prometheus::Exposer> exposer_;
 };
 
