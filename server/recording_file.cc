@@ -66,8 +66,13 @@ bool RecordingFile::wait() {
 
 bool RecordingFile::open() {
   file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kMode));
-  if (!file_.valid()) complain("opened");
-  return file_.valid();
+  if (!file_.valid()) {
+    complain("opened");
+    return false;
+  }
+  // A daemon that was killed may have left half a line, which the head must not go on.
+  if (::lseek(file_.get(), 0, SEEK_END) > 0) due_.insert(0, "\n");
+  return true;
 }
 
 bool RecordingFile::write_due() {

@@ -61,7 +61,7 @@ TEST_F(RecordingFileTest, IsWrittenAsTheLineGoesAndTakenUpAgain) {
               AllOf(StartsWith("# axisgate recording 1\n"), HasSubstr("Q:S"), EndsWith(" > \"!:\\r\\n\"\n")));
   const std::string first = content(path_);
   { const RecordingFile file(path_, recorder_, kRetryPause); }
-  EXPECT_THAT(content(path_), StartsWith(first + "# axisgate recording 1\n"));
+  EXPECT_THAT(content(path_), StartsWith(first + "\n# axisgate recording 1\n"));
 }
 
 TEST_F(RecordingFileTest, IsTriedAgainUntilItCanBeWritten) {
