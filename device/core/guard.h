@@ -21,7 +21,6 @@ enum class Guard {
   silence,
   owed_answers,
   owed_refusals,
-  owed_identities_first,
   older_identities,
   three_probes,
   backoff,
@@ -40,7 +39,6 @@ enum class Guard {
   possible_lines_before,
 
   // A notice is never taken for a reply, nor a reply for a notice
-  possible_numbers,
   number_questions_wait,
   questions_for_all_axes,
   closed_questions,
@@ -97,7 +95,6 @@ enum class Guard {
   axes_stand_first,
   late_numbers_wait,
   registers_unknown_after_connect,
-  registers_unknown_after_stop,
   registers_unknown_after_failure,
   registers_unknown_after_transaction,
   left_overs_deleted,

@@ -46,7 +46,8 @@ AxisSet Completions::busy(AxisSet axes) {
 
 void Completions::answered(TimePoint written) {
   for (Axis& one : axes_) {
-    if (one.possible && one.until && *one.until <= written) one = {};
+    const bool after = one.until && (*one.until <= written || !guarded(Guard::settled_by_exchange));
+    if (one.possible && after) one = {};
   }
 }
 

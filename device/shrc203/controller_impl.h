@@ -128,6 +128,7 @@ class Controller::Impl : public LineListener {
   };
   void judge(LiveMotionPtr live, EndCheck& check);
   bool at_targets(const LiveMotion& live) const;
+  Positions places_of(const LiveMotion& live) const;
   std::optional<Problem> error_of(const LiveMotion& live) const;
   bool anything_moves() const;
 

@@ -71,12 +71,6 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     doubt_answer(line.text, now);
     return;
   }
-  // An owed *IDN? answers nothing but itself, though ?:CMD would take any text.
-  const bool identity = owed_.identities > 0 && parse_identity(line.text) && guarded(Guard::owed_identities_first);
-  if (row.name != "*IDN?" && identity) {
-    --owed_.identities;
-    return;
-  }
   const bool line_before = in_flight_->echo_first || row.name == kLineBefore;
   const bool told = !overlong && (continuity_.tells(line.text) || !guarded(Guard::possible_lines_before));
   if (line_before && !told) return doubt_answer(line.text, now);
@@ -140,7 +134,8 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
     on_number(axis, now);
     return true;
   }
-  if (in_flight_ && (!possible || !guarded(Guard::possible_numbers))) {
+  // Nothing is on the wire that a possible number could answer (conflicts()).
+  if (in_flight_) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
   }
@@ -229,7 +224,7 @@ ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
-  if (result.reply) completions_.answered(guarded(Guard::settled_by_exchange) ? done.written : now);
+  if (result.reply) completions_.answered(done.written);
   const auto& request = done.waiting->request;
   if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
     pace_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);

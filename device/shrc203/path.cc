@@ -219,7 +219,7 @@ Task<bool> PathRun::wait_for_ready() {
     const auto read = co_await impl_.read_positions(Lane::motion, live_->context.who);
     bool busy = !read.has_value();
     for (const int axis : plan_.axes.list()) busy = busy || impl_.state_.axis(axis).busy.value_or(true);
-    const Positions here = positions_of(impl_.state_);
+    const Positions here = impl_.places_of(*live_);
     ready = busy ? 0 : here == last ? ready + 1 : 1;
     last = here;
     if (ready >= 2) break;

@@ -10,10 +10,10 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kStopTries = 3;
-constexpr Duration kReopenLimit = std::chrono::seconds(1);       // how long a stop waits for a line that is down
-constexpr Duration kWriteLimit = std::chrono::seconds(10);       // and for its turn on one that is open
-constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
-constexpr Duration kAgainAfter = std::chrono::seconds(1);        // a stop without effect by then is written again
+constexpr Duration kReopenLimit = std::chrono::seconds(1);        // how long a stop waits for a line that is down
+constexpr Duration kWriteLimit = std::chrono::seconds(10);        // and for its turn on one that is open
+constexpr Duration kStandstillLimit = std::chrono::seconds(10);   // how long the axes may take to stand
+constexpr Duration kAgainAfter = std::chrono::milliseconds(500);  // a stop without effect by then is written again
 constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -70,7 +70,6 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
 Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   co_await write_stop(job);
   job->answered = true;
-  if (guarded(Guard::registers_unknown_after_stop)) registers_.forget();
   const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
   const bool line_works = written && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
   if (written && !line_works) {
@@ -152,8 +151,7 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       axis.position_pulses = state_.axis(axis.axis).position_pulses;
       ready = ready && *axis.ready;
     }
-    const bool unanswered = job->report.problem && job->report.problem->reason == Reason::outcome_unknown;
-    const bool not_heard = !ready && unanswered && now_ >= again_at;
+    const bool not_heard = !ready && now_ >= again_at && guarded(Guard::stop_again);
     if (ready || (not_heard && once_more)) {
       const bool empty = !not_heard && co_await prebuffer_is_empty(job);
       if (empty || !once_more) break;

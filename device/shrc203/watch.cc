@@ -245,6 +245,14 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
   }
 }
 
+// The others' axes may go on moving.
+Positions Controller::Impl::places_of(const LiveMotion& live) const {
+  Positions places = positions_of(state_);
+  for (const int other : (AxisSet::all() - live.motion.axes).list())
+    places[static_cast<std::size_t>(other - 1)].reset();
+  return places;
+}
+
 // Decides by the newest reading whether the motion has ended, and how.
 void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   bool busy = false;
@@ -259,14 +267,14 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
   const bool evident = live->motion.kind != MotionKind::home || stirred || !guarded(Guard::home_seen_to_run);
   // One flipped bit makes an R of a B; where no axis number bears a READY out, a second reading does.
+  const Positions here = places_of(*live);
   const bool borne_out = !guarded(Guard::success_seen_twice) || live->completed == live->motion.axes ||
-                         (check.ready && positions_of(state_) == check.positions);
+                         (check.ready && here == check.positions);
   const bool good = !error || !guarded(Guard::success_without_error);
   if (at_targets(*live) && good && evident && borne_out) {
     end_motion(live, MotionState::succeeded, {});
     return;
   }
-  const Positions here = positions_of(state_);
   const bool agreed = (check.ready && here == check.positions) || !guarded(Guard::end_seen_twice);
   const bool shown = now_ - check.begun >= kStartDoubt || !guarded(Guard::start_shows_late);
   if (!agreed || !shown) {
