@@ -138,6 +138,7 @@ TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
       {"axisgate_owed_answers", {"device"}},
       {"axisgate_queue_depth", {"device", "lane"}},
       {"axisgate_queue_wait_seconds", {"device", "lane"}},
+      {"axisgate_recorder_dropped_total", {"device"}},
       {"axisgate_slow_readers_total", {}},
       {"axisgate_stops_total", {"device", "kind"}},
       {"axisgate_time_limits_total", {"device", "kind"}},
