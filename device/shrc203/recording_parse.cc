@@ -219,7 +219,7 @@ RecordedRemark parse_happening(Cursor& line) {
 class Reader {
  public:
   Result<Recording> read(std::string_view text) {
-    for (int number = 1; !text.empty() && mistake_.empty(); ++number) {
+    for (int number = 1; (number == 1 || !text.empty()) && mistake_.empty(); ++number) {
       const auto end = std::min(text.find('\n'), text.size());
       std::string_view line = text.substr(0, end);
       text.remove_prefix(std::min(end + 1, text.size()));

@@ -1,5 +1,7 @@
 #include "device/shrc203/replay.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <deque>
 #include <set>
@@ -49,8 +51,10 @@ class Replay : LineListener, ByteLink {
 
   void connect_before(TimePoint first);
   void take(std::size_t index);
+  void let_stops_wait(std::size_t index);
   void feed(std::size_t index);
   void expect(std::size_t index);
+  void check_number(const Moment& moment);
   void provoke(std::size_t index);
   void ask_for(std::size_t index);
   void ask(std::size_t index);
@@ -62,6 +66,7 @@ class Replay : LineListener, ByteLink {
   void advance();
   void report_unrecorded(int line);
   void differ(int line, std::string recorded, std::string now);
+  bool full() const { return report_.differences.size() >= ReplayReport::kDifferencesMax; }
 
   // LineListener
   void line_connected(const Identity&, TimePoint) override {}
@@ -89,6 +94,7 @@ class Replay : LineListener, ByteLink {
   Line line_{profile_, *this, executor_, *this};
   TimePoint now_{};
   bool up_ = false, suspected_ = false;
+  std::uint64_t last_exchange_ = 0;
   std::deque<Deed> deeds_;         // of the core, not yet compared
   std::set<std::size_t> asked_;    // moments whose exchange has been asked for
   std::set<std::size_t> applied_;  // moments that have been fed ahead of others
@@ -106,6 +112,7 @@ void Replay::line_event(const Event& event, TimePoint) {
 }
 
 void Replay::differ(int line, std::string recorded, std::string now) {
+  if (full()) return;
   report_.differences.push_back({line, std::move(recorded), std::move(now)});
 }
 
@@ -135,7 +142,7 @@ void Replay::let_time_pass(TimePoint until) {
 
 // A line that has been up for long and rests, but for what the header says.
 void Replay::connect_before(TimePoint first) {
-  constexpr Duration kEach = std::chrono::minutes(1);
+  constexpr Duration kEach = std::chrono::seconds(1);
   line_.link_up(first - 4 * kEach);
   line_.receive("SIGMAKOKI,SHRC-203,0,V0\r\n", first - 4 * kEach);
   line_.advance(first - 3 * kEach);
@@ -155,15 +162,16 @@ ReplayReport Replay::run() {
   if (header_.axes) connect_before(now_);
   for (std::size_t i = first; i < moments_.size(); ++i) {
     take(i);
-    if (report_.differences.size() >= ReplayReport::kDifferencesMax) return std::move(report_);
+    if (full()) break;
   }
-  report_unrecorded(moments_.back().line);
+  // What the core has done last may stand behind the recording's end.
   return std::move(report_);
 }
 
 void Replay::take(std::size_t index) {
   const Moment& moment = moments_[index];
   let_time_pass(moment.at);
+  if (moment.what == What::received || moment.what == What::ended) let_stops_wait(index);
   switch (moment.what) {
     case What::received:
     case What::connecting:
@@ -175,6 +183,20 @@ void Replay::take(std::size_t index) {
       return feed(index);
     default:
       return expect(index);
+  }
+}
+
+// Stops that wait while an exchange runs are written together when it ends in a barrier: they must be there before.
+void Replay::let_stops_wait(std::size_t index) {
+  const TimePoint at = moments_[index].at;
+  const auto same = [&](std::size_t next) {
+    return next < moments_.size() && moments_[next].at == at && moments_[next].what != What::received;
+  };
+  std::size_t next = index + 1;
+  while (same(next) && moments_[next].what != What::barrier) ++next;
+  if (!same(next) || !same(next + 1) || moments_[next + 1].what != What::written) return;
+  for (next += 2; is_stop_at_once(next, at); ++next) {
+    if (!asked_.contains(next)) ask(next);
   }
 }
 
@@ -203,6 +225,7 @@ void Replay::feed(std::size_t index) {
 
 void Replay::expect(std::size_t index) {
   const Moment& moment = moments_[index];
+  if (moment.begins) check_number(moment);
   if (moment.what == What::written) report_.bytes_written += moment.text.size();
   if (moment.what == What::ended) ++report_.exchanges;
   if (deeds_.empty()) provoke(index);
@@ -214,6 +237,16 @@ void Replay::expect(std::size_t index) {
   const bool in_words = moment.what == What::barrier || moment.what == What::down;
   if (did.what == moment.what && (in_words || did.text == moment.text)) return;
   differ(moment.line, recorded, describe(did.what, did.text));
+}
+
+// Exchanges are numbered without a gap.
+void Replay::check_number(const Moment& moment) {
+  const std::uint64_t number = moment.begins->exchange;
+  if (last_exchange_ > 0 && number != last_exchange_ + 1) {
+    differ(moment.line, fmt::format("exchange {} behind exchange {}", number, last_exchange_),
+           fmt::format("exchange {}", last_exchange_ + 1));
+  }
+  last_exchange_ = number;
 }
 
 // Lets happen what made the line do it: time, somebody who asks, or the loss of the line.

@@ -1,6 +1,6 @@
 #include "device/shrc203/replay_moments.h"
 
-#include <fmt/format.h>
+#include <algorithm>
 
 #include "device/core/escape.h"
 
@@ -49,6 +49,16 @@ What what_of(RecordedRemark::Kind kind) {
   }
 }
 
+// What the line asks for itself, and a stop, depend on what was before them, and so does what ?:CMD tells after an
+// exchange that was not accepted.
+bool depends_on_nothing(const std::vector<Moment>& moments, std::size_t index) {
+  const Moment& moment = moments[index];
+  if (!moment.begins || moment.begins->who.empty() || moment.begins_in(Lane::stop)) return false;
+  const auto ended = std::find_if(moments.begin() + static_cast<std::ptrdiff_t>(index), moments.end(),
+                                  [](const Moment& one) { return one.what == What::ended; });
+  return ended != moments.end() && (ended->text == "ok" || ended->text == "ok_d" || ended->text == "data");
+}
+
 }  // namespace
 
 std::vector<Moment> moments_of(const Recording& recording) {
@@ -77,9 +87,7 @@ std::size_t first_known(const std::vector<Moment>& moments, RecordingHeader& hea
       header.axes.reset();
       return i;
     }
-    // What the line asks for itself, and a stop, depend on what was before them.
-    const bool somebodys = moment.begins && !moment.begins->who.empty() && !moment.begins_in(Lane::stop);
-    if (header.axes && somebodys) return i;
+    if (header.axes && depends_on_nothing(moments, i)) return i;
     if (moment.what == What::down) header.axes.reset();
     if (moment.what == What::ready) header.may_complete = header.may_complete - moment.axes;
   }
