@@ -66,6 +66,7 @@ class Replay : LineListener, ByteLink {
   void advance();
   void report_unrecorded(int line);
   void differ(int line, std::string recorded, std::string now);
+  bool full() const { return report_.differences.size() >= ReplayReport::kDifferencesMax; }
 
   // LineListener
   void line_connected(const Identity&, TimePoint) override {}
@@ -111,6 +112,7 @@ void Replay::line_event(const Event& event, TimePoint) {
 }
 
 void Replay::differ(int line, std::string recorded, std::string now) {
+  if (full()) return;
   report_.differences.push_back({line, std::move(recorded), std::move(now)});
 }
 
@@ -160,7 +162,7 @@ ReplayReport Replay::run() {
   if (header_.axes) connect_before(now_);
   for (std::size_t i = first; i < moments_.size(); ++i) {
     take(i);
-    if (report_.differences.size() >= ReplayReport::kDifferencesMax) return std::move(report_);
+    if (full()) break;
   }
   // What the core has done last may stand behind the recording's end.
   return std::move(report_);

@@ -127,7 +127,47 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   EXPECT_EQ(differences(text), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Hostile, Recorded, testing::Range<std::uint64_t>(7000, 7008));
+// 7000: a question that waited until no number could come. 7002, 7003: an exchange asked for just after the line had
+// asked something for itself. 20094, 20114: two stops that waited for the end of one exchange.
+INSTANTIATE_TEST_SUITE_P(Hostile, Recorded,
+                         testing::Values(7000, 7001, 7002, 7003, 7004, 7005, 7006, 7007, 20094, 20114));
+
+// Somebody has his recording begun when the stage has been in use for long.
+TEST(RecordedFromTheMiddle, IsDoneAgain) {
+  RecordedWorld recorded(drawn_setup(7100, Faults::none()));
+  Callers callers(recorded.world(), 7100);
+  callers.act_for(minutes(3));
+  callers.come_to_rest();
+  const Recording whole = parsed(recorded.text());
+  Recording rest{whole.header, {}};
+  int begun = 0;
+  for (std::size_t i = 0; i < whole.lines.size(); ++i) {
+    if (i % 50 == 49 && rest.header.axes) {
+      rest.lines.assign(whole.lines.begin() + static_cast<std::ptrdiff_t>(i), whole.lines.end());
+      const ReplayReport report = replay(rest);
+      ++begun;
+      EXPECT_TRUE(report.differences.empty())
+          << fmt::format("begun at line {}, line {}: {} / {}", whole.lines[i].number, report.differences[0].line,
+                         report.differences[0].recorded, report.differences[0].now);
+      if (i + 200 < whole.lines.size()) EXPECT_GT(report.exchanges, 100u);
+    }
+    pass(rest.header, whole.lines[i].event);
+  }
+  EXPECT_GT(begun, 10);
+}
+
+// The core that another reply limit makes of it stands for one that has been changed.
+TEST(RecordedOnABadLine, IsNotDoneByAnotherCore) {
+  RecordedWorld recorded(drawn_setup(7200, Faults::hostile()));
+  Callers callers(recorded.world(), 7200);
+  callers.act_for(minutes(1));
+  Recording recording = parsed(recorded.text());
+  ASSERT_TRUE(replay(recording).differences.empty());
+  recording.header.reply_limit *= 2;
+  const ReplayReport report = replay(recording);
+  EXPECT_GT(report.differences.size(), 0u);
+  EXPECT_LE(report.differences.size(), ReplayReport::kDifferencesMax);
+}
 
 }  // namespace
 }  // namespace axisgate::simulation
