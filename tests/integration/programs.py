@@ -63,14 +63,14 @@ class Lines:
 class Daemon:
     """`process` goes to subprocess.Popen."""
 
-    def __init__(self, folder, config, **process):
+    def __init__(self, folder, config, program="axisgated", **process):
         self.socket = os.path.join(folder, "axisgate.sock")
         path = os.path.join(folder, "axisgate.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(config.format(socket=self.socket))
         self._log_path = os.path.join(folder, "axisgated.log")
         self._log = open(self._log_path, "a+", encoding="utf-8")
-        self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
+        self._process = subprocess.Popen([BIN / program, "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT, **process)
         self.pid = self._process.pid
         self._wait_until_ready()

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/paced/track.h"
 #include "tests/simulation/scenario.h"
 
 namespace axisgate::simulation {
@@ -19,11 +20,9 @@ using namespace shrc203;
 using std::chrono::milliseconds;
 using std::chrono::minutes;
 
-constexpr int kCallers = 16;
-
-// Each has its own question: only equal ones that wait share an exchange.
-const std::array<std::string, kCallers> kOwnQuestions = {"*IDN?", "?:D",  "Q:",  "Q:S", "SRQ:", "!:",  "!:S",  "?:V",
-                                                         "?:MP",  "?:AP", "?:M", "?:A", "?:KP", "?:K", "?:EP", "?:SN"};
+using paced::kCallers;
+using paced::kOwnQuestions;
+using paced::Track;
 
 // Callers who ask again as soon as they are answered.
 class Pollers {
@@ -52,7 +51,7 @@ class Pollers {
                                   [this, caller](const Result<State>& state) { hear(caller, state.has_value()); });
       return;
     }
-    world_.controller().execute({{kOwnQuestions[caller]}, context}, world_.now(),
+    world_.controller().execute({{std::string(kOwnQuestions[caller])}, context}, world_.now(),
                                 [this, caller](const ExecuteEvent& event) {
                                   if (event.kind == ExecuteEvent::Kind::ended) hear(caller, !event.problem);
                                 });
@@ -71,38 +70,21 @@ class Pollers {
   Duration longest_wait_{};
 };
 
-// Segments of 3, 4 and 5 at 20,000 pulses/s, to and fro. Every twentieth goes back on another way, so that the end is
-// none of the places in between.
-struct Track {
-  Duration each;
-  std::int64_t unit() const { return 4 * (each / milliseconds(1)); }
-  std::array<std::int64_t, 2> way(int segment) const {
-    if (segment % 2 == 0) return {3 * unit(), 4 * unit()};
-    if (segment % 20 == 19) return {-4 * unit(), -3 * unit()};
-    return {-3 * unit(), -4 * unit()};
+PathRequest request_of(const World& world, const Track& track, int segments) {
+  PathRequest path;
+  path.context = world.context("owner", minutes(1));
+  for (int i = 0; i < segments; ++i) {
+    const auto [first, second] = track.way(i);
+    path.segments.push_back({{{1, pulses(first), {}}, {2, pulses(second), {}}}, true, pulses(Track::kSpeed), {}});
   }
-  std::array<std::int64_t, 2> end(int segments) const {
-    std::array<std::int64_t, 2> sum{};
-    for (int i = 0; i < segments; ++i) {
-      for (std::size_t axis = 0; axis < sum.size(); ++axis) sum[axis] += way(i)[axis];
-    }
-    return sum;
-  }
-  PathRequest request(const World& world, int segments) const {
-    PathRequest path;
-    path.context = world.context("owner", minutes(1));
-    for (int i = 0; i < segments; ++i) {
-      path.segments.push_back({{{1, pulses(way(i)[0]), {}}, {2, pulses(way(i)[1]), {}}}, true, pulses(20'000), {}});
-    }
-    return path;
-  }
-};
+  return path;
+}
 
 struct Course {
   Refills refills = Refills::reserved;
   Pollers::Asks asks = Pollers::Asks::own_question;
   int segments = 10'000;
-  Duration each = milliseconds(60);
+  milliseconds each{60};
   Duration answer_delay{};  // of the controller
   Faults faults = Faults::none();
 };
@@ -130,7 +112,7 @@ Ended end_of(const Course& run) {
     EXPECT_TRUE(world.run_until(ask_and_look, limit)) << world.replay();
   };
   ask_until([&] { return pollers.answered() > 10 * kCallers; }, minutes(1));
-  world.controller().run_path(Track{run.each}.request(world, run.segments), world.now(), [](Result<Motion>) {});
+  world.controller().run_path(request_of(world, {run.each}, run.segments), world.now(), [](Result<Motion>) {});
   ask_until([&] { return !world.outcomes().empty(); }, run.segments * (run.each + milliseconds(500)));
   EXPECT_TRUE(world.violations().empty()) << world.violations().front() << world.replay();
   if (world.outcomes().empty()) return {};
@@ -186,7 +168,7 @@ TEST(PacedPath, UnderrunsWhereRefillsDoNotGoFirst) {
 }
 
 // A controller that takes 5 ms to answer: 25 ms are enough for a refill, and not for a refill behind a question.
-const Course kTight{.segments = 1000, .each = milliseconds(25), .answer_delay = milliseconds(5)};
+const Course kTight{.segments = 1000, .each{25}, .answer_delay = milliseconds(5)};
 
 TEST(PacedPath, NoUnderrunWhereNothingButRefillsFits) {
   const Ended ended = end_of(kTight);
@@ -220,7 +202,7 @@ TEST(PacedPath, AStopIsNotHeldUp) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     Pollers pollers(world, Pollers::Asks::own_question);
-    world.controller().run_path(Track{milliseconds(60)}.request(world, 100), world.now(), [](Result<Motion>) {});
+    world.controller().run_path(request_of(world, {milliseconds(60)}, 100), world.now(), [](Result<Motion>) {});
     const TimePoint stop_at = world.now() + milliseconds(1500 + offset);
     const auto ask_until_then = [&] {
       pollers.ask_again();
@@ -242,7 +224,7 @@ TEST(PacedPath, WhatTheLineCannotFeedIsRefusedBeforeAnythingIsSent) {
   const std::size_t before = world.wire().commands().size();
   std::optional<Result<Motion>> told;
   const auto hear = [&](Result<Motion> motion) { told = std::move(motion); };
-  world.controller().run_path(Track{milliseconds(15)}.request(world, 50), world.now(), hear);
+  world.controller().run_path(request_of(world, {milliseconds(15)}, 50), world.now(), hear);
   ASSERT_TRUE(told && !told->has_value());
   EXPECT_EQ(told->error().reason, Reason::too_fast);
   EXPECT_EQ(told->error().message,
