@@ -3,13 +3,12 @@
 
 #include <array>
 #include <chrono>
-#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
 namespace axisgate::paced {
 
-inline constexpr std::size_t kCallers = 16;
+inline constexpr int kCallers = 16;
 
 // One for each caller, because equal questions that wait share an exchange.
 inline constexpr std::array<std::string_view, kCallers> kOwnQuestions = {

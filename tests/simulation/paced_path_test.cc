@@ -84,7 +84,7 @@ struct Course {
   Refills refills = Refills::reserved;
   Pollers::Asks asks = Pollers::Asks::own_question;
   int segments = 10'000;
-  milliseconds each{60};
+  milliseconds each = milliseconds(60);
   Duration answer_delay{};  // of the controller
   Faults faults = Faults::none();
 };
@@ -168,7 +168,7 @@ TEST(PacedPath, UnderrunsWhereRefillsDoNotGoFirst) {
 }
 
 // A controller that takes 5 ms to answer: 25 ms are enough for a refill, and not for a refill behind a question.
-const Course kTight{.segments = 1000, .each{25}, .answer_delay = milliseconds(5)};
+const Course kTight{.segments = 1000, .each = milliseconds(25), .answer_delay = milliseconds(5)};
 
 TEST(PacedPath, NoUnderrunWhereNothingButRefillsFits) {
   const Ended ended = end_of(kTight);
