@@ -1,5 +1,6 @@
 #include "device/shrc203/barrier.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "device/core/guard.h"
@@ -36,7 +37,8 @@ void Barrier::begin(Step step, TimePoint now) {
   probes_ = 0;
   older_ = guarded(Guard::older_identities) ? owed_.identities : 0;
   if (step == Step::silence) {
-    deadline_ = guarded(Guard::silence) ? now + limits_.silence : now;
+    silence_ = guarded(Guard::silence) ? std::max(limits_.silence, 2 * (now - probed_)) : Duration::zero();
+    deadline_ = now + silence_;
     silence_limit_ = now + kSilenceWaitMax;
   } else {
     probe(now);
@@ -45,6 +47,7 @@ void Barrier::begin(Step step, TimePoint now) {
 
 void Barrier::probe(TimePoint now) {
   ++probes_;
+  probed_ = now;
   write_(step_ == Step::echo ? "?:CMD" : "*IDN?");
   deadline_ = now + limits_.reply;
 }
@@ -78,7 +81,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     }
   }
   const bool owed = pay_owed(owed_, line);
-  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + limits_.silence;
+  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + silence_;
   return owed;
 }
 

@@ -23,17 +23,25 @@ AxisSet Completions::outstanding() const {
   return set;
 }
 
-void Completions::ready(AxisSet axes, TimePoint now) {
+AxisSet Completions::ready(AxisSet axes, TimePoint now) {
+  AxisSet changed;
   for (const int number : axes.list()) {
     Axis& one = axis(number);
     const bool settled = !guarded(Guard::start_settles) || !one.started || now - *one.started >= kStartSettles;
-    if (one.possible && !one.until && settled)
-      one.until = guarded(Guard::possible_after_ready) ? now + kAfterReady : now;
+    if (!one.possible || one.until || !settled) continue;
+    one.until = guarded(Guard::possible_after_ready) ? now + kAfterReady : now;
+    changed.add(number);
   }
+  return changed;
 }
 
-void Completions::busy(AxisSet axes) {
-  for (const int number : axes.list()) axis(number).until.reset();
+AxisSet Completions::busy(AxisSet axes) {
+  AxisSet changed;
+  for (const int number : axes.list()) {
+    if (axis(number).until) changed.add(number);
+    axis(number).until.reset();
+  }
+  return changed;
 }
 
 void Completions::answered(TimePoint written) {

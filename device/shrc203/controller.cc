@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "device/core/escape.h"
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
@@ -78,7 +79,8 @@ void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
   if (state_.link != LinkState::doubtful) return;
   const bool same = identity.serial_number == state_.serial_number && identity.model == state_.model;
   if (!same && guarded(Guard::serial_number_after_barrier)) {
-    line_.give_up("another controller answers: " + identity.model + " " + identity.serial_number, now_);
+    line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number),
+                  now_);
     return;
   }
   if (!restart_possible_) state_.link = LinkState::up;
@@ -92,12 +94,16 @@ void Controller::Impl::restart_suspected(TimePoint) {
 }
 
 void Controller::Impl::completion_seen(int axis, bool doubtful, TimePoint now) {
+  note_completion(axis, doubtful, false, now);
+}
+
+void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, TimePoint now) {
   line_.completions().arrived(axis);
   LiveMotionPtr owner;
   for (const auto& [id, live] : live_) {
     if (live->inside_gate && live->motion.axes.has(axis) && live->motion.state != MotionState::queued) owner = live;
   }
-  emit(CompletionSeen{axis, owner ? owner->motion.id : 0});
+  emit(CompletionSeen{axis, owner ? owner->motion.id : 0, deduced});
   if (!owner) return;
   owner->completed.add(axis);
   for (auto& result : owner->motion.results) {
@@ -176,7 +182,7 @@ Result<void> Controller::check(const MoveRequest& request) const {
 }
 
 Result<void> Controller::check(const PathRequest& request) const {
-  const auto plan = plan_path(request, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+  const auto plan = impl_->plan_feasible_path(request);
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }

@@ -86,6 +86,7 @@ class Controller::Impl : public LineListener {
   void restart_suspected(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
+  void note_completion(int axis, bool doubtful, bool deduced, TimePoint now);
 
   // handshake.cc
   Task<void> handshake(Identity identity, std::uint64_t connection);
@@ -151,13 +152,16 @@ class Controller::Impl : public LineListener {
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
-  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request);
+  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request, Register reg);
+  // As plan_path, and: the line can feed it.
+  Result<PathPlan> plan_feasible_path(const PathRequest& request) const;
 
   // stop.cc
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);
   Task<void> run_stop(StopJobPtr job);
   Task<void> write_stop(StopJobPtr job);
   Task<ExchangeResult> write_stop_line(StopJobPtr job, Command command);
+  Duration slowing(AxisSet axes) const;
   Task<void> wait_for_standstill(StopJobPtr job);
   Task<bool> prebuffer_is_empty(StopJobPtr job);
   void flush_motions(AxisSet axes, const RequestContext& context, bool emergency);

@@ -120,8 +120,8 @@ Task<ExchangeResult> Transaction::exchange(const Command& command) {
       result.candidates.erase(agreed);
       before.erase(std::ranges::find(before, answer));
       // What is left over is no answer, so it was a completion.
-      for (const int axis : before) impl_.completion_seen(axis, true, impl_.now_);
-      for (const int axis : result.candidates) impl_.completion_seen(axis, true, impl_.now_);
+      for (const int axis : before) impl_.note_completion(axis, true, true, impl_.now_);
+      for (const int axis : result.candidates) impl_.note_completion(axis, true, true, impl_.now_);
       co_return result;
     }
     before = std::exchange(result.candidates, {});

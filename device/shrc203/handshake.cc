@@ -57,7 +57,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   unit_ = state_.serial_number;
   state_.link = LinkState::up;
   state_.link_problem.clear();
-  emit(LinkChanged{LinkState::up, ""});
+  emit(LinkChanged{LinkState::up, "", state_.controllable()});
   line_.open(state_.controllable(), now_);
   wake_poll_.notify();
   publish_state();
@@ -103,12 +103,12 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      line_.completions().ready(AxisSet::all(), now_);
+      line_.ready(AxisSet::all(), now_);
       auto quiet = tick_.wait_until(now_ + Completions::kAfterReady + kQuiet);
       co_await quiet;
       co_return connection == connection_;
     }
-    line_.completions().busy(AxisSet::all());
+    line_.busy(AxisSet::all(), now_);
     state_.link_problem = "something moves that the gateway did not start; waiting until it stands";
     const auto read = co_await read_positions(Lane::question, kGateway, true);
     if (!read) publish_state();

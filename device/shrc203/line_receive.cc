@@ -225,6 +225,10 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
   if (result.reply) completions_.answered(done.written);
+  const auto& request = done.waiting->request;
+  if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
+    pace_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
+  }
   listener_.line_event(ended(done, result, outcome, now), now);
   for (auto& answer : done.waiting->answers) answer.deliver(result);
 }
@@ -256,6 +260,7 @@ void Line::barrier_moved(TimePoint now) {
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   owed_.echoes = 0;
   barrier_.reset();
+  learned(LineLearned::What::barrier_passed);
   const bool connecting = !handshake_passed_ && !doubted_waiting_;
   if (doubted_waiting_) {
     if (const auto received = barrier_told) {
@@ -274,6 +279,20 @@ void Line::barrier_moved(TimePoint now) {
   }
   pump(now);
 }
+
+void Line::ready(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.ready(axes, now);
+  if (!news.empty()) learned(LineLearned::What::ready, news);
+}
+
+void Line::busy(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.busy(axes);
+  if (!news.empty()) learned(LineLearned::What::busy, news);
+}
+
+void Line::learned(LineLearned::What what, AxisSet axes) { listener_.line_event(LineLearned{what, axes}, now_); }
 
 void Line::unexpected(std::string_view text, TimePoint now) {
   listener_.line_event(UnexpectedLine{std::string(text)}, now);

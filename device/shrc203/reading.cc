@@ -79,8 +79,8 @@ bool Controller::Impl::apply_positions(const Reply& reply) {
     axis.busy = reading.busy;
     (reading.busy ? busy : ready).add(number);
   }
-  line_.completions().ready(ready | (AxisSet::all() - state_.controllable()), now_);
-  line_.completions().busy(busy);
+  line_.ready(ready | (AxisSet::all() - state_.controllable()), now_);
+  line_.busy(busy, now_);
   state_.read = now_;
   if (busy.empty()) state_.moving_unknown = false;
   publish_state();

@@ -72,7 +72,7 @@ TEST(Hazard, H10_GarbageBeforeTheAnswer) {
 
 // The last probe but one is answered late, and the last is refused after the barrier: no command's refusal.
 TEST(Hazard, H02_AProbeGivenUpIsRefused) {
-  for (int late = 55; late < 110 && !HasFailure(); late += 1) {
+  for (int late = 40; late < 200 && !HasFailure(); late += 3) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     int probes = 0;
@@ -91,7 +91,7 @@ TEST(Hazard, H02_AProbeGivenUpIsRefused) {
 
 // An answer to a probe that was given up comes after the barrier, while another line waits for its own.
 TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
-  for (int late = 40; late < 120 && !HasFailure(); late += 2) {
+  for (int late = 40; late < 200 && !HasFailure(); late += 3) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     int probes = 0;
@@ -122,7 +122,7 @@ TEST(Hazard, H02_AStopInsideABarrier) {
       if (kind != LineKind::reply) return {};
       const bool probe = line.starts_with("SIGMAKOKI");
       const bool stop = line == "OK" && written(world, "L:") > 0 && ++stops == 1;
-      return {.drop = false, .delay = milliseconds(probe ? 30 : stop ? 110 : 0), .instead = {}};
+      return {.drop = false, .delay = milliseconds(probe ? 30 : stop ? 150 : 0), .instead = {}};
     });
     world.controller().execute({{"?:V"}, world.context("asker")}, world.now(), [](const ExecuteEvent&) {});
     move_by(world, {{1, 100}});

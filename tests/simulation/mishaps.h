@@ -1,5 +1,5 @@
 // What befalls the device and its plug, at random: it restarts, somebody touches its front panel or a limit sensor, its
-// cable is pulled. Whoever caused one also undoes it, as a person would.
+// cable is pulled or put into another unit. Whoever caused one also undoes it, as a person would.
 #pragma once
 
 #include <cstdint>
@@ -12,22 +12,46 @@ namespace axisgate::simulation {
 
 class Mishaps {
  public:
-  // Draws from numbers of its own, so that a run without mishaps is the same as one before there were any.
+  // Strikes on its own as the world runs: at a drawn instant, at a drawn byte on the wire, or at one of a set-and-go,
+  // each as often. Draws from numbers of its own, so that a run without mishaps is the same as one before there were
+  // any.
   Mishaps(World& world, std::uint64_t seed, double an_hour);
 
-  // To be called every now and then; strikes when its time has come.
-  void act();
+  // Nothing strikes any more, and what has is put right.
   void undo_all();
 
  private:
+  void plan_next();
   void strike();
   void put_right();
   void later(Duration after, std::function<void()> undo);
+  void undo_until(TimePoint now);
+  Duration drawn(int least_ms, int most_ms) { return std::chrono::milliseconds(random_.between(least_ms, most_ms)); }
+
+  void reboot();
+  void leave_host();
+  void other_dialect();
+  void emergency();
+  void excitation();
+  void limit();
+  void overflow() { error("device: overflow", shrc203::simulator::AxisError::overflow); }
+  void scale() { error("device: scale", shrc203::simulator::AxisError::scale); }
+  void disconnection() { error("device: disconnection", shrc203::simulator::AxisError::disconnection); }
+  void error(const char* kind, shrc203::simulator::AxisError error);
+  void fall_asleep();
+  void slow();
+  void stuck();
+  void unplugged();
+  void another_unit();
+  void blocked_write();
+  void stuck_line();
 
   World& world_;
   Random random_;
   double an_hour_;
-  TimePoint last_{};
+  bool over_ = false, visited_ = false;
+  int axis_ = 1;
+  Duration lasts_{};
   std::multimap<TimePoint, std::function<void()>> undo_;
 };
 

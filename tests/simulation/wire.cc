@@ -2,56 +2,29 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <utility>
+
 #include "device/core/escape.h"
 
 namespace axisgate::simulation {
 namespace {
 
 constexpr std::size_t kLogLines = 120;
+constexpr std::string_view kEndOfLine = "\r\n";
 
 Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(count); }
 
 }  // namespace
 
-Faults Faults::mild() {
-  Faults f;
-  f.drop_reply = f.drop_notice = f.late_reply = f.late_notice = 0.001;
-  f.split = 0.01;
-  f.mishaps_an_hour = 1;
-  return f;
+bool sets_motion(std::string_view command) {
+  const auto verb = command.substr(0, command.find(':'));
+  return verb == "M" || verb == "A" || verb == "MP" || verb == "AP" || verb == "KP";
 }
 
-Faults Faults::rough() {
-  Faults f = mild();
-  f.drop_command = f.drop_reply = f.late_reply = 0.005;
-  f.double_notice = f.drop_notice = f.late_notice = 0.02;
-  f.noise = f.flip_reply = 0.001;
-  f.mishaps_an_hour = 5;
-  return f;
-}
-
-std::optional<Faults> Faults::named(std::string_view profile) {
-  if (profile == "quiet") return none();
-  if (profile == "mild") return mild();
-  if (profile == "rough") return rough();
-  if (profile == "hostile") return hostile();
-  return {};
-}
-
-Faults Faults::hostile() {
-  Faults f;
-  f.drop_command = f.drop_reply = 0.01;
-  f.flip_command = f.null_in_command = 0.002;
-  f.late_reply = 0.01;
-  f.double_reply = 0.01;
-  f.false_ng = 0.002;
-  f.flip_reply = 0.005;
-  f.noise = 0.005;
-  f.split = 0.02;
-  f.drop_notice = f.late_notice = f.double_notice = 0.05;
-  f.flood_notice = 0.01;
-  f.mishaps_an_hour = 20;
-  return f;
+bool starts_motion(std::string_view command) {
+  const auto verb = command.substr(0, command.find(':'));
+  return verb == "G" || verb == "HRT" || verb == "ZRT";
 }
 
 void Wire::note(TimePoint now, const std::string& text) {
@@ -61,6 +34,10 @@ void Wire::note(TimePoint now, const std::string& text) {
 
 bool Wire::strikes(double probability, const char* kind) { return random_.chance(probability) && inject(kind); }
 
+bool Wire::strikes_newly(double probability, const char* kind) {
+  return damage_random_.chance(probability) && inject(kind);
+}
+
 bool Wire::inject(const char* kind) {
   const std::uint64_t number = drawn_++;
   if (spared_.contains(number)) return false;
@@ -69,10 +46,38 @@ bool Wire::inject(const char* kind) {
   return true;
 }
 
-std::string Wire::flipped(std::string text) {
-  auto& byte = text[static_cast<std::size_t>(random_.between(0, static_cast<std::int64_t>(text.size()) - 1))];
-  byte = static_cast<char>(byte ^ (1 << random_.between(0, 6)));
+std::string Wire::flipped(std::string text, Random& random) {
+  damaging_ = true;
+  auto& byte = text[static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(text.size()) - 1))];
+  byte = static_cast<char>(byte ^ (1 << random.between(0, 6)));
   return text;
+}
+
+std::string Wire::with_bytes_damaged(std::string text) {
+  const auto place = [&] {
+    return static_cast<std::size_t>(damage_random_.between(0, static_cast<std::int64_t>(text.size()) - 1));
+  };
+  const auto strikes_here = [&](double probability, const char* kind) {
+    const bool struck = !text.empty() && strikes_newly(probability, kind);
+    damaging_ = damaging_ || struck;
+    return struck;
+  };
+  if (strikes_here(faults_.lose_byte, "line: byte lost")) text.erase(place(), 1);
+  if (strikes_here(faults_.double_byte, "line: byte doubled")) {
+    const auto at = place();
+    text.insert(at, 1, text[at]);
+  }
+  if (strikes_here(faults_.eight_bit, "line: NUL or 8-bit byte")) {
+    char& byte = text[place()];
+    byte = damage_random_.chance(0.5) ? '\0' : static_cast<char>(byte | 0x80);
+  }
+  return text;
+}
+
+std::string_view Wire::end_of_line() {
+  if (!strikes_newly(faults_.merge, "line: merged")) return kEndOfLine;
+  damaging_ = true;
+  return "";
 }
 
 void Wire::open(TimePoint now) {
@@ -94,11 +99,57 @@ void Wire::cut(TimePoint now, Duration until_back) {
   if (opens_at_) opens_at_ = std::max(*opens_at_, now + until_back);
 }
 
+void Wire::hold_up(bool to_device, Duration time) {
+  TimePoint& free = to_device ? to_device_free_ : to_gateway_free_;
+  free = std::max(free, now_) + time;
+  for (auto& [at, delivery] : std::exchange(in_transit_, {})) {
+    in_transit_.emplace(delivery.to_device == to_device ? at + time : at, std::move(delivery));
+  }
+}
+
 void Wire::reopen(Duration wait) {
   note(now_, "   gateway reopens the line");
   in_transit_.clear();
   open_ = false;
   opens_at_ = now_ + wait;
+}
+
+void Wire::after_bytes(std::uint64_t count, bool of_set_and_go, std::function<void(TimePoint)> alarm) {
+  alarm_bytes_ = count;
+  alarm_awaits_set_ = of_set_and_go;
+  alarm_ = std::move(alarm);
+}
+
+void Wire::transit(TimePoint at, Delivery delivery) {
+  const std::uint64_t bytes = delivery.bytes.size();
+  if (delivery.to_device && sets_motion(commands_[delivery.command])) alarm_awaits_set_ = false;
+  if (alarm_awaits_set_) {
+    in_transit_.emplace(at, std::move(delivery));
+    return;
+  }
+  if (alarm_ && alarm_bytes_ <= bytes) {
+    std::exchange(alarm_, {})(at - byte_time_ * static_cast<std::int64_t>(bytes - alarm_bytes_));
+  } else {
+    alarm_bytes_ -= std::min(alarm_bytes_, bytes);
+  }
+  in_transit_.emplace(at, std::move(delivery));
+}
+
+void Wire::pass_bytes(TimePoint now) {
+  now_ = now;
+  std::vector<Delivery> parts;
+  for (auto& [at, delivery] : in_transit_) {
+    const auto left = static_cast<std::size_t>((at - now + byte_time_ - Duration(1)) / byte_time_);
+    // A line is whole only with all that belongs to it: two copies of one come together.
+    const std::size_t whole = std::min(delivery.bytes.size(), delivery.bytes.find(kEndOfLine));
+    if (left >= delivery.bytes.size() || whole == 0) continue;
+    const std::size_t come = std::min(delivery.bytes.size() - left, whole);
+    Delivery part = delivery;
+    part.bytes.resize(come);
+    delivery.bytes.erase(0, come);
+    parts.push_back(std::move(part));
+  }
+  for (const Delivery& part : parts) deliver(part, now);
 }
 
 // One write is one line: the gateway never writes less or more.
@@ -112,9 +163,13 @@ void Wire::from_gateway(std::string_view bytes) {
       std::max(to_device_free_, now_) + byte_time_ * static_cast<std::int64_t>(bytes.size()) + fault.delay;
   if (fault.drop) return;
   if (strikes(faults_.drop_command, "line: command dropped")) return;
-  if (strikes(faults_.flip_command, "line: command flipped")) line = flipped(line);
+  damaging_ = false;
+  if (strikes(faults_.flip_command, "line: command flipped")) line = flipped(line, random_);
   if (strikes(faults_.null_in_command, "line: NUL in command")) line.insert(line.size() / 2, 1, '\0');
-  in_transit_.emplace(to_device_free_, Delivery{true, fault.instead.value_or(line + "\r\n"), {}, commands_.size() - 1});
+  line = with_bytes_damaged(std::move(line));
+  line += end_of_line();
+  if (damaging_) ++commands_damaged_;
+  transit(to_device_free_, Delivery{true, fault.instead.value_or(line), {}, commands_.size() - 1, damaging_});
 }
 
 void Wire::from_device(std::string_view bytes) {
@@ -143,31 +198,52 @@ void Wire::device_line(std::string text) {
   const Scripted fault = scripted(is_reply ? LineKind::reply : LineKind::notice, text);
   if (fault.drop) return;
   if (fault.instead) return to_gateway(*fault.instead, origin, fault.delay);
+  damaging_ = false;
+  if (!is_reply) return notice_line(std::move(text), fault.delay);
   Duration extra = fault.delay;
-  if (is_reply) {
-    if (strikes(faults_.drop_reply, "reply: dropped")) return;
-    if (strikes(faults_.late_reply, "reply: late")) extra += milliseconds(random_.between(50, 900));
-    const bool setting = text == "OK" || text == "OK_D";
-    if (setting && strikes(faults_.false_ng, "reply: false NG")) text = random_.chance(0.5) ? "NG" : "NG_I";
-    if (strikes(faults_.flip_reply, "line: reply flipped")) text = flipped(text);
-    const bool twice = strikes(faults_.double_reply, "reply: doubled");
-    to_gateway(twice ? text + "\r\n" + text + "\r\n" : text + "\r\n", origin, extra);
-  } else {
-    if (strikes(faults_.drop_notice, "notice: dropped")) return;
-    if (strikes(faults_.late_notice, "notice: late")) extra += milliseconds(random_.between(5, 120));
-    const bool twice = strikes(faults_.double_notice, "notice: doubled");
-    held_notices_.emplace(now_ + extra, twice ? text + "\r\n" + text + "\r\n" : text + "\r\n");
-    if (strikes(faults_.flood_notice, "notice: flood")) {
-      for (int i = 0; i < random_.between(5, 20); ++i) {
-        held_notices_.emplace(now_ + milliseconds(random_.between(1, 120)), text + "\r\n");
-      }
+  if (strikes(faults_.drop_reply, "reply: dropped")) return;
+  if (strikes(faults_.late_reply, "reply: late")) extra += milliseconds(random_.between(50, 900));
+  const bool setting = text == "OK" || text == "OK_D";
+  if (setting && strikes(faults_.false_ng, "reply: false NG")) text = random_.chance(0.5) ? "NG" : "NG_I";
+  if (strikes(faults_.flip_reply, "line: reply flipped")) text = flipped(text, random_);
+  text = with_bytes_damaged(std::move(text));
+  const bool twice = strikes(faults_.double_reply, "reply: doubled");
+  if (twice) text += std::string(kEndOfLine) + text;
+  text += end_of_line();
+  to_gateway(std::move(text), origin, extra);
+  make_noise();
+}
+
+void Wire::notice_line(std::string text, Duration extra) {
+  const std::string number = text + "\r\n";
+  if (strikes(faults_.drop_notice, "notice: dropped")) return;
+  if (strikes(faults_.late_notice, "notice: late")) extra += milliseconds(random_.between(5, 120));
+  if (strikes_newly(faults_.flip_notice, "line: notice flipped")) text = flipped(text, damage_random_);
+  text = with_bytes_damaged(std::move(text));
+  const bool twice = strikes(faults_.double_notice, "notice: doubled");
+  if (twice) text += std::string(kEndOfLine) + text;
+  text += end_of_line();
+  TimePoint at = now_ + extra;
+  const bool another_waits = !held_notices_.empty() && held_notices_.begin()->first <= at;
+  if (another_waits && strikes_newly(faults_.reorder_notice, "notice: reordered")) {
+    at = held_notices_.begin()->first - Duration(1);
+  }
+  held_notices_.emplace(at, Delivery{false, text, {Origin::Kind::notice, 0}, 0, damaging_});
+  if (strikes(faults_.flood_notice, "notice: flood")) {
+    for (int i = 0; i < random_.between(5, 20); ++i) {
+      held_notices_.emplace(now_ + milliseconds(random_.between(1, 120)),
+                            Delivery{false, number, {Origin::Kind::notice, 0}, 0, false});
     }
   }
-  if (strikes(faults_.noise, "line: noise")) {
-    std::string burst;
-    for (int i = 0; i < random_.between(1, 6); ++i) burst += static_cast<char>(random_.between(128, 255));
-    to_gateway(burst + "\r\n", {Origin::Kind::noise, 0}, {});
-  }
+  make_noise();
+}
+
+void Wire::make_noise() {
+  if (!strikes(faults_.noise, "line: noise")) return;
+  std::string burst;
+  for (int i = 0; i < random_.between(1, 6); ++i) burst += static_cast<char>(random_.between(128, 255));
+  damaging_ = false;
+  to_gateway(burst + "\r\n", {Origin::Kind::noise, 0}, {});
 }
 
 // A late line holds up the ones behind it: bytes do not overtake on a wire.
@@ -179,12 +255,12 @@ void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
     // Never between the two copies of a doubled line: one that comes after the next command cannot be told from its
     // answer by anybody.
     const auto middle = bytes.size() / 2 + 1;
-    in_transit_.emplace(at, Delivery{false, bytes.substr(0, middle), origin, 0});
+    transit(at, Delivery{false, bytes.substr(0, middle), origin, 0, damaging_});
     at += milliseconds(random_.between(1, 40));
     to_gateway_free_ = std::max(to_gateway_free_, at);
     bytes.erase(0, middle);
   }
-  in_transit_.emplace(at, Delivery{false, std::move(bytes), origin, 0});
+  transit(at, Delivery{false, std::move(bytes), origin, 0, damaging_});
 }
 
 std::optional<TimePoint> Wire::next_event() const {
@@ -198,8 +274,9 @@ void Wire::advance(TimePoint now) {
   now_ = now;
   if (opens_at_ && *opens_at_ <= now) open(now);
   while (!held_notices_.empty() && held_notices_.begin()->first <= now) {
-    const std::string bytes = held_notices_.extract(held_notices_.begin()).mapped();
-    if (open_) to_gateway(bytes, {Origin::Kind::notice, 0}, {});
+    const Delivery held = held_notices_.extract(held_notices_.begin()).mapped();
+    damaging_ = held.damaged;
+    if (open_) to_gateway(held.bytes, held.origin, {});
   }
   while (open_ && !in_transit_.empty() && in_transit_.begin()->first <= now) {
     const Delivery delivery = in_transit_.extract(in_transit_.begin()).mapped();
@@ -208,13 +285,17 @@ void Wire::advance(TimePoint now) {
 }
 
 void Wire::deliver(const Delivery& delivery, TimePoint now) {
+  if (delivery.damaged) last_damage_ = now;
   if (delivery.to_device) {
-    if (device_reads_()) unanswered_.push_back(delivery.command);
+    const bool ends = delivery.bytes.find_first_of(kEndOfLine) != std::string::npos;
+    if (ends && device_reads_()) unanswered_.push_back(delivery.command);
     device_->receive(delivery.bytes, now);
     return;
   }
   note(now, "< " + escaped(delivery.bytes));
   delivering_ = delivery.origin;
+  delivering_->damaged = delivery.damaged || unended_damage_;
+  unended_damage_ = delivering_->damaged && !delivery.bytes.ends_with(kEndOfLine);
   gateway_->receive(delivery.bytes, now);
   delivering_.reset();
 }

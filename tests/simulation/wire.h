@@ -33,7 +33,14 @@ struct Faults {
   double drop_notice = 0;
   double late_notice = 0;
   double double_notice = 0;
-  double flood_notice = 0;     // notice: one number many times
+  double flood_notice = 0;  // notice: one number many times
+  double flip_notice = 0;
+  double reorder_notice = 0;  // notice: overtakes the one before it
+  // line, of commands, replies and notices alike
+  double lose_byte = 0;
+  double double_byte = 0;
+  double eight_bit = 0;        // one byte becomes a NUL or gets its top bit
+  double merge = 0;            // the end of a line is lost, so that the next one continues it
   double mishaps_an_hour = 0;  // device and link: mishaps.h
 
   static Faults none() { return {}; }
@@ -53,6 +60,7 @@ inline std::string_view name(Phase phase) { return kPhaseNames[static_cast<std::
 struct Origin {
   enum class Kind { reply, notice, noise } kind = Kind::reply;
   std::size_t command = 0;  // a reply's: the index of the command line that it answers
+  bool damaged = false;     // it is no longer the line that was sent
 };
 
 // A fault at one place instead of at random: what is done to one line.
@@ -64,9 +72,15 @@ struct Scripted {
 enum class LineKind { command, reply, notice };
 using Script = std::function<Scripted(LineKind, const std::string& line)>;
 
+bool sets_motion(std::string_view command);
+bool starts_motion(std::string_view command);
+
 class Wire {
  public:
-  Wire(Random& random, int baud) : random_(random), byte_time_(std::chrono::nanoseconds(10'000'000'000 / baud)) {}
+  Wire(Random& random, std::uint64_t seed, int baud)
+      : random_(random),
+        damage_random_(seed ^ 0x44414D4147452121u),
+        byte_time_(std::chrono::nanoseconds(10'000'000'000 / baud)) {}
 
   void set_faults(const Faults& faults) { faults_ = faults; }
   // Asked for every line, before the faults are drawn.
@@ -84,10 +98,19 @@ class Wire {
   std::optional<TimePoint> next_event() const;
   void advance(TimePoint now);
   void cut(TimePoint now, Duration until_back);  // unplugged
+  // Nothing passes in this direction for so long, not even the rest of a line.
+  void hold_up(bool to_device, Duration time);
+
+  // To be called before something happens in the middle of a line: its bytes of until now have come.
+  void pass_bytes(TimePoint now);
+  // Calls `alarm` with the time at which the `count`th byte from now passes, either way, as soon as that is known; with
+  // `of_set_and_go` counted from the next line on that sets a motion.
+  void after_bytes(std::uint64_t count, bool of_set_and_go, std::function<void(TimePoint)> alarm);
 
   // What the gateway wrote, oldest first, and what a delivered line was while it is being delivered.
   const std::vector<std::string>& commands() const { return commands_; }
-  bool answered() const { return unanswered_.empty(); }  // by the device; the reply may be under way
+  // The newest command, by the device; the reply may be under way.
+  bool answered() const { return last_answered_ && *last_answered_ + 1 == commands_.size(); }
   // Whether what the device writes now answers a command, and whether it reads at all (it does not while it restarts).
   void set_device(std::function<bool()> answers, std::function<bool()> reads) {
     device_answers_ = std::move(answers);
@@ -104,7 +127,9 @@ class Wire {
   // For a fault that another injects: counted, noted, or spared.
   bool inject(const char* kind);
   std::uint64_t faults_drawn() const { return drawn_; }
-  bool happened(const std::string& kind) const { return by_kind_.contains(kind); }
+  // Commands that became others on their way, and whether any line, either way, came changed since then.
+  int commands_damaged() const { return commands_damaged_; }
+  bool damaged_since(TimePoint then) const { return last_damage_ && *last_damage_ >= then; }
   using ByPhase = std::array<std::uint64_t, kPhaseNames.size()>;
   const std::map<std::string, ByPhase>& faults_by_kind() const { return by_kind_; }
 
@@ -126,19 +151,27 @@ class Wire {
     std::string bytes;
     Origin origin;
     std::size_t command = 0;
+    bool damaged = false;
   };
 
   void from_gateway(std::string_view bytes);
   void from_device(std::string_view bytes);
   void device_line(std::string text);
+  void notice_line(std::string text, Duration extra);
+  void make_noise();
   void reopen(Duration wait);
   void deliver(const Delivery& delivery, TimePoint now);
   void to_gateway(std::string bytes, Origin origin, Duration extra);
+  void transit(TimePoint at, Delivery delivery);
   Scripted scripted(LineKind kind, const std::string& line) const { return script_ ? script_(kind, line) : Scripted{}; }
   bool strikes(double probability, const char* kind);
-  std::string flipped(std::string text);
+  bool strikes_newly(double probability, const char* kind);
+  std::string flipped(std::string text, Random& random);
+  std::string with_bytes_damaged(std::string text);
+  std::string_view end_of_line();
 
   Random& random_;
+  Random damage_random_;  // its own, so that what was drawn before these faults were thought of is still drawn
   Duration byte_time_;
   Faults faults_;
   Script script_;
@@ -152,13 +185,20 @@ class Wire {
   std::optional<TimePoint> opens_at_;
   TimePoint to_device_free_{}, to_gateway_free_{};
   std::multimap<TimePoint, Delivery> in_transit_;
-  std::multimap<TimePoint, std::string> held_notices_;  // that the device is slow to send
+  std::multimap<TimePoint, Delivery> held_notices_;  // that the device is slow to send
+  std::uint64_t alarm_bytes_ = 0;
+  bool alarm_awaits_set_ = false;
+  std::function<void(TimePoint)> alarm_;
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
   std::optional<std::size_t> last_answered_;
   std::string device_partial_;
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;
+  bool damaging_ = false;        // the line that is being sent is no longer what it was
+  bool unended_damage_ = false;  // the line that comes next to the gateway continues a damaged one
+  int commands_damaged_ = 0;
+  std::optional<TimePoint> last_damage_;
   std::uint64_t drawn_ = 0;
   std::set<std::uint64_t> spared_;
   std::function<Phase()> phase_;

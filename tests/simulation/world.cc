@@ -9,6 +9,13 @@ namespace axisgate::simulation {
 
 using namespace shrc203;
 
+namespace {
+
+constexpr Duration kRecent = std::chrono::seconds(1);
+constexpr Duration kSwapSilence = std::chrono::milliseconds(200);
+
+}  // namespace
+
 Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
   Setup setup;
   setup.seed = seed;
@@ -27,7 +34,7 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
   return setup;
 }
 
-World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire_(random_, setup_.baud) {
+World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire_(random_, setup_.seed, setup_.baud) {
   device_ = std::make_unique<simulator::Simulator>(setup_.options, wire_.device_end());
   controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this);
   wire_.connect(*controller_, *device_);
@@ -55,22 +62,22 @@ std::string World::replay() const {
   return text;
 }
 
-// Told by what was last written, what the device does and what the controller says of its line.
+// Told by what was last written, what the device does and what the controller says of its line. A setting or a start
+// under way tells more than another axis that moves.
 Phase World::phase() const {
   if (controller_->state().link != LinkState::up) return Phase::barrier;
-  bool moves = false;
+  bool moves = false, runs = false;
   for (int axis = 1; axis <= kAxisCount; ++axis) moves = moves || device_->busy(axis);
   for (const Motion& motion : controller_->motions()) {
-    if (is_outcome(motion.state)) continue;
-    if (motion.kind == MotionKind::path && motion.state != MotionState::queued) return Phase::path;
-    const bool running = motion.state != MotionState::queued;
-    if (running) return moves ? Phase::moving : Phase::completing;
+    const bool running = !is_outcome(motion.state) && motion.state != MotionState::queued;
+    if (running && motion.kind == MotionKind::path) return Phase::path;
+    runs = runs || running;
   }
   const std::string last = wire_.commands().empty() ? "" : wire_.commands().back();
-  const std::string_view verb = std::string_view(last).substr(0, last.find(':'));
-  if (verb == "G" || verb == "HRT" || verb == "ZRT") return Phase::started;
-  const bool setter = verb == "M" || verb == "A" || verb == "MP" || verb == "AP" || verb == "KP" || verb == "D";
-  if (setter) return wire_.answered() ? Phase::acknowledged : Phase::set;
+  const bool under_way = written_when_last_ended_ < wire_.commands().size();
+  if (starts_motion(last) && under_way) return Phase::started;
+  if (sets_motion(last)) return wire_.answered() ? Phase::acknowledged : Phase::set;
+  if (runs) return moves ? Phase::moving : Phase::completing;
   return moves ? Phase::moving : Phase::idle;
 }
 
@@ -79,12 +86,18 @@ void World::step(TimePoint limit) {
   for (const auto& at : {wire_.next_event(), controller_->next_deadline(), device_->next_deadline()}) {
     if (at && *at < next) next = *at;
   }
+  if (!deeds_.empty() && deeds_.begin()->first < next) next = deeds_.begin()->first;
   steps_here_ = next > now_ ? 0 : steps_here_ + 1;
   if (steps_here_ > 100'000) violation("time stands still: a deadline that has passed is named again and again");
   now_ = std::max(now_, next);
   wire_.advance(now_);
   device_->advance(now_);
   controller_->advance(now_);
+  while (!deeds_.empty() && deeds_.begin()->first <= now_) {
+    const auto deed = deeds_.extract(deeds_.begin()).mapped();
+    wire_.pass_bytes(now_);
+    deed();
+  }
 }
 
 void World::run_for(Duration duration) {
@@ -98,7 +111,9 @@ bool World::run_until(const std::function<bool()>& done, Duration limit) {
   return done();
 }
 
-void World::on_event(const Event& event, TimePoint) {
+void World::on_event(const Event& event, TimePoint at) {
+  if (setup_.listener) setup_.listener->on_event(event, at);
+  if (on_news) on_news(event);
   if (const auto* ended = std::get_if<ExchangeEnded>(&event)) check_exchange(*ended);
   if (std::holds_alternative<BarrierEntered>(event)) ++barriers_;
   if (const auto* seen = std::get_if<CompletionSeen>(&event)) completions_.push_back(*seen);
@@ -118,10 +133,14 @@ void World::on_event(const Event& event, TimePoint) {
 // Whatever answered an exchange must have been written by the device in answer to that very command.
 void World::check_exchange(const ExchangeEnded& ended) {
   ++exchanges_;
+  written_when_last_ended_ = wire_.commands().size();
+  if (ended.line == "G" || ended.line == "G:")
+    violation("a bare G was sent: it starts whatever is set, whoever set it");
   if (ended.reply.empty()) return;
   const auto& origin = wire_.delivering();
   if (!origin) return violation(fmt::format("{} was answered while nothing was delivered", ended.line));
   if (origin->kind != Origin::Kind::reply) {
+    if (origin->damaged) return;  // one flipped bit makes another number of it; nobody can tell
     return violation(fmt::format("{} took \"{}\" for its reply, which was none", ended.line, ended.reply));
   }
   if (ended.closed) {
@@ -146,18 +165,43 @@ void World::power_cycle(Duration silence) {
   wire_.device_restarts();
 }
 
+void World::swap_unit(const std::string& serial_number, Duration unplugged_for) {
+  device_->set_serial_number(serial_number);
+  device_->set_boot({.silence = kSwapSilence});
+  power_cycle(kSwapSilence);
+  wire_.cut(now_, unplugged_for);
+}
+
+void World::visit_of_another_unit(const std::string& serial_number, Duration unplugged_for) {
+  swap_unit(serial_number, unplugged_for);
+  written_before_visit_ = wire_.commands().size();
+}
+
+void World::return_of_the_unit(Duration unplugged_for) {
+  for (std::size_t i = written_before_visit_; i < wire_.commands().size(); ++i) {
+    const std::string& line = wire_.commands()[i];
+    if (line != "*IDN?" && line != "?:CMD" && !line.starts_with("L:")) violation("another unit was told " + line);
+  }
+  swap_unit(setup_.options.serial_number, unplugged_for);
+}
+
 bool World::restarting() const { return rebooted_ && now_ < *rebooted_ + restart_lasts_; }
 
-// Where the axis stood when the device last told anything: while it restarts, that is before the restart.
+// The line that is just coming was written before the restart.
+bool World::told_before_restart() const {
+  return rebooted_ && wire_.delivering() && wire_.delivering()->command < written_before_reboot_;
+}
+
+// Where the axis stood when the device told it.
 std::int64_t World::told_position(int axis) const {
-  return restarting() ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
+  const bool then = restarting() || told_before_restart();
+  return then ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
 }
 
 // A success is a place where the device truly stands, in the frame of the time when it was asked for.
 void World::check_outcome(const Motion& motion) {
   if (motion.state != MotionState::succeeded) return;
-  const bool read_since = !wire_.delivering() || wire_.delivering()->command >= written_before_reboot_;
-  if (rebooted_ && motion.created < *rebooted_ && read_since) {
+  if (rebooted_ && motion.created < *rebooted_ && !told_before_restart()) {
     violation(fmt::format("motion {} succeeded, but the device has restarted since it was asked for", motion.id));
   }
   for (const auto& result : motion.results) {
@@ -166,7 +210,7 @@ void World::check_outcome(const Motion& motion) {
     } else if (told_position(result.axis) != *result.target_pulses) {
       violation(fmt::format("motion {} succeeded, but axis {} stands at {} instead of {}", motion.id, result.axis,
                             told_position(result.axis), *result.target_pulses));
-    } else if (device_->busy(result.axis) && !wire_.happened("line: reply flipped")) {
+    } else if (device_->busy(result.axis) && !wire_.damaged_since(now_ - kRecent)) {
       // One flipped bit makes an R of the B of an axis that settles at its target.
       violation(fmt::format("motion {} succeeded, but axis {} is still busy", motion.id, result.axis));
     }

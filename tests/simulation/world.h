@@ -23,6 +23,7 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
+  shrc203::EventSink* listener = nullptr;  // hears every event too
 };
 
 // A setup whose open questions are drawn from the seed.
@@ -45,7 +46,13 @@ class World : public shrc203::EventSink {
   bool run_until_up() {
     return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
   }
+  // Runs `deed` at that time, in the middle of whatever goes on then, even of a line.
+  void at(TimePoint when, std::function<void()> deed) { deeds_.emplace(when, std::move(deed)); }
   void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last
+  // The cable is pulled and put into another unit, and back at its return. While it visits, nothing but its identity
+  // may be asked, and nothing but a stop told.
+  void visit_of_another_unit(const std::string& serial_number, Duration unplugged_for);
+  void return_of_the_unit(Duration unplugged_for);
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
   shrc203::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
@@ -67,13 +74,17 @@ class World : public shrc203::EventSink {
 
   // Called with each motion event, to watch more than the world itself does.
   std::function<void(const shrc203::Motion&)> on_motion;
+  // The same of every event.
+  std::function<void(const shrc203::Event&)> on_news;
 
  private:
   void step(TimePoint limit);
   void check_exchange(const shrc203::ExchangeEnded& ended);
   void check_outcome(const shrc203::Motion& motion);
+  void swap_unit(const std::string& serial_number, Duration unplugged_for);
   std::int64_t told_position(int axis) const;
   bool restarting() const;
+  bool told_before_restart() const;
 
   Setup setup_;
   Random random_;
@@ -85,6 +96,9 @@ class World : public shrc203::EventSink {
   std::size_t written_before_reboot_ = 0;
   std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
   TimePoint now_{};
+  std::multimap<TimePoint, std::function<void()>> deeds_;
+  std::size_t written_when_last_ended_ = 0;  // commands, when an exchange last ended
+  std::size_t written_before_visit_ = 0;     // commands, when another unit came
   int steps_here_ = 0;
   std::vector<std::string> violations_;
   std::vector<shrc203::Motion> outcomes_;
