@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <variant>
 
+#include "device/shrc203/own_questions.h"
+
 namespace axisgate::server {
 namespace {
 
@@ -144,7 +146,8 @@ void Redactor::hide_callers(std::string& lines) {
     for (const std::string_view way : {"unix ", "tcp "}) {
       if (std::string_view(lines).substr(caller).starts_with(way)) caller += way.size();
     }
-    lines.replace(caller, end - caller, hide(Kind::user, lines.substr(caller, end - caller)));
+    const std::string name = lines.substr(caller, end - caller);
+    if (name != shrc203::kGateway) lines.replace(caller, name.size(), hide(Kind::user, name));
   }
 }
 

@@ -6,6 +6,7 @@
 #include "device/core/escape.h"
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/own_questions.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -14,7 +15,6 @@ constexpr Duration kBusyPoll = std::chrono::milliseconds(100);
 constexpr Duration kModePoll = std::chrono::seconds(1);
 constexpr Duration kQuiet = std::chrono::milliseconds(10);
 constexpr int kTries = 3;
-const std::string kGateway = "gateway";
 
 bool is_data(const ExchangeResult& result) {
   return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;

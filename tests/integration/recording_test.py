@@ -70,14 +70,14 @@ class Record(InAFolder):
         self.serve()
 
     def test_a_move_is_recorded_from_the_start_and_replayed(self):
-        self.ok("move", "1=1mm")
+        self.ok("move", "1=1mm", "--relative")
         self.assertRegex(self.ok("record", "--no-follow", "--output", self.recording),
                          rf"\A{self.recording}: \d+ lines\n\Z")
         text = read(self.recording)
         self.assertRegex(text, r'\A# axisgate recording 1\n')
         self.assertIn('# device: "stage"\n', text)
         self.assertRegex(text, SERIAL_NUMBER)
-        self.assertRegex(text, rf'(?m)^\d+\.\d+ #\d+ motion "unix {getpass.getuser()}" .*> "MP?:[^"]+\\r\\n"')
+        self.assertRegex(text, rf'(?m)^\d+\.\d+ #\d+ motion "unix {getpass.getuser()}" > "MP:1\+P100000\\r\\n"')
         self.assertRegex(text, r'(?m)^\d+\.\d+ .*completion 1\b')
         self.assert_replays(self.recording)
 

@@ -89,6 +89,7 @@ TEST_F(ReserveTest, AClientThatWasRefusedIsServedOnceThereIsAPlace) {
   stage_.reset();
   events_.reset();
   commands_.reset();
+  diagnostics_.reset();
   channel_.reset();
   // It asks again and again, so that its connection is never idle.
   const TimePoint limit = monotonic_now() + std::chrono::seconds(30);

@@ -149,7 +149,9 @@ TEST(RecordedFromTheMiddle, IsDoneAgain) {
       EXPECT_TRUE(report.differences.empty())
           << fmt::format("begun at line {}, line {}: {} / {}", whole.lines[i].number, report.differences[0].line,
                          report.differences[0].recorded, report.differences[0].now);
-      if (i + 200 < whole.lines.size()) EXPECT_GT(report.exchanges, 100u);
+      if (i + 200 < whole.lines.size()) {
+        EXPECT_GT(report.exchanges, 100u);
+      }
     }
     pass(rest.header, whole.lines[i].event);
   }

@@ -43,6 +43,7 @@ TEST(Redactor, WhatIsKnownIsReplacedInAnyText) {
 TEST(Redactor, CallersOfARecordingAreReplacedWhoeverTheyAre) {
   Redactor redactor;
   EXPECT_EQ(redactor.redact("1.000000 #1 poll \"\" > \"Q:S\\r\\n\"\n"
+                            "1.050000 #1 poll \"gateway\" > \"Q:S\\r\\n\"\n"
                             "1.100000 #2 motion \"unix alice\" waited 0.000100 > \"alice\" = ok\n"
                             "1.200000 #3 question \"tcp 127.0.0.1:39482\" > \"Q:S\\r\\n\"\n"
                             "1.300000 #2 < \"unix alice\"\n"
@@ -51,6 +52,7 @@ TEST(Redactor, CallersOfARecordingAreReplacedWhoeverTheyAre) {
                             "1.600000 #5 stop \"a \\\"b\\\" c\" > \"L:W\\r\\n\"\n"
                             "1.700000 #6 motion \"unix alice\" > \"G:1\\r\\n\""),
             "1.000000 #1 poll \"\" > \"Q:S\\r\\n\"\n"
+            "1.050000 #1 poll \"gateway\" > \"Q:S\\r\\n\"\n"
             "1.100000 #2 motion \"unix user-1\" waited 0.000100 > \"alice\" = ok\n"
             "1.200000 #3 question \"tcp user-2\" > \"Q:S\\r\\n\"\n"
             "1.300000 #2 < \"unix alice\"\n"
