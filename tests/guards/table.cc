@@ -11,9 +11,6 @@ constexpr Row by_seeds(Guard guard, std::string_view name, std::string_view what
 constexpr Row by_tests(Guard guard, std::string_view name, std::string_view what, std::string_view tests) {
   return {guard, name, what, {}, tests};
 }
-constexpr Row by_nothing_yet(Guard guard, std::string_view name, std::string_view what, std::string_view tests) {
-  return {guard, name, what, {}, tests, true};
-}
 
 constexpr Row kTable[] = {
     by_seeds(Guard::barrier_after_time_limit, "barrier-after-time-limit",
@@ -173,11 +170,11 @@ constexpr Row kTable[] = {
              "Hazard.H13_OkWhereOkDWasDue"),
     by_tests(Guard::early_numbers_checked, "early-numbers-checked", "a completion that comes too soon is checked",
              "Hazard.H56_DoubledCompletionsOfAPath"),
-    by_nothing_yet(Guard::doubtful_numbers_checked, "doubtful-numbers-checked", "one out of a barrier is checked",
-                   "Hazard.H56_ANumberInABarrierIsChecked"),
-    by_nothing_yet(Guard::missed_numbers_counted, "missed-numbers-counted",
-                   "one that comes after it was asked for is not counted twice",
-                   "Hazard.H56_ALateNumberIsNotTheNextSegmentsEnd"),
+    by_tests(Guard::doubtful_numbers_checked, "doubtful-numbers-checked", "one out of a barrier is checked",
+             "Hazard.H56_ANumberInABarrierIsChecked"),
+    by_tests(Guard::missed_numbers_counted, "missed-numbers-counted",
+             "one that comes after it was asked for is not counted twice",
+             "Hazard.H56_ALateNumberIsNotTheNextSegmentsEnd"),
     by_tests(Guard::one_axis_is_the_clock, "one-axis-is-the-clock", "one axis of a path tells its segments",
              "Hazard.H56_OneAxisIsTheClock"),
     by_tests(Guard::path_place_is_unique, "path-place-is-unique",
