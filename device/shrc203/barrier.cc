@@ -1,5 +1,6 @@
 #include "device/shrc203/barrier.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "device/shrc203/codec.h"
@@ -33,7 +34,8 @@ void Barrier::begin(Step step, TimePoint now) {
   probes_ = 0;
   older_ = owed_.identities;
   if (step == Step::silence) {
-    deadline_ = now + limits_.silence;
+    silence_ = std::max(limits_.silence, 2 * (now - probed_));
+    deadline_ = now + silence_;
     silence_limit_ = now + kSilenceWaitMax;
   } else {
     probe(now);
@@ -42,6 +44,7 @@ void Barrier::begin(Step step, TimePoint now) {
 
 void Barrier::probe(TimePoint now) {
   ++probes_;
+  probed_ = now;
   write_(step_ == Step::echo ? "?:CMD" : "*IDN?");
   deadline_ = now + limits_.reply;
 }
@@ -69,7 +72,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     }
   }
   const bool owed = pay_owed(owed_, line);
-  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + limits_.silence;
+  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + silence_;
   return owed;
 }
 

@@ -3,7 +3,8 @@
 //
 //   ?:CMD    its answer equal to the line in doubt means that the controller received it, not that it accepted it
 //   *IDN?    the configured controller is there, and every answer before this one has been given
-//   silence  completions excepted, for 50 ms or the time of three longest lines
+//   silence  completions excepted, for 50 ms, the time of three longest lines, or twice what the identity took: a slow
+//            controller may still have other answers to give
 //
 // A probe without an answer is repeated, three in all. Each unanswered one is owed: its answer may still come, and is
 // swallowed wherever it appears.
@@ -72,6 +73,8 @@ class Barrier {
   // order, so theirs come first and tell nothing.
   int older_ = 0;
   TimePoint deadline_{};
+  TimePoint probed_{};
+  Duration silence_{};
   TimePoint silence_limit_{};
   std::optional<bool> received_;
   std::optional<std::string> echo_;

@@ -62,8 +62,13 @@ TEST_P(HazardH01, CompletionDuringABareNumberQuestionOfAnOriginReturn) {
   home();
   ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded);
   const Duration lasts = world.outcomes()[0].ended - world.outcomes()[0].created;
+  const auto ask_at = [&](Duration offset) { ask_during(world, home, offset, GetParam().answer); };
   for (Duration offset{}; offset < lasts + milliseconds(50) && !HasFailure(); offset += microseconds(1130)) {
-    ask_during(world, home, offset, GetParam().answer);
+    ask_at(offset);
+  }
+  // Around the number itself, byte by byte: 260 us each at 38400 baud.
+  for (Duration offset = lasts - milliseconds(80); offset < lasts && !HasFailure(); offset += microseconds(260)) {
+    ask_at(offset);
   }
   EXPECT_EQ(world.barriers(), 0u) << world.replay();
 }

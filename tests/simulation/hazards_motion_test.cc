@@ -201,6 +201,35 @@ TEST(Hazard, H56_DoubledCompletionsOfAPath) {
   EXPECT_EQ(world.device().position(2), 24000);
 }
 
+// The limit may strike at any time, in the last pulses too: success is the target itself.
+TEST(Hazard, H44_LimitNearTheTarget) {
+  int succeeded = 0, failed = 0;
+  for (int before_end = 0; before_end < 300 && !HasFailure(); before_end += 7) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    move_by(world, {{1, 20000}, {2, 100}});
+    world.run_for(milliseconds(700 - before_end));
+    world.device().set_limit(1, +1, true, world.now());
+    const Motion motion = outcome_of(world, 1);
+    const bool there = world.device().position(1) == 20000;
+    EXPECT_TRUE(there || motion.state != MotionState::succeeded) << world.replay();
+    (motion.state == MotionState::succeeded ? succeeded : failed) += 1;
+  }
+  EXPECT_GT(succeeded, 0) << "always too late";
+  EXPECT_GT(failed, 10) << "never in time";
+}
+
+TEST(Hazard, H44_LimitInAPath) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "KP:") == 6; }, seconds(5))) << world.replay();
+  world.device().set_limit(2, +1, true, world.now());
+  const Motion path = outcome_of(world, 1);
+  EXPECT_NE(path.state, MotionState::succeeded) << world.replay();
+  EXPECT_LT(path.segments_done, 12);
+}
+
 TEST(Hazard, H44_LimitStopIsNoSuccess) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

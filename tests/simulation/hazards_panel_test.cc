@@ -51,6 +51,44 @@ TEST(Hazard, H17_AnAxisSwitchedOffAtThePanel) {
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
 }
 
+// The same under the other reading of the manual: L: of all stops those that it can.
+TEST(Hazard, H17_AnAxisSwitchedOffWhereTheOthersStop) {
+  auto setup = quiet();
+  ASSERT_TRUE(setup.options.set("stop_with_unexcited_axis", "stops_excited"));
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  world.device().set_excitation(3, false, world.now());
+  const StopReport report = stopped(world);
+  EXPECT_FALSE(report.problem) << report.problem->message;
+  EXPECT_EQ(written(world, "L:"), 1) << world.replay();
+  for (const auto& axis : report.axes) {
+    EXPECT_EQ(axis.wire_reply, "OK");
+    EXPECT_EQ(axis.ready, true);
+    EXPECT_EQ(axis.position_pulses, world.device().position(axis.axis)) << axis.axis;
+  }
+  EXPECT_FALSE(world.device().busy(1));
+}
+
+// NG from every axis while one moves is told as it is, and not as a stop.
+TEST(Hazard, H17_AStopThatIsRefusedThroughout) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 1'500'000}});
+  world.run_for(seconds(1));
+  world.wire().set_script([](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::command || !line.starts_with("L:")) return {};
+    return {.drop = false, .delay = {}, .instead = "L:9\r\n"};
+  });
+  const StopReport report = stopped(world);
+  ASSERT_TRUE(world.device().busy(1));
+  ASSERT_TRUE(report.problem) << "an optimistic stop\n" << world.replay();
+  ASSERT_EQ(report.axes.size(), 3u);
+  EXPECT_EQ(report.axes[0].wire_reply, "NG");
+  EXPECT_EQ(report.axes[0].ready, false);
+}
+
 // The very axis that moves loses its motor: that is no success.
 TEST(Hazard, H17_TheMovingAxisIsSwitchedOff) {
   World world(quiet());

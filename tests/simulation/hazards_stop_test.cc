@@ -197,12 +197,39 @@ TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   EXPECT_EQ(refused.problem->reason, Reason::emergency_stopped) << world.replay();
   EXPECT_EQ(world.device().starts(2), 0);
 
+  EXPECT_EQ(world.controller().state().axis(2).excited, false) << "L:E has switched the motors off, and nobody is told";
+  world.run_for(seconds(10));
+  EXPECT_EQ(written(world, "BEC:"), 0) << "cleared without anybody asking for it\n" << world.replay();
+
   bool cleared = false;
+  std::string cleared_by;
+  world.on_news = [&](const Event& event) {
+    const auto* ended = std::get_if<ExchangeEnded>(&event);
+    if (ended != nullptr && ended->line.starts_with("BEC:")) cleared_by = ended->who;
+  };
   world.controller().clear_errors({}, world.context("other"), world.now(),
                                   [&](const Result<void>& done) { cleared = done.has_value(); });
   ASSERT_TRUE(world.run_until([&] { return cleared; }, seconds(10))) << world.replay();
-  EXPECT_THAT(execute(world, {"C:D1"}), ElementsAre("OK"));  // L:E has switched the motors off
+  EXPECT_EQ(written(world, "BEC:"), 1);
+  EXPECT_EQ(cleared_by, "other");
+  EXPECT_EQ(world.device().starts(1) + world.device().starts(2) + world.device().starts(3), 1) << "it moves by BEC:";
+  EXPECT_EQ(world.controller().state().axis(2).excited, false);
+  EXPECT_THAT(execute(world, {"C:D1"}), ElementsAre("OK"));
   moved(world, {{2, 1000}});
+}
+
+// BEC: does not clear what lasts as long as its cause: a scale that fails is told until it works again.
+TEST(Hazard, H20_WhatClearingDoesNotClear) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.device().set_error(2, simulator::AxisError::scale, true, world.now());
+  world.controller().clear_errors({}, world.context("keeper"), world.now(), [](const Result<void>&) {});
+  world.run_for(seconds(1));
+  ASSERT_EQ(written(world, "BEC:"), 1);
+  EXPECT_TRUE(world.controller().state().axis(2).status.any_error()) << world.replay();
+  move_by(world, {{2, 1000}});
+  EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::device_error) << world.replay();
+  EXPECT_EQ(world.device().starts(2), 0);
 }
 
 // What cannot be read back after the clearing is told as a problem.

@@ -112,6 +112,7 @@ bool World::run_until(const std::function<bool()>& done, Duration limit) {
 }
 
 void World::on_event(const Event& event, TimePoint) {
+  if (on_news) on_news(event);
   if (const auto* ended = std::get_if<ExchangeEnded>(&event)) check_exchange(*ended);
   if (std::holds_alternative<BarrierEntered>(event)) ++barriers_;
   if (const auto* seen = std::get_if<CompletionSeen>(&event)) completions_.push_back(*seen);
@@ -132,6 +133,8 @@ void World::on_event(const Event& event, TimePoint) {
 void World::check_exchange(const ExchangeEnded& ended) {
   ++exchanges_;
   written_when_last_ended_ = wire_.commands().size();
+  if (ended.line == "G" || ended.line == "G:")
+    violation("a bare G was sent: it starts whatever is set, whoever set it");
   if (ended.reply.empty()) return;
   const auto& origin = wire_.delivering();
   if (!origin) return violation(fmt::format("{} was answered while nothing was delivered", ended.line));

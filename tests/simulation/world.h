@@ -73,6 +73,8 @@ class World : public shrc203::EventSink {
 
   // Called with each motion event, to watch more than the world itself does.
   std::function<void(const shrc203::Motion&)> on_motion;
+  // The same of every event.
+  std::function<void(const shrc203::Event&)> on_news;
 
  private:
   void step(TimePoint limit);

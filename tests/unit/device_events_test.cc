@@ -1,7 +1,12 @@
 #include "server/device_events.h"
 
 #include <gmock/gmock.h>
+#include <spdlog/sinks/ostream_sink.h>
+#include <spdlog/spdlog.h>
 
+#include <algorithm>
+#include <memory>
+#include <sstream>
 #include <vector>
 
 namespace axisgate::server {
@@ -61,6 +66,22 @@ TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
   tell(down);
   EXPECT_EQ(bus_.newest_revision(), 4u);
   EXPECT_EQ(bus_.read(4, 1).facts.at(0)->device, "stage");
+}
+
+// What a device writes cannot clear the screen of whoever reads the log, nor add a line to it.
+TEST_F(DeviceEventsTest, H42_ADevicesTextIsEscapedAndCappedInTheLog) {
+  std::ostringstream log;
+  const auto usual = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
+  tell(shrc203::UnexpectedLine{"\x1b[2J\r\n[info] all is well" + std::string(10'000, 'A')});
+  spdlog::default_logger()->flush();
+  spdlog::set_default_logger(usual);
+  const std::string told = log.str();
+  EXPECT_THAT(told, ::testing::HasSubstr("\\x1B[2J\\r\\n[info]"));
+  EXPECT_EQ(told.find('\x1b'), std::string::npos);
+  EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 1);
+  EXPECT_LT(told.size(), 300u);
 }
 
 }  // namespace

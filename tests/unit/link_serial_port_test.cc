@@ -140,12 +140,12 @@ TEST_F(SerialPortOnPtyTest, CanBeOpenedAgainAfterItWasClosed) {
   EXPECT_TRUE(open().valid());
 }
 
-TEST_F(SerialPortOnPtyTest, OpenTwiceInThisProcessIsRefused) {
+TEST_F(SerialPortOnPtyTest, H33_OpenTwiceInThisProcessIsRefused) {
   const Descriptor first = open();
   EXPECT_EQ(refusal().message.rfind("serial port " + settings_.path + ": held by another process", 0), 0u);
 }
 
-TEST_F(SerialPortOnPtyTest, HeldByAnotherProcessNamesIt) {
+TEST_F(SerialPortOnPtyTest, H33_HeldByAnotherProcessNamesIt) {
   std::array<int, 2> ready{}, release{};
   ASSERT_EQ(::pipe(ready.data()), 0);
   ASSERT_EQ(::pipe(release.data()), 0);

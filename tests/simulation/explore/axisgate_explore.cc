@@ -40,14 +40,18 @@ struct Totals {
 
 double hours(Duration time) { return std::chrono::duration<double>(time).count() / 3600; }
 
+// As Markdown, to be pasted.
 void print(const Totals& totals) {
-  fmt::print("{} seeds, {:.1f} virtual hours, {} exchanges, {} barriers, {} violations\n\n{:<24}", totals.seeds,
-             hours(totals.virtual_time), totals.exchanges, totals.barriers, totals.failures, "fault");
-  for (const auto phase : kPhaseNames) fmt::print("{:>13}", phase);
+  fmt::print("{} seeds, {:.1f} virtual hours, {} exchanges, {} barriers, {} violations\n\n", totals.seeds,
+             hours(totals.virtual_time), totals.exchanges, totals.barriers, totals.failures);
+  fmt::print("| {:<22} |", "fault");
+  for (const auto phase : kPhaseNames) fmt::print(" {:>12} |", phase);
+  fmt::print("\n|{:-<24}|", "");
+  for (std::size_t i = 0; i < kPhaseNames.size(); ++i) fmt::print("{:->13}:|", "");
   fmt::print("\n");
   for (const auto& [kind, phases] : totals.faults) {
-    fmt::print("{:<24}", kind);
-    for (const auto count : phases) fmt::print("{:>13}", count);
+    fmt::print("| {:<22} |", kind);
+    for (const auto count : phases) fmt::print(" {:>12} |", count);
     fmt::print("\n");
   }
 }

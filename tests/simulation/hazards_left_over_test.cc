@@ -1,0 +1,198 @@
+// Hazards of what a stop, a path or a late completion leaves behind. Numbers as in the table of what can go wrong on a
+// shared line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+Setup reading(std::string_view option, std::string_view value) {
+  Setup setup = quiet();
+  EXPECT_TRUE(setup.options.set(option, value));
+  return setup;
+}
+
+int starts(World& world) { return world.device().starts(1) + world.device().starts(2) + world.device().starts(3); }
+
+// Whether L: clears the prebuffer, keeps it, or lets it start: the stop is over only when nothing waits any more.
+class HazardH14 : public testing::TestWithParam<const char*> {
+ protected:
+  bool kept() const { return std::string_view(GetParam()) == "kept"; }
+
+  // After the last L: READY has been seen and every prebuffer asked for, before the caller hears of it.
+  static void expect_every_prebuffer_was_asked_for(World& world) {
+    const auto& lines = world.wire().commands();
+    const auto last_stop =
+        std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.starts_with("L:"); });
+    for (const char* question : {"Q:SPC", "?:MP", "?:AP", "?:KP", "?:EP"}) {
+      EXPECT_NE(std::find(lines.rbegin(), last_stop, question), last_stop) << question << "\n" << world.replay();
+    }
+  }
+};
+
+TEST_P(HazardH14, StoppedWithASegmentInThePrebuffer) {
+  for (int after = 0; after < 200 && !HasFailure(); after += 13) {
+    World world(reading("stop_keeps_prebuffer", GetParam()));
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+    ASSERT_TRUE(world.run_until([&] { return written(world, "KP:") == 4; }, seconds(5))) << world.replay();
+    world.run_for(milliseconds(5 + after));
+    ASSERT_TRUE(world.device().busy(1));
+    const StopReport report = stopped(world);
+    EXPECT_FALSE(world.device().busy(1) || world.device().busy(2)) << after << "\n" << world.replay();
+    if (kept() && report.problem) {
+      EXPECT_EQ(report.problem->reason, Reason::left_over_setting) << after << "\n" << world.replay();
+    } else {
+      EXPECT_FALSE(report.problem) << after << report.problem->message << "\n" << world.replay();
+      expect_every_prebuffer_was_asked_for(world);
+    }
+    const int before = starts(world);
+    world.run_for(seconds(5));
+    EXPECT_EQ(starts(world), before) << after << "\n" << world.replay();
+    EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+    EXPECT_EQ(written(world, "L:E"), 0) << "the motors of others switched off";
+    if (!report.problem) {
+      moved(world, {{1, 100}});
+    } else {
+      move_by(world, {{1, 100}});
+      EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::left_over_setting) << world.replay();
+      EXPECT_EQ(starts(world), before);
+      world.power_cycle();
+      ASSERT_TRUE(world.run_until([&] { return world.controller().state().link != LinkState::up; }, seconds(12)));
+      ASSERT_TRUE(world.run_until_up()) << world.replay();
+      moved(world, {{1, 100}});
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Readings, HazardH14, testing::Values("cleared", "kept", "starts_next"));
+
+// The kept segment starts by itself: L: once more, and it stands.
+TEST(Hazard, H14_TheKeptSegmentStarts) {
+  World world(reading("stop_keeps_prebuffer", "starts_next"));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "KP:") == 4; }, seconds(5))) << world.replay();
+  world.run_for(milliseconds(5));
+  const int before = world.device().starts(1);
+  EXPECT_FALSE(stopped(world).problem) << world.replay();
+  EXPECT_EQ(world.device().starts(1), before + 1) << "the reading does not show itself";
+  EXPECT_EQ(written(world, "L:"), 2) << world.replay();
+  EXPECT_FALSE(world.device().busy(1));
+}
+
+// The number that a stopped axis sends comes up to 190 ms late: the next move neither begins before nor ends by it.
+class HazardH57 : public testing::TestWithParam<const char*> {};
+
+TEST_P(HazardH57, AMoveAskedForRightAfterAStop) {
+  for (int late = 0; late < 200 && !HasFailure(); late += 10) {
+    World world(reading("completion_after_stop", GetParam()));
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    const bool sent = std::string_view(GetParam()) == "sent";
+    std::optional<TimePoint> stands, second_go;
+    std::size_t seen_by_then = 0;
+    int goes = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      if (kind == LineKind::command && line.starts_with("G:") && ++goes == 2) {
+        second_go = world.now();
+        seen_by_then = world.completions().size();
+      }
+      return {.drop = false, .delay = milliseconds(kind == LineKind::notice && goes == 1 ? late : 0), .instead = {}};
+    });
+    move_by(world, {{1, 500'000}});
+    world.run_for(milliseconds(500));
+    world.controller().stop({}, world.context("stopper"), world.now(), [](const StopReport&) {});
+    move_by(world, {{1, -300}});
+    ASSERT_TRUE(world.run_until([&] { return !world.device().busy(1); }, seconds(2)));
+    stands = world.now();
+    const Motion second = outcome_of(world, 2);
+    EXPECT_EQ(world.outcomes()[0].state, MotionState::stopped) << late << "\n" << world.replay();
+    EXPECT_EQ(second.state, MotionState::succeeded) << late << "\n" << world.replay();
+    ASSERT_TRUE(second_go);
+    if (sent) {
+      EXPECT_EQ(seen_by_then, 1u) << late << " ms: it began before the number had come\n" << world.replay();
+    } else {
+      EXPECT_GE(*second_go - *stands, milliseconds(200)) << "it began before the time of the number had passed\n"
+                                                         << world.replay();
+    }
+    ASSERT_EQ(world.completions().size(), sent ? 2u : 1u) << world.replay();
+    const bool late_one_taken = sent && world.completions()[0].motion == second.id;
+    EXPECT_FALSE(late_one_taken) << late << " ms\n" << world.replay();
+    EXPECT_EQ(world.completions().back().motion, second.id) << world.replay();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Readings, HazardH57, testing::Values("sent", "none"));
+
+// Hazard 4, the other half: no number comes after L:, and nothing waits for it for ever.
+TEST(Hazard, H04_NoCompletionAfterAStop) {
+  World world(reading("completion_after_stop", "none"));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500'000}, {3, -500'000}});
+  world.run_for(seconds(1));
+  EXPECT_FALSE(stopped(world).problem) << world.replay();
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+  EXPECT_TRUE(world.completions().empty());
+  moved(world, {{1, 100}, {3, 100}});
+  EXPECT_THAT(execute(world, {"?:BEEP"}), testing::ElementsAre("1")) << "asked in vain";
+}
+
+// A number right behind the answer that put the next segment into the prebuffer: none has ended yet.
+TEST(Hazard, H56_EarlyCompletionsOfAPath) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::reply || line != "OK_D") return {};
+    return {.drop = false, .delay = {}, .instead = "OK_D\r\n1\r\n2\r\n"};
+  });
+  world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+  const Motion path = outcome_of(world, 1);
+  EXPECT_EQ(path.state, MotionState::succeeded) << world.replay();
+  EXPECT_GE(written(world, "?:KP"), 11) << "refilled unseen\n" << world.replay();
+  EXPECT_EQ(written(world, "KP:"), 12) << world.replay();
+  EXPECT_EQ(world.device().starts(2), 12) << world.replay();
+  EXPECT_EQ(world.device().position(2), 24000);
+}
+
+// Each number of axis 2 is read as one of axis 1.
+TEST(Hazard, H56_MisreadCompletionsOfAPath) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::notice || line != "2") return {};
+    return {.drop = false, .delay = {}, .instead = "1\r\n"};
+  });
+  world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().starts(2), 12) << world.replay();
+  EXPECT_EQ(world.device().position(2), 24000);
+}
+
+// A segment was received with one digit wrong and taken: the sum is not exact, and that is no success.
+TEST(Hazard, H56_TheSumMustBeExact) {
+  for (const int wrong : {1, 5, 12}) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    int segments = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      if (kind != LineKind::command || !line.starts_with("KP:") || ++segments != wrong) return {};
+      std::string other = line;
+      other.replace(other.find("+P2000"), 6, "+P2001");
+      return {.drop = false, .delay = {}, .instead = other + "\r\n"};
+    });
+    world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+    EXPECT_NE(outcome_of(world, 1).state, MotionState::succeeded) << wrong << "\n" << world.replay();
+    EXPECT_EQ(world.device().position(2), 24001);
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::simulation
