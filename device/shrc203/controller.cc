@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "device/core/escape.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -76,7 +77,8 @@ void Controller::Impl::barrier_entered(const std::string& why, TimePoint) {
 void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
   if (state_.link != LinkState::doubtful) return;
   if (identity.serial_number != state_.serial_number || identity.model != state_.model) {
-    line_.give_up("another controller answers: " + identity.model + " " + identity.serial_number, now_);
+    line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number),
+                  now_);
     return;
   }
   if (!restart_possible_) state_.link = LinkState::up;

@@ -157,6 +157,7 @@ class Controller::Impl : public LineListener {
   Task<void> run_stop(StopJobPtr job);
   Task<void> write_stop(StopJobPtr job);
   Task<ExchangeResult> write_stop_line(StopJobPtr job, Command command);
+  Duration slowing(AxisSet axes) const;
   Task<void> wait_for_standstill(StopJobPtr job);
   Task<bool> prebuffer_is_empty(StopJobPtr job);
   void flush_motions(AxisSet axes, const RequestContext& context, bool emergency);

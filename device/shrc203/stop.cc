@@ -12,7 +12,8 @@ constexpr int kStopTries = 3;
 constexpr Duration kReopenLimit = std::chrono::seconds(1);       // how long a stop waits for a line that is down
 constexpr Duration kWriteLimit = std::chrono::seconds(10);       // and for its turn on one that is open
 constexpr Duration kStandstillLimit = std::chrono::seconds(10);  // how long the axes may take to stand
-constexpr Duration kAgainAfter = std::chrono::seconds(1);        // a stop without effect by then is written again
+// An axis that still moves so long after it should have slowed down is stopped again.
+constexpr Duration kSlowsWithin = std::chrono::milliseconds(200);
 constexpr Duration kStandstillPoll = std::chrono::milliseconds(50);
 
 }  // namespace
@@ -134,9 +135,17 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
   }
 }
 
+// How long the axes may take from F to S (manual 89) D:).
+Duration Controller::Impl::slowing(AxisSet axes) const {
+  int longest_ms = 0;
+  for (const int axis : axes.list())
+    longest_ms = std::max(longest_ms, state_.axis(axis).acceleration_ms.value_or(1000));
+  return std::chrono::milliseconds(longest_ms);
+}
+
 Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
   const TimePoint limit = now_ + kStandstillLimit;
-  const TimePoint again_at = now_ + kAgainAfter;
+  const TimePoint again_at = now_ + slowing(job->axes) + kSlowsWithin;
   bool ready = false, once_more = true;
   while (now_ < limit && state_.link != LinkState::down) {
     const auto read = co_await read_positions(Lane::motion, job->context.who);
@@ -147,15 +156,18 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       axis.position_pulses = state_.axis(axis.axis).position_pulses;
       ready = ready && *axis.ready;
     }
-    const bool unanswered = job->report.problem && job->report.problem->reason == Reason::outcome_unknown;
-    const bool not_heard = !ready && unanswered && now_ >= again_at;
-    if (ready || (not_heard && once_more)) {
-      const bool empty = !not_heard && co_await prebuffer_is_empty(job);
+    const bool runs_on = !ready && now_ >= again_at;
+    if (ready || (runs_on && once_more)) {
+      const bool empty = !runs_on && co_await prebuffer_is_empty(job);
       if (empty || !once_more) break;
       // A kept segment may start by itself, and a stop inside a barrier may be lost: stop once more and look again.
       once_more = false;
       ready = false;
-      const Command again = job->emergency ? make_command("L:E") : make_command("L:", job->axes);
+      AxisSet named;
+      for (const auto& axis : job->report.axes) {
+        if (axis.named) named.add(axis.axis);
+      }
+      const Command again = job->emergency ? make_command("L:E") : make_command("L:", named);
       const auto stopped = co_await write_stop_line(job, again);
       if (!stopped.written) break;
     }
