@@ -15,6 +15,7 @@
 #include "device/core/quantity.h"
 #include "device/shrc203/simulator/options.h"
 #include "server/config_table.h"
+#include "server/config_words.h"
 #include "server/default_socket.h"
 #include "server/explain.h"
 
@@ -30,17 +31,9 @@ constexpr std::uint16_t kGrpcPort = 50203;
 constexpr std::uint16_t kMetricsPort = 9203;
 constexpr std::size_t kFileBytesMax = 1 << 20;
 
-constexpr std::array<std::pair<std::string_view, Scope>, 2> kScopes = {
-    {{"axis", Scope::axis}, {"controller", Scope::controller}}};
-constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
-    {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
-constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
-    {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
 enum class Connection { serial, tcp, simulated };
 constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
     {{"serial", Connection::serial}, {"tcp", Connection::tcp}, {"simulated", Connection::simulated}}};
-constexpr std::array<std::pair<std::string_view, AtExit>, 2> kAtExit = {
-    {{"stop", AtExit::stop}, {"finish", AtExit::finish}}};
 constexpr std::array<std::pair<std::string_view, bool>, 1> kKinds = {{{"shrc203", true}}};
 
 constexpr std::string_view kNameRule =
@@ -125,6 +118,7 @@ class ConfigReader {
     table.choice<bool>("kind", kKinds);
     read_line(table, device);
     read_limits(table, device.profile);
+    device.record = read_record(table);
     read_axes(table, device.profile);
     table.refuse_unknown();
     return device;
@@ -224,6 +218,17 @@ class ConfigReader {
       }
     }
     return simulated;
+  }
+
+  std::string read_record(ConfigTable& table) {
+    const std::string path = table.text("record").value_or("");
+    if (path.empty() && !table.has("record")) return path;
+    if (path.empty() || path.front() != '/') {
+      table.error("record", fmt::format("\"{}\" is not an absolute path, e.g. \"/var/tmp/stage.recording\"", path));
+    } else if (!recordings_.insert(path).second) {
+      table.error("record", fmt::format("\"{}\" is the file of another device, too; each has its own", path));
+    }
+    return path;
   }
 
   void read_limits(ConfigTable& table, Profile& profile) {
@@ -328,6 +333,7 @@ class ConfigReader {
   std::vector<ConfigError>& errors_;
   std::set<std::string> names_;
   std::set<std::string> lines_;
+  std::set<std::string> recordings_;
 };
 
 }  // namespace

@@ -34,6 +34,7 @@ struct SimulatedConnection {
 struct DeviceConfig {
   shrc203::Profile profile;
   std::variant<SimulatedConnection, SerialSettings, TcpSettings> connection;
+  std::string record;  // the file that the daemon records the line to; empty: none
 };
 
 struct Config {

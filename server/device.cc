@@ -29,7 +29,8 @@ Device::Device(shrc203::Profile profile, std::unique_ptr<Line> line, Strand stra
       line_(std::move(line)),
       newest_state_(readers),
       metrics_(metrics, profile_.name),
-      events_(profile_.name, bus, metrics_, [this](DeviceEvents::Due due) { on_due(due); }),
+      recorder_(recording_header(profile_), readers, metrics_),
+      events_(profile_.name, bus, metrics_, recorder_, [this](DeviceEvents::Due due) { on_due(due); }),
       runner_(std::move(strand), line_->opener()),
       controller_(profile_, runner_, events_) {
   runner_.attach(controller_);

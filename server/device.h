@@ -13,6 +13,7 @@
 #include "server/events/newest_state.h"
 #include "server/line.h"
 #include "server/metrics.h"
+#include "server/recorder.h"
 
 namespace axisgate::server {
 
@@ -27,6 +28,7 @@ class Device {
   const shrc203::Profile& profile() const { return profile_; }
   const std::string& line_description() const { return line_->description(); }
   NewestState& newest_state() { return newest_state_; }
+  DeviceRecorder& recorder() { return recorder_; }
 
   // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
   using Request = std::function<void(shrc203::Controller&, TimePoint)>;
@@ -50,6 +52,7 @@ class Device {
   std::unique_ptr<Line> line_;
   NewestState newest_state_;
   DeviceMetrics metrics_;
+  DeviceRecorder recorder_;
   DeviceEvents events_;
   Runner runner_;
   shrc203::Controller controller_;

@@ -19,11 +19,13 @@ std::string because(const std::optional<Problem>& problem) {
 
 }  // namespace
 
-DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, OnDue due)
-    : device_(std::move(device)), bus_(bus), metrics_(metrics), due_(std::move(due)) {}
+DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
+                           OnDue due)
+    : device_(std::move(device)), bus_(bus), metrics_(metrics), recorder_(recorder), due_(std::move(due)) {}
 
 void DeviceEvents::on_event(const shrc203::Event& event, TimePoint now) {
   metrics_.on_event(event);
+  recorder_.on_event(event, now);
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 

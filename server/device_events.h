@@ -1,4 +1,4 @@
-// Where one device's news go: the event bus, the metrics and the log.
+// Where one device's news go: the event bus, the metrics, the recorder and the log.
 #pragma once
 
 #include <cstdint>
@@ -10,6 +10,7 @@
 #include "device/shrc203/event.h"
 #include "server/events/event_bus.h"
 #include "server/metrics.h"
+#include "server/recorder.h"
 
 namespace axisgate::server {
 
@@ -20,8 +21,8 @@ class DeviceEvents : public shrc203::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // `bus` and `metrics` outlive this.
-  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, OnDue due);
+  // `bus`, `metrics` and `recorder` outlive this.
+  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder, OnDue due);
 
   void on_event(const shrc203::Event& event, TimePoint now) override;
 
@@ -38,6 +39,7 @@ class DeviceEvents : public shrc203::EventSink {
   void tell(const shrc203::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
   void tell(const shrc203::PathProgress& progress, TimePoint now);
   void tell(const shrc203::BarrierEntered& barrier, TimePoint now);
+  void tell(const shrc203::LineLearned&, TimePoint) {}
   void tell(const shrc203::UnexpectedLine& line, TimePoint now);
   void tell(const shrc203::BytesWritten&, TimePoint) {}
   void tell(const shrc203::BytesReceived&, TimePoint) {}
@@ -50,6 +52,7 @@ class DeviceEvents : public shrc203::EventSink {
   const std::string device_;
   EventBus& bus_;
   DeviceMetrics& metrics_;
+  DeviceRecorder& recorder_;
   const OnDue due_;
   std::map<shrc203::MotionId, std::uint64_t> revisions_;
   // A line that stays away is tried again and again: the same news of it is told once.

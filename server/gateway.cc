@@ -7,6 +7,8 @@
 #include <random>
 #include <utility>
 
+#include "server/recording_file.h"
+
 namespace axisgate::server {
 namespace {
 
@@ -28,7 +30,7 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 
 }  // namespace
 
-Gateway::Gateway(const Config& config) : run_(random_run()), events_(posting_to(readers_)) {
+Gateway::Gateway(const Config& config) : config_(config), run_(random_run()), events_(posting_to(readers_)) {
   open_timers(lines_);
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
@@ -47,11 +49,17 @@ Gateway::~Gateway() {
   lines_.stop();
   if (lines_thread_.joinable()) lines_thread_.join();
   if (readers_thread_.joinable()) readers_thread_.join();
+  for (const auto& device : devices_) device->recorder().flush();
+  recording_files_.clear();
 }
 
 void Gateway::start() {
   lines_thread_ = std::thread([this] { lines_.run(); });
   readers_thread_ = std::thread([this] { readers_.run(); });
+  for (std::size_t i = 0; i < devices_.size(); ++i) {
+    const std::string& path = config_.devices[i].record;
+    if (!path.empty()) recording_files_.push_back(std::make_unique<RecordingFile>(path, devices_[i]->recorder()));
+  }
   for (const auto& device : devices_) device->start();
 }
 

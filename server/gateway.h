@@ -17,6 +17,8 @@
 
 namespace axisgate::server {
 
+class RecordingFile;
+
 // Two threads: one drives all lines, each device on a strand of its own; the other wakes the readers of streams, so
 // that a thousand of them cost the lines nothing. Every member may be called from any thread once start() has returned.
 class Gateway {
@@ -37,6 +39,7 @@ class Gateway {
   // Another text for every start of the daemon, when revisions and motions count from 1 anew.
   const std::string& run() const { return run_; }
 
+  const Config& config() const { return config_; }
   EventBus& events() { return events_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
@@ -48,6 +51,7 @@ class Gateway {
  private:
   using Work = boost::asio::executor_work_guard<boost::asio::io_context::executor_type>;
 
+  const Config config_;
   const std::string run_;
   boost::asio::io_context lines_{1};
   boost::asio::io_context readers_{1};
@@ -56,6 +60,7 @@ class Gateway {
   Metrics metrics_;
   EventBus events_;
   std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<std::unique_ptr<RecordingFile>> recording_files_;
   std::thread lines_thread_;
   std::thread readers_thread_;
 };

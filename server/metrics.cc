@@ -74,7 +74,17 @@ Metrics::Metrics()
       underruns_(counter(*registry_, "axisgate_underruns_total",
                          "Path segments that came after the chain had ended: OK where OK_D was due.")),
       unexpected_lines_(counter(*registry_, "axisgate_unexpected_lines_total",
-                                "Lines from the controller that nothing waited for; they are dropped.")) {}
+                                "Lines from the controller that nothing waited for; they are dropped.")),
+      recorder_drops_(counter(*registry_, "axisgate_recorder_dropped_total",
+                              "Recorded lines that a reader of the recording, or its file, was too slow for.")),
+      slow_readers_(counter(*registry_, "axisgate_slow_readers_total",
+                            "Times that the reader of a stream fell behind the facts that are kept, and missed some.")
+                        .Add({})),
+      parts_{registry_} {
+  gauge(*registry_, "axisgate_build_info", "1; the labels say what runs.")
+      .Add({{"version", AXISGATE_VERSION}, {"compiler", AXISGATE_COMPILER}})
+      .Set(1);
+}
 
 Result<int> Metrics::expose(const TcpAddress& address) {
   // civetweb tells no more than that it failed, and practically only a port in use makes it fail.
@@ -85,8 +95,13 @@ Result<int> Metrics::expose(const TcpAddress& address) {
                 fmt::format("cannot serve metrics on {}: the port is in use or not permitted", to_string(address)),
                 "stop the program that holds it, or set another address with the key `metrics` in the configuration");
   }
-  exposer_->RegisterCollectable(registry_);
+  for (const auto& part : parts_) exposer_->RegisterCollectable(part);
   return exposer_->GetListeningPorts().front();
+}
+
+void Metrics::add(std::shared_ptr<prometheus::Collectable> part) {
+  if (exposer_) exposer_->RegisterCollectable(part);
+  parts_.push_back(std::move(part));
 }
 
 DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
@@ -98,6 +113,7 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
       barriers_(metrics.barriers_.Add({{"device", device_}})),
       underruns_(metrics.underruns_.Add({{"device", device_}})),
       unexpected_lines_(metrics.unexpected_lines_.Add({{"device", device_}})),
+      recorder_drops_(metrics.recorder_drops_.Add({{"device", device_}})),
       line_busy_(metrics.line_busy_.Add({{"device", device_}})),
       bytes_in_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "in"}})),
       bytes_out_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "out"}})),
@@ -115,6 +131,21 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
   for (std::size_t axis = 0; axis < completions_.size(); ++axis) {
     completions_[axis] = &metrics.completions_.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
   }
+  // Made now, so that the first of a kind is an increase, too.
+  using shrc203::MotionKind, shrc203::MotionState;
+  for (const MotionKind kind :
+       {MotionKind::move, MotionKind::home, MotionKind::return_to_origin, MotionKind::path, MotionKind::execute}) {
+    for (const MotionState outcome :
+         {MotionState::succeeded, MotionState::stopped, MotionState::failed, MotionState::unknown}) {
+      motions(kind, outcome);
+    }
+  }
+}
+
+Counter& DeviceMetrics::motions(shrc203::MotionKind kind, shrc203::MotionState outcome) {
+  return metrics_.motions_.Add({{"device", device_},
+                                {"kind", std::string(shrc203::name(kind))},
+                                {"outcome", std::string(shrc203::name(outcome))}});
 }
 
 void DeviceMetrics::on_event(const shrc203::Event& event) {
@@ -157,13 +188,8 @@ void DeviceMetrics::count(const shrc203::ExchangeEnded& exchange) {
 }
 
 void DeviceMetrics::count(const shrc203::MotionChanged& change) {
-  if (!shrc203::is_outcome(change.motion.state)) return;
   // Once a motion: the family finds its series again by itself.
-  metrics_.motions_
-      .Add({{"device", device_},
-            {"kind", std::string(shrc203::name(change.motion.kind))},
-            {"outcome", std::string(shrc203::name(change.motion.state))}})
-      .Increment();
+  if (shrc203::is_outcome(change.motion.state)) motions(change.motion.kind, change.motion.state).Increment();
 }
 
 void DeviceMetrics::count(const shrc203::CompletionSeen& completion) {

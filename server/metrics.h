@@ -1,6 +1,7 @@
 // What Prometheus may know: fixed names, fixed label sets, one time series per device and table entry.
 #pragma once
 
+#include <prometheus/collectable.h>
 #include <prometheus/counter.h>
 #include <prometheus/exposer.h>
 #include <prometheus/family.h>
@@ -14,6 +15,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <vector>
 
 #include "device/core/lane.h"
 #include "device/core/problem.h"
@@ -22,7 +24,7 @@
 
 namespace axisgate::server {
 
-// The families, one for the daemon. Thread safe once constructed.
+// The families, one for the daemon. Thread safe once constructed, but for expose() and add(), which are one thread's.
 class Metrics {
  public:
   Metrics();
@@ -30,7 +32,13 @@ class Metrics {
   // Serves /metrics at the address and returns the port taken, or says why not (a port in use). Call it once.
   Result<int> expose(const TcpAddress& address);
 
+  // Stands on the page, too: for what is not counted but asked when the page is. Kept as long as the page, so that none
+  // of the page's threads is the last to hold it.
+  void add(std::shared_ptr<prometheus::Collectable> part);
+
   const std::shared_ptr<prometheus::Registry>& registry() const { return registry_; }
+
+  prometheus::Counter& slow_readers() { return slow_readers_; }
 
  private:
   friend class DeviceMetrics;
@@ -52,6 +60,9 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& barriers_;
   prometheus::Family<prometheus::Counter>& underruns_;
   prometheus::Family<prometheus::Counter>& unexpected_lines_;
+  prometheus::Family<prometheus::Counter>& recorder_drops_;
+  prometheus::Counter& slow_readers_;
+  std::vector<std::shared_ptr<prometheus::Collectable>> parts_;
   std::unique_ptr<prometheus::Exposer> exposer_;
 };
 
@@ -64,6 +75,9 @@ class DeviceMetrics {
   void set_state(const shrc203::State& state);
   void set_queued(Lane lane, std::size_t commands);
   void set_owed_answers(int answers) { owed_answers_.Set(answers); }
+  void count_recorder_drops(std::uint64_t lines) {
+    recorder_drops_.Increment(static_cast<double>(lines));
+  }  // any thread
 
  private:
   static constexpr std::size_t kOutcomeCount = 8;
@@ -86,8 +100,10 @@ class DeviceMetrics {
   void count(const shrc203::StopRequested& stop);
   void count(const shrc203::LinkChanged& change);
   void count(const shrc203::BarrierEntered&) { barriers_.Increment(); }
+  void count(const shrc203::LineLearned&) {}
   void count(const shrc203::UnexpectedLine&) { unexpected_lines_.Increment(); }
   void count(const shrc203::StateChanged&) {}
+  prometheus::Counter& motions(shrc203::MotionKind kind, shrc203::MotionState outcome);
 
   Metrics& metrics_;
   const std::string device_;
@@ -103,6 +119,7 @@ class DeviceMetrics {
   prometheus::Counter& barriers_;
   prometheus::Counter& underruns_;
   prometheus::Counter& unexpected_lines_;
+  prometheus::Counter& recorder_drops_;
   prometheus::Counter& line_busy_;
   prometheus::Counter& bytes_in_;
   prometheus::Counter& bytes_out_;

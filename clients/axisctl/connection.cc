@@ -46,7 +46,8 @@ Connection::Connection(std::string target)
       devices(v1::DeviceService::NewStub(channel_)),
       stage(v1::StageService::NewStub(channel_)),
       events(v1::EventService::NewStub(channel_)),
-      commands(v1::CommandService::NewStub(channel_)) {}
+      commands(v1::CommandService::NewStub(channel_)),
+      diagnostics(v1::DiagnosticsService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;

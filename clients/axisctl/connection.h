@@ -9,6 +9,7 @@
 
 #include "axisgate/v1/command.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 
@@ -52,6 +53,7 @@ class Connection {
   const std::unique_ptr<v1::StageService::Stub> stage;
   const std::unique_ptr<v1::EventService::Stub> events;
   const std::unique_ptr<v1::CommandService::Stub> commands;
+  const std::unique_ptr<v1::DiagnosticsService::Stub> diagnostics;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

@@ -34,6 +34,12 @@ int run(const Options& options) {
       return watch(session);
     case Verb::commands:
       return commands(session);
+    case Verb::record:
+      return record(session);
+    case Verb::replay:
+      return replay(session);
+    case Verb::support:
+      return support(session);
   }
   return kUsage;
 }

@@ -19,8 +19,9 @@ axis's configured name. Examples:
   axisctl path square.txt              one segment a line: 1=1mm 2=-500um speed=2mm/s   # comment
   axisctl exec 'M:1+P1000' 'G:1'       one transaction
   axisctl --json watch --from 1
+  axisctl record --output stage.recording      then: axisctl replay stage.recording
 
-Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; 2 wrong usage; 3 refused (bad
+Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; a replay differs; 2 wrong usage; 3 refused (bad
 request or the device's state); 4 unavailable (no daemon, or the line is down); 5 deadline passed.
 
 Not a safety function: the wired emergency stop remains yours.)";
@@ -87,6 +88,30 @@ void add_other_verbs(CLI::App& app, Options& options) {
   commands->add_option("COMMAND", options.command, "one command with its parameters, as M:")->type_name("");
 }
 
+void add_recording_verbs(CLI::App& app, Options& options) {
+  CLI::App* record = add_verb(app, options, Verb::record, "record",
+                              "what went over the line: the last minutes, then on and on until Ctrl-C");
+  record->add_option("--output", options.output, "none: the standard output")->type_name("FILE");
+  CLI::Option* no_follow = record->add_flag("--no-follow", options.no_follow, "only the last minutes");
+  CLI::Option* only_new = record->add_flag("--new", options.only_new, "without the last minutes");
+  CLI::Option* seconds = record->add_option("--seconds", options.seconds, "end by itself after so long");
+  seconds->check(CLI::Range(1, 1'000'000))->type_name("S");
+  no_follow->excludes(only_new)->excludes(seconds);
+
+  CLI::App* replay = add_verb(app, options, Verb::replay, "replay",
+                              "whether what this version makes of a recording is what was made of it");
+  replay->add_option("FILE", options.file, "a recording or a support report; - is the standard input")
+      ->required()
+      ->type_name("");
+
+  CLI::App* support = add_verb(app, options, Verb::support, "support",
+                               "write a report for somebody who helps; without serial numbers and names of people");
+  support->add_option("--output", options.output, "none: axisgate-support-TIME.txt; - is the standard output")
+      ->type_name("FILE");
+}
+
+bool writes_text_only(Verb verb) { return verb == Verb::record || verb == Verb::replay || verb == Verb::support; }
+
 // "/path" for people; gRPC wants "unix:/path".
 std::string address(std::string target) {
   if (target.empty()) target = default_socket_to_connect();
@@ -140,6 +165,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_questions(app, options);
   add_motion_verbs(app, options);
   add_other_verbs(app, options);
+  add_recording_verbs(app, options);
   CLI::App* help = app.add_subcommand("help", "this, or about one verb");
   help->add_option("VERB", help_verb)->type_name("");
   app.footer(kFooter);  // last, or every verb's help would repeat it
@@ -151,6 +177,10 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
     return refuse(app, error);
   }
   if (help->parsed()) return show_help(app, help_verb);
+  if (options.json && writes_text_only(options.verb)) {
+    print_failure(usage("this verb writes a text that has no other form", "leave out --json"));
+    return kUsage;
+  }
   options.target = address(std::move(options.target));
   options.device = resource(options.device);
   return options;

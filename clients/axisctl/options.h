@@ -9,7 +9,23 @@
 
 namespace axisgate::axisctl {
 
-enum class Verb { devices, status, position, home, move, path, stop, estop, clear, exec, watch, commands };
+enum class Verb {
+  devices,
+  status,
+  position,
+  home,
+  move,
+  path,
+  stop,
+  estop,
+  clear,
+  exec,
+  watch,
+  commands,
+  record,
+  replay,
+  support
+};
 
 struct Options {
   std::string target;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
@@ -20,7 +36,8 @@ struct Options {
   std::vector<std::string> axes;               // home, stop, clear: numbers or names
   std::vector<std::string> places;             // move: "1=+5mm"
   std::vector<std::string> lines;              // exec
-  std::string file;                            // path; "-" is the standard input
+  std::string file;                            // path, replay; "-" is the standard input
+  std::string output;                          // record, support: a file; empty: as the verb does by itself
   std::string command;                         // commands: one row only
   std::string speed;                           // move, path; empty: as the axis is set
   int acceleration_ms = 0;                     // move, path; 0: as the axis is set
@@ -28,6 +45,9 @@ struct Options {
   bool absolute = false;                       // path
   bool logical = false;                        // home
   bool no_wait = false;                        // home, move, path
+  bool no_follow = false;                      // record
+  bool only_new = false;                       // record
+  std::optional<int> seconds;                  // record
   std::optional<std::uint64_t> from_revision;  // watch
 };
 

@@ -17,5 +17,8 @@ int stop(const Session& session);
 int emergency_stop(const Session& session);
 int execute(const Session& session);
 int watch(const Session& session);
+int record(const Session& session);
+int replay(const Session& session);
+int support(const Session& session);
 
 }  // namespace axisgate::axisctl

@@ -5,6 +5,8 @@ namespace {
 
 constexpr std::string_view kCut = "...";
 
+constexpr std::string_view kHexDigits = "0123456789ABCDEF";
+
 std::string escaped(char byte) {
   switch (byte) {
     case '\r':
@@ -17,9 +19,26 @@ std::string escaped(char byte) {
       break;
   }
   if (byte >= ' ' && byte <= '~') return std::string(1, byte);
-  constexpr std::string_view kHexDigits = "0123456789ABCDEF";
   const auto value = static_cast<unsigned char>(byte);
   return {'\\', 'x', kHexDigits[value >> 4], kHexDigits[value & 15]};
+}
+
+// One byte as escaped() or quoted_bytes() writes it.
+std::optional<char> take_byte(std::string_view& text) {
+  if (text.empty() || text[0] < ' ' || text[0] > '~') return {};
+  const auto take = [&text](std::size_t characters, char byte) {
+    text.remove_prefix(characters);
+    return byte;
+  };
+  if (text[0] != '\\') return take(1, text[0]);
+  if (text.size() < 2) return {};
+  if (text[1] == 'r') return take(2, '\r');
+  if (text[1] == 'n') return take(2, '\n');
+  if (text[1] == '\\' || text[1] == '"') return take(2, text[1]);
+  if (text[1] != 'x' || text.size() < 4) return {};
+  const auto high = kHexDigits.find(text[2]), low = kHexDigits.find(text[3]);
+  if (high == std::string_view::npos || low == std::string_view::npos) return {};
+  return take(4, static_cast<char>(high << 4 | low));
 }
 
 }  // namespace
@@ -34,6 +53,25 @@ std::string escaped(std::string_view device_text, std::size_t bytes_max) {
     if (text.size() + cut.size() <= bytes_max) fits_with_cut = text.size();
   }
   return text;
+}
+
+std::string quoted_bytes(std::string_view bytes) {
+  std::string text = "\"";
+  for (const char byte : bytes) text += byte == '"' ? "\\\"" : escaped(byte);
+  return text + '"';
+}
+
+std::optional<std::string> take_quoted_bytes(std::string_view& text) {
+  if (!text.starts_with('"')) return {};
+  text.remove_prefix(1);
+  std::string bytes;
+  while (!text.starts_with('"')) {
+    const auto byte = take_byte(text);
+    if (!byte) return {};
+    bytes.push_back(*byte);
+  }
+  text.remove_prefix(1);
+  return bytes;
 }
 
 }  // namespace axisgate

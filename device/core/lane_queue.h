@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "device/core/guard.h"
 #include "device/core/lane.h"
 
 namespace axisgate {
@@ -28,7 +29,7 @@ class LaneQueue {
   // False: the lane is full, and `work` was not taken.
   bool push(Lane lane, std::string caller, Work work) {
     auto& queue = lanes_[index(lane)];
-    if (queue.waiting.size() >= kLaneMax) return false;
+    if (guarded(Guard::lanes_bounded) && queue.waiting.size() >= kLaneMax) return false;
     queue.waiting.push_back({std::move(caller), std::move(work)});
     return true;
   }
@@ -36,8 +37,8 @@ class LaneQueue {
   // The next work for which admissible(work) holds.
   template <class Admissible>
   std::optional<Work> take(Admissible admissible) {
-    for (const bool stops_wait : {last_was_stop_, false}) {
-      for (const bool starving_only : {true, false}) {
+    for (const bool stops_wait : {last_was_stop_ && guarded(Guard::stops_by_turns), false}) {
+      for (const bool starving_only : {guarded(Guard::lanes_starve_not), false}) {
         for (std::size_t lane = stops_wait ? 1 : 0; lane < kLaneCount; ++lane) {
           if (starving_only && (lane == 0 || lanes_[lane].passes < kPassesMax)) continue;
           if (auto work = take_from(lane, admissible)) return work;
@@ -99,7 +100,7 @@ class LaneQueue {
         chosen = entry;
         chosen_served = when;
       }
-      if (when == 0) break;
+      if (when == 0 || !guarded(Guard::callers_take_turns)) break;
     }
     if (chosen == lane.waiting.end()) return {};
     Work work = std::move(chosen->work);

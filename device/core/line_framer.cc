@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "device/core/guard.h"
+
 namespace axisgate {
 namespace {
 
@@ -25,7 +27,8 @@ void LineFramer::push(std::string_view bytes) {
 
 void LineFramer::end_line() {
   while (!partial_.empty() && is_padding(partial_.back())) partial_.pop_back();
-  if (!partial_.empty() && ready_.size() < kLinesMax) ready_.push_back({std::move(partial_), overlong_});
+  const bool room = ready_.size() < kLinesMax || !guarded(Guard::unread_lines_bounded);
+  if (!partial_.empty() && room) ready_.push_back({std::move(partial_), overlong_});
   partial_.clear();
   overlong_ = false;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/core/guard.h"
 #include "device/shrc203/codec.h"
 
 namespace axisgate::shrc203 {
@@ -20,11 +21,13 @@ Barrier::Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed,
                  std::function<void(std::string_view)> write)
     : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), owed_(owed), write_(std::move(write)) {}
 
-void Barrier::start(TimePoint now) { begin(line_in_doubt_.empty() ? Step::identity : Step::echo, now); }
+void Barrier::start(TimePoint now) {
+  const bool ask = !line_in_doubt_.empty() && guarded(Guard::received_or_not);
+  begin(ask ? Step::echo : Step::identity, now);
+}
 
 void Barrier::restart(TimePoint now) {
-  if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) ++owed_.identities;
+  owe();
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
   begin(Step::identity, now);
 }
@@ -32,9 +35,9 @@ void Barrier::restart(TimePoint now) {
 void Barrier::begin(Step step, TimePoint now) {
   step_ = step;
   probes_ = 0;
-  older_ = owed_.identities;
+  older_ = guarded(Guard::older_identities) ? owed_.identities : 0;
   if (step == Step::silence) {
-    silence_ = std::max(limits_.silence, 2 * (now - probed_));
+    silence_ = guarded(Guard::silence) ? std::max(limits_.silence, 2 * (now - probed_)) : Duration::zero();
     deadline_ = now + silence_;
     silence_limit_ = now + kSilenceWaitMax;
   } else {
@@ -47,6 +50,12 @@ void Barrier::probe(TimePoint now) {
   probed_ = now;
   write_(step_ == Step::echo ? "?:CMD" : "*IDN?");
   deadline_ = now + limits_.reply;
+}
+
+void Barrier::owe() {
+  if (!guarded(Guard::owed_answers)) return;
+  if (step_ == Step::echo) ++owed_.echoes;
+  if (step_ == Step::identity) ++owed_.identities;
 }
 
 bool Barrier::is_echo(std::string_view line) const { return line == line_in_doubt_ || looks_like_command(line); }
@@ -82,9 +91,8 @@ void Barrier::advance(TimePoint now) {
     state_ = now < silence_limit_ ? State::passed : State::failed;
     return;
   }
-  if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) ++owed_.identities;
-  if (probes_ >= kProbesMax) {
+  owe();
+  if (probes_ >= kProbesMax && guarded(Guard::three_probes)) {
     state_ = State::failed;
   } else {
     probe(now);

@@ -60,6 +60,7 @@ class Barrier {
   enum class Step { echo, identity, silence };
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
+  void owe();
   bool is_echo(std::string_view line) const;
 
   std::string line_in_doubt_;

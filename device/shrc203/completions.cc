@@ -1,9 +1,12 @@
 #include "device/shrc203/completions.h"
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 
 void Completions::connected() {
-  for (Axis& axis : axes_) axis = {.possible = true, .arrived = false, .started = {}, .until = {}};
+  for (Axis& axis : axes_)
+    axis = {.possible = guarded(Guard::possible_after_connect), .arrived = false, .started = {}, .until = {}};
 }
 
 void Completions::started(AxisSet axes, TimePoint now) {
@@ -20,21 +23,31 @@ AxisSet Completions::outstanding() const {
   return set;
 }
 
-void Completions::ready(AxisSet axes, TimePoint now) {
+AxisSet Completions::ready(AxisSet axes, TimePoint now) {
+  AxisSet changed;
   for (const int number : axes.list()) {
     Axis& one = axis(number);
-    const bool settled = !one.started || now - *one.started >= kStartSettles;
-    if (one.possible && !one.until && settled) one.until = now + kAfterReady;
+    const bool settled = !guarded(Guard::start_settles) || !one.started || now - *one.started >= kStartSettles;
+    if (!one.possible || one.until || !settled) continue;
+    one.until = guarded(Guard::possible_after_ready) ? now + kAfterReady : now;
+    changed.add(number);
   }
+  return changed;
 }
 
-void Completions::busy(AxisSet axes) {
-  for (const int number : axes.list()) axis(number).until.reset();
+AxisSet Completions::busy(AxisSet axes) {
+  AxisSet changed;
+  for (const int number : axes.list()) {
+    if (axis(number).until) changed.add(number);
+    axis(number).until.reset();
+  }
+  return changed;
 }
 
 void Completions::answered(TimePoint written) {
   for (Axis& one : axes_) {
-    if (one.possible && one.until && *one.until <= written) one = {};
+    const bool after = one.until && (*one.until <= written || !guarded(Guard::settled_by_exchange));
+    if (one.possible && after) one = {};
   }
 }
 

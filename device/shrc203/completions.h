@@ -25,9 +25,9 @@ class Completions {
   // An axis number came, one for each start, more in a chain.
   void arrived(int axis);
 
-  // A reading told these axes to be READY.
-  void ready(AxisSet axes, TimePoint now);
-  void busy(AxisSet axes);
+  // A reading told these axes to be READY, or busy. Those for which it changed anything.
+  AxisSet ready(AxisSet axes, TimePoint now);
+  AxisSet busy(AxisSet axes);
 
   // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
   // sent before has come; one that is due no more after READY cannot come any more.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "device/core/escape.h"
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -38,13 +39,13 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   ++connection_;
   settled_ = false;
   restart_possible_ = false;
-  registers_.forget();
+  if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   const bool news = state_.link != LinkState::down || state_.link_problem != why;
   state_.link = LinkState::down;
   state_.link_problem = why;
   for (auto& axis : state_.axes) {
     // It may be nobody's here that moves.
-    state_.moving_unknown = state_.moving_unknown || axis.busy.value_or(false);
+    state_.moving_unknown = state_.moving_unknown || (axis.busy.value_or(false) && guarded(Guard::moving_unknown));
     axis.position_pulses.reset();
     axis.busy.reset();
   }
@@ -53,7 +54,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     live->line_lost = true;
     live->line_problem = why;
     // What it wrote last may have been its start, though no answer has come.
-    state_.moving_unknown = state_.moving_unknown || live->wrote;
+    state_.moving_unknown = state_.moving_unknown || (live->wrote && guarded(Guard::moving_unknown));
     live->news.notify();
   }
   gate_.withdraw([](MotionId) { return true; },
@@ -76,7 +77,8 @@ void Controller::Impl::barrier_entered(const std::string& why, TimePoint) {
 
 void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
   if (state_.link != LinkState::doubtful) return;
-  if (identity.serial_number != state_.serial_number || identity.model != state_.model) {
+  const bool same = identity.serial_number == state_.serial_number && identity.model == state_.model;
+  if (!same && guarded(Guard::serial_number_after_barrier)) {
     line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number),
                   now_);
     return;
@@ -92,12 +94,16 @@ void Controller::Impl::restart_suspected(TimePoint) {
 }
 
 void Controller::Impl::completion_seen(int axis, bool doubtful, TimePoint now) {
+  note_completion(axis, doubtful, false, now);
+}
+
+void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, TimePoint now) {
   line_.completions().arrived(axis);
   LiveMotionPtr owner;
   for (const auto& [id, live] : live_) {
     if (live->inside_gate && live->motion.axes.has(axis) && live->motion.state != MotionState::queued) owner = live;
   }
-  emit(CompletionSeen{axis, owner ? owner->motion.id : 0});
+  emit(CompletionSeen{axis, owner ? owner->motion.id : 0, deduced});
   if (!owner) return;
   owner->completed.add(axis);
   for (auto& result : owner->motion.results) {
@@ -176,7 +182,7 @@ Result<void> Controller::check(const MoveRequest& request) const {
 }
 
 Result<void> Controller::check(const PathRequest& request) const {
-  const auto plan = plan_path(request, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+  const auto plan = impl_->plan_feasible_path(request);
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }

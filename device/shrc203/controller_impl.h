@@ -86,6 +86,7 @@ class Controller::Impl : public LineListener {
   void restart_suspected(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
+  void note_completion(int axis, bool doubtful, bool deduced, TimePoint now);
 
   // handshake.cc
   Task<void> handshake(Identity identity, std::uint64_t connection);
@@ -127,6 +128,7 @@ class Controller::Impl : public LineListener {
   };
   void judge(LiveMotionPtr live, EndCheck& check);
   bool at_targets(const LiveMotion& live) const;
+  Positions places_of(const LiveMotion& live) const;
   std::optional<Problem> error_of(const LiveMotion& live) const;
   bool anything_moves() const;
 
@@ -150,7 +152,9 @@ class Controller::Impl : public LineListener {
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
-  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request);
+  Task<void> run_path_motion(LiveMotionPtr live, PathRequest request, Register reg);
+  // As plan_path, and: the line can feed it.
+  Result<PathPlan> plan_feasible_path(const PathRequest& request) const;
 
   // stop.cc
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);

@@ -21,6 +21,7 @@ struct MotionChanged {
 struct CompletionSeen {
   int axis = 0;
   MotionId motion = 0;
+  bool deduced = false;  // from two answers that agree, not when it came in
 };
 
 struct PathProgress {
@@ -34,6 +35,7 @@ struct PathProgress {
 struct LinkChanged {
   LinkState link = LinkState::down;
   std::string why;
+  AxisSet controllable{};  // when up
 };
 
 struct StopRequested {
@@ -49,6 +51,8 @@ struct BytesWritten {
   std::uint64_t exchange = 0;
   std::string who;  // who asked for it; empty: the line itself
   Lane lane = Lane::question;
+  AxisSet completes{};  // the axes whose numbers may come from now on
+  bool closed = false;  // an !:S follows an answer that could be such a number
 };
 
 // What came in, cut as the driver cut it.
@@ -82,6 +86,18 @@ struct BarrierEntered {
   std::string why;
 };
 
+// What became known of the line, where it changes what may be sent, or what a number that comes may mean.
+struct LineLearned {
+  enum class What {
+    barrier_passed,   // also the one after a connect
+    same_controller,  // a suspected restart was none
+    ready,            // the axes stand: their numbers may come for a little longer
+    busy,             // they do not
+  };
+  What what = What::barrier_passed;
+  AxisSet axes{};  // of ready and busy
+};
+
 // A line that nothing waited for: dropped, and counted. Device text: escape before showing.
 struct UnexpectedLine {
   std::string text;
@@ -90,8 +106,9 @@ struct UnexpectedLine {
 // Positions, mode, excitation or the like are newer; ask Controller::state().
 struct StateChanged {};
 
-using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, BytesWritten,
-                           BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, UnexpectedLine, StateChanged>;
+using Event =
+    std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, BytesWritten, BytesReceived,
+                 TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned, UnexpectedLine, StateChanged>;
 
 class EventSink {
  public:

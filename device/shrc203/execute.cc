@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/transaction_lines.h"
 
@@ -111,7 +112,7 @@ Task<ExchangeResult> Transaction::exchange(const Command& command) {
     request.closed = closed;
     auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
     result = co_await pending;
-    if (result.candidates.empty()) co_return result;
+    if (result.candidates.empty() || !guarded(Guard::two_answers_agree)) co_return result;
     const auto agreed = std::ranges::find_first_of(result.candidates, before);
     if (agreed != result.candidates.end()) {
       const int answer = *agreed;
@@ -119,8 +120,8 @@ Task<ExchangeResult> Transaction::exchange(const Command& command) {
       result.candidates.erase(agreed);
       before.erase(std::ranges::find(before, answer));
       // What is left over is no answer, so it was a completion.
-      for (const int axis : before) impl_.completion_seen(axis, true, impl_.now_);
-      for (const int axis : result.candidates) impl_.completion_seen(axis, true, impl_.now_);
+      for (const int axis : before) impl_.note_completion(axis, true, true, impl_.now_);
+      for (const int axis : result.candidates) impl_.note_completion(axis, true, true, impl_.now_);
       co_return result;
     }
     before = std::exchange(result.candidates, {});
@@ -200,14 +201,13 @@ Task<void> Transaction::run() {
     end({});
     live_->on_completion = {};
   }
-  impl_.registers_.forget();
+  if (guarded(Guard::registers_unknown_after_transaction)) impl_.registers_.forget();
   if (started_ || start_in_doubt_) {
     co_await impl_.watch(live_, start_in_doubt_);
   } else {
     auto reread = co_await impl_.read_speeds(request_.context.who);
     if (reread) reread = co_await impl_.read_excitation(request_.context.who);
     impl_.end_motion(live_, all && reread ? MotionState::succeeded : MotionState::failed, {});
-    impl_.registers_.forget();
   }
   if (wait) end(live_->motion.state == MotionState::succeeded ? std::nullopt : live_->motion.problem);
   live_->on_completion = {};

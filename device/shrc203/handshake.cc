@@ -4,7 +4,9 @@
 #include <algorithm>
 
 #include "device/core/escape.h"
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/own_questions.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -13,7 +15,6 @@ constexpr Duration kBusyPoll = std::chrono::milliseconds(100);
 constexpr Duration kModePoll = std::chrono::seconds(1);
 constexpr Duration kQuiet = std::chrono::milliseconds(10);
 constexpr int kTries = 3;
-const std::string kGateway = "gateway";
 
 bool is_data(const ExchangeResult& result) {
   return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
@@ -30,7 +31,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   const bool configured = !profile_.serial_number.empty();
   const std::string& serial_number = configured ? profile_.serial_number : unit_;
   const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
-  if (identity.model != profile_.model || wrong_serial) {
+  if (guarded(Guard::serial_number) && (identity.model != profile_.model || wrong_serial)) {
     line_.give_up(
         fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
                     profile_.model, serial_number, configured || unit_.empty() ? "is configured" : "was here before"),
@@ -52,11 +53,11 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   }
   ++state_.device_epoch;
   for (auto& axis : state_.axes) axis.homed = false;
-  registers_.forget();
+  if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   unit_ = state_.serial_number;
   state_.link = LinkState::up;
   state_.link_problem.clear();
-  emit(LinkChanged{LinkState::up, ""});
+  emit(LinkChanged{LinkState::up, "", state_.controllable()});
   line_.open(state_.controllable(), now_);
   wake_poll_.notify();
   publish_state();
@@ -73,11 +74,11 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
       continue;
     }
     state_.mode = mode.reply->text;
-    if (state_.mode == "HOST") {
+    if (state_.mode == "HOST" || !guarded(Guard::host_mode)) {
       const auto format = co_await ask("?:FMT", Lane::question, kGateway, true);
       if (connection != connection_) co_return false;
       state_.format = is_data(format) ? format.reply->text : "";
-      if (state_.format == "SHOT_FC") co_return true;
+      if (state_.format == "SHOT_FC" || !guarded(Guard::host_mode)) co_return true;
       if (!is_data(format)) ++failures;
     }
     state_.link_problem = wrong_panel(state_);
@@ -100,14 +101,14 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
       ++failures;
       continue;
     }
-    const bool busy = ready.reply->text.find('B') != std::string::npos;
+    const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      line_.completions().ready(AxisSet::all(), now_);
+      line_.ready(AxisSet::all(), now_);
       auto quiet = tick_.wait_until(now_ + Completions::kAfterReady + kQuiet);
       co_await quiet;
       co_return connection == connection_;
     }
-    line_.completions().busy(AxisSet::all());
+    line_.busy(AxisSet::all(), now_);
     state_.link_problem = "something moves that the gateway did not start; waiting until it stands";
     const auto read = co_await read_positions(Lane::question, kGateway, true);
     if (!read) publish_state();
@@ -134,8 +135,9 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     if (!is_data(*step.answer)) co_return false;
   }
   const auto controllable = from_axis_setting(axes.reply->text);
-  if (!controllable || axes_again.reply->text != axes.reply->text) co_return false;
-  if (serial.reply->text != state_.serial_number) co_return false;
+  const bool twice = axes_again.reply->text == axes.reply->text || !guarded(Guard::axes_twice);
+  if (!controllable || !twice) co_return false;
+  if (serial.reply->text != state_.serial_number && guarded(Guard::serial_number_twice)) co_return false;
   for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
   const auto count = static_cast<std::size_t>(controllable->count());
   const auto field = [&](const ExchangeResult& answer, int number) -> std::string {

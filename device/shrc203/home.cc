@@ -1,6 +1,7 @@
 // Origin returns, mechanical (HRT:) and logical (ZRT:): one line sets them going, one number an axis ends them.
 #include <fmt/format.h>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -17,7 +18,7 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
   }
   for (const auto& [id, live] : live_) {
     const bool same = live->motion.kind == kind && live->motion.axes.touches(axes);
-    if (!same) continue;
+    if (!same || !guarded(Guard::one_home_an_axis)) continue;
     started(fail(Reason::axis_busy,
                  fmt::format("{}: motion {} of {} is already under way there", to_string(live->motion.axes), id,
                              live->motion.who),
@@ -44,7 +45,7 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   auto pending = line_.exchange(std::move(request), now_);
   const auto result = co_await pending;
   bool in_doubt = result.in_doubt();
-  if (result.refused()) in_doubt = co_await moves_all_the_same(live);
+  if (result.refused() && guarded(Guard::refused_start_looked_at)) in_doubt = co_await moves_all_the_same(live);
   if (result.refused() && !in_doubt) {
     const auto why = co_await explain_refusal(mechanical ? "HRT:" : "ZRT:", live->motion.axes, live->context.who);
     end_motion(live, MotionState::failed, why);

@@ -4,14 +4,14 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
 constexpr Duration kBackoffMin = std::chrono::milliseconds(250);
 constexpr Duration kBackoffMax = std::chrono::seconds(5);
 constexpr Duration kSilenceMin = std::chrono::milliseconds(50);
-constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
-constexpr std::size_t kReplyBytesMax = 64;  // the longest reply of this table: Q:SPC with three long coordinates
 
 Problem problem_of(Reason reason, std::string message, std::string_view sent) {
   return {reason, std::move(message), {}, {}, std::string(sent), {}};
@@ -20,7 +20,12 @@ Problem problem_of(Reason reason, std::string message, std::string_view sent) {
 }  // namespace
 
 Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener)
-    : profile_(profile), link_(link), executor_(executor), listener_(listener), backoff_(kBackoffMin) {}
+    : profile_(profile),
+      link_(link),
+      executor_(executor),
+      listener_(listener),
+      backoff_(kBackoffMin),
+      pace_(profile.baud) {}
 
 void Line::link_up(TimePoint now) {
   now_ = now;
@@ -30,6 +35,7 @@ void Line::link_up(TimePoint now) {
   handshake_passed_ = false;
   framer_.clear();
   owed_ = {};
+  pace_.connected();
   completions_.connected();
   continuity_.connected();
   suspected_ = false;
@@ -45,7 +51,7 @@ void Line::link_down(TimePoint now, std::string_view why) {
   }
   reopening_at_once_ = false;
   listener_.line_lost(std::string(why), now);
-  link_.reopen(backoff_);
+  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
   backoff_ = std::min(backoff_ * 2, kBackoffMax);
 }
 
@@ -54,6 +60,7 @@ void Line::give_up(const std::string& why, TimePoint now) {
   handshake_passed_ = false;
   state_ = LinkState::down;
   barrier_.reset();
+  reservations_.clear();
   framer_.clear();
   const Problem lost = problem_of(Reason::link_down, "the line to the controller is down: " + why, {});
   if (doubted_waiting_) {
@@ -66,7 +73,7 @@ void Line::give_up(const std::string& why, TimePoint now) {
   }
   withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, lost);
   listener_.line_lost(why, now);
-  link_.reopen(backoff_);
+  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
   backoff_ = std::min(backoff_ * 2, kBackoffMax);
 }
 
@@ -84,6 +91,7 @@ void Line::still_the_same(TimePoint now) {
   now_ = now;
   suspected_ = false;
   continuity_.begin(now);
+  learned(LineLearned::What::same_controller);
   pump(now);
 }
 
@@ -105,8 +113,9 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     WaitingPtr same;
     queue_.for_each([&](const WaitingPtr& waiting) {
       const auto& other = waiting->request;
-      if (other.command.line == request.command.line && other.lane == request.lane &&
-          other.handshake == request.handshake && other.closed == request.closed) {
+      const bool same_line = other.command.line == request.command.line || !guarded(Guard::shared_questions);
+      if (same_line && other.lane == request.lane && other.handshake == request.handshake &&
+          other.closed == request.closed) {
         same = waiting;
       }
     });
@@ -119,7 +128,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   const Lane lane = request.lane;
   const std::string caller = request.caller;
   auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}, now});
-  if (!queue_.push(lane, caller, waiting)) {
+  if (!queue_.push(guarded(Guard::stop_lane) || !is_stop ? lane : Lane::poll, caller, waiting)) {
     const Problem full{
         Reason::queue_full,
         fmt::format("the {} lane already holds {} requests", name(lane), LaneQueue<WaitingPtr>::kLaneMax),
@@ -162,7 +171,9 @@ MotionId Line::starting() const {
 }
 
 void Line::expire(TimePoint now) {
-  const auto late = [now](const WaitingPtr& waiting) { return waiting->request.not_after < now; };
+  const auto late = [now](const WaitingPtr& waiting) {
+    return waiting->request.not_after < now && guarded(Guard::waiting_lines_expire);
+  };
   queue_.drain(late, [&](const WaitingPtr& waiting) {
     const Problem problem = why_expired(waiting->request);
     listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::queue}, now);
@@ -185,146 +196,20 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
             line,
             {}};
   }
+  if (!reservations_.empty() && request.lane > Lane::path_refill) {
+    return {Reason::deadline_passed,
+            "the segments of a running path are so short that the line had no time for this command",
+            "ask again once the path has ended, or give it longer segments",
+            {},
+            line,
+            {}};
+  }
   return {Reason::deadline_passed,
           "the time allowed for this command ran out before the line was free",
           "allow more time, or try again",
           {},
           line,
           {}};
-}
-
-// The axes whose numbers could not be told from the answer.
-AxisSet Line::conflicts(const ExchangeRequest& request) const {
-  const CommandRow& row = *request.command.row;
-  if (request.closed) return {};
-  const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
-  const bool asked_whole = row.separation == Separation::waits || row.separation == Separation::closed;
-  if (!asked_whole && !asked_alone) return {};
-  const auto range = bare_number_range(row);
-  AxisSet found;
-  for (const int axis : completions_.possible().list()) {
-    if (range && axis >= range->minimum && axis <= range->maximum) found.add(axis);
-  }
-  return found;
-}
-
-// When to ask !: on behalf of a question that waits for the last number to have come.
-std::optional<TimePoint> Line::conflicts_settle_from() const {
-  std::optional<TimePoint> earliest;
-  queue_.for_each([&](const WaitingPtr& waiting) {
-    const AxisSet axes = conflicts(waiting->request);
-    const auto from = axes.empty() ? std::nullopt : completions_.settles_from(axes);
-    if (from && (!earliest || *from < *earliest)) earliest = from;
-  });
-  return earliest;
-}
-
-bool Line::may_send(const ExchangeRequest& request) const {
-  const bool certain = handshake_passed_ && !continuity_.open();
-  if (sealed_ && request.lane != Lane::stop) return false;
-  if (!certain && !request.handshake && request.lane != Lane::stop) return false;
-  return conflicts(request).empty();
-}
-
-void Line::pump(TimePoint now) {
-  if (!can_send()) return;
-  expire(now);
-  const bool coming = line_is_coming(now) || now < quiet_until_;
-  const auto may_go = [&](const WaitingPtr& waiting) {
-    return (!coming || waiting->request.lane == Lane::stop) && may_send(waiting->request);
-  };
-  const auto settles = coming ? std::nullopt : conflicts_settle_from();
-  const bool settle = settles && now >= *settles;
-  if (must_ask_before(may_go, settle, now)) {
-    ExchangeRequest question;
-    question.command = make_command(kLineBefore);
-    send(std::make_shared<Waiting>(Waiting{std::move(question), {}, now}), now);
-    return;
-  }
-  auto next = queue_.take(may_go);
-  if (next) {
-    send(std::move(*next), now);
-    return;
-  }
-  if (!settle) return;
-  ExchangeRequest probe;
-  probe.command = make_command("!:");
-  send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
-}
-
-// After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
-bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
-  if (!handshake_passed_ || continuity_.open() || !continuity_.due(now)) return false;
-  bool any = settle, stop = false;
-  queue_.for_each([&](const WaitingPtr& waiting) {
-    stop = stop || waiting->request.lane == Lane::stop;
-    any = any || (may_go(waiting) && waiting->request.command.line != kLineBefore);
-  });
-  return any && !stop;
-}
-
-// While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.
-bool Line::line_is_coming(TimePoint now) {
-  if (!framer_.mid_line()) {
-    partial_since_.reset();
-    return false;
-  }
-  if (!partial_since_) partial_since_ = now;
-  return !drop_unended(now);
-}
-
-bool Line::drop_unended(TimePoint now) {
-  if (!partial_since_ || now < *partial_since_ + kPartialLineMax) return false;
-  framer_.clear();
-  partial_since_.reset();
-  unexpected("(a line that did not end)", now);
-  return true;
-}
-
-void Line::send(WaitingPtr waiting, TimePoint now) {
-  const auto& request = waiting->request;
-  const auto limit =
-      request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
-  const Duration on_the_wire = time_of(request.command.line.size() + 2 + kReplyBytesMax);
-  if (framer_.mid_line()) framer_.clear();  // only a stop does not wait: what is half in must not end as its answer
-  if (!request.completes.empty()) completions_.started(request.completes, now);
-  const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
-  if (echo_first) write_line(kLineBefore);
-  write_line(request.command.line, ++exchanges_, &request);
-  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
-}
-
-// Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
-void Line::send_stops_now(TimePoint now) {
-  if (port_open_ && barrier_ && write_waiting_stops()) barrier_->restart(now);
-}
-
-bool Line::write_waiting_stops() {
-  bool any = false;
-  queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },
-               [&](const WaitingPtr& waiting) {
-                 any = true;
-                 write_line(waiting->request.command.line, ++exchanges_, &waiting->request);
-                 const Problem problem{Reason::outcome_unknown,
-                                       "the stop was written while the line was being resynchronised; its answer "
-                                       "cannot be believed",
-                                       "look at the positions",
-                                       {},
-                                       waiting->request.command.line,
-                                       {}};
-                 for (auto& answer : waiting->answers)
-                   answer.deliver({.written = true, .reply = {}, .problem = problem, .candidates = {}});
-               });
-  return any;
-}
-
-void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
-  std::string bytes(line);
-  bytes += "\r\n";
-  continuity_.wrote(line, now_);
-  link_.write(bytes);
-  const Lane lane = cause ? cause->lane : Lane::question;
-  listener_.line_event(BytesWritten{std::move(bytes), exchange, cause ? cause->caller : "", lane}, now_);
 }
 
 void Line::advance(TimePoint now) {
@@ -358,18 +243,20 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
     TimePoint held = quiet_until_;
     if (partial_since_) held = std::max(held, *partial_since_ + kPartialLineMax);
     if (held > now || partial_since_) sooner(held);
-    if (const auto settles = conflicts_settle_from()) sooner(std::max(*settles, held));
+    const auto expiry = reservations_.next_expiry(now);
+    if (expiry) sooner(*expiry);
+    if (const auto settles = conflicts_settle_from()) {
+      const TimePoint at = std::max(*settles, held);
+      sooner(at <= now && expiry ? *expiry : at);
+    }
   }
   queue_.for_each([&](const WaitingPtr& waiting) { sooner(waiting->request.not_after + Duration(1)); });
   return next;
 }
 
-Duration Line::time_of(std::size_t bytes) const {
-  return std::chrono::nanoseconds(static_cast<std::int64_t>(bytes) * 10 * 1'000'000'000 / profile_.baud);
-}
-
 Barrier::Limits Line::barrier_limits() const {
-  return {profile_.reply_limit + time_of(kReplyBytesMax), std::max(kSilenceMin, 3 * time_of(kReplyBytesMax))};
+  const Duration longest_reply = pace_.time_of(Pace::kReplyBytesMax);
+  return {profile_.reply_limit + longest_reply, std::max(kSilenceMin, 3 * longest_reply)};
 }
 
 std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt) {

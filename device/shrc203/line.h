@@ -23,8 +23,10 @@
 #include "device/shrc203/continuity.h"
 #include "device/shrc203/event.h"
 #include "device/shrc203/motion.h"
+#include "device/shrc203/pace.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/reply.h"
+#include "device/shrc203/reservations.h"
 
 namespace axisgate::shrc203 {
 
@@ -95,6 +97,16 @@ class Line {
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
   void still_the_same(TimePoint now);                   // the suspected restart was none
 
+  // A reading told these axes to stand, or to move.
+  void ready(AxisSet axes, TimePoint now);
+  void busy(AxisSet axes, TimePoint now);
+
+  // A path's next refill will be asked for at `due`: until then nothing begins in the lanes below that may not have
+  // ended by then, and from then on nothing until the refill is written or Reservations::kLate has passed.
+  void keep_free(MotionId path, TimePoint due, TimePoint now);
+  void release(MotionId path, TimePoint now);
+  const Pace& pace() const { return pace_; }
+
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
   // Answers to abandoned probes that may still come.
@@ -115,7 +127,8 @@ class Line {
     bool echo_first = false;   // a ?:CMD has been written before it and not been answered
   };
 
-  static constexpr std::string_view kLineBefore = "?:CMD";
+  static constexpr std::string_view kLineBefore = "?:CMD", kSettling = "!:";
+  static constexpr Duration kPartialLineMax = std::chrono::milliseconds(50);
 
   bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
   void pump(TimePoint now);
@@ -128,6 +141,8 @@ class Line {
                       TimePoint now) const;
   bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
   bool may_send(const ExchangeRequest& request) const;
+  bool leaves_refills_alone(const ExchangeRequest& request, TimePoint now) const;
+  bool may_settle(TimePoint now) const;
   AxisSet conflicts(const ExchangeRequest& request) const;
   std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);
@@ -149,7 +164,7 @@ class Line {
   void hear_echo(std::string_view line_before, TimePoint now);
   void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
-  Duration time_of(std::size_t bytes) const;
+  void learned(LineLearned::What what, AxisSet axes = {});
   Barrier::Limits barrier_limits() const;
   std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt);
 
@@ -162,6 +177,8 @@ class Line {
   bool reopening_at_once_ = false;
   Duration backoff_;
   LineFramer framer_;
+  Pace pace_;
+  Reservations reservations_;
   Completions completions_;
   Continuity continuity_;
   bool suspected_ = false;  // the listener has been told

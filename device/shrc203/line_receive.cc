@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "device/core/escape.h"
+#include "device/core/guard.h"
 #include "device/shrc203/line.h"
 
 namespace axisgate::shrc203 {
@@ -32,6 +33,11 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   return ExchangeEnded::Outcome::data;
 }
 
+Guard guard_of(ExchangeEnded::Outcome doubt) {
+  if (doubt == ExchangeEnded::Outcome::timed_out) return Guard::barrier_after_time_limit;
+  return doubt == ExchangeEnded::Outcome::ng_i ? Guard::barrier_after_line_fault : Guard::barrier_after_garbage;
+}
+
 }  // namespace
 
 void Line::receive(std::string_view bytes, TimePoint now) {
@@ -49,7 +55,8 @@ void Line::receive(std::string_view bytes, TimePoint now) {
 }
 
 void Line::on_line(const LineFramer::Line& line, TimePoint now) {
-  if (!line.overlong && on_axis_number(line.text, now)) return;
+  const bool overlong = line.overlong && guarded(Guard::overlong_lines);
+  if (!overlong && on_axis_number(line.text, now)) return;
   if (barrier_) return in_barrier(line.text, now);
   if (!in_flight_) {
     if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
@@ -57,21 +64,18 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   }
   if (!in_flight_->numbers.empty()) return on_line_while_closing(line.text, now);
   const auto& row = *in_flight_->waiting->request.command.row;
-  if (owed_.identities > 0 && (line.text == "NG" || line.text == "NG_I")) {
+  const bool refusal = line.text == "NG" || line.text == "NG_I";
+  if (owed_.identities > 0 && refusal && guarded(Guard::owed_refusals)) {
     // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
     --owed_.identities;
     doubt_answer(line.text, now);
     return;
   }
-  // An owed *IDN? answers nothing but itself, though ?:CMD would take any text.
-  if (row.name != "*IDN?" && owed_.identities > 0 && parse_identity(line.text)) {
-    --owed_.identities;
-    return;
-  }
   const bool line_before = in_flight_->echo_first || row.name == kLineBefore;
-  if (line_before && (line.overlong || !continuity_.tells(line.text))) return doubt_answer(line.text, now);
+  const bool told = !overlong && (continuity_.tells(line.text) || !guarded(Guard::possible_lines_before));
+  if (line_before && !told) return doubt_answer(line.text, now);
   if (std::exchange(in_flight_->echo_first, false)) return hear_echo(line.text, now);
-  auto reply = line.overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
+  auto reply = overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
   if (reply) {
     on_reply(std::move(*reply), now);
     return;
@@ -93,7 +97,7 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
 void Line::hear_echo(std::string_view line_before, TimePoint now) {
   const auto verdict = continuity_.told(line_before, now);
   if (verdict != Continuity::Verdict::same) quiet_until_ = now + kQuietAfterRefusal;
-  if (verdict == Continuity::Verdict::foreign) {
+  if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
     give_up(fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
                         "line is disturbed",
                         escaped(line_before)),
@@ -102,7 +106,7 @@ void Line::hear_echo(std::string_view line_before, TimePoint now) {
 }
 
 void Line::look_at_continuity(TimePoint now) {
-  if (!handshake_passed_ || !continuity_.open() || suspected_) return;
+  if (!handshake_passed_ || !continuity_.open() || suspected_ || !guarded(Guard::restart_suspected)) return;
   suspected_ = true;
   listener_.restart_suspected(now);
 }
@@ -125,11 +129,13 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
   const int axis = text[0] - '0';
   const bool possible = completions_.possible(axis);
-  if (in_flight_ && in_flight_->waiting->request.closed && (possible || !in_flight_->numbers.empty())) {
+  const bool closed = in_flight_ && in_flight_->waiting->request.closed && guarded(Guard::closed_questions);
+  if (closed && (possible || !in_flight_->numbers.empty())) {
     on_number(axis, now);
     return true;
   }
-  if (in_flight_ && !possible) {
+  // Nothing is on the wire that a possible number could answer (conflicts()).
+  if (in_flight_) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
   }
@@ -219,12 +225,17 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
   if (result.reply) completions_.answered(done.written);
+  const auto& request = done.waiting->request;
+  if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
+    pace_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
+  }
   listener_.line_event(ended(done, result, outcome, now), now);
   for (auto& answer : done.waiting->answers) answer.deliver(result);
 }
 
 void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why,
                          TimePoint now) {
+  if (!guarded(guard_of(outcome))) return finish(std::move(doubted), outcome, now);
   doubted_waiting_ = in_flight_->waiting;
   std::string last_line(in_flight_->numbers.empty() ? doubted_waiting_->request.command.line : kClosing);
   doubted_ = std::move(doubted);
@@ -249,6 +260,7 @@ void Line::barrier_moved(TimePoint now) {
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   owed_.echoes = 0;
   barrier_.reset();
+  learned(LineLearned::What::barrier_passed);
   const bool connecting = !handshake_passed_ && !doubted_waiting_;
   if (doubted_waiting_) {
     if (const auto received = barrier_told) {
@@ -267,6 +279,20 @@ void Line::barrier_moved(TimePoint now) {
   }
   pump(now);
 }
+
+void Line::ready(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.ready(axes, now);
+  if (!news.empty()) learned(LineLearned::What::ready, news);
+}
+
+void Line::busy(AxisSet axes, TimePoint now) {
+  now_ = now;
+  const AxisSet news = completions_.busy(axes);
+  if (!news.empty()) learned(LineLearned::What::busy, news);
+}
+
+void Line::learned(LineLearned::What what, AxisSet axes) { listener_.line_event(LineLearned{what, axes}, now_); }
 
 void Line::unexpected(std::string_view text, TimePoint now) {
   listener_.line_event(UnexpectedLine{std::string(text)}, now);

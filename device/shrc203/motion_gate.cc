@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 
 OneShot<Result<void>> MotionGate::enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after) {
@@ -27,7 +29,7 @@ void MotionGate::withdraw(const std::function<bool(MotionId)>& chosen, const Pro
 }
 
 void MotionGate::expire(TimePoint now) {
-  queue_.drain([now](const Entry& entry) { return entry.not_after < now; },
+  queue_.drain([now](const Entry& entry) { return entry.not_after < now && guarded(Guard::waiting_motions_expire); },
                [](Entry entry) {
                  entry.answer.deliver(fail(Reason::deadline_passed,
                                            "other motions kept the stage busy until the time allowed had passed",
@@ -48,7 +50,9 @@ void MotionGate::admit() {
   while (true) {
     AxisSet taken;
     for (const auto& [id, axes] : inside_) taken = taken | axes;
-    auto entry = queue_.take([taken](const Entry& waiting) { return !taken.touches(waiting.axes); });
+    auto entry = queue_.take([taken](const Entry& waiting) {
+      return !taken.touches(waiting.axes) || !guarded(Guard::one_motion_at_a_time);
+    });
     if (!entry) return;
     inside_[entry->id] = entry->axes;
     entry->answer.deliver({});

@@ -1,6 +1,7 @@
 // Moves: set, go, watch. Set and go are one step; nothing is ever sent twice that could move the stage.
 #include <fmt/format.h>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -110,7 +111,8 @@ Task<void> Controller::Impl::run_move(LiveMotionPtr live, MoveRequest request) {
     co_return;
   }
   const bool others_run = gate_.others_inside(live->motion.id);
-  const bool by_prebuffer = !others_run || profile_.prebuffer_scope == Scope::axis;
+  const bool by_prebuffer =
+      !others_run || profile_.prebuffer_scope == Scope::axis || !guarded(Guard::prebuffers_are_one_motions);
   const Register reg =
       by_prebuffer ? (request.relative ? Register::mp : Register::ap) : (request.relative ? Register::m : Register::a);
   const auto ready = co_await prepare(live, reg);
@@ -142,20 +144,17 @@ Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, boo
   auto setter = by_prebuffer ? prebuffer_setter(plan, state_) : execution_setter(plan);
   const auto set = co_await set_and_confirm(live, setter, Lane::motion);
   if (!set) {
-    registers_.forget();
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, set.error());
     co_return;
   }
   note_speeds(speeds_of(plan));
   const auto start = co_await go(live, by_prebuffer ? live->motion.axes : AxisSet());
   if (!start) {
-    registers_.forget();
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, start.error());
     co_return;
   }
   const bool in_doubt = *start == Start::in_doubt;
   if (in_doubt && co_await start_never_came(live, setter)) {
-    registers_.forget();
     end_motion(
         live, live->stop_requested ? MotionState::stopped : MotionState::failed,
         Problem{Reason::not_sent, "the start did not reach the controller: nothing moved", "try again", {}, "G:", {}});
@@ -166,6 +165,7 @@ Task<void> Controller::Impl::set_go_watch(LiveMotionPtr live, MovePlan plan, boo
 
 // A start that arrived has taken the setting out of its register. True only when it is certain that none did.
 Task<bool> Controller::Impl::start_never_came(LiveMotionPtr live, Command setter) {
+  if (!guarded(Guard::not_sent_is_proved)) co_return true;
   const Positions before = positions_of(state_);
   auto pause = tick_.wait_until(now_ + kStartShows);
   co_await pause;
@@ -188,7 +188,7 @@ void Controller::Impl::note_speeds(const Speeds& speeds) {
   for (const auto& [axis, speed] : speeds) {
     Arguments setting;
     setting.axes(AxisSet::of(axis)).speeds(speed.minimum, speed.maximum, speed.acceleration_ms);
-    const bool possible = encode(command_row("D:"), setting).has_value();
+    const bool possible = encode(command_row("D:"), setting).has_value() || !guarded(Guard::possible_speeds);
     auto& known = state_.axis(axis);
     known.minimum_speed = possible ? std::optional(speed.minimum) : std::nullopt;
     known.maximum_speed = possible ? std::optional(speed.maximum) : std::nullopt;
@@ -270,7 +270,9 @@ ExchangeRequest Controller::Impl::motion_request(const LiveMotion& live, Command
 Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Command setter, Lane lane) {
   Problem problem;
   for (int attempt = 0; attempt < kSetTries; ++attempt) {
-    if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+    if (live->stop_requested && guarded(Guard::stop_before_set)) {
+      co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+    }
     live->wrote = true;
     auto pending = line_.exchange(motion_request(*live, setter, lane), now_);
     const auto result = co_await pending;
@@ -281,6 +283,7 @@ Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Comman
     }
     if (!result.in_doubt() || live->line_lost) co_return tl::unexpected(*result.problem);
     problem = *result.problem;
+    if (!guarded(Guard::set_read_back)) continue;
     const auto question = question_of(setter.row->reg);
     const auto answer = co_await ask(question, lane, live->context.who);
     if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) continue;
@@ -309,7 +312,9 @@ Task<bool> Controller::Impl::moves_all_the_same(LiveMotionPtr live) {
 
 // `completes` are the axes whose numbers will come. Sent once, whatever becomes of its answer.
 Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, AxisSet completes) {
-  if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+  if (live->stop_requested && guarded(Guard::stop_before_go)) {
+    co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+  }
   auto request = motion_request(*live, make_command("G:", live->motion.axes), Lane::motion);
   request.completes = completes;
   live->completed = {};
@@ -321,7 +326,7 @@ Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, A
     co_return Start::accepted;
   }
   if (result.refused()) {
-    const bool moves = co_await moves_all_the_same(live);
+    const bool moves = guarded(Guard::refused_start_looked_at) && co_await moves_all_the_same(live);
     if (moves) co_return Start::in_doubt;
     auto why = co_await explain_refusal("G:", live->motion.axes, live->context.who);
     co_return tl::unexpected(std::move(why));

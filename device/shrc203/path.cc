@@ -5,11 +5,15 @@
 //
 // OK where OK_D was due means that the chain had ended (an underrun): the path goes on from READY. Whatever is in doubt
 // is settled at READY too, where the command counters tell how far the path has come.
+//
+// The line is kept free for the refill that follows the end of each segment but the last two (reservations.h).
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/feeding.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -22,19 +26,17 @@ constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
 class PathRun {
  public:
   PathRun(Controller::Impl& owner, LiveMotionPtr motion, PathPlan plan)
-      : impl_(owner), live_(std::move(motion)), plan_(std::move(plan)) {
-    const bool line = plan_.axes.count() > 1;
-    const bool relative = plan_.segments.front().move.relative;
-    reg_ = line ? Register::kp : relative ? Register::mp : Register::ap;
-  }
+      : impl_(owner), live_(std::move(motion)), plan_(std::move(plan)), reg_(plan_.reg()) {}
 
-  Register reg() const { return reg_; }
   Task<void> run();
 
  private:
   int count() const { return static_cast<int>(plan_.segments.size()); }
   const SegmentPlan& segment(int number) const { return plan_.segments[static_cast<std::size_t>(number - 1)]; }
-  Command setter(int number) const;
+  Command setter(int number) const { return segment_setter(plan_, number); }
+  Lane refill_lane() const {
+    return impl_.profile_.refills == Refills::among_questions ? Lane::question : Lane::path_refill;
+  }
   void tell(PathProgress::Step step, int number, std::string reply = {});
   bool over() const { return is_outcome(live_->motion.state); }
   void give_up(MotionState outcome, Problem problem) { impl_.end_motion(live_, outcome, std::move(problem)); }
@@ -45,6 +47,8 @@ class PathRun {
   Task<bool> prebuffer_left();
   Task<void> resume_from_ready();
   Task<bool> wait_for_ready();
+  void keep_line_free(TimePoint due);
+  void release_line() { impl_.line_.release(live_->motion.id, impl_.now_); }
   void note_speed(int number);
   bool completion_counts(const LiveMotion::Completion& completion);
 
@@ -59,21 +63,14 @@ class PathRun {
   TimePoint segment_began_{};
 };
 
-Command PathRun::setter(int number) const {
-  const MovePlan& move = segment(number).move;
-  Arguments arguments;
-  arguments.axes(move.set());
-  for (const auto& axis : move.axes) arguments.pulses(axis.amount);
-  if (const auto& speed = move.axes.front().speed) {
-    arguments.speeds(speed->minimum, speed->maximum, speed->acceleration_ms);
-  }
-  return make_command(name(reg_), arguments);
-}
-
 void PathRun::tell(PathProgress::Step step, int number, std::string reply) {
   if (step == PathProgress::Step::done) live_->motion.segments_done = number;
   if (step == PathProgress::Step::underrun) ++live_->motion.underruns;
   impl_.emit(PathProgress{live_->motion.id, step, number, std::move(reply)});
+}
+
+void PathRun::keep_line_free(TimePoint due) {
+  if (impl_.profile_.refills == Refills::reserved) impl_.line_.keep_free(live_->motion.id, due, impl_.now_);
 }
 
 void PathRun::note_speed(int number) {
@@ -101,6 +98,7 @@ Task<void> PathRun::run() {
     segment_began_ = impl_.now_;
     tell(PathProgress::Step::started, running_);
   }
+  release_line();
   if (over()) co_return;
   live_->completed = {};  // of the segments before; the last one's are still to come
   live_->on_success = [this] { tell(PathProgress::Step::done, count()); };
@@ -115,6 +113,7 @@ Task<bool> PathRun::start(int number) {
   }
   note_speed(number);
   tell(PathProgress::Step::sent, number, set->text);
+  if (number < count()) keep_line_free(impl_.now_);  // the next segment is set as soon as this one runs
   const auto gone = co_await impl_.go(live_, plan_.axes);
   if (!gone) {
     give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, gone.error());
@@ -132,12 +131,17 @@ Task<bool> PathRun::start(int number) {
 }
 
 Task<bool> PathRun::refill(int number) {
-  auto pending = impl_.line_.exchange(impl_.motion_request(*live_, setter(number), Lane::path_refill), impl_.now_);
+  auto pending = impl_.line_.exchange(impl_.motion_request(*live_, setter(number), refill_lane()), impl_.now_);
+  if (number < count()) {
+    keep_line_free(segment_began_ + segment(running_).shortest);
+  } else {
+    release_line();
+  }
   const auto result = co_await pending;
   if (result.accepted()) {
     note_speed(number);
     tell(PathProgress::Step::sent, number, result.reply->text);
-    if (result.reply->kind == Reply::Kind::ok_d) {
+    if (result.reply->kind == Reply::Kind::ok_d || !guarded(Guard::underruns_told)) {
       sent_ = number;
       co_return true;
     }
@@ -155,7 +159,7 @@ Task<bool> PathRun::refill(int number) {
 // The number that ends a segment is believed when it comes neither too soon nor out of a barrier, and none is missing.
 bool PathRun::completion_counts(const LiveMotion::Completion& completion) {
   if (clock_axis_ == 0) clock_axis_ = completion.axis;
-  return completion.axis == clock_axis_;
+  return completion.axis == clock_axis_ || !guarded(Guard::one_axis_is_the_clock);
 }
 
 Task<bool> PathRun::wait_for_segment_end() {
@@ -171,8 +175,11 @@ Task<bool> PathRun::wait_for_segment_end() {
       const auto completion = live_->completions.front();
       live_->completions.pop_front();
       if (!completion_counts(completion)) continue;
-      const bool early = completion.at < segment_began_ + now_running.shortest - kEarly;
-      if (!early && !completion.doubtful && missed_ == 0) co_return true;
+      const bool early =
+          completion.at < segment_began_ + now_running.shortest - kEarly && guarded(Guard::early_numbers_checked);
+      const bool doubtful = completion.doubtful && guarded(Guard::doubtful_numbers_checked);
+      const bool missed = missed_ > 0 && guarded(Guard::missed_numbers_counted);
+      if (!early && !doubtful && !missed) co_return true;
       if (missed_ > 0 && !completion.doubtful) --missed_;
     } else {
       ++missed_;
@@ -212,7 +219,7 @@ Task<bool> PathRun::wait_for_ready() {
     const auto read = co_await impl_.read_positions(Lane::motion, live_->context.who);
     bool busy = !read.has_value();
     for (const int axis : plan_.axes.list()) busy = busy || impl_.state_.axis(axis).busy.value_or(true);
-    const Positions here = positions_of(impl_.state_);
+    const Positions here = impl_.places_of(*live_);
     ready = busy ? 0 : here == last ? ready + 1 : 1;
     last = here;
     if (ready >= 2) break;
@@ -224,6 +231,7 @@ Task<bool> PathRun::wait_for_ready() {
 
 // The counters at READY say which segment was the last to run; the path goes on with the next.
 Task<void> PathRun::resume_from_ready() {
+  release_line();
   auto pause = impl_.tick_.wait_until(impl_.now_ + 3 * kReadyPoll);
   co_await pause;
   const bool standing = co_await wait_for_ready();
@@ -244,7 +252,7 @@ Task<void> PathRun::resume_from_ready() {
     ++matches;
     done = candidate;
   }
-  if (matches != 1) {
+  if (matches == 0 || (matches > 1 && guarded(Guard::path_place_is_unique))) {
     give_up(MotionState::unknown, Problem{Reason::outcome_unknown,
                                           "the path came to rest at a place that does not tell which segments ran",
                                           "look at the positions before moving on",
@@ -268,28 +276,35 @@ Task<void> PathRun::resume_from_ready() {
 
 }  // namespace
 
+// Where the axes and their speeds are known, which they are not always before the gate has been passed.
+Result<PathPlan> Controller::Impl::plan_feasible_path(const PathRequest& request) const {
+  auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  if (!plan || !known_speeds(AxisSet::of(plan->axes.lowest())).contains(plan->axes.lowest())) return plan;
+  const auto feasible = check_feeding(*plan, line_.pace());
+  if (!feasible) return tl::unexpected(feasible.error());
+  return plan;
+}
+
 void Controller::Impl::run_path(PathRequest request, OnStarted started) {
-  const auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  const auto plan = plan_feasible_path(request);
   if (!plan) {
     started(tl::unexpected(plan.error()));
     return;
   }
   auto live = create_motion(MotionKind::path, plan->axes, request.context, std::move(started));
   live->motion.segments_total = static_cast<int>(plan->segments.size());
-  executor_.spawn(run_path_motion(live, std::move(request)));
+  executor_.spawn(run_path_motion(live, std::move(request), plan->reg()));
 }
 
-Task<void> Controller::Impl::run_path_motion(LiveMotionPtr live, PathRequest request) {
+Task<void> Controller::Impl::run_path_motion(LiveMotionPtr live, PathRequest request, Register reg) {
   auto ready = co_await enter_gate(live, true);
-  const bool line = live->motion.axes.count() > 1;
-  const Register reg = line ? Register::kp : request.segments.front().relative ? Register::mp : Register::ap;
   if (ready) ready = co_await prepare(live, reg);
   if (!ready) {
     end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
                ready.error());
     co_return;
   }
-  auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  auto plan = plan_feasible_path(request);
   if (!plan) {
     end_motion(live, MotionState::failed, plan.error());
     co_return;

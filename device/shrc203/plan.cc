@@ -159,6 +159,17 @@ Result<std::optional<SpeedSetting>> plan_speed(const AxisMove& move, const Profi
 
 Duration seconds(double value) { return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9)); }
 
+// From rest to rest: from S towards F, which R milliseconds would lead to, and back, with or without a stretch at F.
+double seconds_of_one_axis(double way, const SpeedSetting& speed) {
+  const auto minimum = static_cast<double>(speed.minimum), maximum = static_cast<double>(speed.maximum);
+  const double ramp = static_cast<double>(speed.acceleration_ms) / 1000;
+  const double both_ramps = (minimum + maximum) * ramp;
+  if (way >= both_ramps) return 2 * ramp + (way - both_ramps) / maximum;
+  const double acceleration = (maximum - minimum) / ramp;
+  if (acceleration == 0) return way / maximum;
+  return 2 * (std::sqrt(minimum * minimum + acceleration * way) - minimum) / acceleration;
+}
+
 // How long the segment's pulses take: a straight line runs at its lower axis's S throughout (manual 83)), one axis
 // accelerates from S to F in R (manual 89)).
 void plan_time(SegmentPlan& segment, const std::vector<double>& ways, const SpeedSetting& speed) {
@@ -168,8 +179,9 @@ void plan_time(SegmentPlan& segment, const std::vector<double>& ways, const Spee
   if (ways.size() > 1) {
     segment.shortest = segment.longest = seconds(length / static_cast<double>(speed.minimum));
   } else {
-    segment.shortest = seconds(length / static_cast<double>(speed.maximum));
-    segment.longest = segment.shortest + 2 * std::chrono::milliseconds(speed.acceleration_ms);
+    segment.shortest = seconds(seconds_of_one_axis(length, speed));
+    segment.longest =
+        seconds(length / static_cast<double>(speed.maximum)) + 2 * std::chrono::milliseconds(speed.acceleration_ms);
   }
 }
 
@@ -237,6 +249,11 @@ AxisSet MovePlan::set() const {
   AxisSet axes_named;
   for (const auto& one : axes) axes_named.add(one.axis);
   return axes_named;
+}
+
+Register PathPlan::reg() const {
+  if (axes.count() > 1) return Register::kp;
+  return segments.front().move.relative ? Register::mp : Register::ap;
 }
 
 Positions positions_of(const State& state) {

@@ -38,7 +38,7 @@ Result<MovePlan> plan_move(const std::vector<AxisMove>& moves, bool relative, co
 struct SegmentPlan {
   MovePlan move;
   std::array<std::int64_t, kAxisCount> end{};  // where each axis stands after it
-  Duration shortest{};                         // it cannot be over sooner
+  Duration shortest{};                         // by its speeds; it cannot be over sooner
   Duration longest{};                          // it should be over by then, settling aside
 };
 
@@ -46,6 +46,8 @@ struct PathPlan {
   AxisSet axes;
   std::array<std::int64_t, kAxisCount> begin{};  // where each axis stands before it
   std::vector<SegmentPlan> segments;
+
+  Register reg() const;  // the prebuffer that its segments are put into
 };
 
 // As plan_move, and: the same axes in every segment, straight lines relative and of axes of one scale, no segment

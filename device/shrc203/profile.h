@@ -25,6 +25,10 @@ enum class Scope { axis, controller };
 // What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
 enum class AtExit { stop, finish };
 
+// What the refills of a running path are to its line. `reserved`: they go before everything but a stop, and the line is
+// free when they are due. The others only show what that is needed for: no configuration names them.
+enum class Refills { reserved, first, among_questions };
+
 struct Profile {
   std::string name = "stage";
   std::array<AxisProfile, kAxisCount> axes;
@@ -37,6 +41,7 @@ struct Profile {
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);
   AtExit at_exit = AtExit::stop;
+  Refills refills = Refills::reserved;
 };
 
 }  // namespace axisgate::shrc203

@@ -1,6 +1,7 @@
 // Questions of the gateway's own: positions, registers, speeds, and why the controller said NG.
 #include <fmt/format.h>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -59,7 +60,7 @@ Task<Result<void>> Controller::Impl::read_positions(Lane lane, std::string calle
       jumps = jumps || static_cast<double>(way < 0 ? -way : way) >
                            seconds * kPulsesPerSecondMax + static_cast<double>(kJumpMargin);
     }
-    if (jumps && attempt == 0) continue;
+    if (jumps && attempt == 0 && guarded(Guard::jumps_read_again)) continue;
     if (apply_positions(*result.reply)) co_return Result<void>();
   }
   co_return fail(Reason::line_fault, "the positions read make no sense", "check the cable and the line settings");
@@ -78,8 +79,8 @@ bool Controller::Impl::apply_positions(const Reply& reply) {
     axis.busy = reading.busy;
     (reading.busy ? busy : ready).add(number);
   }
-  line_.completions().ready(ready | (AxisSet::all() - state_.controllable()), now_);
-  line_.completions().busy(busy);
+  line_.ready(ready | (AxisSet::all() - state_.controllable()), now_);
+  line_.busy(busy, now_);
   state_.read = now_;
   if (busy.empty()) state_.moving_unknown = false;
   publish_state();
@@ -105,6 +106,7 @@ Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
   const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
   std::size_t place = 0;
   for (const int number : named.list()) {
+    if (place >= result.reply->fields.size()) break;
     const auto speed = parse_speed_setting(result.reply->fields[place++]);
     if (!speed || !state_.controllable().has(number)) continue;
     note_speeds({{number, *speed}});
@@ -119,7 +121,10 @@ Task<Result<void>> Controller::Impl::read_excitation(std::string caller) {
   if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:C", result));
   const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
   std::size_t place = 0;
-  for (const int number : named.list()) state_.axis(number).excited = result.reply->fields[place++] == "1";
+  for (const int number : named.list()) {
+    if (place >= result.reply->fields.size()) break;
+    state_.axis(number).excited = result.reply->fields[place++] == "1";
+  }
   publish_state();
   co_return Result<void>();
 }

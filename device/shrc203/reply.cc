@@ -4,6 +4,8 @@
 #include <cctype>
 #include <charconv>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -191,7 +193,7 @@ std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, i
     return reply;
   }
   if (is_setting) {
-    if (line == "OK") {
+    if (line == "OK" || !guarded(Guard::setter_grammar)) {
       reply.kind = Reply::Kind::ok;
       return reply;
     }
@@ -202,7 +204,7 @@ std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, i
     return {};
   }
   reply.fields = is_one_field(row.reply) ? std::vector{reply.text} : split(line);
-  if (!data_matches(row, line, reply.fields, axis_count)) return {};
+  if (guarded(Guard::question_grammar) && !data_matches(row, line, reply.fields, axis_count)) return {};
   return reply;
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -25,7 +26,8 @@ void Controller::Impl::stop(AxisSet axes, bool emergency, const RequestContext& 
   emit(StopRequested{named, emergency, context.who});
   flush_motions(named, context, emergency);
   for (const auto& pending : stops_) {
-    if (!pending->answered && pending->emergency == emergency && pending->axes.contains(named)) {
+    if (guarded(Guard::stops_join) && !pending->answered && pending->emergency == emergency &&
+        pending->axes.contains(named)) {
       pending->done.push_back(std::move(done));
       return;
     }
@@ -60,20 +62,20 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
                         {},
                         {},
                         {}};
-  gate_.withdraw(is_stopped, problem);
-  line_.withdraw([&](const ExchangeRequest& request) { return is_stopped(request.motion); }, problem);
+  if (guarded(Guard::stop_withdraws_motions)) gate_.withdraw(is_stopped, problem);
+  const auto is_theirs = [&](const ExchangeRequest& request) { return is_stopped(request.motion); };
+  if (guarded(Guard::stop_withdraws_lines)) line_.withdraw(is_theirs, problem);
   settled_ = false;
 }
 
 Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   co_await write_stop(job);
   job->answered = true;
-  registers_.forget();
   const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
   const bool line_works = written && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
   if (written && !line_works) {
     // Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
-    const bool off_host = !state_.mode.empty() && state_.mode != "HOST";
+    const bool off_host = !state_.mode.empty() && state_.mode != "HOST" && guarded(Guard::stop_off_host);
     job->report.problem =
         Problem{off_host ? Reason::wrong_mode : Reason::outcome_unknown,
                 off_host ? fmt::format("the controller is in {} mode, where it takes no stop from here", state_.mode)
@@ -83,7 +85,7 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
                 {},
                 {}};
   }
-  if (line_works) co_await wait_for_standstill(job);
+  if (line_works && guarded(Guard::stop_seen_to_stand)) co_await wait_for_standstill(job);
   if (line_works && job->emergency) {
     // Whether the motors stay excited depends on a memory switch (manual 66)).
     const auto excitation = co_await read_excitation(job->context.who);
@@ -108,7 +110,8 @@ Task<ExchangeResult> Controller::Impl::write_stop_line(StopJobPtr job, Command c
 Task<void> Controller::Impl::write_stop(StopJobPtr job) {
   AxisSet named = job->axes;
   for (const int axis : job->axes.list()) {
-    if (!job->emergency && !state_.axis(axis).excited.value_or(true)) named.remove(axis);
+    const bool off = !state_.axis(axis).excited.value_or(true) && guarded(Guard::stop_names_excited_axes);
+    if (!job->emergency && off) named.remove(axis);
   }
   if (named.empty()) named = job->axes;  // what is known of the excitation may be old: let the controller say
   const Command all = job->emergency ? make_command("L:E") : make_command("L:", named);
@@ -116,7 +119,7 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
   for (int attempt = 0; attempt < kStopTries; ++attempt) {
     result = co_await write_stop_line(job, all);
     const bool inside_barrier = result.problem && result.problem->reason == Reason::outcome_unknown;
-    if (result.reply || !result.written || inside_barrier) break;
+    if (result.reply || !result.written || inside_barrier || !guarded(Guard::stop_again)) break;
   }
   job->report.problem = result.problem;
   if (!result.written && result.problem) {
@@ -128,6 +131,7 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
     if (axis.named && result.reply) axis.wire_reply = result.reply->text;
   }
   if (!result.refused() || job->emergency || named.count() < 2) co_return;
+  if (!guarded(Guard::stop_one_axis_at_a_time)) co_return;
   for (auto& axis : job->report.axes) {
     if (!axis.named) continue;
     const auto one = co_await write_stop_line(job, make_command("L:", AxisSet::of(axis.axis)));
@@ -156,7 +160,7 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       axis.position_pulses = state_.axis(axis.axis).position_pulses;
       ready = ready && *axis.ready;
     }
-    const bool runs_on = !ready && now_ >= again_at;
+    const bool runs_on = !ready && now_ >= again_at && guarded(Guard::stop_again);
     if (ready || (runs_on && once_more)) {
       const bool empty = !runs_on && co_await prebuffer_is_empty(job);
       if (empty || !once_more) break;
@@ -188,6 +192,7 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
 
 // Whether L: clears the prebuffer is not documented (manual 65), 87)); what it left would run on the next start.
 Task<bool> Controller::Impl::prebuffer_is_empty(StopJobPtr job) {
+  if (!guarded(Guard::stop_looks_at_prebuffer)) co_return true;
   for (const std::string_view question : {"?:MP", "?:AP", "?:KP", "?:EP"}) {
     const auto answer = co_await ask(question, Lane::motion, job->context.who);
     if (!answer.reply || answer.problem) co_return true;  // cannot be told; the registers stay unknown

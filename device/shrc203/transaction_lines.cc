@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -20,14 +22,14 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
       return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
                   "send it by itself, or use `axisctl stop`");
     }
-    if (is_start && !set) {
+    if (is_start && !set && guarded(Guard::no_bare_go)) {
       return fail(Reason::incomplete_transaction, fmt::format("{} alone would start whatever was set before", row.name),
                   "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
     }
   }
   const auto start =
       std::ranges::find_if(commands, [](const Command& c) { return c.row->name.starts_with("G") && c.row->moves(); });
-  if (set && start == commands.end()) {
+  if (set && start == commands.end() && guarded(Guard::no_set_without_go)) {
     return fail(Reason::incomplete_transaction,
                 "a motion that is set and not started would run on somebody else's start",
                 "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
@@ -102,7 +104,8 @@ std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
 }
 
 Command as_sent(const Command& command) {
-  if (command.row->separation != Separation::all_axes || !command.arguments.first("a")) return command;
+  const bool all = command.row->separation == Separation::all_axes && guarded(Guard::questions_for_all_axes);
+  if (!all || !command.arguments.first("a")) return command;
   Arguments without;
   for (const auto& [letter, value] : command.arguments.values()) {
     if (letter != "a") without.add(letter, value);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
 namespace axisgate::shrc203 {
@@ -57,7 +58,7 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   live->motion.problem = std::move(problem);
   for (auto& result : live->motion.results) result.command_pulses = state_.axis(result.axis).position_pulses;
   settled_ = outcome == MotionState::succeeded;
-  if (!settled_ && live->wrote) registers_.forget();
+  if (!settled_ && live->wrote && guarded(Guard::registers_unknown_after_failure)) registers_.forget();
   set_state(*live, outcome);
   if (auto started = std::exchange(live->on_started, {})) {
     if (never_started && live->motion.problem && outcome != MotionState::unknown) {
@@ -75,13 +76,13 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
 }
 
 Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuffer) {
-  const bool alone = prebuffer && profile_.prebuffer_scope == Scope::controller;
+  const bool alone = prebuffer && guarded(Guard::path_owns_prebuffers) && profile_.prebuffer_scope == Scope::controller;
   auto entry = gate_.enter(live->motion.id, alone ? AxisSet::all() : live->motion.axes, live->context.who,
                            live->context.not_after);
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   live->inside_gate = true;
-  if (live->stop_requested) {
+  if (live->stop_requested && guarded(Guard::stop_before_preparing)) {
     co_return fail(Reason::stopped, "a stop by " + live->stopped_by + " came before the motion was sent");
   }
   co_return Result<void>();
@@ -94,18 +95,22 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
   }
   const AxisSet axes = live->motion.axes;
-  while (!settled_ || !(line_.completions().outstanding() & axes).empty()) {
+  const auto late_numbers = [&] {
+    return guarded(Guard::late_numbers_wait) && !(line_.completions().outstanding() & axes).empty();
+  };
+  while (!settled_ || late_numbers()) {
     const auto read = co_await read_positions(Lane::motion, live->context.who);
     if (!read) co_return read;
     bool busy = false;
     for (const int axis : axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
-    if (!busy && (line_.completions().outstanding() & axes).empty()) break;
+    if ((!busy || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
     if (now_ >= live->context.not_after) {
       co_return fail(Reason::axis_busy, "the axes did not come to rest in the time allowed", "wait, or stop them");
     }
     auto pause = tick_.wait_until(now_ + kConfirmAfter);
     co_await pause;
-    if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+    const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
+    if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   }
   if (!registers_.known() || registers_.any()) {
     const auto cleared = co_await clear_left_overs(live, reg);
@@ -117,7 +122,8 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     const auto read = co_await read_speeds(live->context.who);
     if (!read) co_return read;
   }
-  if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+  const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
+  if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   co_return Result<void>();
 }
 
@@ -125,7 +131,7 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
 Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Register reg) {
   const auto read = co_await read_registers(live->context.who);
   if (!read) co_return read;
-  if (!registers_.clearable().empty()) {
+  if (guarded(Guard::left_overs_deleted) && !registers_.clearable().empty()) {
     ExchangeRequest request;
     request.command = make_command("GC:", registers_.clearable() & state_.controllable());
     request.lane = Lane::motion;
@@ -135,7 +141,6 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
     auto pending = line_.exchange(std::move(request), now_);
     const auto cleared = co_await pending;
     if (!cleared.accepted()) {
-      registers_.forget();
       co_return fail(Reason::left_over_setting,
                      "a motion that somebody set and never started is still in the controller, and GC: did not "
                      "delete it",
@@ -152,7 +157,7 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
   }
   const bool concerns =
       profile_.prebuffer_scope == Scope::controller ? !lasting.empty() : lasting.touches(live->motion.axes);
-  if (concerns) {
+  if (concerns && guarded(Guard::left_overs_refused)) {
     co_return fail(Reason::left_over_setting,
                    fmt::format("a prebuffer or jog setting is left over on {} and would run with the next start; no "
                                "command is documented to clear it",
@@ -163,7 +168,7 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
 }
 
 bool Controller::Impl::at_targets(const LiveMotion& live) const {
-  return std::ranges::all_of(live.motion.results, [&](const AxisResult& result) {
+  return !guarded(Guard::success_at_target) || std::ranges::all_of(live.motion.results, [&](const AxisResult& result) {
     return result.target_pulses && state_.axis(result.axis).position_pulses == result.target_pulses;
   });
 }
@@ -240,28 +245,39 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
   }
 }
 
+// The others' axes may go on moving.
+Positions Controller::Impl::places_of(const LiveMotion& live) const {
+  Positions places = positions_of(state_);
+  for (const int other : (AxisSet::all() - live.motion.axes).list())
+    places[static_cast<std::size_t>(other - 1)].reset();
+  return places;
+}
+
 // Decides by the newest reading whether the motion has ended, and how.
 void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   bool busy = false;
   for (const int axis : live->motion.axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
   const bool stirred = live->completed == live->motion.axes || live->motion.state != MotionState::queued;
-  if (busy) {
+  if (busy && (guarded(Guard::success_when_ready) || !at_targets(*live))) {
     check.ready = false;
     mark_running(live);
     return;
   }
   const auto error = error_of(*live);
   // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
-  const bool evident = live->motion.kind != MotionKind::home || stirred;
+  const bool evident = live->motion.kind != MotionKind::home || stirred || !guarded(Guard::home_seen_to_run);
   // One flipped bit makes an R of a B; where no axis number bears a READY out, a second reading does.
-  const bool borne_out =
-      live->completed == live->motion.axes || (check.ready && positions_of(state_) == check.positions);
-  if (at_targets(*live) && !error && evident && borne_out) {
+  const Positions here = places_of(*live);
+  const bool borne_out = !guarded(Guard::success_seen_twice) || live->completed == live->motion.axes ||
+                         (check.ready && here == check.positions);
+  const bool good = !error || !guarded(Guard::success_without_error);
+  if (at_targets(*live) && good && evident && borne_out) {
     end_motion(live, MotionState::succeeded, {});
     return;
   }
-  const Positions here = positions_of(state_);
-  if (!check.ready || here != check.positions || now_ - check.begun < kStartDoubt) {
+  const bool agreed = (check.ready && here == check.positions) || !guarded(Guard::end_seen_twice);
+  const bool shown = now_ - check.begun >= kStartDoubt || !guarded(Guard::start_shows_late);
+  if (!agreed || !shown) {
     check.ready = true;
     check.positions = here;
     return;

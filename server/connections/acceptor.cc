@@ -52,7 +52,9 @@ void Acceptor::listen(Descriptor listener) {
   wait(added);
 }
 
-ConnectionCounts Acceptor::counts() { return {open_.count(), accepted_, reserved_, displaced_, out_of_descriptors_}; }
+ConnectionCounts Acceptor::counts() {
+  return {open_.count(), in_reserve_, accepted_, reserved_, displaced_, out_of_descriptors_};
+}
 
 void Acceptor::wait(Listener& listener) {
   listener.async_wait(Listener::wait_read, [this, &listener](const boost::system::error_code& error) {
@@ -101,6 +103,7 @@ Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
   const int error = connection.valid() ? 0 : errno;
   if (connection.valid()) {
     reserve_.keep(connection.get());
+    in_reserve_ = reserve_.connections();
     ++reserved_;
     hand_over(std::move(connection), Service::stop_only);
   }
@@ -126,7 +129,9 @@ void Acceptor::look_again_later() {
 
 void Acceptor::look_again() {
   timer_runs_ = false;
-  if (!reserve_.restore() || reserve_.in_use()) look_again_later();
+  const bool restored = reserve_.restore();
+  in_reserve_ = reserve_.connections();
+  if (!restored || in_reserve_ > 0) look_again_later();
   for (Listener* listener : std::exchange(paused_, {})) wait(*listener);
 }
 

@@ -25,6 +25,7 @@ struct ConnectionLimits {
 
 struct ConnectionCounts {
   std::size_t open = 0;                  // now, those in the reserve not counted
+  std::size_t in_reserve = 0;            // now
   std::uint64_t accepted = 0;            // since the start, those into the reserve among them
   std::uint64_t reserved = 0;            // into the reserve
   std::uint64_t displaced = 0;           // out of the reserve, by a newer one
@@ -73,6 +74,7 @@ class Acceptor {
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
   Seldom warning_;
+  std::atomic<std::size_t> in_reserve_ = 0;
   std::atomic<std::uint64_t> accepted_ = 0;
   std::atomic<std::uint64_t> reserved_ = 0;
   std::atomic<std::uint64_t> displaced_ = 0;

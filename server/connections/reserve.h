@@ -27,7 +27,7 @@ class Reserve {
   void keep(int connection);
   // Takes back what ended connections have left. False as long as it has not all that further connections need.
   bool restore();
-  bool in_use() const { return !connections_.empty(); }  // as of the last of the calls above
+  std::size_t connections() const { return connections_.size(); }  // as of the last of the calls above
 
   std::uint64_t displaced() const { return displaced_; }  // since the start
 

@@ -27,7 +27,7 @@ class EventWatch final : public PullStream<grpc::ServerWriteReactor<api::WatchRe
 
  private:
   EventWatch(server::Gateway& gateway, std::uint64_t from, std::string device, StreamLimit::Place place)
-      : run_(gateway.run()), device_(std::move(device)), place_(std::move(place)), reader_(gateway.events(), from) {}
+      : run_(gateway.run()), device_(std::move(device)), place_(std::move(place)), reader_(gateway, from) {}
 
   Next next() override {
     for (;;) {

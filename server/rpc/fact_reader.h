@@ -9,6 +9,7 @@
 
 #include "device/core/problem.h"
 #include "server/events/event_bus.h"
+#include "server/gateway.h"
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
@@ -16,10 +17,17 @@ namespace axisgate::rpc {
 // Not thread safe: it belongs to one stream and is used under its lock.
 class FactReader {
  public:
-  // From revision `from` on; 0: from the oldest that is kept. `bus` outlives this.
-  FactReader(const server::EventBus& bus, std::uint64_t from) : bus_(bus) { go_to(from); }
+  // From revision `from` on; 0: from the oldest that is kept. `gateway` outlives this.
+  FactReader(server::Gateway& gateway, std::uint64_t from)
+      : bus_(gateway.events()), slow_readers_(gateway.metrics().slow_readers()) {
+    go_to(from);
+  }
 
-  void go_to(std::uint64_t revision) { portion_ = {{}, revision, false}, taken_ = 0; }
+  void go_to(std::uint64_t revision) {
+    portion_ = {{}, revision, false};
+    taken_ = 0;
+    was_kept_ = !bus_.read(revision, 0).compacted;
+  }
 
   struct Compacted {
     std::uint64_t resume = 0;
@@ -31,7 +39,11 @@ class FactReader {
     if (taken_ == portion_.facts.size()) {
       portion_ = bus_.read(portion_.next, kPortion);
       taken_ = 0;
-      if (portion_.compacted) return Compacted{portion_.next};
+      if (portion_.compacted) {
+        // Whoever asked for what was not kept even then came late, and has not read slowly.
+        if (was_kept_) slow_readers_.Increment();
+        return Compacted{portion_.next};
+      }
       if (portion_.facts.empty()) return Nothing{};
     }
     return std::move(portion_.facts[taken_++]);
@@ -41,7 +53,9 @@ class FactReader {
   static constexpr std::size_t kPortion = 64;
 
   const server::EventBus& bus_;
+  prometheus::Counter& slow_readers_;
   server::EventBus::Reading portion_;
+  bool was_kept_ = true;  // where the reading began
   std::size_t taken_ = 0;
 };
 

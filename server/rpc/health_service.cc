@@ -1,13 +1,13 @@
 #include "server/rpc/health_service.h"
 
 #include <algorithm>
-#include <array>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "server/rpc/ended_stream.h"
 #include "server/rpc/pull_stream.h"
+#include "server/rpc/services.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
@@ -17,11 +17,8 @@ using grpc::health::v1::HealthCheckRequest;
 using grpc::health::v1::HealthCheckResponse;
 
 // "" is the server as a whole.
-constexpr std::array<std::string_view, 5> kServices = {"", "axisgate.v1.DeviceService", "axisgate.v1.StageService",
-                                                       "axisgate.v1.EventService", "axisgate.v1.CommandService"};
-
 bool is_service(std::string_view name) {
-  return std::find(kServices.begin(), kServices.end(), name) != kServices.end();
+  return name.empty() || std::find(kApiServices.begin(), kApiServices.end(), name) != kApiServices.end();
 }
 
 // One answer, which never changes; the stream ends with the call.

@@ -24,7 +24,7 @@ class MotionWatch final
 
  private:
   MotionWatch(server::Gateway& gateway, const MotionName& motion, StreamLimit::Place place)
-      : bus_(gateway.events()), motion_(motion), place_(std::move(place)), reader_(bus_, 0) {}
+      : bus_(gateway.events()), motion_(motion), place_(std::move(place)), reader_(gateway, 0) {}
 
   void look();
   void show(const shrc203::Motion& motion, std::uint64_t revision);

@@ -28,7 +28,7 @@ class PathRun final
 
  private:
   PathRun(server::Gateway& gateway, const grpc::CallbackServerContext& context)
-      : gateway_(gateway), context_(context), reader_(gateway.events(), 0) {}
+      : gateway_(gateway), context_(context), reader_(gateway, 0) {}
 
   Result<void> take(const api::RunPathRequest& part);
   Result<void> take(const api::PathHeader& header);

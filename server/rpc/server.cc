@@ -33,11 +33,13 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 
 Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> listener)
     : listener_(std::move(listener)),
+      rpc_metrics_(*gateway.metrics().registry()),
       callers_(kCallerSlots),
       devices_(gateway, streams_),
       stage_(gateway, streams_),
       events_(gateway, streams_),
       commands_(gateway, streams_),
+      diagnostics_(gateway, streams_),
       health_(streams_),
       stops_(stage_),
       names_(devices_) {}
@@ -59,6 +61,7 @@ Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, const se
     Part& part = service == server::Acceptor::Service::all ? raw->ordinary_ : raw->reserve_;
     part.entrances->enter(std::move(connection), slot);
   });
+  server->connection_metrics_.emplace(gateway.metrics(), [raw = server.get()] { return raw->connections(); });
   return server;
 }
 
@@ -67,9 +70,10 @@ void Server::build_ordinary() {
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
   for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &health_}) {
+       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &diagnostics_, &health_}) {
     builder.RegisterService(service);
   }
+  builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
   ordinary_.entrances.emplace(builder, callers_);
   ordinary_.server = builder.BuildAndStart();
 }
@@ -83,11 +87,13 @@ void Server::build_reserve() {
   builder.RegisterService(&stops_);
   builder.RegisterService(&names_);
   builder.RegisterCallbackGenericService(&refusing_);
+  builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
   reserve_.entrances.emplace(builder, callers_);
   reserve_.server = builder.BuildAndStart();
 }
 
 Server::~Server() {
+  connection_metrics_.reset();
   // gRPC would not close what is still handed to it.
   listener_.reset();
   const auto deadline = std::chrono::system_clock::now() + kShutdownWait;

@@ -9,15 +9,18 @@
 
 #include "device/core/problem.h"
 #include "server/config.h"
+#include "server/connection_metrics.h"
 #include "server/connections/acceptor.h"
 #include "server/connections/callers.h"
 #include "server/gateway.h"
 #include "server/listener.h"
 #include "server/rpc/command_service.h"
 #include "server/rpc/device_service.h"
+#include "server/rpc/diagnostics_service.h"
 #include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
+#include "server/rpc/rpc_metrics.h"
 #include "server/rpc/stage_service.h"
 #include "server/rpc/stop_only.h"
 #include "server/rpc/stream_limit.h"
@@ -49,12 +52,15 @@ class Server {
   void build_reserve();
 
   std::unique_ptr<server::Listener> listener_;
+  std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
+  RpcMetrics rpc_metrics_;
   server::CallerSlots callers_;
   StreamLimit streams_;
   DeviceService devices_;
   StageService stage_;
   EventService events_;
   CommandService commands_;
+  DiagnosticsService diagnostics_;
   HealthService health_;
   StopService stops_;
   NamesService names_;

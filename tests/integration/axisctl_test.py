@@ -48,7 +48,8 @@ class WithoutDaemon(unittest.TestCase):
     def test_help_lists_every_verb(self):
         answer = self.run_axisctl("help")
         self.assertEqual(answer.returncode, 0)
-        for verb in ("devices status position home move path stop estop clear exec watch commands").split():
+        for verb in ("devices status position home move path stop estop clear exec watch commands record replay "
+                     "support").split():
             self.assertRegex(answer.stdout, rf"(?m)^  {verb} +\w")
         self.assertIn("Exit codes", answer.stdout)
 

@@ -4,6 +4,7 @@
 import contextlib
 import json
 import os
+import re
 import resource
 import shutil
 import socket
@@ -60,6 +61,9 @@ class WithDaemon(unittest.TestCase):
     def descriptors(self):
         return len(os.listdir(f"/proc/{self.daemon.pid}/fd"))
 
+    def metric(self, series):
+        return float(re.search(rf"(?m)^{re.escape(series)} (\S+)$", self.daemon.metrics_page())[1])
+
     def log(self):
         with open(os.path.join(self.folder, "axisgated.log"), encoding="utf-8") as file:
             return file.read()
@@ -112,6 +116,8 @@ class Hazard55DescriptorsRunOutAndComeBack(WithDaemon):
                 self.wait_until(self.is_served, "served again")
                 self.wait_until(lambda: self.descriptors() == before, f"{before} descriptors again")
         self.assertIn("no descriptors are free (Too many open files)", self.log())
+        self.assertGreater(self.metric("axisgate_descriptors_exhausted_total"), 0)
+        self.assertGreater(self.metric("axisgate_connections_refused_total"), 0)
 
     def test_something_else_takes_all_descriptors(self):
         self.start()
@@ -136,6 +142,7 @@ class Hazard55DescriptorsRunOutAndComeBack(WithDaemon):
         move = self.start_move()
         with self.connections(400 - 192):
             self.wait_until(lambda: "as many connections are open as are allowed: 208" in self.log(), "the limit")
+            self.assertEqual(self.metric('axisgate_connections{kind="open"}'), 208)
             self.assert_refused()
             self.assert_stop_gets_through(move)
         self.wait_until(self.is_served, "served again")

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """What deploy/ gives to Docker Compose, Prometheus and Grafana fits together; none of the three is started here."""
 
+import pathlib
 import re
 import subprocess
 import unittest
@@ -52,6 +53,8 @@ class Compose(unittest.TestCase):
         check = subprocess.run(["promtool", "check", "config", config], capture_output=True, text=True,
                                timeout=LIMIT_S, check=False)
         self.assertEqual(check.returncode, 0, check.stderr)
+        for rules in load("prometheus/prometheus.yml")["rule_files"]:
+            self.assertIn(str(pathlib.PurePath(path).parent / rules), self.mounts("prometheus"))
         example = (DEPLOY / "axisgate.toml").read_text(encoding="utf-8")
         metrics = re.search(r'(?m)^metrics = "(.+?)"', example)[1]
         scrape = load("prometheus/prometheus.yml")["scrape_configs"][0]

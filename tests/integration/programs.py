@@ -7,6 +7,7 @@ import re
 import subprocess
 import threading
 import time
+import urllib.request
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
 BIN = pathlib.Path(os.environ.get("AXISGATE_BIN", ROOT / "build" / "bin"))
@@ -62,14 +63,14 @@ class Lines:
 class Daemon:
     """`process` goes to subprocess.Popen."""
 
-    def __init__(self, folder, config, **process):
+    def __init__(self, folder, config, program="axisgated", **process):
         self.socket = os.path.join(folder, "axisgate.sock")
         path = os.path.join(folder, "axisgate.toml")
         with open(path, "w", encoding="utf-8") as file:
             file.write(config.format(socket=self.socket))
         self._log_path = os.path.join(folder, "axisgated.log")
         self._log = open(self._log_path, "a+", encoding="utf-8")
-        self._process = subprocess.Popen([BIN / "axisgated", "--config", path], stdout=self._log,
+        self._process = subprocess.Popen([BIN / program, "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT, **process)
         self.pid = self._process.pid
         self._wait_until_ready()
@@ -95,6 +96,13 @@ class Daemon:
     def log(self):
         with open(self._log_path, encoding="utf-8") as file:
             return file.read()
+
+    def metrics_address(self):
+        return re.search(r"metrics on http://(\S+)/metrics", self.log())[1]
+
+    def metrics_page(self):
+        with urllib.request.urlopen(f"http://{self.metrics_address()}/metrics", timeout=LIMIT_S) as answer:
+            return answer.read().decode("utf-8")
 
     def wait_for_log(self, pattern):
         deadline = time.monotonic() + LIMIT_S

@@ -1,6 +1,7 @@
 // A whole gateway inside the test: built-in simulator, services, and a client on its Unix socket.
 #pragma once
 
+#include <grpcpp/generic/generic_stub.h>
 #include <grpcpp/grpcpp.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -12,6 +13,7 @@
 
 #include "axisgate/v1/command.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
+#include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "server/events/wall_time.h"
@@ -38,6 +40,7 @@ class RpcTest : public ::testing::Test {
     stage_ = api::StageService::NewStub(channel_);
     events_ = api::EventService::NewStub(channel_);
     commands_ = api::CommandService::NewStub(channel_);
+    diagnostics_ = api::DiagnosticsService::NewStub(channel_);
     wait_until_up();
   }
 
@@ -108,6 +111,36 @@ class RpcTest : public ::testing::Test {
     return response.motions_size();
   }
 
+  // On a connection of its own.
+  std::shared_ptr<grpc::Channel> new_channel() const {
+    grpc::ChannelArguments arguments;
+    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
+    return grpc::CreateCustomChannel("unix:" + directory_ + "/axisgate.sock", grpc::InsecureChannelCredentials(),
+                                     arguments);
+  }
+
+  // An empty request to a method of whatever kind.
+  static grpc::Status call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method) {
+    grpc::GenericStub stub(channel);
+    grpc::CompletionQueue queue;
+    grpc::ClientContext context;
+    limit(context);
+    const grpc::Slice nothing;
+    const grpc::ByteBuffer request(&nothing, 1);
+    const auto reader = stub.PrepareUnaryCall(&context, method, request, &queue);
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    reader->StartCall();
+    reader->Finish(&response, &status, nullptr);
+    void* tag = nullptr;
+    bool ok = false;
+    queue.Next(&tag, &ok);
+    queue.Shutdown();
+    while (queue.Next(&tag, &ok)) {
+    }
+    return status;
+  }
+
   static api::Reason reason(const grpc::Status& status) {
     api::ErrorStatus details;
     api::Problem problem;
@@ -124,6 +157,7 @@ class RpcTest : public ::testing::Test {
   std::unique_ptr<api::StageService::Stub> stage_;
   std::unique_ptr<api::EventService::Stub> events_;
   std::unique_ptr<api::CommandService::Stub> commands_;
+  std::unique_ptr<api::DiagnosticsService::Stub> diagnostics_;
 };
 
 }  // namespace axisgate::rpc

@@ -1,6 +1,5 @@
 // What a connection is served that comes when there is no place left.
 #include <google/protobuf/descriptor.h>
-#include <grpcpp/generic/generic_stub.h>
 
 #include <chrono>
 #include <map>
@@ -19,36 +18,6 @@ class ReserveTest : public RpcTest {
   // The fixture's own channel takes the only place.
   ReserveTest() { limits_.open = 1; }
 
-  // On a connection of its own.
-  std::shared_ptr<grpc::Channel> channel() const {
-    grpc::ChannelArguments arguments;
-    arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-    return grpc::CreateCustomChannel("unix:" + directory_ + "/axisgate.sock", grpc::InsecureChannelCredentials(),
-                                     arguments);
-  }
-
-  // An empty request to a method of whatever kind.
-  static grpc::Status call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method) {
-    grpc::GenericStub stub(channel);
-    grpc::CompletionQueue queue;
-    grpc::ClientContext context;
-    limit(context);
-    const grpc::Slice nothing;
-    const grpc::ByteBuffer request(&nothing, 1);
-    const auto reader = stub.PrepareUnaryCall(&context, method, request, &queue);
-    grpc::ByteBuffer response;
-    grpc::Status status;
-    reader->StartCall();
-    reader->Finish(&response, &status, nullptr);
-    void* tag = nullptr;
-    bool ok = false;
-    queue.Next(&tag, &ok);
-    queue.Shutdown();
-    while (queue.Next(&tag, &ok)) {
-    }
-    return status;
-  }
-
   static grpc::Status get_device(const std::shared_ptr<grpc::Channel>& channel) {
     grpc::ClientContext context;
     limit(context);
@@ -63,7 +32,8 @@ std::vector<std::string> methods_of_the_api() {
   std::vector<std::string> methods;
   for (const google::protobuf::Message* request : std::initializer_list<const google::protobuf::Message*>{
            &api::ListDevicesRequest::default_instance(), &api::MoveRequest::default_instance(),
-           &api::WatchRequest::default_instance(), &api::ExecuteRequest::default_instance()}) {
+           &api::WatchRequest::default_instance(), &api::ExecuteRequest::default_instance(),
+           &api::RecordRequest::default_instance()}) {
     const google::protobuf::FileDescriptor* file = request->GetDescriptor()->file();
     for (int i = 0; i < file->service_count(); ++i) {
       for (int k = 0; k < file->service(i)->method_count(); ++k) {
@@ -84,7 +54,7 @@ TEST_F(ReserveTest, StopsAreServedAndEverythingElseIsRefused) {
   std::set<std::string> seen;
   for (const std::string& method : methods_of_the_api()) {
     SCOPED_TRACE(method);
-    const grpc::Status status = call(channel(), method);
+    const grpc::Status status = call(new_channel(), method);
     if (const auto expected = served.find(method); expected != served.end()) {
       EXPECT_EQ(status.error_code(), expected->second);
       seen.insert(method);
@@ -94,7 +64,7 @@ TEST_F(ReserveTest, StopsAreServedAndEverythingElseIsRefused) {
     }
   }
   EXPECT_EQ(seen.size(), served.size());
-  EXPECT_EQ(call(channel(), "/grpc.health.v1.Health/Check").error_code(), grpc::RESOURCE_EXHAUSTED);
+  EXPECT_EQ(call(new_channel(), "/grpc.health.v1.Health/Check").error_code(), grpc::RESOURCE_EXHAUSTED);
 }
 
 TEST_F(ReserveTest, AStopEndsTheMotionOfAnother) {
@@ -107,18 +77,19 @@ TEST_F(ReserveTest, AStopEndsTheMotionOfAnother) {
   api::StopRequest stop;
   stop.set_device("devices/stage");
   api::StopResponse response;
-  const grpc::Status status = api::StageService::NewStub(channel())->Stop(&context, stop, &response);
+  const grpc::Status status = api::StageService::NewStub(new_channel())->Stop(&context, stop, &response);
   EXPECT_TRUE(status.ok()) << status.error_message();
   EXPECT_EQ(outcome(motion.name()).state(), api::MOTION_STATE_STOPPED);
 }
 
 TEST_F(ReserveTest, AClientThatWasRefusedIsServedOnceThereIsAPlace) {
-  const auto waiting = channel();
+  const auto waiting = new_channel();
   EXPECT_EQ(get_device(waiting).error_code(), grpc::RESOURCE_EXHAUSTED);
   devices_.reset();
   stage_.reset();
   events_.reset();
   commands_.reset();
+  diagnostics_.reset();
   channel_.reset();
   // It asks again and again, so that its connection is never idle.
   const TimePoint limit = monotonic_now() + std::chrono::seconds(30);

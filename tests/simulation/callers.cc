@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cstdlib>
+
 namespace axisgate::simulation {
 namespace {
 
@@ -96,9 +99,12 @@ void Callers::path() {
   const auto count = random.between(1, 8);
   for (int i = 0; i < count; ++i) {
     Segment segment;
-    segment.moves.push_back({first, pulses(random.between(1, 2500) * (random.chance(0.5) ? 1 : -1)), {}});
-    if (line) segment.moves.push_back({3, pulses(random.between(-2500, 2500)), {}});
-    segment.speed = pulses(random.between(5000, 40000));
+    const std::int64_t way = random.between(1, 2500), other_way = line ? random.between(-2500, 2500) : 0;
+    segment.moves.push_back({first, pulses(random.chance(0.5) ? way : -way), {}});
+    if (line) segment.moves.push_back({3, pulses(other_way), {}});
+    // Few of them are too short for the line: such a path would be refused.
+    const std::int64_t lasts_ms = random.between(15, 250);
+    segment.speed = pulses(std::max<std::int64_t>(100, (way + std::abs(other_way)) * 1000 / lasts_ms));
     ++starts_allowed_[static_cast<std::size_t>(first - 1)];
     if (line) ++starts_allowed_[2];
     request.segments.push_back(std::move(segment));

@@ -203,7 +203,7 @@ TEST(Hazard, H08_ASpeedMisreadIsNotPutBack) {
     return {.drop = false, .delay = {}, .instead = misread + ",S1000F50000R100," + misread + "\r\n"};
   });
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  EXPECT_FALSE(world.controller().state().axis(1).maximum_speed);
+  ASSERT_FALSE(world.controller().state().axis(1).maximum_speed);
   MoveRequest move = move_of(world, {{1, 3000}, {2, 3000}}, true);
   move.moves[1].profile = SpeedProfile{pulses(500), pulses(7000), 70};
   world.controller().move(std::move(move), world.now(), [](Result<Motion>) {});

@@ -111,7 +111,8 @@ bool World::run_until(const std::function<bool()>& done, Duration limit) {
   return done();
 }
 
-void World::on_event(const Event& event, TimePoint) {
+void World::on_event(const Event& event, TimePoint at) {
+  if (setup_.listener) setup_.listener->on_event(event, at);
   if (on_news) on_news(event);
   if (const auto* ended = std::get_if<ExchangeEnded>(&event)) check_exchange(*ended);
   if (std::holds_alternative<BarrierEntered>(event)) ++barriers_;

@@ -23,6 +23,7 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
+  shrc203::EventSink* listener = nullptr;  // hears every event too
 };
 
 // A setup whose open questions are drawn from the seed.

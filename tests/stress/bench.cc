@@ -4,6 +4,8 @@
 #include <stdlib.h>
 
 #include <chrono>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <thread>
 
@@ -66,9 +68,16 @@ server::Config Bench::config() const {
     one.profile.idle_poll = milliseconds(20);
     one.profile.moving_poll = milliseconds(10);
     one.connection = SerialSettings{path(device), 4'000'000, Parity::none, 1, FlowControl::none};
+    one.record = recording_path(device);
     config.devices.push_back(std::move(one));
   }
   return config;
+}
+
+std::string Bench::recording(std::size_t device) const {
+  std::stringstream text;
+  text << std::ifstream(recording_path(device)).rdbuf();
+  return text.str();
 }
 
 void Bench::plug(std::size_t device) {

@@ -33,6 +33,8 @@ class Bench {
   server::Gateway& gateway() { return *gateway_; }
   server::Device& device(std::size_t number) { return *gateway_->devices()[number]; }
   void end_gateway() { gateway_.reset(); }
+  // The file to which the gateway records the device's line.
+  std::string recording(std::size_t device) const;
 
   void unplug(std::size_t device) { units_[device].reset(); }
   void plug(std::size_t device);
@@ -44,6 +46,7 @@ class Bench {
  private:
   server::Config config() const;
   std::string path(std::size_t device) const { return directory_ / device_name(device); }
+  std::string recording_path(std::size_t device) const { return path(device) + ".recording"; }
 
   std::filesystem::path directory_;
   std::array<std::unique_ptr<PluggedUnit>, kDevices> units_;

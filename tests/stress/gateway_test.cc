@@ -4,17 +4,21 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <future>
 #include <memory>
 #include <thread>
+#include <variant>
 #include <vector>
 
 #include "device/link/clock.h"
+#include "device/shrc203/recording.h"
 #include "tests/stress/bench.h"
 #include "tests/stress/caller.h"
 #include "tests/stress/readers.h"
+#include "tests/unit/metrics_page.h"
 
 namespace axisgate::stress {
 namespace {
@@ -64,7 +68,7 @@ void join(std::vector<std::thread>& threads) {
 
 void look_at_metrics(int port, int pages) {
   for (int i = 0; i < pages; ++i) {
-    EXPECT_THAT(metrics_page(port),
+    EXPECT_THAT(server::metrics_page(port),
                 AllOf(HasSubstr("HTTP/1.1 200 OK"), HasSubstr("axisgate_link_up{device=\"stage1\"}"),
                       HasSubstr("axisgate_queue_depth{device=\"stage3\",lane=\"poll\"}")));
   }
@@ -99,6 +103,23 @@ class GatewayUnderLoad : public GatewayStress {
     // Most requests wait for a device that is up, and a cable is rarely pulled: excuses are the exception.
     EXPECT_GT(right, static_cast<int>(kCallers) * kRequests / 2);
     EXPECT_GT(motions, static_cast<int>(kCallers) * kRequests / 20);
+  }
+
+  // Written by threads of their own to the very end, with all the connects of a pulled cable.
+  void expect_whole_recordings() {
+    for (std::size_t device = 0; device < kDevices; ++device) {
+      const Result<shrc203::Recording> recording = shrc203::parse_recording(bench_.recording(device));
+      ASSERT_TRUE(recording) << recording.error().message;
+      const auto told = [&](shrc203::RecordedRemark::Kind kind) {
+        return std::ranges::count_if(recording->lines, [&](const shrc203::RecordedLine& line) {
+          const auto* remark = std::get_if<shrc203::RecordedRemark>(&line.event);
+          return remark != nullptr && remark->kind == kind;
+        });
+      };
+      EXPECT_EQ(told(shrc203::RecordedRemark::Kind::note), 0) << "lines were lost";
+      EXPECT_GE(told(shrc203::RecordedRemark::Kind::up), 1);
+      EXPECT_GT(recording->lines.size(), 100u);
+    }
   }
 
   void expect_nothing_is_held() {
@@ -136,6 +157,7 @@ TEST_F(GatewayUnderLoad, EverybodyIsAnsweredOnceAndByTheRightDevice) {
   quick.reset();
   bench_.end_gateway();
   expect_nothing_is_held();
+  expect_whole_recordings();
 }
 
 // The lines end while callers still ask and cables are pulled. What was asked by then is answered once or never, and

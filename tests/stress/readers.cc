@@ -1,17 +1,11 @@
 #include "tests/stress/readers.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
-#include <array>
 #include <chrono>
 
 #include "device/link/clock.h"
-#include "device/link/descriptor.h"
 
 namespace axisgate::stress {
 namespace {
@@ -125,23 +119,6 @@ void come_and_go(server::Gateway& gateway, int times) {
   }
   while (*fired != times && monotonic_now() < limit) take_a_breath();
   EXPECT_EQ(*fired, times);
-}
-
-std::string metrics_page(int port) {
-  const Descriptor page(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_port = htons(static_cast<std::uint16_t>(port));
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  if (::connect(page.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return "no connection";
-  const std::string request = "GET /metrics HTTP/1.0\r\n\r\n";
-  if (::send(page.get(), request.data(), request.size(), MSG_NOSIGNAL) < 0) return "the connection broke";
-  std::string text;
-  std::array<char, 16384> piece;
-  for (ssize_t size = 0; (size = ::read(page.get(), piece.data(), piece.size())) > 0;) {
-    text.append(piece.data(), static_cast<std::size_t>(size));
-  }
-  return text;
 }
 
 }  // namespace axisgate::stress

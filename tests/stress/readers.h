@@ -60,7 +60,4 @@ void publish_facts(server::EventBus& bus, const QuickReader& reader, int facts);
 // Subscribes, publishes and leaves, again and again, and lets timers run.
 void come_and_go(server::Gateway& gateway, int times);
 
-// Asks for /metrics and returns the page, or what went wrong in its place.
-std::string metrics_page(int port);
-
 }  // namespace axisgate::stress

@@ -64,6 +64,7 @@ TEST_F(AcceptorTest, BeyondTheLimitAConnectionIsForStopsUntilAnotherHasClosed) {
   const Descriptor second = server_.connected();
   EXPECT_EQ(next(), Service::stop_only);
   EXPECT_EQ(acceptor_->counts().reserved, 1u);
+  EXPECT_EQ(acceptor_->counts().in_reserve, 1u);
   connections_[0].descriptor.reset();
   const Descriptor third = server_.connected();
   EXPECT_EQ(next(), Service::all);
@@ -160,6 +161,7 @@ TEST_F(AcceptorTest, WhatTheReserveNeedsIsTakenBackWhenItsConnectionsHaveEnded) 
     clients.clear();
     connections_.clear();
     EXPECT_TRUE(loop_.run_until([&] { return open_descriptors() == before; }));
+    EXPECT_EQ(acceptor_->counts().in_reserve, 0u);
   }
 }
 

@@ -200,6 +200,20 @@ TEST(Config, TwoDevicesCannotShareALine) {
               ElementsAre(StartsWith("lab.toml:8: device.path: \"/dev/ttyUSB0\" is the line of another device")));
 }
 
+TEST(Config, RecordingsAreAbsolutePathsEachItsOwn) {
+  const std::string recorded = std::string(kStage) + "record = \"/var/tmp/stage.recording\"\n";
+  const auto config = parse_config(recorded, "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(config->devices.at(0).record, "/var/tmp/stage.recording");
+  EXPECT_THAT(errors_of(std::string(kStage) + "record = \"stage.recording\"\n"),
+              ElementsAre(StartsWith("lab.toml:4: device.record: \"stage.recording\" is not an absolute path")));
+  EXPECT_THAT(errors_of(std::string(kStage) + "record = \"\"\n"), ElementsAre(HasSubstr("is not an absolute path")));
+  EXPECT_THAT(
+      errors_of(recorded + "[[device]]\nname = \"b\"\nconnection = \"simulated\"\n"
+                           "record = \"/var/tmp/stage.recording\"\n"),
+      ElementsAre(StartsWith("lab.toml:8: device.record: \"/var/tmp/stage.recording\" is the file of another")));
+}
+
 TEST(Config, AFileWithoutADeviceIsAnError) {
   EXPECT_THAT(errors_of("listen = \"127.0.0.1:1\"\n"),
               ElementsAre(HasSubstr("device: is missing; use at least one [[device]]")));

@@ -29,8 +29,10 @@ class DeviceEventsTest : public ::testing::Test {
   EventBus bus_{[](std::function<void()>) {}};
   Metrics metrics_;
   DeviceMetrics device_metrics_{metrics_, "stage"};
+  DeviceRecorder recorder_{{}, [](std::function<void()>) {}, device_metrics_};
   std::vector<DeviceEvents::Due> due_;
-  DeviceEvents events_{"stage", bus_, device_metrics_, [this](DeviceEvents::Due due) { due_.push_back(due); }};
+  DeviceEvents events_{"stage", bus_, device_metrics_, recorder_,
+                       [this](DeviceEvents::Due due) { due_.push_back(due); }};
 };
 
 TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {

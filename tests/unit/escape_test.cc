@@ -37,5 +37,32 @@ TEST(Escaped, KeepsEvenATinyLimit) {
   EXPECT_EQ(escaped("abcd", 0), "");
 }
 
+TEST(QuotedBytes, ComeBackWhateverTheyAre) {
+  std::string all = "\"\\";
+  for (int first = 0; first < 256; ++first) {
+    all.push_back(static_cast<char>(first));
+    const std::string one(1, static_cast<char>(first));
+    const std::string text = quoted_bytes(one) + " rest";
+    std::string_view rest = text;
+    EXPECT_EQ(take_quoted_bytes(rest), one) << first;
+    EXPECT_EQ(rest, " rest");
+  }
+  const std::string text = quoted_bytes(all);
+  std::string_view rest = text;
+  EXPECT_EQ(take_quoted_bytes(rest), all);
+  EXPECT_EQ(rest, "");
+}
+
+TEST(QuotedBytes, AreNotTakenFromAnythingElse) {
+  for (const std::string_view wrong : std::initializer_list<std::string_view>{
+           "", "OK", "\"OK", "\"\\\"", "\"\\", "\"\\q\"", "\"\\x0\"", "\"\\xfF\"", "\"\n\"", "\"\xff\"", "\"\0\""sv}) {
+    std::string_view rest = wrong;
+    EXPECT_EQ(take_quoted_bytes(rest), std::nullopt) << escaped(wrong);
+  }
+  std::string_view rest = "\"OK\n\"";
+  EXPECT_EQ(take_quoted_bytes(rest), std::nullopt);
+  EXPECT_EQ(rest, "\n\"");
+}
+
 }  // namespace
 }  // namespace axisgate

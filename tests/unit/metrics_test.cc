@@ -4,6 +4,8 @@
 #include <prometheus/text_serializer.h>
 
 #include <chrono>
+#include <map>
+#include <set>
 #include <string>
 
 namespace axisgate::server {
@@ -66,7 +68,7 @@ TEST_F(MetricsTest, OnlyEndedMotionsCount) {
   motion.kind = shrc203::MotionKind::home;
   motion.state = shrc203::MotionState::running;
   device_.on_event(shrc203::MotionChanged{motion});
-  EXPECT_THAT(page(), Not(HasSubstr("axisgate_motions_total{")));
+  EXPECT_THAT(page(), HasSubstr("axisgate_motions_total{device=\"stage\",kind=\"home\",outcome=\"UNKNOWN\"} 0\n"));
   motion.state = shrc203::MotionState::unknown;
   device_.on_event(shrc203::MotionChanged{motion});
   EXPECT_THAT(page(), HasSubstr("axisgate_motions_total{device=\"stage\",kind=\"home\",outcome=\"UNKNOWN\"} 1\n"));
@@ -107,6 +109,58 @@ TEST_F(MetricsTest, StateShowsPositionsTheLinkAndTheQueues) {
   text = page();
   EXPECT_THAT(text, HasSubstr("axisgate_position_pulses{axis=\"2\",device=\"stage\"} Nan\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_link_up{device=\"stage\"} 0\n"));
+}
+
+using LabelNames = std::set<std::string>;
+
+std::map<std::string, LabelNames> label_names(const std::vector<prometheus::MetricFamily>& families) {
+  std::map<std::string, LabelNames> found;
+  for (const prometheus::MetricFamily& family : families) {
+    for (const prometheus::ClientMetric& metric : family.metric) {
+      LabelNames names;
+      for (const auto& label : metric.label) names.insert(label.name);
+      const auto [known, first] = found.try_emplace(family.name, names);
+      EXPECT_EQ(known->second, names) << family.name;
+    }
+  }
+  return found;
+}
+
+TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
+  const std::map<std::string, LabelNames> from_the_start = {
+      {"axisgate_barriers_total", {"device"}},
+      {"axisgate_build_info", {"compiler", "version"}},
+      {"axisgate_completions_total", {"axis", "device"}},
+      {"axisgate_line_busy_seconds_total", {"device"}},
+      {"axisgate_line_bytes_total", {"device", "direction"}},
+      {"axisgate_link_up", {"device"}},
+      {"axisgate_motions_total", {"device", "kind", "outcome"}},
+      {"axisgate_owed_answers", {"device"}},
+      {"axisgate_queue_depth", {"device", "lane"}},
+      {"axisgate_queue_wait_seconds", {"device", "lane"}},
+      {"axisgate_recorder_dropped_total", {"device"}},
+      {"axisgate_slow_readers_total", {}},
+      {"axisgate_stops_total", {"device", "kind"}},
+      {"axisgate_time_limits_total", {"device", "kind"}},
+      {"axisgate_underruns_total", {"device"}},
+      {"axisgate_unexpected_lines_total", {"device"}},
+  };
+  EXPECT_EQ(label_names(metrics_.registry()->Collect()), from_the_start);
+
+  ExchangeEnded exchange;
+  exchange.command = exchange.line = "Q:S";
+  device_.on_event(exchange);
+  shrc203::Motion motion;
+  motion.state = shrc203::MotionState::failed;
+  device_.on_event(shrc203::MotionChanged{motion});
+  shrc203::State state;
+  state.axis(1).position_pulses = 0;
+  device_.set_state(state);
+  std::map<std::string, LabelNames> at_work = from_the_start;
+  at_work["axisgate_exchanges_total"] = {"command", "device", "outcome"};
+  at_work["axisgate_exchange_seconds"] = {"command", "device"};
+  at_work["axisgate_position_pulses"] = {"axis", "device"};
+  EXPECT_EQ(label_names(metrics_.registry()->Collect()), at_work);
 }
 
 TEST_F(MetricsTest, APortInUseIsAClearError) {

@@ -172,14 +172,29 @@ TEST_F(PlanTest, ALineTakesItsLengthAtItsPathSpeed) {
   EXPECT_EQ(plan->segments[0].longest, seconds(1));
 }
 
-TEST_F(PlanTest, OneAxisTakesAtLeastItsWayAtF) {
+// 26,000/s on average for 0.2 s at either end, and 44,800 pulses at 25,000/s between.
+TEST_F(PlanTest, OneAxisSpeedsUpAndSlowsDown) {
   Segment segment{{{2, pulses(50000), {}}}, false, pulses(25000), 200};
   const auto plan = path({segment});
   ASSERT_TRUE(plan);
-  EXPECT_EQ(plan->segments[0].shortest, seconds(2));
+  EXPECT_EQ(plan->segments[0].shortest, milliseconds(400 + 1792));
   EXPECT_EQ(plan->segments[0].longest, seconds(2) + milliseconds(400));
   EXPECT_EQ(plan->segments[0].move.axes[0].speed->maximum, 25000);
   EXPECT_EQ(plan->segments[0].move.axes[0].speed->acceleration_ms, 200);
+}
+
+// From 1,000/s by 490,000/s in a second: 15,700/s after 30 ms, when half of the 501 pulses are done.
+TEST_F(PlanTest, AShortWayNeverReachesF) {
+  const auto plan = path({{{{2, pulses(501), {}}}, true, {}, {}}});
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->segments[0].shortest, milliseconds(60));
+}
+
+TEST_F(PlanTest, OneAxisWithoutARamp) {
+  state.axes[1].minimum_speed = state.axes[1].maximum_speed = 5000;
+  const auto plan = path({{{{2, pulses(500), {}}}, true, {}, {}}});
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->segments[0].shortest, milliseconds(100));
 }
 
 TEST_F(PlanTest, PathsThatCannotBe) {

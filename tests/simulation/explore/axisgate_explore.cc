@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <string>
 
+#include "tests/guards/table.h"
 #include "tests/simulation/trial.h"
 
 namespace axisgate::simulation {
@@ -19,6 +20,7 @@ struct Arguments {
   double hours = 16;
   std::string profile = "hostile";
   std::uint64_t first_seed = 0;
+  std::string without;
 };
 
 struct Totals {
@@ -84,6 +86,11 @@ int explore(const Arguments& arguments) {
   return totals.failures == 0 ? 0 : 1;
 }
 
+int list_guards() {
+  for (const auto& row : guards::table()) fmt::print("{:<38} {}\n", row.name, row.what);
+  return 0;
+}
+
 int main_program(int count, char** words) {
   CLI::App program(
       "Runs the controller's core against the simulator in virtual time, with faults, and looks for\n"
@@ -98,7 +105,14 @@ int main_program(int count, char** words) {
       ->capture_default_str()
       ->check(CLI::IsMember({"quiet", "mild", "rough", "hostile"}));
   program.add_option("--seed", arguments.first_seed, "The first seed")->capture_default_str();
+  program.add_option("--without", arguments.without, "Removes this guard")->check([](const std::string& name) {
+    return guards::row_named(name) ? "" : "there is no guard " + name + "; --list-guards names them";
+  });
+  bool list = false;
+  program.add_flag("--list-guards", list, "Names the guards");
   CLI11_PARSE(program, count, words);
+  if (list) return list_guards();
+  if (const auto* removed = guards::row_named(arguments.without)) removed_guard = removed->guard;
   return explore(arguments);
 }
 

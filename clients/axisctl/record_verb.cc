@@ -1,0 +1,87 @@
+// record: what goes over the line, as text that `replay` reads.
+#include <fmt/format.h>
+#include <semaphore.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <thread>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/output.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+sem_t ended;  // by a signal, or because the call is over
+volatile std::sig_atomic_t by_signal = 0;
+
+void end(int) {
+  by_signal = 1;
+  sem_post(&ended);
+}
+
+// Makes Ctrl-C and SIGTERM the ordinary end of a call. One at a time.
+class EndedBySignal {
+ public:
+  explicit EndedBySignal(grpc::ClientContext& call) {
+    sem_init(&ended, 0, 0);
+    struct sigaction action = {};
+    action.sa_handler = end;
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    // gRPC may not be called from a signal handler.
+    waiter_ = std::thread([&call] {
+      while (sem_wait(&ended) != 0 && errno == EINTR) {
+      }
+      call.TryCancel();
+    });
+  }
+
+  ~EndedBySignal() {
+    sem_post(&ended);
+    waiter_.join();
+  }
+
+  bool came() const { return by_signal != 0; }
+
+ private:
+  std::thread waiter_;
+};
+
+v1::RecordRequest make_request(const Session& session) {
+  v1::RecordRequest request;
+  request.set_device(chosen_device(session).name());
+  request.set_skip_kept(session.options.only_new);
+  request.set_follow(!session.options.no_follow);
+  return request;
+}
+
+}  // namespace
+
+int record(const Session& session) {
+  const v1::RecordRequest request = make_request(session);
+  Output output(session.options.output);
+  grpc::ClientContext call;
+  if (session.options.seconds) {
+    call.set_deadline(std::chrono::system_clock::now() + std::chrono::seconds(*session.options.seconds));
+  }
+  const EndedBySignal signal(call);
+  const auto reader = session.connection.diagnostics->Record(&call, request);
+  v1::RecordResponse response;
+  std::ptrdiff_t lines = 0;
+  while (reader->Read(&response)) {
+    output.write(response.text());
+    lines += std::count(response.text().begin(), response.text().end(), '\n');
+  }
+  const grpc::Status status = reader->Finish();
+  if (output.is_file()) print_line(fmt::format("{}: {} lines", output.path(), lines));
+  const bool in_time = session.options.seconds && status.error_code() == grpc::StatusCode::DEADLINE_EXCEEDED;
+  if (!in_time && !signal.came()) session.connection.check(status);
+  return kDone;
+}
+
+}  // namespace axisgate::axisctl

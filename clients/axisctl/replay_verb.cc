@@ -1,0 +1,97 @@
+// replay: feeds recordings to the core that this program is built with. Needs no daemon.
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iostream>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+#include "device/shrc203/recording.h"
+#include "device/shrc203/replay.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+constexpr std::string_view kHead = "# axisgate recording ";
+constexpr std::string_view kSection = "== ";  // of a support report
+
+struct Part {
+  int first_line = 1;  // in the file
+  std::string text;
+};
+
+// A daemon's file has a head for each start of the daemon, and wherever lines were lost; a support report has one for
+// each device.
+std::vector<Part> recordings_in(std::istream& input) {
+  std::vector<Part> parts;
+  bool inside = false;
+  int number = 0;
+  for (std::string line; std::getline(input, line);) {
+    ++number;
+    if (line.starts_with(kHead)) {
+      parts.push_back({number, ""});
+      inside = true;
+    }
+    if (line.starts_with(kSection)) inside = false;
+    if (inside) parts.back().text += line + "\n";
+  }
+  return parts;
+}
+
+std::vector<Part> read_parts(const std::string& file, const std::string& name) {
+  std::ifstream opened;
+  if (file != "-") {
+    opened.open(file, std::ios::binary);
+    if (!opened) throw usage(fmt::format("{} cannot be read: {}", file, std::strerror(errno)), "");
+  }
+  std::vector<Part> parts = recordings_in(file == "-" ? std::cin : opened);
+  if (parts.empty()) {
+    throw usage(fmt::format("{} is no recording: no line begins with \"{}\"", name, kHead), "axisctl record makes one");
+  }
+  return parts;
+}
+
+shrc203::ReplayReport replay_part(const Part& part, const std::string& name) {
+  const Result<shrc203::Recording> recording = shrc203::parse_recording(part.text);
+  if (!recording) {
+    const std::string from = part.first_line == 1 ? "" : fmt::format(" (counted from line {} on)", part.first_line);
+    throw usage(fmt::format("{}{}: {}", name, from, recording.error().message), recording.error().hint);
+  }
+  return shrc203::replay(*recording);
+}
+
+}  // namespace
+
+int replay(const Session& session) {
+  const std::string name = session.options.file == "-" ? "standard input" : session.options.file;
+  std::uint64_t exchanges = 0;
+  std::size_t differences = 0;
+  for (const Part& part : read_parts(session.options.file, name)) {
+    const shrc203::ReplayReport report = replay_part(part, name);
+    for (const shrc203::ReplayDifference& difference : report.differences) {
+      print_line(fmt::format("{}:{}: recorded {}; now {}", name, part.first_line - 1 + difference.line,
+                             difference.recorded, difference.now));
+    }
+    exchanges += report.exchanges;
+    differences += report.differences.size();
+  }
+  if (differences > 0) {
+    print_line(fmt::format("{}: {} exchanges, {} differences", name, exchanges, differences));
+    return kMotionFailed;
+  }
+  if (exchanges == 0) {
+    throw Failure{kMotionFailed, "NOTHING_COMPARED", fmt::format("{} shows no exchange on a line that is up", name),
+                  "record while the controller answers"};
+  }
+  print_line(fmt::format("{}: {} exchanges, no difference", name, exchanges));
+  return kDone;
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,130 @@
+// The guards: what keeps answers, outcomes and stops right on a bad line. Each is asked for where it acts,
+//
+//   if (guarded(Guard::x) && ...)
+//
+// which costs nothing, since the answer is always yes. Only a build with AXISGATE_REMOVABLE_GUARDS can do without one,
+// so that tests/guards can show that something fails then.
+#pragma once
+
+#ifdef AXISGATE_REMOVABLE_GUARDS
+#include <optional>
+#endif
+
+namespace axisgate {
+
+enum class Guard {
+  // Whose answer is whose: after doubt
+  barrier_after_time_limit,
+  barrier_after_garbage,
+  barrier_after_line_fault,
+  received_or_not,
+  silence,
+  owed_answers,
+  owed_refusals,
+  older_identities,
+  three_probes,
+  backoff,
+  // ... and in front of it
+  half_lines_hold,
+  half_lines_before_stops,
+  unended_lines,
+  overlong_lines,
+  quiet_after_refusal,
+  setter_grammar,
+  question_grammar,
+  shared_questions,
+  restart_suspected,
+  question_before_pause_ends,
+  foreign_traffic,
+  possible_lines_before,
+
+  // A notice is never taken for a reply, nor a reply for a notice
+  number_questions_wait,
+  questions_for_all_axes,
+  closed_questions,
+  two_answers_agree,
+  possible_after_connect,
+  possible_after_ready,
+  start_settles,
+  settled_by_exchange,
+
+  // Who is there
+  serial_number,
+  serial_number_after_barrier,
+  serial_number_twice,
+  axes_twice,
+  host_mode,
+  ready_before_open,
+
+  // Truth over optimism
+  success_when_ready,
+  success_at_target,
+  success_without_error,
+  success_seen_twice,
+  home_seen_to_run,
+  end_seen_twice,
+  start_shows_late,
+  refused_start_looked_at,
+  not_sent_is_proved,
+  set_read_back,
+  jumps_read_again,
+  possible_speeds,
+  moving_unknown,
+  one_home_an_axis,
+
+  // Stop goes first
+  stop_lane,
+  stop_in_barrier,
+  barrier_after_stop,
+  stop_withdraws_lines,
+  stop_withdraws_motions,
+  stop_before_preparing,
+  stop_before_set,
+  stop_before_go,
+  stop_names_excited_axes,
+  stop_one_axis_at_a_time,
+  stop_again,
+  stop_seen_to_stand,
+  stop_looks_at_prebuffer,
+  stops_join,
+  stops_by_turns,
+  stop_off_host,
+
+  // Set and go is one step
+  one_motion_at_a_time,
+  axes_stand_first,
+  late_numbers_wait,
+  registers_unknown_after_connect,
+  registers_unknown_after_failure,
+  registers_unknown_after_transaction,
+  left_overs_deleted,
+  left_overs_refused,
+  no_bare_go,
+  no_set_without_go,
+  prebuffers_are_one_motions,
+  path_owns_prebuffers,
+  underruns_told,
+  early_numbers_checked,
+  doubtful_numbers_checked,
+  missed_numbers_counted,
+  one_axis_is_the_clock,
+  path_place_is_unique,
+
+  // Every queue is bounded, every wait has a limit
+  lanes_bounded,
+  waiting_lines_expire,
+  waiting_motions_expire,
+  unread_lines_bounded,
+  lanes_starve_not,
+  callers_take_turns,
+};
+inline constexpr int kGuards = static_cast<int>(Guard::callers_take_turns) + 1;
+
+#ifdef AXISGATE_REMOVABLE_GUARDS
+inline std::optional<Guard> removed_guard;
+inline bool guarded(Guard guard) { return removed_guard != guard; }
+#else
+constexpr bool guarded(Guard) { return true; }
+#endif
+
+}  // namespace axisgate

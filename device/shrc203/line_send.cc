@@ -1,0 +1,156 @@
+// What goes out over the line: whose turn it is, what holds it back, and what is written.
+#include <algorithm>
+
+#include "device/core/guard.h"
+#include "device/shrc203/line.h"
+
+namespace axisgate::shrc203 {
+
+// The axes whose numbers could not be told from the answer.
+AxisSet Line::conflicts(const ExchangeRequest& request) const {
+  const CommandRow& row = *request.command.row;
+  if (request.closed || !guarded(Guard::number_questions_wait)) return {};
+  const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
+  const bool asked_whole = row.separation == Separation::waits || row.separation == Separation::closed;
+  if (!asked_whole && !asked_alone) return {};
+  const auto range = bare_number_range(row);
+  AxisSet found;
+  for (const int axis : completions_.possible().list()) {
+    if (range && axis >= range->minimum && axis <= range->maximum) found.add(axis);
+  }
+  return found;
+}
+
+// When to ask !: on behalf of a question that waits for the last number to have come.
+std::optional<TimePoint> Line::conflicts_settle_from() const {
+  std::optional<TimePoint> earliest;
+  queue_.for_each([&](const WaitingPtr& waiting) {
+    const AxisSet axes = conflicts(waiting->request);
+    const auto from = axes.empty() ? std::nullopt : completions_.settles_from(axes);
+    if (from && (!earliest || *from < *earliest)) earliest = from;
+  });
+  return earliest;
+}
+
+bool Line::may_send(const ExchangeRequest& request) const {
+  const bool certain = handshake_passed_ && !continuity_.open();
+  if (sealed_ && request.lane != Lane::stop) return false;
+  if (!certain && !request.handshake && request.lane != Lane::stop) return false;
+  return conflicts(request).empty();
+}
+
+void Line::pump(TimePoint now) {
+  if (!can_send()) return;
+  expire(now);
+  const bool quiet = now < quiet_until_ && guarded(Guard::quiet_after_refusal);
+  const bool coming = line_is_coming(now) || quiet;
+  const auto may_go = [&](const WaitingPtr& waiting) {
+    const auto& request = waiting->request;
+    return (!coming || request.lane == Lane::stop) && may_send(request) && leaves_refills_alone(request, now);
+  };
+  const auto settles = coming ? std::nullopt : conflicts_settle_from();
+  const bool settle = settles && now >= *settles && may_settle(now);
+  if (must_ask_before(may_go, settle, now)) {
+    ExchangeRequest question;
+    question.command = make_command(kLineBefore);
+    send(std::make_shared<Waiting>(Waiting{std::move(question), {}, now}), now);
+    return;
+  }
+  auto next = queue_.take(may_go);
+  if (next) {
+    send(std::move(*next), now);
+    return;
+  }
+  if (!settle) return;
+  ExchangeRequest probe;
+  probe.command = make_command(kSettling);
+  send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
+}
+
+// After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
+bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
+  if (!handshake_passed_ || continuity_.open() || !continuity_.due(now)) return false;
+  if (!guarded(Guard::question_before_pause_ends)) return false;
+  bool any = settle, stop = false;
+  queue_.for_each([&](const WaitingPtr& waiting) {
+    stop = stop || waiting->request.lane == Lane::stop;
+    any = any || (may_go(waiting) && waiting->request.command.line != kLineBefore);
+  });
+  return any && !stop;
+}
+
+// While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.
+bool Line::line_is_coming(TimePoint now) {
+  if (!framer_.mid_line()) {
+    partial_since_.reset();
+    return false;
+  }
+  if (!partial_since_) partial_since_ = now;
+  return !drop_unended(now) && guarded(Guard::half_lines_hold);
+}
+
+bool Line::drop_unended(TimePoint now) {
+  if (!partial_since_ || now < *partial_since_ + kPartialLineMax || !guarded(Guard::unended_lines)) return false;
+  framer_.clear();
+  partial_since_.reset();
+  unexpected("(a line that did not end)", now);
+  return true;
+}
+
+void Line::send(WaitingPtr waiting, TimePoint now) {
+  const auto& request = waiting->request;
+  const auto limit =
+      request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
+  const Duration on_the_wire = pace_.time_of(request.command.line.size() + 2 + Pace::kReplyBytesMax);
+  // Only a stop does not wait: what is half in must not end as its answer.
+  if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
+  if (!request.completes.empty()) completions_.started(request.completes, now);
+  const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
+  if (echo_first) write_line(kLineBefore);
+  write_line(request.command.line, ++exchanges_, &request);
+  in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
+}
+
+// Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
+void Line::send_stops_now(TimePoint now) {
+  if (!port_open_ || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
+  if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);
+}
+
+bool Line::write_waiting_stops() {
+  bool any = false;
+  queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },
+               [&](const WaitingPtr& waiting) {
+                 any = true;
+                 write_line(waiting->request.command.line, ++exchanges_, &waiting->request);
+                 const Problem problem{Reason::outcome_unknown,
+                                       "the stop was written while the line was being resynchronised; its answer "
+                                       "cannot be believed",
+                                       "look at the positions",
+                                       {},
+                                       waiting->request.command.line,
+                                       {}};
+                 for (auto& answer : waiting->answers)
+                   answer.deliver({.written = true, .reply = {}, .problem = problem, .candidates = {}});
+               });
+  return any;
+}
+
+void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
+  std::string bytes(line);
+  bytes += "\r\n";
+  continuity_.wrote(line, now_);
+  link_.write(bytes);
+  BytesWritten written;
+  written.bytes = std::move(bytes);
+  written.exchange = exchange;
+  if (cause) {
+    written.who = cause->caller;
+    written.lane = cause->lane;
+    written.completes = cause->completes;
+    written.closed = cause->closed;
+  }
+  listener_.line_event(written, now_);
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,46 @@
+#include "device/shrc203/pace.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::string_view kLongestAcknowledgement = "OK_D";
+// A command that the line has cut in two is refused twice, so that after NG nothing is sent for a while. A question is
+// refused where the mode forbids it, and nothing moves along a path there.
+constexpr Duration kRefusalTakes = std::chrono::milliseconds(20);
+
+}  // namespace
+
+Duration Pace::time_of(std::size_t bytes) const {
+  return std::chrono::nanoseconds(static_cast<std::int64_t>(bytes) * 10 * 1'000'000'000 / baud_);
+}
+
+void Pace::answered(std::size_t line_bytes, std::size_t reply_bytes, Duration latency) {
+  const Duration on_the_wire = time_of(line_bytes + reply_bytes + 2 * kTerminator);
+  turnarounds_.push_back(std::max(Duration::zero(), latency - on_the_wire));
+  if (turnarounds_.size() > kKept) turnarounds_.pop_front();
+}
+
+Duration Pace::usual_turnaround() const {
+  if (turnarounds_.empty()) return kTurnaroundUnknown;
+  std::vector<Duration> sorted(turnarounds_.begin(), turnarounds_.end());
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  return *middle;
+}
+
+Duration Pace::longest_turnaround() const {
+  return turnarounds_.empty() ? kTurnaroundUnknown : *std::ranges::max_element(turnarounds_);
+}
+
+Duration Pace::longest_exchange(const Command& command) const {
+  const bool question = command.row->effect == Effect::question;
+  const std::size_t reply_bytes = question ? kReplyBytesMax : kLongestAcknowledgement.size();
+  return time_of(command.line.size() + reply_bytes + 2 * kTerminator) + longest_turnaround() +
+         (question ? Duration::zero() : kRefusalTakes);
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,22 @@
+// The words that the configuration has for what is chosen.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "device/link/serial_port.h"
+#include "device/shrc203/profile.h"
+
+namespace axisgate::server {
+
+inline constexpr std::array<std::pair<std::string_view, shrc203::Scope>, 2> kScopes = {
+    {{"axis", shrc203::Scope::axis}, {"controller", shrc203::Scope::controller}}};
+inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
+    {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
+inline constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
+    {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, shrc203::AtExit>, 2> kAtExit = {
+    {{"stop", shrc203::AtExit::stop}, {"finish", shrc203::AtExit::finish}}};
+
+}  // namespace axisgate::server

@@ -1,0 +1,102 @@
+#include "server/rpc/rpc_metrics.h"
+
+#include <google/protobuf/descriptor.h>
+
+#include <array>
+#include <utility>
+
+#include "server/rpc/services.h"
+
+namespace axisgate::rpc {
+namespace {
+
+namespace intercepting = grpc::experimental;
+
+// By grpc::StatusCode.
+constexpr std::array<std::string_view, 17> kCodes = {
+    "OK",        "CANCELLED",      "UNKNOWN",           "INVALID_ARGUMENT",   "DEADLINE_EXCEEDED",
+    "NOT_FOUND", "ALREADY_EXISTS", "PERMISSION_DENIED", "RESOURCE_EXHAUSTED", "FAILED_PRECONDITION",
+    "ABORTED",   "OUT_OF_RANGE",   "UNIMPLEMENTED",     "INTERNAL",           "UNAVAILABLE",
+    "DATA_LOSS", "UNAUTHENTICATED"};
+static_assert(kCodes[grpc::RESOURCE_EXHAUSTED] == "RESOURCE_EXHAUSTED");
+static_assert(kCodes[grpc::UNAUTHENTICATED] == "UNAUTHENTICATED");
+
+prometheus::Labels labels(const std::string& method, grpc::StatusCode code) {
+  return {{"method", method}, {"code", std::string(kCodes.at(static_cast<std::size_t>(code)))}};
+}
+
+}  // namespace
+
+// One call, from its arrival until its status goes out.
+class RpcMetrics::CallCount final : public intercepting::Interceptor {
+ public:
+  CallCount(RpcMetrics& metrics, const std::pair<const std::string, Method>& method)
+      : metrics_(metrics), name_(method.first), method_(method.second) {
+    if (method_.open != nullptr) method_.open->Increment();
+  }
+
+  void Intercept(intercepting::InterceptorBatchMethods* batch) override {
+    if (batch->QueryInterceptionHookPoint(intercepting::InterceptionHookPoints::PRE_SEND_STATUS)) {
+      count(batch->GetSendStatus().error_code());
+    }
+    batch->Proceed();
+  }
+
+ private:
+  void count(grpc::StatusCode code) {
+    (code == grpc::OK ? method_.succeeded : metrics_.calls_.Add(labels(name_, code))).Increment();
+    if (method_.open != nullptr) method_.open->Decrement();
+  }
+
+  RpcMetrics& metrics_;
+  const std::string& name_;
+  const Method& method_;
+};
+
+class RpcMetrics::Factory final : public intercepting::ServerInterceptorFactoryInterface {
+ public:
+  explicit Factory(RpcMetrics& metrics) : metrics_(metrics) {}
+
+  // gRPC owns it; null: the call is not intercepted.
+  intercepting::Interceptor* CreateServerInterceptor(intercepting::ServerRpcInfo* call) override {
+    const std::string_view path = call->method();  // "/axisgate.v1.StageService/Move", or whatever a caller wrote
+    const auto found = metrics_.methods_.find(std::string(path.substr(path.empty() ? 0 : 1)));
+    return found == metrics_.methods_.end() ? nullptr : new CallCount(metrics_, *found);
+  }
+
+ private:
+  RpcMetrics& metrics_;
+};
+
+RpcMetrics::RpcMetrics(prometheus::Registry& registry)
+    : calls_(prometheus::BuildCounter()
+                 .Name("axisgate_rpcs_total")
+                 .Help("Calls that ended, by method and gRPC status code; a stream counts when it ends.")
+                 .Register(registry)),
+      open_streams_(prometheus::BuildGauge()
+                        .Name("axisgate_open_streams")
+                        .Help("Streams that are open, by method.")
+                        .Register(registry)) {
+  for (const std::string_view service : kApiServices) add_methods(service);
+  for (const std::string_view service : kCommonServices) add_methods(service);
+}
+
+void RpcMetrics::add_methods(std::string_view service) {
+  const google::protobuf::ServiceDescriptor& descriptor =
+      *google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(std::string(service));
+  for (int i = 0; i < descriptor.method_count(); ++i) {
+    const google::protobuf::MethodDescriptor& method = *descriptor.method(i);
+    const std::string name = descriptor.full_name() + "/" + method.name();
+    const bool streams = method.client_streaming() || method.server_streaming();
+    prometheus::Gauge* open = streams ? &open_streams_.Add({{"method", name}}) : nullptr;
+    methods_.try_emplace(name, Method{calls_.Add(labels(name, grpc::OK)), open});
+  }
+}
+
+std::vector<std::unique_ptr<intercepting::ServerInterceptorFactoryInterface>> RpcMetrics::interceptors() {
+  std::vector<std::unique_ptr<intercepting::ServerInterceptorFactoryInterface>> factories;
+  factories.push_back(std::make_unique<Factory>(*this));
+  return factories;
+}
+
+}  // namespace axisgate::rpc

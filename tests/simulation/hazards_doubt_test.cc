@@ -1,0 +1,254 @@
+// What the line does in doubt, one rule at a time. Each of these fails without the guard that it is about
+// (tests/guards/table.cc).
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::Each;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+// `instead` of the first line of that kind that begins with `prefix`; for a reply, the command that it answers does.
+Script replace_first(World& world, LineKind kind, std::string prefix, std::string instead, Duration delay = {}) {
+  return [&world, kind, prefix, instead, delay, done = false](LineKind seen, const std::string& line) mutable {
+    const std::string& command = kind == LineKind::reply ? world.wire().commands().back() : line;
+    if (done || seen != kind || !command.starts_with(prefix)) return Scripted{};
+    done = true;
+    return Scripted{.drop = false, .delay = delay, .instead = instead};
+  };
+}
+
+void expect_no_mix_up(World& world) {
+  ASSERT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
+}
+
+// Asks `lines` all at once, each for a caller of its own; what each heard, in the order of `lines`.
+std::vector<std::string> ask_at_once(World& world, const std::vector<std::string>& lines) {
+  auto heard = std::make_shared<std::vector<std::string>>(lines.size());
+  auto open = std::make_shared<std::size_t>(lines.size());
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    world.controller().execute({{lines[i]}, world.context("caller " + std::to_string(i))}, world.now(),
+                               [heard, open, i](const ExecuteEvent& event) {
+                                 if (event.kind == ExecuteEvent::Kind::reply) (*heard)[i] = event.answer;
+                                 if (event.kind == ExecuteEvent::Kind::ended) --*open;
+                               });
+  }
+  EXPECT_TRUE(world.run_until([open] { return *open == 0; }, seconds(60))) << world.replay();
+  return *heard;
+}
+
+// Noise cuts a command in two, and both parts are answered: the second answer meets nobody.
+void cut_a_command(const std::string& halves) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(replace_first(world, LineKind::command, "C:11", halves));
+  ask_at_once(world, {"C:11", "?:V", "?:P1"});
+  world.run_for(seconds(2));
+  expect_no_mix_up(world);
+}
+
+TEST(Hazard, H10_ALineFaultIsAnsweredTwice) { cut_a_command(std::string("C:\0001\r\n1\r\n", 9)); }
+
+TEST(Hazard, H10_ARefusalIsAnsweredTwice) { cut_a_command("C:\r\n11\r\n"); }
+
+// Garbage was no answer: the true one may still come.
+TEST(Hazard, H10_GarbageBeforeTheAnswer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(replace_first(world, LineKind::reply, "C:11", "\x7F\r\nOK\r\n"));
+  ask_at_once(world, {"C:11", "C:21", "C:31"});
+  world.run_for(seconds(2));
+  expect_no_mix_up(world);
+}
+
+// The last probe but one is answered late, and the last is refused after the barrier: no command's refusal.
+TEST(Hazard, H02_AProbeGivenUpIsRefused) {
+  for (int late = 40; late < 200 && !HasFailure(); late += 3) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    int probes = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      if (kind == LineKind::command && line.starts_with("C:11")) return {.drop = true, .delay = {}, .instead = {}};
+      const bool probe = kind == LineKind::reply && world.wire().commands().back() == "*IDN?";
+      if (!probe || ++probes > 2) return {};
+      if (probes == 1) return {.drop = false, .delay = milliseconds(540), .instead = {}};
+      return {.drop = false, .delay = milliseconds(late), .instead = "NG\r\n"};
+    });
+    execute(world, {"C:11"});
+    for (int i = 0; i < 20; ++i) ask_at_once(world, {"?:V", "?:P1", "?:D1"});
+    expect_no_mix_up(world);
+  }
+}
+
+// An answer to a probe that was given up comes after the barrier, while another line waits for its own.
+TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
+  for (int late = 40; late < 200 && !HasFailure(); late += 3) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    int probes = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      if (kind == LineKind::command && line.starts_with("C:11")) return {.drop = true, .delay = {}, .instead = {}};
+      const bool probe = kind == LineKind::reply && world.wire().commands().back() == "*IDN?";
+      if (!probe || ++probes > 2) return {};
+      return {.drop = false, .delay = milliseconds(probes == 1 ? 540 : late), .instead = {}};
+    });
+    execute(world, {"C:11"});
+    const std::uint64_t barriers = world.barriers();
+    for (int i = 0; i < 20; ++i) ask_at_once(world, {"?:V", "?:P1", "?:D1"});
+    expect_no_mix_up(world);
+    EXPECT_EQ(world.barriers(), barriers) << "an owed answer begins no barrier\n" << world.replay();
+  }
+}
+
+// The OK of a stop that is written inside a barrier comes after the identity that was asked for before it, while a
+// motion's setting waits for the barrier to pass.
+TEST(Hazard, H02_AStopInsideABarrier) {
+  int inside = 0;
+  for (int at = 500; at < 580 && !HasFailure(); at += 2) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 700}});
+    world.wire().set_script([&, stops = 0](LineKind kind, const std::string& line) mutable -> Scripted {
+      if (kind == LineKind::command && line == "?:V") return {.drop = true, .delay = {}, .instead = {}};
+      if (kind != LineKind::reply) return {};
+      const bool probe = line.starts_with("SIGMAKOKI");
+      const bool stop = line == "OK" && written(world, "L:") > 0 && ++stops == 1;
+      return {.drop = false, .delay = milliseconds(probe ? 30 : stop ? 150 : 0), .instead = {}};
+    });
+    world.controller().execute({{"?:V"}, world.context("asker")}, world.now(), [](const ExecuteEvent&) {});
+    move_by(world, {{1, 100}});
+    world.run_for(milliseconds(at));
+    inside += world.barriers() > 0 ? 1 : 0;
+    world.controller().stop(AxisSet::of(3), world.context("stopper"), world.now(), [](const StopReport&) {});
+    EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  }
+  EXPECT_GT(inside, 0);
+}
+
+// What comes just after the identity is nobody's.
+TEST(Hazard, H02_TheBarrierEndsWithSilence) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(drop_first(world, LineKind::command, "C:11"));
+  world.controller().execute({{"C:11"}, world.context("tester")}, world.now(), [](const ExecuteEvent&) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "*IDN?") == 2; }, seconds(5))) << world.replay();
+  const std::size_t first = world.wire().commands().size();
+  const TimePoint asked = world.now();
+  ASSERT_TRUE(world.run_until([&] { return world.wire().commands().size() > first; }, seconds(5))) << world.replay();
+  EXPECT_GE(world.now() - asked, milliseconds(50)) << world.replay();
+}
+
+// Every answer comes twice, with a pause in the middle of the second one.
+Faults doubled_and_split() {
+  Faults faults;
+  faults.double_reply = faults.split = 1;
+  return faults;
+}
+
+TEST(Hazard, H09_HalfALineIsNotJoinedToTheNextAnswer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.set_faults(doubled_and_split());
+  for (int i = 0; i < 100 && !HasFatalFailure(); ++i) {
+    EXPECT_THAT(ask_at_once(world, {"C:11", "C:21", "C:31"}), Each("OK"));
+    expect_no_mix_up(world);
+  }
+}
+
+TEST(Hazard, H09_HalfALineIsNotJoinedToTheAnswerOfAStop) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.set_faults(doubled_and_split());
+  for (int i = 0; i < 50 && !HasFatalFailure(); ++i) {
+    execute(world, {"C:11"});
+    stopped(world);
+    expect_no_mix_up(world);
+  }
+}
+
+// Longer than any answer: what was cut off is missing.
+TEST(Hazard, H09_ALineWithoutEndIsNoAnswer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(replace_first(world, LineKind::reply, "?:V", "V2.00." + std::string(300, '0') + "\r\n"));
+  EXPECT_THAT(execute(world, {"?:V"}), ElementsAre("LINE_FAULT")) << world.replay();
+}
+
+TEST(Line, EachQuestionHasItsOwnAnswer) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_THAT(ask_at_once(world, {"?:N", "?:V", "?:BEEP", "?:D1"}),
+              ElementsAre("SHRC-203", "V2.00.000", "1", "S1000F50000R100"))
+      << world.replay();
+}
+
+// On a dead line a try follows the other after 5 s in the end, and not without pause.
+TEST(Line, IsReopenedEverMoreSlowly) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script([](LineKind kind, const std::string&) {
+    return Scripted{.drop = kind != LineKind::command, .delay = {}, .instead = {}};
+  });
+  world.run_for(seconds(30));
+  const std::size_t first = world.wire().commands().size();
+  world.run_for(seconds(60));
+  EXPECT_LE(world.wire().commands().size() - first, 33u) << world.replay();  // three probes of 0.5 s and 5 s
+  EXPECT_GE(world.wire().commands().size() - first, 20u) << world.replay();
+}
+
+// Another unit has come in its place without any restart: the barrier's *IDN? tells.
+TEST(Hazard, H32_AnotherUnitAnswersInABarrier) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.device().set_serial_number("2106001002");
+  world.wire().set_script(drop_first(world, LineKind::reply, "?:V"));
+  execute(world, {"?:V"});
+  EXPECT_NE(world.controller().state().link, LinkState::up) << world.replay();
+  EXPECT_THAT(world.controller().state().link_problem, HasSubstr("2106001002"));
+}
+
+// What cannot be the line before is not what ?:CMD tells: its answer is still to come.
+TEST(Hazard, H10_GarbageBeforeTheLineBefore) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  ASSERT_TRUE(world.run_until([&] { return world.wire().commands().back() == "?:CMD"; }, seconds(5)));
+  world.controller().receive("xx\r\n", world.now());
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.barriers(), 1u) << world.replay();
+  expect_no_mix_up(world);
+}
+
+TEST(Handshake, OneMisreadDigitTakesNoAxisAway) {
+  World world(quiet());
+  world.wire().set_script(replace_first(world, LineKind::reply, "?:AXIS", "2\r\n"));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_EQ(world.controller().state().controllable(), AxisSet::all()) << world.replay();
+}
+
+// A question that a completion could answer waits no longer than its caller does.
+TEST(Line, AQuestionThatWaitsIsToldWhenItsTimeIsOver) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(milliseconds(500));
+  std::optional<Reason> reason;
+  world.controller().execute({{"?:W"}, world.context("tester", seconds(1))}, world.now(),
+                             [&](const ExecuteEvent& event) {
+                               if (event.problem) reason = event.problem->reason;
+                             });
+  ASSERT_TRUE(world.run_until([&] { return reason.has_value(); }, milliseconds(1010))) << world.replay();
+  EXPECT_EQ(*reason, Reason::completion_outstanding);
+  EXPECT_TRUE(world.device().busy(1));
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

@@ -1,0 +1,76 @@
+#include "server/config_text.h"
+
+#include <gmock/gmock.h>
+
+#include <string>
+
+namespace axisgate::server {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr const char* kLab = R"(
+socket = "/run/lab/\"gate\"\\\u0007.sock"
+
+[[device]]
+name = "stage"
+connection = "serial"
+path = "/dev/ttyUSB0"
+parity = "even"
+stop_bits = 2
+flow_control = "none"
+serial_number = "2106001001"
+busy_scope = "axis"
+at_exit = "finish"
+reply_limit_ms = 750
+record = "/var/tmp/stage.recording"
+
+[[device.axis]]
+number = 2
+name = "y"
+unit = "deg"
+travel_minimum = "-5.25deg"
+maximum_speed = "2deg/s"
+
+[[device]]
+name = "far"
+connection = "tcp"
+host = "moxa.lab"
+port = 4001
+
+[[device]]
+name = "toy"
+connection = "simulated"
+baud = 9600
+speed = 0.5
+options = { busy_scope = "controller" }
+)";
+
+TEST(ConfigText, IsReadAsTheSameConfiguration) {
+  const Configured<Config> config = parse_config(kLab, "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const std::string text = to_toml(*config);
+  const Configured<Config> again = parse_config(text, "again.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front()) << text;
+  EXPECT_EQ(to_toml(*again), text);
+  EXPECT_EQ(again->socket, config->socket);
+  EXPECT_EQ(again->devices.at(0).record, "/var/tmp/stage.recording");
+  for (const char* line :
+       {"listen = \"127.0.0.1:50203\"", "path = \"/dev/ttyUSB0\"", "baud = 38400", "parity = \"even\"", "stop_bits = 2",
+        "flow_control = \"none\"", "serial_number = \"2106001001\"", "busy_scope = \"axis\"",
+        "prebuffer_scope = \"controller\"", "at_exit = \"finish\"", "reply_limit_ms = 750", "idle_poll_ms = 1000",
+        "name = \"y\"\nunit = \"deg\"\ntravel_minimum = \"-5.25deg\"\nmaximum_speed = \"2deg/s\"",
+        "host = \"moxa.lab\"\nport = 4001\nbaud = 38400", "speed = 0.5\nbaud = 9600",
+        "options = { \"busy_scope\" = \"controller\" }"}) {
+    EXPECT_THAT(text, HasSubstr(line));
+  }
+}
+
+TEST(ConfigText, TellsTheBuiltInConfiguration) {
+  const Configured<Config> again = parse_config(to_toml(default_config()), "again.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front());
+  EXPECT_EQ(again->devices.at(0).profile.name, "stage");
+}
+
+}  // namespace
+}  // namespace axisgate::server

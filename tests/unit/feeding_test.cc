@@ -1,0 +1,65 @@
+#include "device/shrc203/feeding.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace axisgate::shrc203 {
+namespace {
+
+using std::chrono::milliseconds;
+
+SegmentPlan segment(Duration lasts, std::vector<AxisPlan> axes) { return {{true, std::move(axes)}, {}, lasts, lasts}; }
+SegmentPlan to_and_fro(Duration lasts) { return segment(lasts, {{1, 100, {}, {}}}); }
+
+// 10,000 baud: a millisecond a byte; answers come without delay.
+class FeedingTest : public testing::Test {
+ protected:
+  FeedingTest() { pace.answered(0, 0, {}); }
+
+  PathPlan path(std::vector<Duration> times) const {
+    PathPlan plan{AxisSet::of(1), {}, {}};
+    for (const Duration time : times) plan.segments.push_back(to_and_fro(time));
+    return plan;
+  }
+
+  Pace pace{10'000};
+};
+
+// "1", "MP:1+P100" and OK_D with CR LF each: 3 + 11 + 6 ms, and 5 ms for the host.
+constexpr auto kShortest = milliseconds(25);
+
+TEST_F(FeedingTest, TheTimeIsThatOfTheLinesThatMustPass) {
+  const PathPlan plan = path({kShortest, kShortest});
+  EXPECT_EQ(segment_setter(plan, 2).line, "MP:1+P100");
+  EXPECT_EQ(shortest_feasible(plan, 1, pace), kShortest);
+  pace = Pace(10'000);
+  for (const int time : {3, 3, 90}) pace.answered(0, 0, milliseconds(4 + time));
+  EXPECT_EQ(shortest_feasible(plan, 1, pace), kShortest + milliseconds(3)) << "one slow answer is not what is usual";
+}
+
+TEST_F(FeedingTest, AStraightLineIsEndedByBothNumbers) {
+  PathPlan plan{AxisSet::of(1) | AxisSet::of(2), {}, {}};
+  const auto line = segment(kShortest, {{1, 100, {}, SpeedSetting{20000, 50000, 100}}, {2, -7, {}, {}}});
+  plan.segments = {line, line};
+  EXPECT_EQ(segment_setter(plan, 2).line, "KP:A+P100-P7,S20000F50000R100");
+  EXPECT_EQ(shortest_feasible(plan, 1, pace), milliseconds(2 * 3 + 31 + 6 + 5));
+}
+
+TEST_F(FeedingTest, WhatIsShorterIsRefused) {
+  EXPECT_TRUE(check_feeding(path({kShortest, kShortest, kShortest}), pace));
+  const auto refused = check_feeding(path({kShortest, kShortest - milliseconds(1), kShortest}), pace);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, Reason::too_fast);
+  EXPECT_EQ(refused.error().message,
+            "segment 2 takes 24.0 ms, in which a line of 10000 baud cannot set the next one: the shortest feasible "
+            "segment time is 25 ms");
+  EXPECT_THAT(refused.error().hint, testing::StartsWith("let every segment but the last take 25 ms or more: "));
+}
+
+TEST_F(FeedingTest, TheLastSegmentMayBeShort) {
+  EXPECT_TRUE(check_feeding(path({milliseconds(1)}), pace)) << "nothing is set while it runs";
+  EXPECT_TRUE(check_feeding(path({kShortest, milliseconds(1)}), pace));
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203

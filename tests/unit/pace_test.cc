@@ -1,0 +1,57 @@
+#include "device/shrc203/pace.h"
+
+#include <gtest/gtest.h>
+
+namespace axisgate::shrc203 {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// 10,000 baud: a millisecond a byte.
+class PaceTest : public testing::Test {
+ protected:
+  // An exchange of 5 bytes there and 4 back, terminators included.
+  void answered_in(Duration turnaround) { pace.answered(3, 2, milliseconds(9) + turnaround); }
+
+  Pace pace{10'000};
+};
+
+TEST_F(PaceTest, TenBitsAByte) {
+  EXPECT_EQ(pace.time_of(48), milliseconds(48));
+  EXPECT_EQ(Pace(38400).time_of(384), milliseconds(100));
+}
+
+TEST_F(PaceTest, TheTurnaroundIsWhatTheBytesDoNotExplain) {
+  EXPECT_EQ(pace.usual_turnaround(), Pace::kTurnaroundUnknown);
+  EXPECT_EQ(pace.longest_turnaround(), Pace::kTurnaroundUnknown);
+  for (const int time : {3, 2, 40}) answered_in(milliseconds(time));
+  EXPECT_EQ(pace.usual_turnaround(), milliseconds(3));
+  EXPECT_EQ(pace.longest_turnaround(), milliseconds(40));
+  pace.connected();
+  EXPECT_EQ(pace.longest_turnaround(), Pace::kTurnaroundUnknown) << "of other cables";
+}
+
+TEST_F(PaceTest, ALineFasterThanItsBaudRateHasNoTurnaround) {
+  pace.answered(3, 2, microseconds(50));
+  EXPECT_EQ(pace.longest_turnaround(), Duration::zero());
+}
+
+TEST_F(PaceTest, OneSlowAnswerIsForgotten) {
+  answered_in(seconds(1));
+  for (std::size_t i = 1; i < Pace::kKept; ++i) answered_in(milliseconds(1));
+  EXPECT_EQ(pace.longest_turnaround(), seconds(1));
+  answered_in(milliseconds(1));
+  EXPECT_EQ(pace.longest_turnaround(), milliseconds(1));
+}
+
+TEST_F(PaceTest, AnExchangeLastsAsLongAsItsLongestReply) {
+  answered_in(milliseconds(7));
+  EXPECT_EQ(pace.longest_exchange(make_command("?:V")), milliseconds(3 + 2 + 64 + 2 + 7));
+  // OK, or 20 ms in which NG may come again.
+  EXPECT_EQ(pace.longest_exchange(make_command("G:", AxisSet::of(1))), milliseconds(3 + 2 + 4 + 2 + 7 + 20));
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203

@@ -1,0 +1,82 @@
+#include "server/recording_file.h"
+
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "device/link/clock.h"
+#include "tests/unit/link_fixtures.h"
+
+namespace axisgate::server {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::EndsWith;
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+constexpr auto kRetryPause = std::chrono::milliseconds(1);
+
+class RecordingFileTest : public ::testing::Test {
+ protected:
+  void record(const std::string& written) {
+    recorder_.on_event(shrc203::BytesWritten{written, 1, "", Lane::question, {}}, monotonic_now());
+    recorder_.flush();
+  }
+
+  static std::string content(const std::filesystem::path& path) {
+    std::stringstream text;
+    text << std::ifstream(path).rdbuf();
+    return text.str();
+  }
+
+  static void wait_for(const std::filesystem::path& path, const std::string& text) {
+    const TimePoint limit = monotonic_now() + link_test::kPatience;
+    while (content(path).find(text) == std::string::npos) {
+      ASSERT_LT(monotonic_now(), limit) << content(path);
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    }
+  }
+
+  link_test::TemporaryDirectory directory_;
+  const std::filesystem::path path_ = directory_ / "stage.recording";
+  Metrics metrics_;
+  DeviceMetrics device_metrics_{metrics_, "stage"};
+  DeviceRecorder recorder_{recording_header({}), [](const std::function<void()>& task) { task(); }, device_metrics_};
+};
+
+TEST_F(RecordingFileTest, IsWrittenAsTheLineGoesAndTakenUpAgain) {
+  {
+    const RecordingFile file(path_, recorder_, kRetryPause);
+    record("Q:S\r\n");
+    wait_for(path_, "Q:S");
+    record("!:\r\n");
+  }
+  EXPECT_THAT(content(path_),
+              AllOf(StartsWith("# axisgate recording 1\n"), HasSubstr("Q:S"), EndsWith(" > \"!:\\r\\n\"\n")));
+  const std::string first = content(path_);
+  { const RecordingFile file(path_, recorder_, kRetryPause); }
+  EXPECT_THAT(content(path_), StartsWith(first + "\n# axisgate recording 1\n"));
+}
+
+TEST_F(RecordingFileTest, IsTriedAgainUntilItCanBeWritten) {
+  const std::filesystem::path later = path_.parent_path() / "made-later" / "stage.recording";
+  const RecordingFile file(later, recorder_, kRetryPause);
+  record("Q:S\r\n");
+  std::filesystem::create_directory(later.parent_path());
+  wait_for(later, "Q:S");
+}
+
+TEST_F(RecordingFileTest, AFullDiskHoldsUpNobody) {
+  const RecordingFile file("/dev/full", recorder_, kRetryPause);
+  for (int i = 0; i < 1000; ++i) record("Q:S\r\n");
+  EXPECT_EQ(recorder_.ring().newest().line, 1000u);
+}
+
+}  // namespace
+}  // namespace axisgate::server
