@@ -78,9 +78,13 @@ TEST(Hazard, H02_NothingButAStopBeforeTheBarrierHasPassed) {
       const auto* bytes = std::get_if<BytesReceived>(&event);
       if (bytes != nullptr && bytes->bytes.starts_with("SIGMAKOKI")) identified = world.now();
     };
-    std::optional<Duration> silence;
+    std::optional<Duration> silence;  // before the first line that is neither a probe nor the stop
+    std::string first_after;
     world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
-      if (kind == LineKind::command && line == "C:21") silence = world.now() - identified;
+      const bool own = line == "?:CMD" || line == "*IDN?" || line.starts_with("L:");
+      if (kind != LineKind::command || own || silence) return {};
+      silence = world.now() - identified;
+      first_after = line;
       return {};
     });
     world.run_for(milliseconds(after / 10));
@@ -94,7 +98,7 @@ TEST(Hazard, H02_NothingButAStopBeforeTheBarrierHasPassed) {
     EXPECT_GE(*silence, milliseconds(50)) << world.replay();
     const auto& lines = world.wire().commands();
     const auto doubtful = std::find(lines.begin() + static_cast<std::ptrdiff_t>(first), lines.end(), "C:11");
-    for (auto line = doubtful + 1; *line != "C:21"; ++line) {
+    for (auto line = doubtful + 1; *line != first_after; ++line) {
       EXPECT_TRUE(stops || *line == "?:CMD" || *line == "*IDN?") << *line << "\n" << world.replay();
     }
   }

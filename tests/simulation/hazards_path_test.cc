@@ -8,10 +8,18 @@ namespace axisgate::simulation {
 namespace {
 
 using namespace shrc203;
+using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
 constexpr int kSegments = 6;
+
+// Fast enough for a segment that is sent a few milliseconds too soon to overwrite the one that waits.
+Setup fast() {
+  auto setup = quiet();
+  setup.baud = setup.profile.baud = 115200;
+  return setup;
+}
 
 // Every segment has run once, and nothing was lost on the way.
 void expect_whole(World& world, Duration what) {
@@ -22,9 +30,9 @@ void expect_whole(World& world, Duration what) {
 
 // The other axis' number of each segment comes nearly a segment late, at the time of the next one's end.
 TEST(Hazard, H56_OneAxisIsTheClock) {
-  for (Duration late = milliseconds(40); late < milliseconds(300) && !testing::Test::HasFailure();
-       late += milliseconds(2)) {
-    World world(quiet());
+  for (Duration late = milliseconds(60); late < milliseconds(260) && !testing::Test::HasFailure();
+       late += microseconds(500)) {
+    World world(fast());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
       return {.drop = false, .delay = kind == LineKind::notice && line == "2" ? late : Duration{}, .instead = {}};
@@ -37,8 +45,8 @@ TEST(Hazard, H56_OneAxisIsTheClock) {
 // A number that had been asked for comes late, at the time of the next one's end.
 TEST(Hazard, H56_ALateNumberIsNotTheNextSegmentsEnd) {
   for (Duration late = milliseconds(120); late < milliseconds(700) && !testing::Test::HasFailure();
-       late += milliseconds(5)) {
-    World world(quiet());
+       late += microseconds(700)) {
+    World world(fast());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     world.wire().set_script([&, numbers = 0](LineKind kind, const std::string& line) mutable -> Scripted {
       const bool second = kind == LineKind::notice && line == "1" && ++numbers == 2;
@@ -61,15 +69,15 @@ TEST(Hazard, H56_ANumberInABarrierIsChecked) {
   const auto run_to_segment = [](World& world, int number) {
     return world.run_until([&world, number] { return world.device().starts(2) == number; }, seconds(20));
   };
-  World measured(quiet());
+  World measured(fast());
   ASSERT_TRUE(measured.run_until_up()) << measured.replay();
   slow_path(measured);
   ASSERT_TRUE(run_to_segment(measured, 2)) << measured.replay();
   const TimePoint began = measured.now();
   ASSERT_TRUE(run_to_segment(measured, 3)) << measured.replay();
   const Duration lasts = measured.now() - began;
-  for (Duration early = milliseconds(1); early < milliseconds(60) && !HasFailure(); early += milliseconds(3)) {
-    World world(quiet());
+  for (Duration early = microseconds(200); early < milliseconds(12) && !HasFailure(); early += microseconds(300)) {
+    World world(fast());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     slow_path(world);
     ASSERT_TRUE(run_to_segment(world, 2)) << world.replay();
@@ -92,7 +100,7 @@ TEST(Hazard, H56_APlaceThatTwoSegmentsShare) {
   for (int lost = 1; lost <= kSegments && !HasFailure(); ++lost) {
     for (const std::string prefix : {"MP:", "G:"}) {
       for (const auto kind_lost : {LineKind::command, LineKind::reply}) {
-        World world(quiet());
+        World world(fast());
         ASSERT_TRUE(world.run_until_up()) << world.replay();
         PathRequest path;
         path.context = world.context("tester");

@@ -42,6 +42,7 @@ TEST(Hazard, H04_OneMisreadReadyIsNotTheEnd) {
   for (std::int64_t target = 3000; target < 3400 && !HasFailure(); target += 10) {
     auto setup = quiet();
     setup.profile.moving_poll = milliseconds(5);
+    setup.baud = setup.profile.baud = 115200;
     World world(setup);
     ASSERT_TRUE(world.run_until_up()) << world.replay();
     world.wire().set_script([&, done = false](LineKind kind, const std::string& line) mutable -> Scripted {
