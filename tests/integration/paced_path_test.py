@@ -11,7 +11,7 @@ import unittest
 from programs import BIN, LIMIT_S, Daemon, Lines
 
 SEGMENTS = int(os.environ.get("AXISGATE_SEGMENTS", "300"))
-CONTRAST_SEGMENTS_MAX = 1000  # underruns take their time
+CONTRAST_SEGMENTS_MAX = 100  # each underrun takes nearly half a second
 SEGMENT_S = 0.06
 CONFIG = """
 listen = "127.0.0.1:0"
