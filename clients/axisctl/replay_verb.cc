@@ -83,7 +83,8 @@ int replay(const Session& session) {
     differences += report.differences.size();
   }
   if (differences > 0) {
-    print_line(fmt::format("{}: {} exchanges, {} differences", name, exchanges, differences));
+    print_line(fmt::format("{}: {} exchanges, {} {}", name, exchanges, differences,
+                           differences == 1 ? "difference" : "differences"));
     return kMotionFailed;
   }
   if (exchanges == 0) {
