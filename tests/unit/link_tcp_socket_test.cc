@@ -1,6 +1,8 @@
 #include <gmock/gmock.h>
 #include <netinet/tcp.h>
 
+#include <latch>
+
 #include "device/link/runner.h"
 #include "device/link/tcp_socket.h"
 #include "tests/unit/link_fixtures.h"
@@ -185,21 +187,20 @@ TEST_F(TcpRunnerTest, AStopThatAsksForALineBeingOpenedWaitsForThatAttempt) {
 
 TEST(OpenerOnThread, AnAttemptThatIsLetGoClosesWhatItOpensLater) {
   EventLoop loop;
-  std::array<int, 2> gate{}, line{};
-  ASSERT_EQ(::pipe2(gate.data(), O_CLOEXEC), 0);
+  std::latch gate(1);
+  std::array<int, 2> line{};
   ASSERT_EQ(::pipe2(line.data(), O_CLOEXEC | O_NONBLOCK), 0);
   const Opener opener = opener_on_thread([&]() -> OpenedLine {
-    char byte = 0;
-    (void)!::read(gate[0], &byte, 1);
+    gate.wait();
     return Descriptor(line[1]);
   });
   Opening opening = opener(loop.strand(), [](const OpenedLine&) { FAIL() << "told all the same"; });
   loop.run_ready();
   opening.reset();
-  send_now(gate[1], "!");
+  gate.count_down();
   char byte = 0;
   EXPECT_TRUE(loop.run_until([&] { return ::read(line[0], &byte, 1) == 0; })) << "the writing end is still open";
-  for (const int end : {gate[0], gate[1], line[0]}) ::close(end);
+  ::close(line[0]);
 }
 
 }  // namespace
