@@ -30,6 +30,8 @@ enum class Guard {
   unended_lines,
   overlong_lines,
   quiet_after_refusal,
+  quiet_after_refused_stop,
+  refusals_amid_quiet,
   setter_grammar,
   question_grammar,
   shared_questions,

@@ -71,6 +71,10 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     doubt_answer(line.text, now);
     return;
   }
+  // Only a stop is sent amid the quiet, and none that follows another: this may still refuse the other half of the
+  // command before it.
+  const bool amid_quiet = now < quiet_until_ && in_flight_->waiting->request.lane == Lane::stop;
+  if (refusal && amid_quiet && guarded(Guard::refusals_amid_quiet)) return doubt_answer(line.text, now);
   const bool line_before = in_flight_->echo_first || row.name == kLineBefore;
   const bool told = !overlong && (continuity_.tells(line.text) || !guarded(Guard::possible_lines_before));
   if (line_before && !told) return doubt_answer(line.text, now);
@@ -96,13 +100,18 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
 // Who else writes may have set anything, and moved the frame: as after a restart, nothing is known any more.
 void Line::hear_echo(std::string_view line_before, TimePoint now) {
   const auto verdict = continuity_.told(line_before, now);
-  if (verdict != Continuity::Verdict::same) quiet_until_ = now + kQuietAfterRefusal;
+  if (verdict != Continuity::Verdict::same) keep_quiet(false, now);
   if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
     give_up(fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
                         "line is disturbed",
                         escaped(line_before)),
             now);
   }
+}
+
+void Line::keep_quiet(bool stops_too, TimePoint now) {
+  quiet_until_ = now + kQuietAfterRefusal;
+  stops_keep_quiet_ = stops_too && guarded(Guard::quiet_after_refused_stop);
 }
 
 void Line::look_at_continuity(TimePoint now) {
@@ -201,7 +210,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
                   why, now);
     return;
   }
-  if (reply.kind == Reply::Kind::ng) quiet_until_ = now + kQuietAfterRefusal;
+  if (reply.kind == Reply::Kind::ng) keep_quiet(request.lane == Lane::stop, now);
   finish({.written = true, .reply = std::move(reply), .problem = {}, .candidates = {}}, outcome, now);
   if (line_before) hear_echo(told, now);
 }

@@ -46,7 +46,8 @@ void Line::pump(TimePoint now) {
   const bool coming = line_is_coming(now) || quiet;
   const auto may_go = [&](const WaitingPtr& waiting) {
     const auto& request = waiting->request;
-    return (!coming || request.lane == Lane::stop) && may_send(request) && leaves_refills_alone(request, now);
+    const bool does_not_wait = request.lane == Lane::stop && !(quiet && stops_keep_quiet_);
+    return (!coming || does_not_wait) && may_send(request) && leaves_refills_alone(request, now);
   };
   const auto settles = coming ? std::nullopt : conflicts_settle_from();
   const bool settle = settles && now >= *settles && may_settle(now);

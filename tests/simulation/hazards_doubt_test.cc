@@ -60,6 +60,29 @@ TEST(Hazard, H10_ALineFaultIsAnsweredTwice) { cut_a_command(std::string("C:\0001
 
 TEST(Hazard, H10_ARefusalIsAnsweredTwice) { cut_a_command("C:\r\n11\r\n"); }
 
+// A stop does not wait for the quiet: it is the second refusal that is not believed.
+TEST(Hazard, H10_ASecondRefusalIsNotTheAnswerOfAStop) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(replace_first(world, LineKind::command, "C:11", "C:\r\n11\r\n"));
+  world.controller().execute({{"C:11"}, world.context("caller")}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(milliseconds(1));
+  const StopReport report = stopped(world);
+  EXPECT_FALSE(report.problem) << report.problem->message;
+  expect_no_mix_up(world);
+}
+
+// ... and where it was a stop that was cut, the stops that follow it, one an axis, wait for the quiet.
+TEST(Hazard, H10_AStopCutInTwoIsAnsweredTwice) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(replace_first(world, LineKind::command, "L:D", "LD\r\n:\r\n"));
+  const StopReport report = stopped(world);
+  EXPECT_FALSE(report.problem) << report.problem->message;
+  for (const StopReport::Axis& axis : report.axes) EXPECT_EQ(axis.wire_reply, "OK") << axis.axis;
+  expect_no_mix_up(world);
+}
+
 // Garbage was no answer: the true one may still come.
 TEST(Hazard, H10_GarbageBeforeTheAnswer) {
   World world(quiet());

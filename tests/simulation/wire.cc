@@ -284,11 +284,19 @@ void Wire::advance(TimePoint now) {
   }
 }
 
+// The device answers every line, but not an empty one: a flipped bit may have ended one before its first character.
+void Wire::expect_answers(const Delivery& delivery) {
+  for (const char byte : delivery.bytes) {
+    const bool end = kEndOfLine.find(byte) != std::string_view::npos;
+    if (end && device_mid_line_) unanswered_.push_back(delivery.command);
+    device_mid_line_ = !end && (device_mid_line_ || !(byte == ' ' || byte == '\t'));
+  }
+}
+
 void Wire::deliver(const Delivery& delivery, TimePoint now) {
   if (delivery.damaged) last_damage_ = now;
   if (delivery.to_device) {
-    const bool ends = delivery.bytes.find_first_of(kEndOfLine) != std::string::npos;
-    if (ends && device_reads_()) unanswered_.push_back(delivery.command);
+    if (device_reads_()) expect_answers(delivery);
     device_->receive(delivery.bytes, now);
     return;
   }

@@ -116,7 +116,10 @@ class Wire {
     device_answers_ = std::move(answers);
     device_reads_ = std::move(reads);
   }
-  void device_restarts() { unanswered_.clear(); }
+  void device_restarts() {
+    unanswered_.clear();
+    device_mid_line_ = false;
+  }
   const std::optional<Origin>& delivering() const { return delivering_; }
   const std::deque<std::string>& log() const { return log_; }
   void note(TimePoint now, const std::string& text);
@@ -160,6 +163,7 @@ class Wire {
   void notice_line(std::string text, Duration extra);
   void make_noise();
   void reopen(Duration wait);
+  void expect_answers(const Delivery& delivery);
   void deliver(const Delivery& delivery, TimePoint now);
   void to_gateway(std::string bytes, Origin origin, Duration extra);
   void transit(TimePoint at, Delivery delivery);
@@ -191,6 +195,7 @@ class Wire {
   std::function<void(TimePoint)> alarm_;
   std::vector<std::string> commands_;
   std::deque<std::size_t> unanswered_;  // commands that reached the device and await its reply
+  bool device_mid_line_ = false;
   std::optional<std::size_t> last_answered_;
   std::string device_partial_;
   std::optional<Origin> delivering_;
