@@ -4,8 +4,16 @@
 
 namespace axisgate::shrc203 {
 
+namespace {
+
 using Item = RecordedItem::Kind;
 using Remark = RecordedRemark::Kind;
+
+// What a USB adapter at its usual latency timer would have handed over at once.
+constexpr Duration kOnePiece = std::chrono::milliseconds(16);
+constexpr std::size_t kPieceBytes = 256;  // more than any line has
+
+}  // namespace
 
 Recorder::Recorder(RecordingHeader header, TimePoint began, Take take)
     : header_(std::move(header)), began_(began), take_(std::move(take)) {}
@@ -38,10 +46,24 @@ void Recorder::tell(const BytesWritten& written) {
 }
 
 void Recorder::tell(const BytesReceived& received) {
-  if (complete_) flush();
-  go_on();
-  add(Item::received, received.bytes);
-  complete_ = open_->exchange == 0 && received.bytes.ends_with('\n');
+  const bool ends_the_line = received.bytes == "\n" && last_byte_ == '\r' && open_;
+  if (complete_ && !ends_the_line) flush();
+  if (!complete_) go_on();
+  if (!goes_on_with_piece()) {
+    add(Item::received, {});
+    piece_began_ = now_;
+  }
+  RecordedItem& piece = open_->items.back();
+  piece.after = now_ - open_->at;
+  piece.text += received.bytes;
+  last_byte_ = received.bytes.back();
+  complete_ = complete_ || (open_->exchange == 0 && received.bytes.ends_with('\n'));
+}
+
+bool Recorder::goes_on_with_piece() const {
+  if (open_->items.empty() || now_ - piece_began_ > kOnePiece) return false;
+  const RecordedItem& last = open_->items.back();
+  return last.kind == Item::received && !last.text.ends_with('\n') && last.text.size() < kPieceBytes;
 }
 
 void Recorder::tell(const ExchangeEnded& ended) {

@@ -47,6 +47,8 @@ class Recorder : public EventSink {
   void begin(std::uint64_t exchange);
   void go_on();
   void add(RecordedItem::Kind kind, std::string text);
+  // Bytes that come in now belong to what came in last.
+  bool goes_on_with_piece() const;
   void remark(RecordedRemark::Kind kind, AxisSet axes, std::string text);
   void finish(const RecordedEvent& event);
 
@@ -55,6 +57,8 @@ class Recorder : public EventSink {
   Take take_;
   Duration now_{};  // since began_
   std::optional<RecordedExchange> open_;
+  Duration piece_began_{};
+  char last_byte_ = '\0';        // that came in
   bool complete_ = false;        // what comes in next begins a line of its own
   std::uint64_t in_flight_ = 0;  // the exchange to which what comes in belongs; 0: none
 };

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <string>
 #include <vector>
 
 namespace axisgate::shrc203 {
@@ -57,7 +59,7 @@ TEST_F(RecorderTest, AnExchangeIsALine) {
   tell(CompletionSeen{1, 3});
   EXPECT_THAT(lines_, IsEmpty());
   EXPECT_THAT(lines(), ElementsAre("1.500000 #7 motion \"lab\" waited 0.020000 completes 1,2 > \"G:A\\r\\n\" "
-                                   "+0.004000 < \"O\" +0.005000 < \"K\\r\\n1\\r\\n\" = ok completion 1"));
+                                   "+0.005000 < \"OK\\r\\n1\\r\\n\" = ok completion 1"));
 }
 
 TEST_F(RecorderTest, ALineIsFinishedByTheNext) {
@@ -85,9 +87,43 @@ TEST_F(RecorderTest, WhatComesByItselfHasLinesOfItsOwn) {
   now_ = 300;
   tell(UnexpectedLine{"(a line that did not end)"});
   EXPECT_THAT(lines(), ElementsAre("0.000000 #1 question \"lab\" > \"?:V\\r\\n\" < \"V2\\r\\n\" = data",
-                                   "0.000000 - < \"1\" < \"\\r\\n\" completion 1",
+                                   "0.000000 - < \"1\\r\\n\" completion 1",
                                    "0.200000 - < \"OK\\r\\n\" unexpected \"OK\" "
                                    "+0.100000 unexpected \"(a line that did not end)\""));
+}
+
+// A line that comes byte by byte reads like one that came at once.
+TEST_F(RecorderTest, BytesOfALineAreOnePiece) {
+  write(1, "?:V\r\n", "lab");
+  for (const std::string byte : {"V", "2", "\r"}) {
+    now_ += 2;
+    receive(byte);
+  }
+  end(1, ExchangeEnded::Outcome::data);
+  now_ += 2;
+  receive("\n");
+  for (const std::string byte : {"1", "\r"}) {
+    now_ += 2;
+    receive(byte);
+  }
+  tell(CompletionSeen{1, 0});
+  receive("\n");
+  EXPECT_THAT(
+      lines(),
+      ElementsAre("0.000000 #1 question \"lab\" > \"?:V\\r\\n\" +0.006000 < \"V2\\r\" = data +0.008000 < \"\\n\"",
+                  "0.010000 - +0.002000 < \"1\\r\" completion 1 < \"\\n\""));
+}
+
+TEST_F(RecorderTest, ALongPauseDividesALine) {
+  write(1, "?:V\r\n", "lab");
+  receive("V");
+  now_ = 16;
+  receive("2");
+  now_ = 17;
+  receive(".\r\n");
+  end(1, ExchangeEnded::Outcome::data);
+  EXPECT_THAT(lines(), ElementsAre("0.000000 #1 question \"lab\" > \"?:V\\r\\n\" +0.016000 < \"V2\" "
+                                   "+0.017000 < \".\\r\\n\" = data"));
 }
 
 TEST_F(RecorderTest, AProbeBelongsToNoExchange) {
@@ -121,16 +157,17 @@ TEST_F(RecorderTest, AnInterruptedExchangeGoesOnWithItsNumber) {
 }
 
 TEST_F(RecorderTest, AFloodIsNotKeptBack) {
+  constexpr int kBytes = 100'000, kLineBytesMax = 64 * 256;
   write(9, "I:\r\n", "lab");
-  for (int i = 0; i < 1000; ++i) receive("x");
-  EXPECT_GE(lines_.size(), 1000u / 64u);
+  for (int i = 0; i < kBytes; ++i) receive("x");
+  EXPECT_EQ(lines_.size(), kBytes / kLineBytesMax);
   end(9, ExchangeEnded::Outcome::garbled);
-  std::size_t bytes = 0;
+  std::int64_t bytes = 0;
   for (const auto& line : lines()) {
-    for (std::size_t at = line.find("\"x\""); at != std::string::npos; at = line.find("\"x\"", at + 1)) ++bytes;
+    bytes += std::ranges::count(line, 'x');
     EXPECT_TRUE(line.starts_with("0.000000 #9 ")) << line;
   }
-  EXPECT_EQ(bytes, 1000u);
+  EXPECT_EQ(bytes, kBytes);
 }
 
 TEST_F(RecorderTest, TheLinksStoryIsKept) {
