@@ -19,6 +19,7 @@ enum class Guard {
   barrier_after_line_fault,
   received_or_not,
   silence,
+  silence_after_reconnect,
   owed_answers,
   owed_refusals,
   older_identities,
@@ -47,6 +48,7 @@ enum class Guard {
   two_answers_agree,
   possible_after_connect,
   possible_after_ready,
+  possible_after_chained_setting,
   start_settles,
   settled_by_exchange,
 

@@ -74,6 +74,8 @@ struct CommandRow {
   Duration reply_limit = {};  // zero: the profile's
 
   constexpr bool moves() const { return effect == Effect::motion; }
+  // A prebuffer setting: OK_D says that it chains (manual section 2).
+  constexpr bool may_chain() const { return reply == "OK|OK_D"; }
 };
 
 std::span<const CommandRow> command_table();

@@ -13,6 +13,14 @@ void Completions::started(AxisSet axes, TimePoint now) {
   for (const int number : axes.list()) axis(number) = {.possible = true, .arrived = false, .started = now, .until = {}};
 }
 
+void Completions::chained(AxisSet axes, TimePoint now) {
+  AxisSet news;
+  for (const int number : axes.list()) {
+    if (!axis(number).possible || axis(number).until) news.add(number);
+  }
+  if (guarded(Guard::possible_after_chained_setting)) started(news, now);
+}
+
 void Completions::arrived(int axis_number) { axis(axis_number).arrived = true; }
 
 AxisSet Completions::outstanding() const {

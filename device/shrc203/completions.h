@@ -22,6 +22,10 @@ class Completions {
   // The first byte of HRT:, ZRT: or a G after a prebuffer setting is about to be written.
   void started(AxisSet axes, TimePoint now);
 
+  // A prebuffer setting for these axes was answered OK_D, or may have been: it begins by itself when what runs has
+  // ended, even before its G.
+  void chained(AxisSet axes, TimePoint now);
+
   // An axis number came, one for each start, more in a chain.
   void arrived(int axis);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "device/core/guard.h"
 
@@ -39,7 +40,7 @@ void Line::link_up(TimePoint now) {
   completions_.connected();
   continuity_.connected();
   suspected_ = false;
-  barrier_ = make_barrier({});
+  barrier_ = make_barrier({}, connect_limits());
   write_waiting_stops();
   barrier_->start(now);
 }
@@ -259,8 +260,16 @@ Barrier::Limits Line::barrier_limits() const {
   return {profile_.reply_limit + longest_reply, std::max(kSilenceMin, 3 * longest_reply)};
 }
 
-std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt) {
-  return std::make_unique<Barrier>(std::move(line_in_doubt), barrier_limits(), owed_,
+// A controller that was slow to answer over the line before may do so yet: it is silent once it could have.
+Barrier::Limits Line::connect_limits() {
+  Barrier::Limits limits = barrier_limits();
+  const bool before = std::exchange(connected_before_, true);
+  if (before && guarded(Guard::silence_after_reconnect)) limits.silence = std::max(limits.silence, limits.reply);
+  return limits;
+}
+
+std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt, Barrier::Limits limits) {
+  return std::make_unique<Barrier>(std::move(line_in_doubt), limits, owed_,
                                    [this](std::string_view line) { write_line(line); });
 }
 

@@ -167,7 +167,8 @@ class Line {
   void unexpected(std::string_view text, TimePoint now);
   void learned(LineLearned::What what, AxisSet axes = {});
   Barrier::Limits barrier_limits() const;
-  std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt);
+  Barrier::Limits connect_limits();
+  std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt, Barrier::Limits limits);
 
   const Profile& profile_;
   ByteLink& link_;
@@ -185,6 +186,7 @@ class Line {
   bool suspected_ = false;  // the listener has been told
   TimePoint now_{};         // of the call from outside
   AxisSet controllable_;
+  bool connected_before_ = false;
   bool handshake_passed_ = false;
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;

@@ -211,6 +211,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
     return;
   }
   if (reply.kind == Reply::Kind::ng) keep_quiet(request.lane == Lane::stop, now);
+  if (reply.kind == Reply::Kind::ok_d) completions_.chained(request.command.axes(controllable_), now);
   finish({.written = true, .reply = std::move(reply), .problem = {}, .candidates = {}}, outcome, now);
   if (line_before) hear_echo(told, now);
 }
@@ -246,6 +247,8 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
                          TimePoint now) {
   if (!guarded(guard_of(outcome))) return finish(std::move(doubted), outcome, now);
   doubted_waiting_ = in_flight_->waiting;
+  const Command& doubted_command = doubted_waiting_->request.command;
+  if (doubted_command.row->may_chain()) completions_.chained(doubted_command.axes(controllable_), now);
   std::string last_line(in_flight_->numbers.empty() ? doubted_waiting_->request.command.line : kClosing);
   doubted_ = std::move(doubted);
   const InFlight given_up = std::move(*in_flight_);
@@ -253,7 +256,7 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
   listener_.line_event(ended(given_up, *doubted_, outcome, now), now);
   state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
   listener_.barrier_entered(why, now);
-  barrier_ = make_barrier(std::move(last_line));
+  barrier_ = make_barrier(std::move(last_line), barrier_limits());
   barrier_->start(now);
   send_stops_now(now);
 }

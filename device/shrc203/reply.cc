@@ -197,7 +197,7 @@ std::optional<Reply> parse_reply(const CommandRow& row, std::string_view line, i
       reply.kind = Reply::Kind::ok;
       return reply;
     }
-    if (line == "OK_D" && row.reply == "OK|OK_D") {
+    if (line == "OK_D" && row.may_chain()) {
       reply.kind = Reply::Kind::ok_d;
       return reply;
     }

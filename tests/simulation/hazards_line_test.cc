@@ -126,6 +126,35 @@ TEST(Hazard, H01_InputsAreReadDuringAMotion) {
   EXPECT_TRUE(world.device().busy(1));
 }
 
+// OK_D: the setting begins by itself when another axis has ended, before its G, and completes while a question that
+// came in between waits for its answer, which is lost.
+TEST(Hazard, H01_CompletionOfASettingThatChains) {
+  int chained = 0;
+  for (int ahead = 0; ahead < 60 && !HasFailure(); ++ahead) {
+    auto setup = quiet();
+    setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+    for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+    ASSERT_TRUE(setup.options.set("prebuffer_while_other_axis_runs", "chains"));
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
+      const auto& lines = world.wire().commands();
+      if (kind != LineKind::reply) return {};
+      chained += text == "OK_D" ? 1 : 0;
+      const bool between = lines.back() == "?:SLEEP" && lines[lines.size() - 2].starts_with("MP:1");
+      return {.drop = between, .delay = {}, .instead = {}};
+    });
+    move_by(world, {{3, 5000}});
+    world.run_for(milliseconds(150 + ahead));
+    move_by(world, {{1, 100}});
+    world.run_until([&] { return world.wire().commands().back().starts_with("MP:1"); }, seconds(1));
+    world.controller().execute({{"?:SLEEP"}, world.context("other")}, world.now(), [](const ExecuteEvent&) {});
+    world.run_for(seconds(3));
+    ASSERT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
+  }
+  EXPECT_GT(chained, 0);
+}
+
 TEST(Hazard, H02_OkWithinTheTimeLimit) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
