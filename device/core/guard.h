@@ -20,6 +20,7 @@ enum class Guard {
   received_or_not,
   silence,
   silence_after_reconnect,
+  half_lines_break_silence,
   owed_answers,
   owed_refusals,
   older_identities,
@@ -113,6 +114,7 @@ enum class Guard {
   missed_numbers_counted,
   one_axis_is_the_clock,
   path_place_is_unique,
+  wrong_segments_stop,
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,

@@ -81,8 +81,16 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     }
   }
   const bool owed = pay_owed(owed_, line);
-  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + silence_;
+  silence_broken(now);
   return owed;
+}
+
+void Barrier::on_half_line(TimePoint now) {
+  if (guarded(Guard::half_lines_break_silence)) silence_broken(now);
+}
+
+void Barrier::silence_broken(TimePoint now) {
+  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + silence_;
 }
 
 void Barrier::advance(TimePoint now) {

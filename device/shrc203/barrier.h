@@ -44,6 +44,8 @@ class Barrier {
 
   // A complete line that is no completion. False: nothing waited for it.
   bool on_line(std::string_view line, TimePoint now);
+  // Part of a line came.
+  void on_half_line(TimePoint now);
   void advance(TimePoint now);
   TimePoint next_deadline() const { return deadline_; }
 
@@ -61,6 +63,7 @@ class Barrier {
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
   void owe();
+  void silence_broken(TimePoint now);
   bool is_echo(std::string_view line) const;
 
   std::string line_in_doubt_;

@@ -50,6 +50,7 @@ void Line::receive(std::string_view bytes, TimePoint now) {
     on_line(*line, now);
   }
   if (framer_.mid_line() && !partial_since_) partial_since_ = now;
+  if (framer_.mid_line() && barrier_) barrier_->on_half_line(now);
   look_at_continuity(now);
   pump(now);
 }

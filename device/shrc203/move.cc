@@ -63,33 +63,6 @@ std::string_view question_of(Register reg) {
   }
 }
 
-// Whether a register holds what `setter` wrote, or nothing, or something else.
-enum class Held { as_set, nothing, other };
-
-Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
-  std::vector<std::int64_t> wanted;
-  for (const auto& [letter, value] : setter.arguments.values()) {
-    if (letter == "y") wanted.push_back(*parse_integer(value));
-    if (letter == "m") wanted.push_back(value == "-" ? -1 : 1);
-  }
-  std::size_t next = 0;
-  bool all = true, none = true;
-  const bool shared = setter.row->reg == Register::kp;
-  if (shared && reply.text == "NS") return Held::nothing;
-  const AxisSet axes = setter.axes(controllable);
-  if (shared && reply.fields[0] != std::string(1, command_letter(axes))) return Held::other;
-  std::size_t place = 1;
-  for (const int axis : axes.list()) {
-    const auto amount = shared ? (place < reply.fields.size() ? parse_integer(reply.fields[place++]) : std::nullopt)
-                               : amount_of(reply, axis, controllable);
-    const std::int64_t value = wanted[next] * wanted[next + 1];
-    next += 2;
-    all = all && amount == value;
-    none = none && !amount;
-  }
-  return all ? Held::as_set : none ? Held::nothing : Held::other;
-}
-
 }  // namespace
 
 void Controller::Impl::move(MoveRequest request, OnStarted started) {

@@ -44,7 +44,9 @@ class PathRun {
   Task<bool> start(int number);   // set and go, from READY
   Task<bool> refill(int number);  // false: the chain has ended, or is in doubt
   Task<bool> wait_for_segment_end();
+  Task<std::optional<Held>> read_prebuffer();
   Task<bool> prebuffer_left();
+  Task<void> stop_wrong_segment();
   Task<void> resume_from_ready();
   Task<bool> wait_for_ready();
   void keep_line_free(TimePoint due);
@@ -203,13 +205,38 @@ Task<bool> PathRun::wait_for_segment_end() {
   co_return false;
 }
 
-// Whether the segment that waited in the prebuffer has gone over into execution.
-Task<bool> PathRun::prebuffer_left() {
+// What the prebuffer holds, compared with the segment sent last; nothing when nobody can tell.
+Task<std::optional<Held>> PathRun::read_prebuffer() {
   const std::string_view question = reg_ == Register::kp ? "?:KP" : reg_ == Register::mp ? "?:MP" : "?:AP";
   const auto answer = co_await impl_.ask(question, Lane::path_refill, live_->context.who);
-  if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) co_return false;
-  if (reg_ == Register::kp) co_return answer.reply->text == "NS";
-  co_return !amount_of(*answer.reply, plan_.axes.lowest(), impl_.state_.controllable()).has_value();
+  if (!answer.reply || answer.problem || answer.reply->kind != Reply::Kind::data) co_return std::nullopt;
+  co_return held(*answer.reply, setter(sent_), impl_.state_.controllable());
+}
+
+// Whether the segment that waited in the prebuffer has gone over into execution.
+Task<bool> PathRun::prebuffer_left() {
+  auto found = co_await read_prebuffer();
+  if (found == Held::other && guarded(Guard::wrong_segments_stop)) {
+    // Which axes it moves, and completes, nobody knows. The answer itself may have been misread.
+    impl_.line_.completions().chained(AxisSet::all(), impl_.now_);
+    found = co_await read_prebuffer();
+    if (found == Held::other) co_await stop_wrong_segment();
+  }
+  co_return found == Held::nothing;
+}
+
+Task<void> PathRun::stop_wrong_segment() {
+  const RequestContext gateway{
+      .who = "the gateway, since the line changed a segment", .request_id = {}, .not_after = {}};
+  impl_.stop(AxisSet::all(), false, gateway, [](const StopReport&) {});
+  co_await wait_for_ready();
+  if (over()) co_return;
+  give_up(MotionState::failed, Problem{Reason::line_fault,
+                                       fmt::format("segment {} was received wrongly, and all axes were stopped", sent_),
+                                       "check the cable and the line settings, and look at the positions",
+                                       {},
+                                       setter(sent_).line,
+                                       {}});
 }
 
 Task<bool> PathRun::wait_for_ready() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/shrc203/axes.h"
+#include "device/shrc203/codec.h"
 #include "device/shrc203/command_table.h"
 #include "device/shrc203/reply.h"
 
@@ -43,6 +44,11 @@ class Registers {
 
 // The amounts that an axis question (?:MP ...) tells, by axis; nothing for NS.
 std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet controllable);
+
+// Whether a register holds what `setter` wrote, or nothing, or something else, by the answer to the register's
+// question.
+enum class Held { as_set, nothing, other };
+Held held(const Reply& reply, const Command& setter, AxisSet controllable);
 
 std::string_view name(Register reg);
 

@@ -28,6 +28,29 @@ void expect_whole(World& world, Duration what) {
   EXPECT_EQ(world.device().starts(2), kSegments) << what.count() << " ns\n" << world.replay();
 }
 
+// A bit makes a segment of axes 1 and 3 of one of axes 1 and 2. A doubled number has the gateway look before it runs.
+TEST(Hazard, H07_ASegmentForOtherAxes) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int segments = 0, numbers = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind == LineKind::command && line.starts_with("KP:A") && ++segments == 4) {
+      return {.drop = false, .delay = {}, .instead = "KP:B" + line.substr(4) + "\r\n"};
+    }
+    if (kind == LineKind::notice && line == "1" && ++numbers == 2) {
+      return {.drop = false, .delay = {}, .instead = "1\r\n1\r\n"};
+    }
+    return {};
+  });
+  world.controller().run_path(line_of(world, kSegments), world.now(), [](Result<Motion>) {});
+  const Motion path = outcome_of(world, 1, seconds(120));
+  EXPECT_EQ(path.state, MotionState::failed) << world.replay();
+  EXPECT_EQ(reason_of(path), Reason::line_fault);
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.device().starts(3), 0) << world.replay();
+  EXPECT_FALSE(world.device().busy(1) || world.device().busy(2) || world.device().busy(3));
+}
+
 // The other axis' number of each segment comes nearly a segment late, at the time of the next one's end.
 TEST(Hazard, H56_OneAxisIsTheClock) {
   for (Duration late = milliseconds(60); late < milliseconds(260) && !testing::Test::HasFailure();
