@@ -116,6 +116,15 @@ enum class Guard {
   path_place_is_unique,
   wrong_segments_stop,
 
+  // Who may move what
+  leases_expire,
+  lease_keeps_others_out,
+  lease_axes,
+  lease_asked_at_turn,
+  lease_asked_as_bytes_go,
+  latch_of_lease,
+  latch_without_lease,
+
   // Every queue is bounded, every wait has a limit
   lanes_bounded,
   waiting_lines_expire,

@@ -16,9 +16,10 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "POSITION_UNKNOWN",  "DEVICE_REFUSED",  "IDENTITY_MISMATCH", "LINK_DOWN",
     "NOT_SENT",          "REPLY_TIMED_OUT", "LINE_FAULT",        "COMPLETION_OUTSTANDING",
     "DEADLINE_PASSED",   "QUEUE_FULL",      "STOPPED",           "TARGET_NOT_REACHED",
-    "OUTCOME_UNKNOWN",   "COMPACTED",       "INTERNAL",
+    "OUTCOME_UNKNOWN",   "COMPACTED",       "INTERNAL",          "LEASE_HELD",
+    "LEASE_LOST",        "OUTSIDE_LEASE",   "STOPPED_BY",
 });
-static_assert(kNames.size() == static_cast<std::size_t>(Reason::internal) + 1, "a name for each Reason");
+static_assert(kNames.size() == static_cast<std::size_t>(Reason::stopped_by) + 1, "a name for each Reason");
 
 }  // namespace
 

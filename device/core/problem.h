@@ -50,6 +50,11 @@ enum class Reason {
   outcome_unknown,
   compacted,
   internal,
+  // who may do what
+  lease_held,
+  lease_lost,
+  outside_lease,
+  stopped_by,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

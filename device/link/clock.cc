@@ -1,11 +1,13 @@
 #include "device/link/clock.h"
 
-#include <chrono>
+#include <ctime>
 
 namespace axisgate {
 
 TimePoint monotonic_now() {
-  return TimePoint(std::chrono::duration_cast<Duration>(std::chrono::steady_clock::now().time_since_epoch()));
+  timespec now{};
+  ::clock_gettime(CLOCK_BOOTTIME, &now);
+  return TimePoint(std::chrono::seconds(now.tv_sec) + std::chrono::nanoseconds(now.tv_nsec));
 }
 
 }  // namespace axisgate

@@ -3,6 +3,8 @@
 #include <chrono>
 #include <utility>
 
+#include "device/link/clock.h"
+
 namespace axisgate {
 
 void MachineHost::post(std::function<void(TimePoint now)> request) {
@@ -26,7 +28,8 @@ void MachineHost::arm() {
     deadline_timer_.cancel();
     return;
   }
-  deadline_timer_.expires_at(std::chrono::steady_clock::time_point(deadline->time_since_epoch()));
+  // Asio's clock stands still while the host sleeps, and this one does not.
+  deadline_timer_.expires_after(*deadline - monotonic_now());
   deadline_timer_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
     if (error) return;
     self->armed_.reset();

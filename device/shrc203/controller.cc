@@ -8,9 +8,10 @@
 
 namespace axisgate::shrc203 {
 
-Controller::Impl::Impl(Profile profile, ByteLink& link, EventSink& events)
+Controller::Impl::Impl(Profile profile, ByteLink& link, EventSink& events, Permission& permission)
     : profile_(std::move(profile)),
       events_(events),
+      permission_(permission),
       line_(profile_, link, executor_, *this),
       gate_(executor_, profile_.busy_scope),
       wake_poll_(executor_),
@@ -24,7 +25,8 @@ void Controller::Impl::settle() { executor_.run(); }
 
 std::optional<TimePoint> Controller::Impl::next_deadline() const {
   std::optional<TimePoint> next;
-  for (const auto& at : {line_.next_deadline(now_), executor_.next_deadline(), gate_.next_deadline()}) {
+  for (const auto& at :
+       {line_.next_deadline(now_), executor_.next_deadline(), gate_.next_deadline(), permission_.next_deadline()}) {
     if (at && (!next || *at < *next)) next = at;
   }
   return next;
@@ -117,8 +119,31 @@ void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, Ti
 
 void Controller::Impl::line_event(const Event& event, TimePoint) { emit(event); }
 
+Result<void> Controller::Impl::may_use(const RequestContext& context, AxisSet axes) {
+  return permission_.may_use({context.who, context.lease, axes, 0}, now_);
+}
+
+// The right may have ended since the exchange was queued: this is the last look before the bytes go out.
+std::optional<Problem> Controller::Impl::may_write(const ExchangeRequest& request, TimePoint now) {
+  const auto found = live_.find(request.motion);
+  if (found == live_.end() || !guarded(Guard::lease_asked_as_bytes_go)) return {};
+  const LiveMotion& live = *found->second;
+  const auto allowed = permission_.may_use({live.context.who, live.context.lease, live.uses, live.motion.id}, now);
+  if (allowed) return {};
+  return allowed.error();
+}
+
+void Controller::Impl::carry_out_orders() {
+  for (const StopOrder& order : permission_.advance(now_)) {
+    const RequestContext gateway{.who = "the gateway on behalf of " + order.who, .request_id = {}, .not_after = {}};
+    stop(order.axes, false, gateway, [this, id = order.id](const StopReport&) { permission_.stopped(id, now_); });
+  }
+}
+
 Controller::Controller(Profile profile, ByteLink& link, EventSink& events)
-    : impl_(std::make_unique<Impl>(std::move(profile), link, events)) {}
+    : Controller(std::move(profile), link, events, everybody_may()) {}
+Controller::Controller(Profile profile, ByteLink& link, EventSink& events, Permission& permission)
+    : impl_(std::make_unique<Impl>(std::move(profile), link, events, permission)) {}
 Controller::~Controller() = default;
 
 void Controller::link_up(TimePoint now) {
@@ -141,6 +166,7 @@ void Controller::advance(TimePoint now) {
   impl_->at(now, [&] {
     impl_->line_.advance(now);
     impl_->gate_.expire(now);
+    impl_->carry_out_orders();
     impl_->executor_.advance(now);
   });
 }
@@ -188,11 +214,17 @@ Result<void> Controller::check(const PathRequest& request) const {
 }
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
-  impl_->at(now, [&] { impl_->stop(axes, false, context, std::move(done)); });
+  impl_->at(now, [&] {
+    impl_->permission_.stop_asked({context.who, context.lease, axes.empty() ? AxisSet::all() : axes, 0}, now);
+    impl_->stop(axes, false, context, std::move(done));
+  });
 }
 
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
-  impl_->at(now, [&] { impl_->stop(AxisSet::all(), true, context, std::move(done)); });
+  impl_->at(now, [&] {
+    impl_->permission_.stop_asked({context.who, context.lease, AxisSet::all(), 0}, now);
+    impl_->stop(AxisSet::all(), true, context, std::move(done));
+  });
 }
 
 void Controller::clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) {

@@ -11,6 +11,7 @@
 #include "device/core/quantity.h"
 #include "device/shrc203/event.h"
 #include "device/shrc203/motion.h"
+#include "device/shrc203/permission.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/state.h"
 
@@ -22,6 +23,7 @@ struct RequestContext {
   std::string who;
   std::string request_id;
   TimePoint not_after{};
+  std::uint64_t lease = 0;  // its fencing token; 0: none
 };
 
 // S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.
@@ -102,7 +104,10 @@ struct ExecuteEvent {
 // took them has returned or from within it, once each (ExecuteEvents until `ended`).
 class Controller : public LineMachine {
  public:
+  // Everybody may use everything.
   Controller(Profile profile, ByteLink& link, EventSink& events);
+  // `permission` outlives the controller.
+  Controller(Profile profile, ByteLink& link, EventSink& events, Permission& permission);
   ~Controller() override;
 
   void link_up(TimePoint now) override;

@@ -37,6 +37,7 @@ struct LiveMotion {
   bool woken = false;  // every axis number has come, or a stop
   bool line_lost = false;
   std::string line_problem;
+  AxisSet uses;  // what it needs the right to: its axes, or all for a command that concerns the whole controller
   bool inside_gate = false;
   bool watched = false;     // watch() reads the positions
   bool keeps_gate = false;  // past its outcome, until the speeds it changed are the old ones again
@@ -66,7 +67,7 @@ using StopJobPtr = std::shared_ptr<StopJob>;
 
 class Controller::Impl : public LineListener {
  public:
-  Impl(Profile profile, ByteLink& link, EventSink& events);
+  Impl(Profile profile, ByteLink& link, EventSink& events, Permission& permission);
   ~Impl() override;
 
   // Every call from outside begins with the time and ends by letting the tasks go on.
@@ -86,6 +87,7 @@ class Controller::Impl : public LineListener {
   void restart_suspected(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
+  std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) override;
   void note_completion(int axis, bool doubtful, bool deduced, TimePoint now);
 
   // handshake.cc
@@ -115,6 +117,7 @@ class Controller::Impl : public LineListener {
   void mark_running(LiveMotionPtr live);
   // `prebuffer`: it will set prebuffers, which belong to one motion unless the profile says that each axis has its own.
   Task<Result<void>> enter_gate(LiveMotionPtr live, bool prebuffer);
+  void leave_gate(LiveMotion& live);
   Task<Result<void>> prepare(LiveMotionPtr live, Register reg);
   Task<Result<void>> clear_left_overs(LiveMotionPtr live, Register reg);
   Task<void> watch(LiveMotionPtr live, bool start_in_doubt);
@@ -178,6 +181,10 @@ class Controller::Impl : public LineListener {
   void stop_at_the_end(bool running_too, std::shared_ptr<WindDownReport> report);
   Task<void> wait_for_rest(TimePoint limit);
 
+  // Whether the caller may use these axes now, before anything is queued.
+  Result<void> may_use(const RequestContext& context, AxisSet axes);
+  void carry_out_orders();
+
   TimePoint default_limit(TimePoint asked, Duration otherwise) const {
     return asked == TimePoint{} ? now_ + otherwise : asked;
   }
@@ -185,6 +192,7 @@ class Controller::Impl : public LineListener {
 
   Profile profile_;
   EventSink& events_;
+  Permission& permission_;
   TimePoint now_{};
   Executor executor_;
   Line line_;

@@ -177,6 +177,7 @@ Task<void> Transaction::run() {
   if (needs_gate(commands_)) {
     const AxisSet axes = axes_moved(commands_, impl_.state_.controllable());
     live_ = impl_.create_motion(MotionKind::execute, axes, request_.context, {});
+    live_->uses = axes_used(commands_, impl_.state_.controllable());
     const auto begun = co_await begin();
     if (!begun) {
       end(begun.error());
@@ -234,6 +235,8 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   }
   request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
   if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
+  const auto allowed = may_use(request.context, axes_used(commands, state_.controllable()));
+  if (!allowed) return refuse(allowed.error());
   executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
 }
 
@@ -250,6 +253,8 @@ Task<void> Controller::Impl::run_transaction(ExecuteRequest request, std::vector
 
 void Controller::Impl::execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event) {
   const bool emergency = command.row->name == "L:E";
+  const AxisSet axes = emergency ? AxisSet::all() : command.axes(state_.controllable());
+  permission_.stop_asked({request.context.who, request.context.lease, axes, 0}, now_);
   stop(command.axes(state_.controllable()), emergency, request.context,
        [event = std::move(event), line = command.line](const StopReport& report) {
          ExecuteEvent reply;
@@ -271,6 +276,10 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
   const AxisSet named = axes.empty() ? state_.controllable() : axes;
   if (named.empty()) {
     done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
+    co_return;
+  }
+  if (const auto allowed = may_use(context, named); !allowed) {
+    done(tl::unexpected(allowed.error()));
     co_return;
   }
   request.command = make_command("BEC:", named);

@@ -51,7 +51,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
     if (connection == connection_) line_.give_up("the handshake failed", now_);
     co_return;
   }
-  ++state_.device_epoch;
+  if (++state_.device_epoch > 1) permission_.device_restarted(now_);
   for (auto& axis : state_.axes) axis.homed = false;
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   unit_ = state_.serial_number;

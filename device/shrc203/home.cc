@@ -16,6 +16,10 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
                  "see `axisctl status`"));
     return;
   }
+  if (const auto allowed = may_use(request.context, axes); !allowed) {
+    started(tl::unexpected(allowed.error()));
+    return;
+  }
   for (const auto& [id, live] : live_) {
     const bool same = live->motion.kind == kind && live->motion.axes.touches(axes);
     if (!same || !guarded(Guard::one_home_an_axis)) continue;

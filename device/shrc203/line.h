@@ -36,6 +36,7 @@ struct ExchangeRequest {
   std::string caller;
   TimePoint not_after{};   // not written later than this
   MotionId motion = 0;     // the motion it belongs to
+  bool tidies = false;     // it only undoes what the motion did: no right is needed for that
   AxisSet completes;       // the axes whose numbers may come once it is written
   bool handshake = false;  // may be sent before open()
   bool closed = false;     // an !:S follows a number that could be a completion, so that all of them are in
@@ -68,6 +69,8 @@ class LineListener {
   // `doubtful`: not expected now, or seen in a barrier.
   virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
   virtual void line_event(const Event& event, TimePoint now) = 0;
+  // Asked of what belongs to a motion, right before it is written; with a problem it never is.
+  virtual std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) = 0;
 };
 
 class Line {
@@ -141,6 +144,7 @@ class Line {
                       TimePoint now) const;
   bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
   bool may_send(const ExchangeRequest& request) const;
+  WaitingPtr take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now);
   bool leaves_refills_alone(const ExchangeRequest& request, TimePoint now) const;
   bool may_settle(TimePoint now) const;
   AxisSet conflicts(const ExchangeRequest& request) const;

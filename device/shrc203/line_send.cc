@@ -57,15 +57,28 @@ void Line::pump(TimePoint now) {
     send(std::make_shared<Waiting>(Waiting{std::move(question), {}, now}), now);
     return;
   }
-  auto next = queue_.take(may_go);
-  if (next) {
-    send(std::move(*next), now);
+  if (auto next = take_next(may_go, now)) {
+    send(std::move(next), now);
     return;
   }
   if (!settle) return;
   ExchangeRequest probe;
   probe.command = make_command(kSettling);
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
+}
+
+// Null when nothing may go. What has lost its right while it waited is told so, and never goes.
+Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
+  while (auto next = queue_.take(may_go)) {
+    const ExchangeRequest& request = (*next)->request;
+    const bool asks = request.motion != 0 && !request.tidies;
+    const auto refusal = asks ? listener_.may_write(request, now) : std::nullopt;
+    if (!refusal) return *next;
+    for (auto& answer : (*next)->answers) {
+      answer.deliver({.written = false, .reply = {}, .problem = *refusal, .candidates = {}});
+    }
+  }
+  return nullptr;
 }
 
 // After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.

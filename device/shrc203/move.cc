@@ -72,6 +72,10 @@ void Controller::Impl::move(MoveRequest request, OnStarted started) {
     started(tl::unexpected(plan.error()));
     return;
   }
+  if (const auto allowed = may_use(request.context, plan->set()); !allowed) {
+    started(tl::unexpected(allowed.error()));
+    return;
+  }
   auto live = create_motion(MotionKind::move, plan->set(), request.context, std::move(started));
   executor_.spawn(run_move(live, std::move(request)));
 }
@@ -197,6 +201,7 @@ Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
     }
     auto request = motion_request(*live, make_command("D:", arguments), Lane::motion);
     request.not_after = now_ + kStepLimit;
+    request.tidies = true;
     auto pending = line_.exchange(std::move(request), now_);
     const auto result = co_await pending;
     if (result.accepted()) {
@@ -206,8 +211,7 @@ Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
       settled_ = settled_ && read.has_value();
     }
   }
-  gate_.leave(live->motion.id);
-  live->inside_gate = false;
+  leave_gate(*live);
 }
 
 Task<Result<void>> Controller::Impl::set_speeds(LiveMotionPtr live, MovePlan plan) {

@@ -318,6 +318,10 @@ void Controller::Impl::run_path(PathRequest request, OnStarted started) {
     started(tl::unexpected(plan.error()));
     return;
   }
+  if (const auto allowed = may_use(request.context, plan->axes); !allowed) {
+    started(tl::unexpected(allowed.error()));
+    return;
+  }
   auto live = create_motion(MotionKind::path, plan->axes, request.context, std::move(started));
   live->motion.segments_total = static_cast<int>(plan->segments.size());
   executor_.spawn(run_path_motion(live, std::move(request), plan->reg()));

@@ -82,6 +82,7 @@ class Replay : LineListener, ByteLink {
     deeds_.push_back({What::completion, std::to_string(axis)});
   }
   void line_event(const Event& event, TimePoint) override;
+  std::optional<Problem> may_write(const ExchangeRequest&, TimePoint) override { return {}; }
 
   // ByteLink: what is written is heard as an event, and the recording says when the line comes up.
   void write(std::string_view) override {}

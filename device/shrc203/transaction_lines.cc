@@ -103,6 +103,15 @@ std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
   return moves;
 }
 
+AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable) {
+  AxisSet axes;
+  for (const Command& command : commands) {
+    if (command.row->effect == Effect::question) continue;
+    axes = axes | (command.row->scope == CommandScope::axes ? command.axes(controllable) : AxisSet::all());
+  }
+  return axes;
+}
+
 Command as_sent(const Command& command) {
   const bool all = command.row->separation == Separation::all_axes && guarded(Guard::questions_for_all_axes);
   if (!all || !command.arguments.first("a")) return command;

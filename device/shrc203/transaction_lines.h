@@ -21,6 +21,9 @@ bool needs_gate(const std::vector<Command>& commands);
 // The axes that they set in motion or make ready to be.
 AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable);
 
+// The axes that they change anything of: all, where a command concerns the whole controller.
+AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable);
+
 // Whether axis numbers follow.
 bool completes(const std::vector<Command>& commands);
 

@@ -30,6 +30,7 @@ LiveMotionPtr Controller::Impl::create_motion(MotionKind kind, AxisSet axes, Req
   motion.created = now_;
   context.not_after = default_limit(context.not_after, kMotionLimit);
   auto live = std::make_shared<LiveMotion>(executor_, std::move(motion), std::move(context));
+  live->uses = axes;
   live->on_started = std::move(started);
   live_[live->motion.id] = live;
   emit(MotionChanged{live->motion});
@@ -70,9 +71,13 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   live_.erase(live->motion.id);
   ended_.push_back(live->motion);
   while (ended_.size() > kMotionsKept) ended_.pop_front();
-  if (live->keeps_gate) return;
-  if (live->inside_gate) gate_.leave(live->motion.id);
-  live->inside_gate = false;
+  if (!live->keeps_gate) leave_gate(*live);
+}
+
+void Controller::Impl::leave_gate(LiveMotion& live) {
+  if (!std::exchange(live.inside_gate, false)) return;
+  gate_.leave(live.motion.id);
+  permission_.end(live.motion.id, now_);
 }
 
 Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuffer) {
@@ -82,6 +87,10 @@ Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuff
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   live->inside_gate = true;
+  const Use use{live->context.who, live->context.lease, live->uses, live->motion.id};
+  const auto allowed = permission_.may_use(use, now_);
+  if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
+  permission_.begin(use, now_);
   if (live->stop_requested && guarded(Guard::stop_before_preparing)) {
     co_return fail(Reason::stopped, "a stop by " + live->stopped_by + " came before the motion was sent");
   }

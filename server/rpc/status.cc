@@ -15,6 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == api::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == api::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == api::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == api::REASON_INTERNAL);
+static_assert(static_cast<int>(Reason::stopped_by) == api::REASON_STOPPED_BY);
 
 void pack(const char* type, const google::protobuf::Message& detail, api::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -65,6 +66,10 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::position_unknown:
     case Reason::device_refused:
     case Reason::identity_mismatch:
+    case Reason::lease_held:
+    case Reason::lease_lost:
+    case Reason::outside_lease:
+    case Reason::stopped_by:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::link_down:
     case Reason::not_sent:

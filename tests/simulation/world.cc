@@ -36,7 +36,8 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
 
 World::World(Setup setup) : setup_(std::move(setup)), random_(setup_.seed), wire_(random_, setup_.seed, setup_.baud) {
   device_ = std::make_unique<simulator::Simulator>(setup_.options, wire_.device_end());
-  controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this);
+  Permission& permission = setup_.permission ? *setup_.permission : everybody_may();
+  controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this, permission);
   wire_.connect(*controller_, *device_);
   wire_.set_phase([this] { return phase(); });
   wire_.set_device([this] { return device_->answering(); }, [this] { return !restarting(); });

@@ -23,7 +23,8 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
-  shrc203::EventSink* listener = nullptr;  // hears every event too
+  shrc203::EventSink* listener = nullptr;     // hears every event too
+  shrc203::Permission* permission = nullptr;  // none: everybody may
 };
 
 // A setup whose open questions are drawn from the seed.
@@ -46,6 +47,8 @@ class World : public shrc203::EventSink {
   bool run_until_up() {
     return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
   }
+  // The host sleeps: time has passed, and what came meanwhile comes first.
+  void sleep_for(Duration duration) { now_ += duration; }
   // Runs `deed` at that time, in the middle of whatever goes on then, even of a line.
   void at(TimePoint when, std::function<void()> deed) { deeds_.emplace(when, std::move(deed)); }
   void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last

@@ -1,0 +1,24 @@
+#include "device/shrc203/permission.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+class EverybodyMay final : public Permission {
+  Result<void> may_use(const Use&, TimePoint) override { return {}; }
+  void begin(const Use&, TimePoint) override {}
+  void end(MotionId, TimePoint) override {}
+  void stop_asked(const Use&, TimePoint) override {}
+  void device_restarted(TimePoint) override {}
+  std::vector<StopOrder> advance(TimePoint) override { return {}; }
+  void stopped(std::uint64_t, TimePoint) override {}
+  std::optional<TimePoint> next_deadline() const override { return {}; }
+};
+
+}  // namespace
+
+Permission& everybody_may() {
+  static EverybodyMay permission;
+  return permission;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,314 @@
+#include "server/access/leases.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "device/core/guard.h"
+#include "server/access/spans.h"
+
+namespace axisgate::server {
+namespace {
+
+using shrc203::to_string;
+using shrc203::Use;
+
+}  // namespace
+
+Leases::Held* Leases::find(LeaseToken token) {
+  const auto found = std::ranges::find_if(held_, [token](const Held& held) { return held.lease.token == token; });
+  return found == held_.end() ? nullptr : &*found;
+}
+
+Problem Leases::lost_problem(LeaseToken token) const {
+  const auto ended = std::ranges::find_if(ended_, [token](const Ended& one) { return one.token == token; });
+  return {Reason::lease_lost,
+          ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + ended->why,
+          "acquire another one (`axisctl lease`)",
+          {},
+          {},
+          {}};
+}
+
+Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {
+  expire(now);
+  Held* held = find(token);
+  if (held == nullptr || !held->lease.ending.empty()) return tl::unexpected(lost_problem(token));
+  return held;
+}
+
+bool Leases::runs(LeaseToken token) const {
+  return std::ranges::any_of(running_, [token](const auto& entry) { return entry.second.use.lease == token; });
+}
+
+std::uint64_t Leases::acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after,
+                              TimePoint now, OnLease answer) {
+  expire(now);
+  const auto in_the_way = held_problem(terms.axes, now);
+  if (!wait && in_the_way) {
+    answer(tl::unexpected(*in_the_way));
+    return 0;
+  }
+  if (waiting_.size() >= kWaitingMax) {
+    answer(fail(Reason::queue_full, fmt::format("{} already wait for this device", waiting_.size()),
+                "try again when fewer wait"));
+    return 0;
+  }
+  const std::uint64_t id = ++last_waiting_;
+  waiting_.push_back({{id, holder, std::move(terms), now, 1, {}}, not_after, std::move(answer), 0});
+  settle(now);
+  const bool waits = std::ranges::any_of(waiting_, [id](const Waiting& waiting) { return waiting.lease.id == id; });
+  return waits ? id : 0;
+}
+
+void Leases::withdraw(std::uint64_t waiting, TimePoint now) {
+  const auto found = std::ranges::find_if(waiting_, [waiting](const Waiting& one) { return one.lease.id == waiting; });
+  if (found == waiting_.end()) return;
+  const OnLease answer = std::move(found->answer);
+  waiting_.erase(found);
+  answer(fail(Reason::not_sent, "the lease is no longer waited for"));
+  settle(now);
+}
+
+Result<Lease> Leases::keep_alive(LeaseToken token, TimePoint now) {
+  const auto held = find_held(token, now);
+  if (!held) return tl::unexpected(held.error());
+  (*held)->lease.expires = now + (*held)->lease.terms.time_to_live;
+  return (*held)->lease;
+}
+
+void Leases::lost(LeaseToken token, TimePoint now) {
+  const auto held = find_held(token, now);
+  if (!held || (*held)->lease.terms.at_loss == AtLoss::finish) return;
+  const Lease& lease = (*held)->lease;
+  if (runs(token)) order_stop(lease.terms.axes, lease.holder);
+  if (lease.terms.at_loss == AtLoss::stop_and_release) end_lease(**held, "its holder was cut off", false);
+  settle(now);
+}
+
+Result<void> Leases::release(LeaseToken token, TimePoint now) {
+  const auto held = find_held(token, now);
+  if (!held) return tl::unexpected(held.error());
+  end_lease(**held, "it was released", true);
+  settle(now);
+  return {};
+}
+
+Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoint now) {
+  const auto held = find_held(token, now);
+  if (!held) return tl::unexpected(held.error());
+  const AxisSet axes = (*held)->lease.terms.axes;
+  const auto next = std::ranges::find_if(waiting_, [&](const Waiting& waiting) {
+    return waiting.lease.holder == to && axes.contains(waiting.lease.terms.axes);
+  });
+  if (next == waiting_.end()) {
+    return fail(Reason::not_found, fmt::format("nobody named \"{}\" waits for {} alone", to, to_string(axes)),
+                "`axisctl lease list` shows who waits");
+  }
+  if (runs(token)) {
+    return fail(Reason::axis_busy, "a motion runs under the lease", "hand it over when it has ended, or stop it");
+  }
+  end_lease(**held, "it was handed over to " + to, false);
+  Waiting waiting = std::move(*next);
+  waiting_.erase(next);
+  drop_ended();
+  waiting.answer(start(waiting.lease, now));
+  settle(now);
+  return {};
+}
+
+void Leases::take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer) {
+  expire(now);
+  for (Held& held : held_) {
+    if (!held.lease.terms.axes.touches(terms.axes)) continue;
+    end_lease(held, "it was taken over by " + holder, false);
+  }
+  for (auto& [id, running] : running_) running.revoked = running.revoked || running.use.axes.touches(terms.axes);
+  order_stop(terms.axes, holder);
+  waiting_.push_front(
+      {{++last_waiting_, holder, std::move(terms), now, 1, {}}, TimePoint::max(), std::move(answer), last_order_});
+  settle(now);
+}
+
+std::vector<Lease> Leases::held() const {
+  std::vector<Lease> all;
+  for (const Held& held : held_) all.push_back(held.lease);
+  return all;
+}
+
+std::vector<WaitingLease> Leases::waiting(TimePoint now) const {
+  std::vector<WaitingLease> all;
+  for (std::size_t i = 0; i < waiting_.size(); ++i) {
+    WaitingLease one = waiting_[i].lease;
+    one.place = static_cast<int>(i) + 1;
+    one.expected_wait = expected_wait(i, now);
+    all.push_back(std::move(one));
+  }
+  return all;
+}
+
+// Nothing where one of those in front has not said how long it will be.
+std::optional<Duration> Leases::expected_wait(std::size_t place, TimePoint now) const {
+  const AxisSet axes = waiting_[place].lease.terms.axes;
+  Duration wait{};
+  for (const Held& held : held_) {
+    if (!held.lease.terms.axes.touches(axes)) continue;
+    if (!held.lease.terms.expected_use) return {};
+    wait = std::max(wait, held.lease.since + *held.lease.terms.expected_use - now);
+  }
+  for (std::size_t i = 0; i < place; ++i) {
+    const LeaseTerms& terms = waiting_[i].lease.terms;
+    if (!terms.axes.touches(axes)) continue;
+    if (!terms.expected_use) return {};
+    wait += *terms.expected_use;
+  }
+  return wait;
+}
+
+std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
+  const auto told = [&](const LeaseTerms& terms, const std::string& who, std::string_view does, TimePoint since) {
+    const std::string purpose = terms.purpose.empty() ? "" : fmt::format(" (\"{}\")", terms.purpose);
+    return Problem{Reason::lease_held,
+                   fmt::format("{} {} {} for {}{}", who, does, to_string(terms.axes), for_people(now - since), purpose),
+                   "wait for your turn (--wait), or ask the holder to hand over",
+                   {},
+                   {},
+                   {}};
+  };
+  for (const Held& held : held_) {
+    if (held.lease.terms.axes.touches(axes)) {
+      return told(held.lease.terms, held.lease.holder, "has held", held.lease.since);
+    }
+  }
+  for (const Waiting& waiting : waiting_) {
+    if (waiting.lease.terms.axes.touches(axes)) {
+      return told(waiting.lease.terms, waiting.lease.holder, "has waited for", waiting.lease.since);
+    }
+  }
+  return {};
+}
+
+void Leases::begin(const Use& use, TimePoint) { running_[use.motion] = {use, false}; }
+
+void Leases::end(MotionId motion, TimePoint now) {
+  const auto found = running_.find(motion);
+  if (found == running_.end()) return;
+  const Use use = std::move(found->second.use);
+  running_.erase(found);
+  if (use.lease == 0) {
+    for (const int axis : use.axes.list()) {
+      borrowed_[static_cast<std::size_t>(axis - 1)] = {use.who, now + kBorrowedLately};
+    }
+  }
+  settle(now);
+}
+
+void Leases::device_restarted(TimePoint now) {
+  for (Held& held : held_) {
+    if (held.lease.ending.empty()) end_lease(held, "the controller may have restarted", false);
+  }
+  settle(now);
+}
+
+void Leases::end_lease(Held& held, std::string why, bool goes_on) {
+  ended_.push_back({held.lease.token, why});
+  if (ended_.size() > kEndedKept) ended_.pop_front();
+  held.lease.ending = std::move(why);
+  held.goes_on = goes_on;
+}
+
+void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.push_back({++last_order_, axes, who}); }
+
+void Leases::expire(TimePoint now) {
+  for (Held& held : held_) {
+    const Lease& lease = held.lease;
+    if (!lease.ending.empty() || now < lease.expires || !guarded(Guard::leases_expire)) continue;
+    const bool finishes = lease.terms.at_loss == AtLoss::finish;
+    if (!finishes && runs(lease.token)) order_stop(lease.terms.axes, lease.holder);
+    end_lease(held, "it was not kept alive and expired", finishes);
+  }
+  std::vector<Waiting> late;
+  for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
+    if (waiting->not_after >= now) {
+      ++waiting;
+      continue;
+    }
+    late.push_back(std::move(*waiting));
+    waiting = waiting_.erase(waiting);
+  }
+  for (const Waiting& waiting : late) {
+    auto problem = held_problem(waiting.lease.terms.axes, now);
+    waiting.answer(fail(Reason::deadline_passed, "the lease was not free in the time allowed" +
+                                                     (problem ? ": " + problem->message : std::string())));
+  }
+}
+
+// What has come to its end makes room for those who wait.
+void Leases::settle(TimePoint now) {
+  drop_ended();
+  while (grant(now)) drop_ended();
+  changed();
+}
+
+bool Leases::drop_ended() {
+  return std::erase_if(held_,
+                       [this](const Held& held) { return !held.lease.ending.empty() && !runs(held.lease.token); }) > 0;
+}
+
+AxisSet Leases::taken() const {
+  AxisSet axes;
+  for (const Held& held : held_) axes = axes | held.lease.terms.axes;
+  for (const auto& [id, running] : running_) axes = axes | running.use.axes;
+  return axes;
+}
+
+// One, so that the answer may ask for more.
+bool Leases::grant(TimePoint now) {
+  AxisSet blocked = taken();
+  for (auto waiting = waiting_.begin(); waiting != waiting_.end(); ++waiting) {
+    if (waiting->order != 0 || blocked.touches(waiting->lease.terms.axes)) {
+      blocked = blocked | waiting->lease.terms.axes;
+      continue;
+    }
+    const Waiting next = std::move(*waiting);
+    waiting_.erase(waiting);
+    next.answer(start(next.lease, now));
+    return true;
+  }
+  return false;
+}
+
+Lease Leases::start(const WaitingLease& waiting, TimePoint now) {
+  held_.push_back(
+      {{tokens_.next(), waiting.holder, waiting.terms, now, now + waiting.terms.time_to_live, {}, {}}, false});
+  return held_.back().lease;
+}
+
+std::vector<shrc203::StopOrder> Leases::advance(TimePoint now) {
+  expire(now);
+  settle(now);
+  return std::exchange(orders_, {});
+}
+
+void Leases::stopped(std::uint64_t order, TimePoint now) {
+  for (Waiting& waiting : waiting_) {
+    if (waiting.order == order) waiting.order = 0;
+  }
+  settle(now);
+}
+
+std::optional<TimePoint> Leases::next_deadline() const {
+  std::optional<TimePoint> next;
+  const auto sooner = [&next](TimePoint at) { next = next ? std::min(*next, at) : at; };
+  if (!orders_.empty()) return TimePoint{};
+  for (const Held& held : held_) {
+    if (held.lease.ending.empty()) sooner(held.lease.expires);
+  }
+  for (const Waiting& waiting : waiting_) {
+    if (waiting.not_after != TimePoint::max()) sooner(waiting.not_after + Duration(1));
+  }
+  return next;
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,189 @@
+// Who holds which axes of one device, who waits for them, and whom a stop holds back.
+//
+//   acquire ──► waiting ──► held ──► (released, expired, taken over, device restarted) ──► ending ──► gone
+//                  │           ▲                                                             │
+//               given up       └── keep_alive                  no motion of it is left ──────┘
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "device/core/time.h"
+#include "device/shrc203/permission.h"
+
+namespace axisgate::server {
+
+using LeaseToken = std::uint64_t;  // 0 is none
+using shrc203::AxisSet;
+using shrc203::MotionId;
+
+// Fencing tokens: later ones are greater, over restarts of the daemon too. Thread safe.
+class LeaseTokens {
+ public:
+  // `generation` is another, greater one for every start of the daemon.
+  explicit LeaseTokens(std::uint32_t generation) : next_((std::uint64_t{generation} << 32) + 1) {}
+  LeaseToken next() { return next_++; }
+
+ private:
+  std::atomic<LeaseToken> next_;
+};
+
+// What becomes of the holder's motion when nobody keeps the lease alive any more.
+enum class AtLoss {
+  finish,            // it goes on to its end; the axes are free then
+  stop,              // it is stopped; the lease lasts until it expires, so that its holder may come back
+  stop_and_release,  // it is stopped, and the lease ends with it
+};
+
+struct LeaseTerms {
+  static constexpr Duration kTimeToLive = std::chrono::seconds(10), kTimeToLiveMin = std::chrono::seconds(1),
+                            kTimeToLiveMax = std::chrono::hours(24);
+  AxisSet axes;
+  Duration time_to_live = kTimeToLive;
+  AtLoss at_loss = AtLoss::stop;
+  std::optional<Duration> expected_use{};  // for those who wait
+  std::string purpose{};                   // for people; may be empty
+};
+
+// A stop by another than the holder: nothing moves there for the holder until rearm().
+struct Latch {
+  AxisSet axes;
+  std::string by;
+  TimePoint at{};
+};
+
+struct Lease {
+  LeaseToken token = 0;
+  std::string holder;
+  LeaseTerms terms;
+  TimePoint since{}, expires{};
+  std::string ending;  // why no motion begins under it any more; empty while it is held
+  std::optional<Latch> latch;
+};
+
+struct WaitingLease {
+  std::uint64_t id = 0;  // 0 is none
+  std::string holder;    // to be
+  LeaseTerms terms;
+  TimePoint since{};
+  int place = 1;                          // counts from 1
+  std::optional<Duration> expected_wait;  // nothing where somebody in front has not said how long
+};
+
+// Not thread safe: lives on its device's strand. It moves nothing itself: what must stop is fetched by advance().
+class Leases : public shrc203::Permission {
+ public:
+  static constexpr std::size_t kWaitingMax = 256;
+
+  explicit Leases(LeaseTokens& tokens) : tokens_(tokens) {}
+
+  // Answers once: with the lease, or with lease_held where `wait` is false, deadline_passed, queue_full, or not_sent
+  // when withdrawn. The id is that of the waiting one, 0 when it was answered at once.
+  using OnLease = std::function<void(Result<Lease>)>;
+  std::uint64_t acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after, TimePoint now,
+                        OnLease answer);
+  void withdraw(std::uint64_t waiting, TimePoint now);
+
+  // Another time_to_live from now on. lease_lost.
+  Result<Lease> keep_alive(LeaseToken token, TimePoint now);
+  // The connection over which it was kept alive broke; AtLoss says what follows.
+  void lost(LeaseToken token, TimePoint now);
+  // What runs under it runs to its end, and the axes are free then. lease_lost.
+  Result<void> release(LeaseToken token, TimePoint now);
+  // To the first of that name who waits for nothing but these axes, past all others. lease_lost, axis_busy while a
+  // motion runs under it, not_found when nobody of that name waits.
+  Result<void> hand_over(LeaseToken token, const std::string& to, TimePoint now);
+  // Stops what moves there, whoever moves it, and takes the axes from all others.
+  void take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer);
+
+  // Lifts the latches that hold `who` back, and that of the lease, if a token is given. lease_lost. Answers with the
+  // axes that were latched.
+  Result<AxisSet> rearm(LeaseToken token, const std::string& who, TimePoint now);
+
+  std::vector<Lease> held() const;  // those that are ending among them; oldest first
+  std::vector<WaitingLease> waiting(TimePoint now) const;
+  struct HeldBack {  // somebody whose motion without a lease another stopped
+    std::string who;
+    Latch latch;
+  };
+  const std::vector<HeldBack>& held_back() const { return held_back_; }
+
+  // Called after every change of what the members above tell. Must not call back.
+  std::function<void()> on_change;
+
+  Result<void> may_use(const shrc203::Use& use, TimePoint now) override;
+  void begin(const shrc203::Use& use, TimePoint now) override;
+  void end(MotionId motion, TimePoint now) override;
+  void stop_asked(const shrc203::Use& stop, TimePoint now) override;
+  void device_restarted(TimePoint now) override;
+  std::vector<shrc203::StopOrder> advance(TimePoint now) override;
+  void stopped(std::uint64_t order, TimePoint now) override;
+  std::optional<TimePoint> next_deadline() const override;
+
+ private:
+  struct Held {
+    Lease lease;
+    bool goes_on = false;  // of an ending one: what runs may send on until it has ended
+  };
+  struct Waiting {
+    WaitingLease lease;
+    TimePoint not_after{};
+    OnLease answer;
+    std::uint64_t order = 0;  // of a take-over: its stop, until that has been answered
+  };
+  struct Running {
+    shrc203::Use use;
+    bool revoked = false;  // taken over: not a byte more
+  };
+  struct Borrowed {  // the last time that an axis was moved without a lease
+    std::string who;
+    TimePoint until{};
+  };
+
+  Held* find(LeaseToken token);
+  Result<Held*> find_held(LeaseToken token, TimePoint now);
+  Problem lost_problem(LeaseToken token) const;
+  Result<void> may_use_leased(const shrc203::Use& use, TimePoint now);
+  Result<void> may_borrow(const shrc203::Use& use, TimePoint now);
+  std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
+  bool runs(LeaseToken token) const;
+  void end_lease(Held& held, std::string why, bool goes_on);
+  void order_stop(AxisSet axes, const std::string& who);
+  void expire(TimePoint now);
+  void settle(TimePoint now);
+  bool drop_ended();
+  bool grant(TimePoint now);
+  AxisSet taken() const;
+  Lease start(const WaitingLease& waiting, TimePoint now);
+  std::optional<Duration> expected_wait(std::size_t place, TimePoint now) const;
+  void changed() const {
+    if (on_change) on_change();
+  }
+
+  static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 256;
+  // A loop that moves without a lease is between two motions for so long at most.
+  static constexpr Duration kBorrowedLately = std::chrono::seconds(10);
+
+  LeaseTokens& tokens_;
+  std::vector<Held> held_;
+  std::deque<Waiting> waiting_;
+  std::map<MotionId, Running> running_;
+  std::array<Borrowed, shrc203::kAxisCount> borrowed_;
+  std::vector<HeldBack> held_back_;
+  struct Ended {
+    LeaseToken token = 0;
+    std::string why;
+  };
+  std::deque<Ended> ended_;
+  std::vector<shrc203::StopOrder> orders_;
+  std::uint64_t last_waiting_ = 0, last_order_ = 0;
+};
+
+}  // namespace axisgate::server

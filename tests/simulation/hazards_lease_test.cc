@@ -1,0 +1,229 @@
+// Hazards of sharing: who may move what, and who was stopped. Numbers as in the table of what can go wrong on a shared
+// line.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "server/access/leases.h"
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using server::AtLoss;
+using server::Lease;
+using server::LeaseToken;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr AxisSet kOne = AxisSet::of(1);
+
+Setup with(Permission& permission) {
+  auto setup = quiet();
+  setup.permission = &permission;
+  return setup;
+}
+
+class HazardOfSharing : public testing::Test {
+ protected:
+  HazardOfSharing() { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
+
+  LeaseToken lease(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
+    LeaseToken token = 0;
+    leases.acquire({.axes = axes, .at_loss = at_loss}, holder, false, world.now(), world.now(),
+                   [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+    EXPECT_NE(token, 0u);
+    return token;
+  }
+  RequestContext context(const std::string& who, LeaseToken token) {
+    RequestContext asked = world.context(who);
+    asked.lease = token;
+    return asked;
+  }
+  // Why it was refused; unspecified where it was taken.
+  Reason move(const std::string& who, LeaseToken token, int axis, std::int64_t way) {
+    MoveRequest request = move_of(world, {{axis, way}}, true);
+    request.context = context(who, token);
+    Reason reason = Reason::unspecified;
+    world.controller().move(std::move(request), world.now(), [&, this](const Result<Motion>& motion) {
+      if (motion) return;
+      reason = motion.error().reason;
+      told = motion.error().message;
+    });
+    return reason;
+  }
+  void run_until_written(std::string_view prefix) {
+    EXPECT_TRUE(world.run_until([&] { return world.wire().commands().back().starts_with(prefix); }, seconds(5)))
+        << world.replay();
+  }
+  StopReport stop_by(const std::string& who, LeaseToken token = 0) {
+    std::optional<StopReport> report;
+    world.controller().stop({}, context(who, token), world.now(), [&](const StopReport& told_of) { report = told_of; });
+    EXPECT_TRUE(world.run_until([&] { return report.has_value(); }, seconds(30))) << world.replay();
+    return report.value_or(StopReport());
+  }
+
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  World world{with(leases)};
+  std::string told;
+};
+
+TEST_F(HazardOfSharing, H35_AnExpiredLeaseStopsItsMotion) {
+  const LeaseToken token = lease("anna", kOne);
+  EXPECT_EQ(move("anna", token, 1, 1'500'000), Reason::unspecified);
+  world.run_for(seconds(9));
+  EXPECT_TRUE(world.device().busy(1)) << world.replay();
+  world.run_for(seconds(3));
+  EXPECT_FALSE(world.device().busy(1)) << world.replay();
+  ASSERT_EQ(world.outcomes().size(), 1u);
+  EXPECT_EQ(world.outcomes()[0].state, MotionState::stopped);
+  EXPECT_EQ(move("anna", token, 1, 100), Reason::lease_lost);
+}
+
+TEST_F(HazardOfSharing, H35_AMotionThatMayFinishFinishes) {
+  const LeaseToken token = lease("anna", kOne, AtLoss::finish);
+  EXPECT_EQ(move("anna", token, 1, 700'000), Reason::unspecified);
+  const Motion motion = outcome_of(world, 1, seconds(60));
+  EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
+  EXPECT_GT(motion.ended - motion.created, seconds(12));
+}
+
+// Between set and go the lease expires: the start is never sent, and what was set does not run on another's.
+TEST_F(HazardOfSharing, H35_ExpiryBetweenSetAndGo) {
+  const LeaseToken token = lease("anna", kOne);
+  world.run_for(seconds(9));
+  MoveRequest request = move_of(world, {{1, 5000}}, true);
+  request.context = context("anna", token);
+  world.controller().move(std::move(request), world.now(), [](const Result<Motion>&) {});
+  run_until_written("MP:");
+  world.wire().hold_up(false, seconds(2));
+  world.run_for(seconds(5));
+  EXPECT_EQ(written(world, "G:"), 0) << world.replay();
+  EXPECT_EQ(move("bert", 0, 1, 100), Reason::unspecified);
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().position(1), 100) << world.replay();
+}
+
+// The reply to the set is there when the host wakes, before any timer: the lease has expired all the same.
+TEST_F(HazardOfSharing, H36_NoStartAfterTheHostHasSlept) {
+  const LeaseToken token = lease("anna", kOne);
+  EXPECT_EQ(move("anna", token, 1, 5000), Reason::unspecified);
+  run_until_written("MP:");
+  EXPECT_TRUE(world.run_until([&] { return world.wire().answered(); }, seconds(1)));
+  world.sleep_for(seconds(12));
+  world.run_for(seconds(5));
+  EXPECT_EQ(written(world, "G:"), 0) << world.replay();
+  EXPECT_EQ(world.device().starts(1), 0);
+}
+
+TEST_F(HazardOfSharing, H21_ARestartEndsLeases) {
+  const LeaseToken token = lease("anna", kOne);
+  world.power_cycle();
+  EXPECT_TRUE(world.run_until([&] { return world.controller().state().device_epoch == 2; }, seconds(60)));
+  EXPECT_EQ(move("anna", token, 1, 100), Reason::lease_lost);
+  EXPECT_THAT(told, HasSubstr("restarted"));
+}
+
+// A loop asks for the next move as soon as the last has ended, whatever became of it.
+TEST_F(HazardOfSharing, H53_AScanLoopStaysStopped) {
+  for (const bool leased : {true, false}) {
+    const LeaseToken token = leased ? lease("anna", kOne) : 0;
+    bool loops = true;
+    world.on_motion = [&](const Motion& motion) {
+      if (loops && is_outcome(motion.state)) {
+        world.at(world.now(), [&] { move("anna", token, 1, world.device().position(1) > 0 ? -3000 : 3000); });
+      }
+    };
+    move("anna", token, 1, 3000);
+    world.run_for(seconds(2));
+    ASSERT_GT(world.outcomes().size(), 2u);
+    EXPECT_FALSE(stop_by("bert").problem);
+    const std::size_t lines = world.wire().commands().size();
+    world.run_for(seconds(5));
+    EXPECT_EQ(motion_lines(world, lines), 0) << world.replay();
+    EXPECT_EQ(move("anna", token, 1, 100), Reason::stopped_by);
+    EXPECT_THAT(told, HasSubstr("bert stopped"));
+    loops = false;
+    ASSERT_TRUE(leases.rearm(token, "anna", world.now()));
+    EXPECT_EQ(move("anna", token, 1, 100), Reason::unspecified);
+    world.run_for(seconds(2));
+    if (leased) {
+      EXPECT_TRUE(leases.release(token, world.now()));
+    }
+  }
+}
+
+// The stop comes while the loop computes its next move.
+TEST_F(HazardOfSharing, H53_AStopBetweenTwoMovesHoldsToo) {
+  const LeaseToken token = lease("anna", kOne);
+  EXPECT_EQ(move("anna", token, 1, 1000), Reason::unspecified);
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded);
+  world.run_for(milliseconds(500));
+  stop_by("bert");
+  EXPECT_EQ(move("anna", token, 1, 1000), Reason::stopped_by);
+}
+
+// Each who asked for a stop hears its outcome.
+TEST_F(HazardOfSharing, H53_JoinedStopsEachGetTheOutcome) {
+  EXPECT_EQ(move("anna", 0, 1, 500'000), Reason::unspecified);
+  world.run_for(seconds(1));
+  std::vector<StopReport> reports;
+  for (const char* who : {"bert", "carl", "dora"}) {
+    world.controller().stop({}, context(who, 0), world.now(),
+                            [&](const StopReport& report) { reports.push_back(report); });
+  }
+  world.run_for(seconds(5));
+  ASSERT_EQ(reports.size(), 3u);
+  for (const StopReport& report : reports) EXPECT_FALSE(report.problem);
+  EXPECT_EQ(written(world, "L:"), 1) << world.replay();
+}
+
+TEST_F(HazardOfSharing, H06_AnothersHomeFailsAtOnce) {
+  const LeaseToken token = lease("anna", AxisSet::all());
+  (void)token;
+  std::optional<Reason> reason;
+  world.controller().home({kOne, context("bert", 0)}, world.now(), [&](const Result<Motion>& motion) {
+    reason = motion ? Reason::unspecified : motion.error().reason;
+  });
+  EXPECT_EQ(reason, Reason::lease_held);
+}
+
+// Another cannot overwrite the prebuffer of a running path, whichever way he tries.
+TEST_F(HazardOfSharing, H11_NobodyWritesIntoAPathsPrebuffer) {
+  const LeaseToken token = lease("anna", AxisSet::of(1) | AxisSet::of(2));
+  PathRequest path = line_of(world, 6);
+  path.context = context("anna", token);
+  world.controller().run_path(std::move(path), world.now(), [](const Result<Motion>&) {});
+  world.run_for(milliseconds(300));
+  EXPECT_EQ(move("bert", 0, 1, 100), Reason::lease_held);
+  std::vector<std::string> heard;
+  world.controller().execute({{"MP:1+P100", "G:1"}, context("bert", 0)}, world.now(), [&](const ExecuteEvent& event) {
+    if (event.problem) heard.emplace_back(name(event.problem->reason));
+  });
+  EXPECT_THAT(heard, testing::ElementsAre("LEASE_HELD"));
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+}
+
+// Settings of an axis and of the whole controller are its holder's, too; questions are everybody's.
+TEST_F(HazardOfSharing, H52_SettingsNeedTheRightToTheirAxes) {
+  const LeaseToken token = lease("anna", kOne);
+  const auto execute_by = [&](const std::string& who, LeaseToken with, const std::string& line) {
+    std::string came;
+    world.controller().execute({{line}, context(who, with)}, world.now(), [&](const ExecuteEvent& event) {
+      if (event.kind == ExecuteEvent::Kind::reply) came = event.answer;
+      if (event.problem) came = name(event.problem->reason);
+    });
+    world.run_for(seconds(2));
+    return came;
+  };
+  EXPECT_EQ(execute_by("bert", 0, "D:1S100F1000R100"), "LEASE_HELD");
+  EXPECT_EQ(execute_by("bert", 0, "D:2S100F1000R100"), "OK");
+  EXPECT_EQ(execute_by("bert", 0, "?:D1"), "S1000F50000R100");
+  EXPECT_EQ(execute_by("anna", token, "D:1S100F1000R100"), "OK");
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

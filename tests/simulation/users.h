@@ -1,0 +1,80 @@
+// Twenty people and scripts who share one stage under leases: they crash, pause, come back with stale tokens, overlap,
+// take over and stop one another. A ledger of its own, which knows nothing of server/access, says who may move what.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/access/leases.h"
+#include "tests/simulation/world.h"
+
+namespace axisgate::simulation {
+
+class Users {
+ public:
+  static constexpr int kUsers = 20;
+  static constexpr std::int64_t kTravel = 20'000;  // pulses, either way
+
+  Users(std::uint64_t seed, const Faults& faults);
+
+  void act_for(Duration duration);
+  World& world() { return world_; }
+
+  struct Counts {
+    int granted = 0, refused = 0, expired = 0, taken_over = 0, handed_over = 0, latched = 0, moved = 0;
+  };
+  const Counts& counts() const { return counts_; }
+
+ private:
+  struct User {
+    std::string name;
+    server::LeaseToken token = 0;
+    std::vector<server::LeaseToken> stale;
+    TimePoint paused_until{};
+  };
+  // What was granted, as the ledger has it.
+  struct Grant {
+    std::string who;
+    shrc203::AxisSet axes;
+    Duration time_to_live{};
+    TimePoint valid_until{};
+    server::AtLoss at_loss = server::AtLoss::stop;
+    shrc203::AxisSet latched;
+    bool over = false;  // released, handed over or taken over
+    std::uint64_t epoch = 0;
+  };
+
+  void act(User& user);
+  void acquire(User& user);
+  void take_over(User& user);
+  void keep_alive(User& user);
+  void give_up(User& user);
+  void crash(User& user);
+  void move(User& user, server::LeaseToken token);
+  void path(User& user, server::LeaseToken token);
+  void stop(User& user);
+  void rearm(User& user);
+  server::LeaseTerms drawn_terms();
+  shrc203::RequestContext context(const User& user, server::LeaseToken token);
+  server::LeaseToken drawn_token(const User& user);
+  void granted(User& user, const server::Lease& lease);
+  void on_news(const shrc203::Event& event);
+  void check_bytes(const shrc203::BytesWritten& written);
+  void check_travel();
+  bool owned(const Grant& grant);
+  const Grant* owner_of(int axis);
+
+  server::LeaseTokens tokens_{1};
+  server::Leases leases_{tokens_};
+  World world_;
+  std::vector<User> users_;
+  std::map<server::LeaseToken, Grant> grants_;
+  std::map<std::string, shrc203::AxisSet> held_back_;
+  std::map<shrc203::MotionId, server::LeaseToken> leases_of_;  // that they were asked for with
+  server::LeaseToken asking_ = 0;
+  Counts counts_;
+};
+
+}  // namespace axisgate::simulation

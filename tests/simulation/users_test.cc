@@ -1,0 +1,60 @@
+// Seeds with twenty users under leases.
+#include "tests/simulation/users.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+namespace axisgate::simulation {
+namespace {
+
+constexpr int kSeeds = 1000;
+constexpr int kSeedsACase = 10;
+
+void hold(std::uint64_t seed) {
+  static const char* const kProfiles[] = {"quiet", "mild", "rough", "hostile"};
+  Users users(seed, *Faults::named(kProfiles[seed % 4]));
+  users.act_for(std::chrono::minutes(2));
+  ASSERT_TRUE(users.world().violations().empty()) << users.world().violations().front() << "\n"
+                                                  << users.world().replay();
+}
+
+class UserSeeds : public testing::TestWithParam<int> {};
+
+TEST_P(UserSeeds, NobodyMovesWhatAnotherOwns) {
+  if (const char* only = std::getenv("AXISGATE_SEED")) {
+    if (GetParam() == 0) hold(std::strtoull(only, nullptr, 10));
+    return;
+  }
+  const int first = GetParam() * kSeedsACase;
+  for (int seed = first; seed < first + kSeedsACase && !HasFatalFailure(); ++seed) {
+    hold(static_cast<std::uint64_t>(seed));
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Ordinary, UserSeeds, testing::Range(0, kSeeds / kSeedsACase));
+
+// So that the seeds above show something: all that can happen to a lease does.
+TEST(UserSeedsShow, EverythingHappens) {
+  Users::Counts sum;
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    Users users(seed, Faults::none());
+    users.act_for(std::chrono::minutes(2));
+    const Users::Counts& counts = users.counts();
+    sum.granted += counts.granted;
+    sum.refused += counts.refused;
+    sum.expired += counts.expired;
+    sum.taken_over += counts.taken_over;
+    sum.handed_over += counts.handed_over;
+    sum.latched += counts.latched;
+    sum.moved += counts.moved;
+  }
+  for (const int count :
+       {sum.granted, sum.refused, sum.expired, sum.taken_over, sum.handed_over, sum.latched, sum.moved}) {
+    EXPECT_GT(count, 0) << sum.granted << " " << sum.refused << " " << sum.expired << " " << sum.taken_over << " "
+                        << sum.handed_over << " " << sum.latched << " " << sum.moved;
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::simulation

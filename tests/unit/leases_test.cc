@@ -1,0 +1,305 @@
+// Leases: who holds which axes, who waits, whom a stop holds back.
+#include "server/access/leases.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <utility>
+#include <vector>
+
+namespace axisgate::server {
+namespace {
+
+using shrc203::Use;
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+constexpr AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2), kBoth = kOne | kTwo;
+
+class LeasesTest : public testing::Test {
+ protected:
+  Result<Lease> acquire(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
+    Result<Lease> got = fail(Reason::internal, "not answered");
+    leases_.acquire({.axes = axes, .at_loss = at_loss}, holder, false, now_, now_,
+                    [&](const Result<Lease>& lease) { got = lease; });
+    return got;
+  }
+  LeaseToken held_by(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
+    const auto lease = acquire(holder, axes, at_loss);
+    EXPECT_TRUE(lease) << lease.error().message;
+    return lease ? lease->token : 0;
+  }
+  // Waits for a minute; the answers come into answers_.
+  std::uint64_t wait_for(const std::string& holder, AxisSet axes, std::optional<Duration> use = {}) {
+    return leases_.acquire(
+        {.axes = axes, .expected_use = use}, holder, true, now_ + seconds(60), now_,
+        [this, holder](const Result<Lease>& lease) {
+          answers_.push_back(holder + (lease ? " has it" : " " + std::string(name(lease.error().reason))));
+          if (lease) granted_ = lease->token;
+        });
+  }
+  Reason may(const std::string& who, LeaseToken lease, AxisSet axes, MotionId motion = 0) {
+    const auto allowed = leases_.may_use({who, lease, axes, motion}, now_);
+    if (!allowed) told_ = allowed.error().message;
+    return allowed ? Reason::unspecified : allowed.error().reason;
+  }
+  void begin(MotionId motion, const std::string& who, LeaseToken lease, AxisSet axes) {
+    leases_.begin({who, lease, axes, motion}, now_);
+  }
+  void pass(Duration time) {
+    now_ += time;
+    for (const auto& order : leases_.advance(now_)) orders_.push_back(order);
+  }
+  void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0) {
+    leases_.stop_asked({who, lease, axes, 0}, now_);
+  }
+
+  TimePoint now_{seconds(1000)};
+  LeaseTokens tokens_{7};
+  Leases leases_{tokens_};
+  std::vector<std::string> answers_;
+  std::vector<shrc203::StopOrder> orders_;
+  LeaseToken granted_ = 0;
+  std::string told_;
+};
+
+constexpr Reason kAllowed = Reason::unspecified;
+
+TEST_F(LeasesTest, TokensBearTheGenerationAndGrow) {
+  const LeaseToken first = held_by("anna", kOne), second = held_by("bert", kTwo);
+  EXPECT_EQ(first >> 32, 7u);
+  EXPECT_GT(second, first);
+  EXPECT_GT(LeaseTokens(8).next(), second);
+}
+
+TEST_F(LeasesTest, OnlyTheTokenMayMoveTheLeasedAxes) {
+  const LeaseToken token = held_by("anna", kOne);
+  EXPECT_EQ(may("anna", token, kOne), kAllowed);
+  EXPECT_EQ(may("anna", token, kTwo), Reason::outside_lease);
+  EXPECT_EQ(may("bert", 0, kOne), Reason::lease_held);
+  EXPECT_EQ(may("anna", 0, kOne), Reason::lease_held) << "the holder is the lease, not the person";
+  EXPECT_EQ(may("bert", 0, kTwo), kAllowed);
+  EXPECT_EQ(may("bert", token + 1, kTwo), Reason::lease_lost);
+}
+
+TEST_F(LeasesTest, ARefusalSaysWhoHoldsItAndSinceWhen) {
+  leases_.acquire({.axes = kOne, .purpose = "overnight scan"}, "anna", false, now_, now_, [](const Result<Lease>&) {});
+  now_ += seconds(5);
+  may("bert", 0, kBoth);
+  EXPECT_EQ(told_, "anna has held axis 1 for 5 s (\"overnight scan\")");
+}
+
+TEST_F(LeasesTest, ALeaseExpiresUnlessItIsKeptAlive) {
+  const LeaseToken token = held_by("anna", kOne);
+  pass(seconds(9));
+  ASSERT_TRUE(leases_.keep_alive(token, now_));
+  pass(seconds(9));
+  EXPECT_EQ(may("anna", token, kOne), kAllowed);
+  pass(seconds(1));
+  EXPECT_EQ(may("anna", token, kOne), Reason::lease_lost);
+  EXPECT_THAT(told_, HasSubstr("expired"));
+  EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
+  EXPECT_EQ(may("bert", 0, kOne), kAllowed);
+  EXPECT_THAT(leases_.held(), IsEmpty());
+}
+
+TEST_F(LeasesTest, ThoseWhoWaitGetItInTheirOrder) {
+  const LeaseToken token = held_by("anna", kBoth);
+  wait_for("bert", kBoth);
+  wait_for("carl", kOne);
+  ASSERT_EQ(leases_.waiting(now_).size(), 2u);
+  EXPECT_EQ(leases_.waiting(now_)[1].place, 2);
+  ASSERT_TRUE(leases_.release(token, now_));
+  EXPECT_THAT(answers_, ElementsAre("bert has it"));
+  ASSERT_TRUE(leases_.release(granted_, now_));
+  EXPECT_THAT(answers_, ElementsAre("bert has it", "carl has it"));
+}
+
+TEST_F(LeasesTest, NobodyOvertakesOneWhoWaits) {
+  held_by("anna", kOne);
+  wait_for("bert", kBoth);
+  EXPECT_EQ(acquire("carl", kTwo).error().reason, Reason::lease_held);
+  EXPECT_EQ(may("carl", 0, kTwo), Reason::lease_held);
+  EXPECT_THAT(told_, HasSubstr("bert has waited for"));
+}
+
+TEST_F(LeasesTest, TheExpectedWaitIsWhatThoseInFrontHaveSaid) {
+  leases_.acquire({.axes = kOne, .expected_use = seconds(30)}, "anna", false, now_, now_, [](const Result<Lease>&) {});
+  wait_for("bert", kOne, seconds(5));
+  wait_for("carl", kOne);
+  wait_for("dora", kOne);
+  now_ += seconds(10);
+  const auto waiting = leases_.waiting(now_);
+  EXPECT_EQ(waiting[0].expected_wait, Duration(seconds(20)));
+  EXPECT_EQ(waiting[1].expected_wait, Duration(seconds(25)));
+  EXPECT_FALSE(waiting[2].expected_wait) << "carl has not said how long";
+}
+
+TEST_F(LeasesTest, WaitingHasALimit) {
+  held_by("anna", kOne);
+  wait_for("bert", kOne);
+  for (int i = 0; i < 61; ++i) {
+    pass(seconds(1));
+    (void)leases_.keep_alive(leases_.held()[0].token, now_);
+  }
+  EXPECT_THAT(answers_, ElementsAre("bert DEADLINE_PASSED"));
+}
+
+TEST_F(LeasesTest, OneWhoWaitsNoLongerIsForgotten) {
+  const LeaseToken token = held_by("anna", kOne);
+  const auto waiting = wait_for("bert", kOne);
+  leases_.withdraw(waiting, now_);
+  EXPECT_THAT(answers_, ElementsAre("bert NOT_SENT"));
+  ASSERT_TRUE(leases_.release(token, now_));
+  EXPECT_EQ(may("carl", 0, kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, ALeaseWaitsForAMotionWithoutOne) {
+  begin(1, "bert", 0, kOne);
+  wait_for("anna", kOne);
+  EXPECT_THAT(answers_, IsEmpty());
+  EXPECT_EQ(may("bert", 0, kOne, 1), kAllowed) << "what runs may send on";
+  leases_.end(1, now_);
+  EXPECT_THAT(answers_, ElementsAre("anna has it"));
+}
+
+TEST_F(LeasesTest, WhatRunsUnderAnExpiredLeaseIsStopped) {
+  const LeaseToken token = held_by("anna", kOne);
+  begin(1, "anna", token, kOne);
+  wait_for("bert", kOne);
+  pass(seconds(10));
+  ASSERT_EQ(orders_.size(), 1u);
+  EXPECT_EQ(orders_[0].axes, kOne);
+  EXPECT_EQ(orders_[0].who, "anna");
+  EXPECT_EQ(may("anna", token, kOne, 1), Reason::lease_lost);
+  EXPECT_THAT(answers_, IsEmpty()) << "it still moves";
+  leases_.end(1, now_);
+  EXPECT_THAT(answers_, ElementsAre("bert has it"));
+}
+
+TEST_F(LeasesTest, WhatMayFinishFinishesAndNothingElseBegins) {
+  const LeaseToken token = held_by("anna", kOne, AtLoss::finish);
+  begin(1, "anna", token, kOne);
+  pass(seconds(10));
+  EXPECT_THAT(orders_, IsEmpty());
+  EXPECT_EQ(may("anna", token, kOne, 1), kAllowed);
+  EXPECT_EQ(may("anna", token, kOne, 2), Reason::lease_lost);
+  EXPECT_EQ(acquire("bert", kOne).error().reason, Reason::lease_held);
+  leases_.end(1, now_);
+  EXPECT_TRUE(acquire("bert", kOne));
+}
+
+TEST_F(LeasesTest, AHolderWhoIsCutOffMayComeBackInTime) {
+  const LeaseToken token = held_by("anna", kOne);
+  begin(1, "anna", token, kOne);
+  leases_.lost(token, now_);
+  pass(seconds(1));
+  EXPECT_EQ(orders_.size(), 1u);
+  EXPECT_TRUE(leases_.keep_alive(token, now_));
+}
+
+TEST_F(LeasesTest, StopAndReleaseEndsWithTheConnection) {
+  const LeaseToken token = held_by("anna", kOne, AtLoss::stop_and_release);
+  begin(1, "anna", token, kOne);
+  leases_.lost(token, now_);
+  pass(seconds(0));
+  EXPECT_EQ(orders_.size(), 1u);
+  EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
+}
+
+TEST_F(LeasesTest, HandingOverPassesTheLine) {
+  const LeaseToken token = held_by("anna", kBoth);
+  wait_for("bert", kOne);
+  wait_for("carl", kOne);
+  EXPECT_EQ(leases_.hand_over(token, "dora", now_).error().reason, Reason::not_found);
+  begin(1, "anna", token, kOne);
+  EXPECT_EQ(leases_.hand_over(token, "carl", now_).error().reason, Reason::axis_busy);
+  leases_.end(1, now_);
+  ASSERT_TRUE(leases_.hand_over(token, "carl", now_));
+  EXPECT_THAT(answers_, ElementsAre("carl has it"));
+  EXPECT_EQ(may("anna", token, kOne), Reason::lease_lost);
+  EXPECT_THAT(told_, HasSubstr("handed over to carl"));
+}
+
+TEST_F(LeasesTest, ATakeOverStopsFirst) {
+  const LeaseToken token = held_by("anna", kBoth);
+  begin(1, "anna", token, kOne);
+  wait_for("bert", kOne);
+  leases_.take_over({.axes = kOne}, "chief", now_,
+                    [this](const Result<Lease>& lease) { answers_.push_back(lease ? "chief has it" : "refused"); });
+  EXPECT_EQ(may("anna", token, kOne, 1), Reason::lease_lost) << "not a byte more";
+  pass(seconds(0));
+  ASSERT_EQ(orders_.size(), 1u);
+  leases_.end(1, now_);
+  EXPECT_THAT(answers_, IsEmpty()) << "the stop is still under way";
+  leases_.stopped(orders_[0].id, now_);
+  EXPECT_THAT(answers_, ElementsAre("chief has it"));
+}
+
+TEST_F(LeasesTest, ATakeOverEndsAMotionWithoutALease) {
+  begin(1, "anna", 0, kOne);
+  leases_.take_over({.axes = kOne}, "chief", now_, [](const Result<Lease>&) {});
+  EXPECT_EQ(may("anna", 0, kOne, 1), Reason::lease_lost);
+}
+
+TEST_F(LeasesTest, ARestartOfTheControllerEndsAllLeases) {
+  const LeaseToken token = held_by("anna", kOne);
+  leases_.device_restarted(now_);
+  EXPECT_EQ(may("anna", token, kOne), Reason::lease_lost);
+  EXPECT_THAT(told_, HasSubstr("restarted"));
+}
+
+TEST_F(LeasesTest, AnothersStopHoldsTheHolderBackUntilRearm) {
+  const LeaseToken token = held_by("anna", kBoth);
+  stop_by("bert", kOne);
+  now_ += seconds(3);
+  EXPECT_EQ(may("anna", token, kOne), Reason::stopped_by);
+  EXPECT_THAT(told_, HasSubstr("bert stopped axis 1 3 s ago"));
+  EXPECT_EQ(may("anna", token, kTwo), kAllowed);
+  EXPECT_EQ(leases_.rearm(token, "anna", now_), kOne);
+  EXPECT_EQ(may("anna", token, kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, TheHoldersOwnStopHoldsNobodyBack) {
+  const LeaseToken token = held_by("anna", kOne);
+  stop_by("anna", kOne, token);
+  EXPECT_EQ(may("anna", token, kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, ALatchEndsWithItsLease) {
+  const LeaseToken token = held_by("anna", kOne);
+  stop_by("bert", kOne);
+  ASSERT_TRUE(leases_.release(token, now_));
+  EXPECT_EQ(may("anna", held_by("anna", kOne), kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, AnothersStopHoldsBackALoopWithoutALease) {
+  begin(1, "anna", 0, kOne);
+  leases_.end(1, now_);
+  now_ += seconds(1);  // between two motions
+  stop_by("bert", AxisSet::all());
+  EXPECT_EQ(may("anna", 0, kOne), Reason::stopped_by);
+  EXPECT_EQ(may("anna", 0, kTwo), kAllowed);
+  EXPECT_EQ(may("bert", 0, kOne), kAllowed);
+  now_ += seconds(3600);
+  EXPECT_EQ(may("anna", 0, kOne), Reason::stopped_by) << "until rearm";
+  EXPECT_EQ(leases_.rearm(0, "anna", now_), kOne);
+  EXPECT_EQ(may("anna", 0, kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, OnesOwnStopDoesNotHoldOneBack) {
+  begin(1, "anna", 0, kOne);
+  stop_by("anna", kOne);
+  leases_.end(1, now_);
+  EXPECT_EQ(may("anna", 0, kOne), kAllowed);
+}
+
+TEST_F(LeasesTest, QuestionsNeedNothing) {
+  held_by("anna", AxisSet::all());
+  EXPECT_EQ(may("bert", 12345, AxisSet()), kAllowed);
+}
+
+}  // namespace
+}  // namespace axisgate::server
