@@ -4,11 +4,14 @@
 
 #include <CLI/CLI.hpp>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
+#include <ctime>
 #include <exception>
 #include <memory>
 #include <string>
 
+#include "server/access/generation.h"
 #include "server/config.h"
 #include "server/descriptor_limit.h"
 #include "server/end_signals.h"
@@ -48,12 +51,21 @@ int complain(const std::vector<server::ConfigError>& errors) {
   return kExitUsage;
 }
 
+std::uint32_t start_generation() {
+  const auto now = static_cast<std::uint32_t>(std::time(nullptr));
+  const Result<std::uint32_t> generation = server::next_generation(server::default_state_directory(), now);
+  if (generation) return *generation;
+  spdlog::warn("{}; lease tokens are told from those of earlier runs by the clock alone",
+               server::explain(generation.error()));
+  return now;
+}
+
 int serve(const server::Config& config) {
   server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
-  server::Gateway gateway(config);
+  server::Gateway gateway(config, start_generation());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{server::raise_descriptor_limit()};

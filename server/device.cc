@@ -24,15 +24,20 @@ std::string count_by_outcome(const std::vector<shrc203::Motion>& motions) {
 }  // namespace
 
 Device::Device(shrc203::Profile profile, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
-               const Executor& readers)
+               const Executor& readers, LeaseTokens& lease_tokens)
     : profile_(std::move(profile)),
       line_(std::move(line)),
       newest_state_(readers),
+      newest_leases_(readers),
       metrics_(metrics, profile_.name),
       recorder_(recording_header(profile_), readers, metrics_),
       events_(profile_.name, bus, metrics_, recorder_, [this](DeviceEvents::Due due) { on_due(due); }),
+      leases_(lease_tokens),
       runner_(std::move(strand), line_->opener()),
-      controller_(profile_, runner_, events_) {
+      controller_(profile_, runner_, events_, leases_) {
+  leases_.on_change = [this](TimePoint now) {
+    newest_leases_.publish({leases_.held(), leases_.waiting(now), leases_.held_back()});
+  };
   runner_.attach(controller_);
 }
 

@@ -5,29 +5,39 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "device/link/runner.h"
 #include "device/shrc203/controller.h"
+#include "server/access/leases.h"
 #include "server/device_events.h"
 #include "server/events/event_bus.h"
-#include "server/events/newest_state.h"
+#include "server/events/newest.h"
 #include "server/line.h"
 #include "server/metrics.h"
 #include "server/recorder.h"
 
 namespace axisgate::server {
 
+// Who holds what of a device, and who waits.
+struct LeaseBoard {
+  std::vector<Lease> held;
+  std::vector<WaitingLease> waiting;
+  std::vector<Leases::HeldBack> held_back;
+};
+
 class Device {
  public:
   // `bus`, `metrics` and the strand's io_context outlive this.
   Device(shrc203::Profile profile, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
-         const Executor& readers);
+         const Executor& readers, LeaseTokens& lease_tokens);
 
   // From any thread.
   const std::string& name() const { return profile_.name; }
   const shrc203::Profile& profile() const { return profile_; }
   const std::string& line_description() const { return line_->description(); }
-  NewestState& newest_state() { return newest_state_; }
+  Newest<shrc203::State>& newest_state() { return newest_state_; }
+  Newest<LeaseBoard>& newest_leases() { return newest_leases_; }
   DeviceRecorder& recorder() { return recorder_; }
 
   // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
@@ -36,6 +46,7 @@ class Device {
 
   // On the strand only: from within a posted request or a callback of the Controller.
   std::uint64_t motion_revision(shrc203::MotionId motion) const { return events_.motion_revision(motion); }
+  Leases& leases() { return leases_; }
 
   void start();
   // Calls `done` on the strand when every motion has its outcome and the line is closed: Controller::wind_down(). From
@@ -50,10 +61,12 @@ class Device {
 
   const shrc203::Profile profile_;
   std::unique_ptr<Line> line_;
-  NewestState newest_state_;
+  Newest<shrc203::State> newest_state_;
+  Newest<LeaseBoard> newest_leases_;
   DeviceMetrics metrics_;
   DeviceRecorder recorder_;
   DeviceEvents events_;
+  Leases leases_;
   Runner runner_;
   shrc203::Controller controller_;
   bool publishing_ = false;  // a posted publish_due() is under way

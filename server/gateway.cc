@@ -30,13 +30,14 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 
 }  // namespace
 
-Gateway::Gateway(const Config& config) : config_(config), run_(random_run()), events_(posting_to(readers_)) {
+Gateway::Gateway(const Config& config, std::uint32_t generation)
+    : config_(config), run_(random_run()), lease_tokens_(generation), events_(posting_to(readers_)) {
   open_timers(lines_);
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, Strand(lines_.get_executor()));
     devices_.push_back(std::make_unique<Device>(device.profile, std::move(line), Strand(lines_.get_executor()), events_,
-                                                metrics_, posting_to(readers_)));
+                                                metrics_, posting_to(readers_), lease_tokens_));
   }
 }
 

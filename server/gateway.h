@@ -10,6 +10,7 @@
 
 #include "device/core/time.h"
 #include "device/link/asio.h"
+#include "server/access/leases.h"
 #include "server/config.h"
 #include "server/device.h"
 #include "server/events/event_bus.h"
@@ -23,7 +24,8 @@ class RecordingFile;
 // that a thousand of them cost the lines nothing. Every member may be called from any thread once start() has returned.
 class Gateway {
  public:
-  explicit Gateway(const Config& config);
+  // `generation` is greater for every start of the daemon (access/generation.h).
+  Gateway(const Config& config, std::uint32_t generation);
   // Ends the threads. Whoever posted a request to a device is gone by then: an unanswered one never will be answered.
   ~Gateway();
   Gateway(const Gateway&) = delete;
@@ -57,6 +59,7 @@ class Gateway {
   boost::asio::io_context readers_{1};
   Work lines_work_{lines_.get_executor()};
   Work readers_work_{readers_.get_executor()};
+  LeaseTokens lease_tokens_;
   Metrics metrics_;
   EventBus events_;
   std::vector<std::unique_ptr<Device>> devices_;

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdlib>
 #include <random>
+#include <string_view>
 #include <utility>
 
 #include "clients/axisctl/failure.h"
@@ -47,7 +50,8 @@ Connection::Connection(std::string target)
       stage(v1::StageService::NewStub(channel_)),
       events(v1::EventService::NewStub(channel_)),
       commands(v1::CommandService::NewStub(channel_)),
-      diagnostics(v1::DiagnosticsService::NewStub(channel_)) {}
+      diagnostics(v1::DiagnosticsService::NewStub(channel_)),
+      control(v1::ControlService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;
@@ -70,6 +74,16 @@ v1::CallContext new_call_context() {
   std::random_device random;
   v1::CallContext context;
   context.set_request_id(fmt::format("axisctl-{:08x}{:08x}", random(), random()));
+  if (const char* lease = std::getenv(kLeaseVariable)) {
+    std::uint64_t token = 0;
+    const std::string_view text(lease);
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), token);
+    if (error != std::errc() || end != text.data() + text.size()) {
+      throw usage(fmt::format("{} is \"{}\", which is no token", kLeaseVariable, text),
+                  "unset it, or start anew with `axisctl lease run`");
+    }
+    context.set_lease_token(token);
+  }
   return context;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "axisgate/v1/command.grpc.pb.h"
+#include "axisgate/v1/control.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
@@ -54,12 +55,16 @@ class Connection {
   const std::unique_ptr<v1::EventService::Stub> events;
   const std::unique_ptr<v1::CommandService::Stub> commands;
   const std::unique_ptr<v1::DiagnosticsService::Stub> diagnostics;
+  const std::unique_ptr<v1::ControlService::Stub> control;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.
 v1::Problem problem_of(const grpc::Status& status);
 
-// A context with a new request id.
+// The variable that holds the token of the lease under which a command was started by `lease run`.
+inline constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
+
+// A context with a new request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no number.
 v1::CallContext new_call_context();
 
 }  // namespace axisgate::axisctl

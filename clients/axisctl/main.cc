@@ -17,11 +17,11 @@ int run(const Options& options) {
     case Verb::position:
       return position(session);
     case Verb::home:
-      return home(session);
+      return with_lease(session, home);
     case Verb::move:
-      return move(session);
+      return with_lease(session, move);
     case Verb::path:
-      return path(session);
+      return with_lease(session, path);
     case Verb::stop:
       return stop(session);
     case Verb::estop:
@@ -40,6 +40,14 @@ int run(const Options& options) {
       return replay(session);
     case Verb::support:
       return support(session);
+    case Verb::lease_run:
+      return lease_run(session);
+    case Verb::lease_list:
+      return lease_list(session);
+    case Verb::lease_hand_over:
+      return lease_hand_over(session);
+    case Verb::rearm:
+      return rearm(session);
   }
   return kUsage;
 }

@@ -19,6 +19,7 @@ axis's configured name. Examples:
   axisctl path square.txt              one segment a line: 1=1mm 2=-500um speed=2mm/s   # comment
   axisctl exec 'M:1+P1000' 'G:1'       one transaction
   axisctl --json watch --from 1
+  axisctl lease run --purpose 'scan of sample 12' -- python3 scan.py
   axisctl record --output stage.recording      then: axisctl replay stage.recording
 
 Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; a replay differs; 2 wrong usage; 3 refused (bad
@@ -38,6 +39,12 @@ void add_speed(CLI::App& verb, Options& options) {
       ->type_name("MS");
 }
 
+void add_wait(CLI::App& verb, Options& options) {
+  verb.add_option("--wait", options.wait_s, "wait so long for axes that another's lease is over")
+      ->check(CLI::Range(1, 86'400))
+      ->type_name("S");
+}
+
 void add_axes(CLI::App& verb, Options& options) {
   verb.add_option("AXES", options.axes, "numbers or names; none: all axes")->delimiter(',')->type_name("");
 }
@@ -54,21 +61,25 @@ void add_motion_verbs(CLI::App& app, Options& options) {
   add_axes(*home, options);
   home->add_flag("--logical", options.logical, "return to the logical origin instead");
   add_waiting(*home, options);
+  add_wait(*home, options);
 
   CLI::App* move = add_verb(app, options, Verb::move, "move", "move axes to positions, or by ways");
   move->add_option("AXIS=AMOUNT", options.places, "as 1=+5mm 2=-200um")->required()->type_name("");
   move->add_flag("--relative", options.relative, "the amounts are ways from where the axes are");
   add_speed(*move, options);
   add_waiting(*move, options);
+  add_wait(*move, options);
 
   CLI::App* path = add_verb(app, options, Verb::path, "path", "run segments one after another without a halt");
   path->add_option("FILE", options.file, "one segment a line; - is the standard input")->required()->type_name("");
   path->add_flag("--absolute", options.absolute, "the amounts are positions, not ways");
   add_speed(*path, options);
   add_waiting(*path, options);
+  add_wait(*path, options);
 
   add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop"), options);
   add_verb(app, options, Verb::estop, "estop", "stop all axes at once and latch; `clear` releases");
+  add_verb(app, options, Verb::rearm, "rearm", "let your motion go on that another stopped");
 }
 
 void add_questions(CLI::App& app, Options& options) {
@@ -108,6 +119,32 @@ void add_recording_verbs(CLI::App& app, Options& options) {
                                "write a report for somebody who helps; without serial numbers and names of people");
   support->add_option("--output", options.output, "none: axisgate-support-TIME.txt; - is the standard output")
       ->type_name("FILE");
+}
+
+void add_lease_verbs(CLI::App& app, Options& options) {
+  CLI::App* lease = app.add_subcommand("lease", "who may move what: run, list, hand-over");
+  lease->require_subcommand(1);
+  lease->fallthrough();
+  CLI::App* run = add_verb(*lease, options, Verb::lease_run, "run",
+                           "run a command, a shell for instance, that alone may move the axes");
+  run->add_option("--axes", options.axes, "numbers or names; none: the whole device")
+      ->delimiter(',')
+      ->type_name("AXES");
+  add_wait(*run, options);
+  run->add_flag("--take-over", options.take_over, "stop the axes and take them from whoever has them")
+      ->excludes("--wait");
+  run->add_option("--at-loss", options.at_loss, "what becomes of motion when this program is cut off")
+      ->check(CLI::IsMember({"finish", "stop", "stop-and-release"}))
+      ->capture_default_str();
+  run->add_option("--purpose", options.purpose, "shown to those who would like the axes")->type_name("TEXT");
+  run->add_option("COMMAND", options.lines, "behind --")->required()->type_name("");
+  run->positionals_at_end();
+  CLI::App* list =
+      add_verb(*lease, options, Verb::lease_list, "list", "who holds what, who waits, whom a stop holds back");
+  list->add_flag("--follow", options.follow, "go on at every change, until Ctrl-C");
+  CLI::App* hand_over = add_verb(*lease, options, Verb::lease_hand_over, "hand-over",
+                                 "inside `lease run`: give the axes to one who waits");
+  hand_over->add_option("HOLDER", options.holder, "as `lease list` shows them: 'unix bert'")->required()->type_name("");
 }
 
 bool writes_text_only(Verb verb) { return verb == Verb::record || verb == Verb::replay || verb == Verb::support; }
@@ -165,6 +202,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_questions(app, options);
   add_motion_verbs(app, options);
   add_other_verbs(app, options);
+  add_lease_verbs(app, options);
   add_recording_verbs(app, options);
   CLI::App* help = app.add_subcommand("help", "this, or about one verb");
   help->add_option("VERB", help_verb)->type_name("");

@@ -24,7 +24,11 @@ enum class Verb {
   commands,
   record,
   replay,
-  support
+  support,
+  lease_run,
+  lease_list,
+  lease_hand_over,
+  rearm
 };
 
 struct Options {
@@ -35,7 +39,7 @@ struct Options {
 
   std::vector<std::string> axes;               // home, stop, clear: numbers or names
   std::vector<std::string> places;             // move: "1=+5mm"
-  std::vector<std::string> lines;              // exec
+  std::vector<std::string> lines;              // exec; lease run: the command and its arguments
   std::string file;                            // path, replay; "-" is the standard input
   std::string output;                          // record, support: a file; empty: as the verb does by itself
   std::string command;                         // commands: one row only
@@ -49,6 +53,12 @@ struct Options {
   bool only_new = false;                       // record
   std::optional<int> seconds;                  // record
   std::optional<std::uint64_t> from_revision;  // watch
+  std::optional<int> wait_s;                   // home, move, path, lease run: for a lease that another holds
+  bool take_over = false;                      // lease run
+  bool follow = false;                         // lease list
+  std::string at_loss = "stop";                // lease run
+  std::string purpose;                         // lease run
+  std::string holder;                          // lease hand-over: to whom
 };
 
 // The options, or the exit code with which to leave at once: help was shown, or the usage was wrong and that was said.

@@ -91,6 +91,8 @@ void print_failure(const Failure& failure) {
   write(stderr, on_one_line(line));
 }
 
+void print_note(std::string_view message) { write(stderr, on_one_line(fmt::format("axisctl: {}", message))); }
+
 std::string label(const v1::Axis& axis) { return axis.name().empty() ? std::to_string(axis.number()) : axis.name(); }
 
 Unit core_unit(v1::Unit unit) {

@@ -23,6 +23,9 @@ void print_json(const google::protobuf::Message& message);
 // "axisctl: REASON: message (hint)" on the standard error, one line.
 void print_failure(const Failure& failure);
 
+// "axisctl: message" on the standard error: something that a person wants to know meanwhile.
+void print_note(std::string_view message);
+
 // "x" of "1 x", or "1" of an axis without a name.
 std::string label(const v1::Axis& axis);
 

@@ -20,5 +20,12 @@ int watch(const Session& session);
 int record(const Session& session);
 int replay(const Session& session);
 int support(const Session& session);
+int lease_run(const Session& session);
+int lease_list(const Session& session);
+int lease_hand_over(const Session& session);
+int rearm(const Session& session);
+
+// With --wait under a lease of its own, which is waited for.
+int with_lease(const Session& session, int (*verb)(const Session&));
 
 }  // namespace axisgate::axisctl

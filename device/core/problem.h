@@ -55,6 +55,7 @@ enum class Reason {
   lease_lost,
   outside_lease,
   stopped_by,
+  not_allowed,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

@@ -86,7 +86,7 @@ void Leases::stop_asked(const Use& stop, TimePoint now) {
     if (held_back_.size() == kHeldBackMax) held_back_.erase(held_back_.begin());
     held_back_.push_back({who, {axes, stop.who, now}});
   }
-  changed();
+  changed(now);
 }
 
 Result<AxisSet> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {
@@ -100,7 +100,7 @@ Result<AxisSet> Leases::rearm(LeaseToken token, const std::string& who, TimePoin
     if (one.who == who) lifted = lifted | one.latch.axes;
   }
   std::erase_if(held_back_, [&](const HeldBack& one) { return one.who == who; });
-  changed();
+  changed(now);
   return lifted;
 }
 

@@ -75,6 +75,7 @@ Result<Lease> Leases::keep_alive(LeaseToken token, TimePoint now) {
   const auto held = find_held(token, now);
   if (!held) return tl::unexpected(held.error());
   (*held)->lease.expires = now + (*held)->lease.terms.time_to_live;
+  changed(now);
   return (*held)->lease;
 }
 
@@ -248,7 +249,7 @@ void Leases::expire(TimePoint now) {
 void Leases::settle(TimePoint now) {
   drop_ended();
   while (grant(now)) drop_ended();
-  changed();
+  changed(now);
 }
 
 bool Leases::drop_ended() {

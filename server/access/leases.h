@@ -116,7 +116,7 @@ class Leases : public shrc203::Permission {
   const std::vector<HeldBack>& held_back() const { return held_back_; }
 
   // Called after every change of what the members above tell. Must not call back.
-  std::function<void()> on_change;
+  std::function<void(TimePoint now)> on_change;
 
   Result<void> may_use(const shrc203::Use& use, TimePoint now) override;
   void begin(const shrc203::Use& use, TimePoint now) override;
@@ -163,8 +163,8 @@ class Leases : public shrc203::Permission {
   AxisSet taken() const;
   Lease start(const WaitingLease& waiting, TimePoint now);
   std::optional<Duration> expected_wait(std::size_t place, TimePoint now) const;
-  void changed() const {
-    if (on_change) on_change();
+  void changed(TimePoint now) const {
+    if (on_change) on_change(now);
   }
 
   static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 256;

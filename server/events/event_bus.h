@@ -17,7 +17,7 @@
 
 namespace axisgate::server {
 
-// What is told to everybody, each exactly once and in order. Telemetry is not among it: newest_state.h.
+// What is told to everybody, each exactly once and in order. Telemetry is not among it: newest.h.
 using Fact = std::variant<shrc203::MotionChanged, shrc203::CompletionSeen, shrc203::PathProgress, shrc203::LinkChanged,
                           shrc203::StopRequested>;
 

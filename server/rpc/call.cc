@@ -1,6 +1,7 @@
 #include "server/rpc/call.h"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -9,6 +10,7 @@
 #include <utility>
 
 #include "device/core/escape.h"
+#include "server/connections/callers.h"
 #include "server/events/wall_time.h"
 #include "server/rpc/entrances.h"
 
@@ -55,7 +57,7 @@ Result<shrc203::RequestContext> context_until(const grpc::CallbackServerContext&
   }
   TimePoint until = not_after(context).value_or(otherwise);
   if (const auto deadline = call_deadline(call)) until = std::min(until, *deadline);
-  return shrc203::RequestContext{caller(call), id, until};
+  return shrc203::RequestContext{caller(call), id, until, context.lease_token()};
 }
 
 }  // namespace
@@ -116,11 +118,19 @@ Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerConte
 shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context) {
   shrc203::RequestContext asked = question_context(call);
   asked.request_id = escaped(context.request_id(), kRequestIdMax);
+  asked.lease = context.lease_token();
   return asked;
 }
 
 shrc203::RequestContext question_context(const grpc::CallbackServerContext& call) {
-  return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience)};
+  return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience), 0};
+}
+
+Result<void> check_admin(const grpc::CallbackServerContext& call) {
+  const std::string admin = server::caller_name(::geteuid());
+  if (unix_caller(call) == admin) return {};
+  return fail(Reason::not_allowed, fmt::format("only an administrator may do this, and {} calls", caller(call)),
+              fmt::format("call as {}, over the Unix socket", admin));
 }
 
 }  // namespace axisgate::rpc

@@ -35,7 +35,7 @@ grpc::ServerUnaryReactor* DeviceService::ListDevices(grpc::CallbackServerContext
   const auto call = UnaryCall<api::ListDevicesResponse>::start(response);
   call->answer([&](api::ListDevicesResponse& answer) {
     for (const auto& device : gateway_.devices()) {
-      *answer.add_devices() = to_proto(*device, *device->newest_state().get().state);
+      *answer.add_devices() = to_proto(*device, *device->newest_state().get().value);
     }
   });
   return call.get();

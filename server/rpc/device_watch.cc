@@ -16,7 +16,7 @@ DeviceWatch* DeviceWatch::start(server::Gateway& gateway, server::Device& device
 }
 
 DeviceWatch::Next DeviceWatch::next() {
-  const server::NewestState::Snapshot newest = device_.newest_state().get();
+  const server::Newest<shrc203::State>::Snapshot newest = device_.newest_state().get();
   if (newest.version == sent_) return Wait{};
   const TimePoint now = monotonic_now();
   if (now < earliest_) {
@@ -35,7 +35,7 @@ DeviceWatch::Next DeviceWatch::next() {
   sent_ = newest.version;
   earliest_ = now + min_interval_;
   api::WatchDeviceResponse response;
-  *response.mutable_device() = to_proto(device_, *newest.state);
+  *response.mutable_device() = to_proto(device_, *newest.value);
   return response;
 }
 

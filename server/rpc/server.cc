@@ -40,6 +40,7 @@ Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> liste
       events_(gateway, streams_),
       commands_(gateway, streams_),
       diagnostics_(gateway, streams_),
+      control_(gateway, streams_),
       health_(streams_),
       stops_(stage_),
       names_(devices_) {}
@@ -69,8 +70,8 @@ void Server::build_ordinary() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
-  for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &diagnostics_, &health_}) {
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_,
+                                                                      &diagnostics_, &control_, &health_}) {
     builder.RegisterService(service);
   }
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());

@@ -15,6 +15,7 @@
 #include "server/gateway.h"
 #include "server/listener.h"
 #include "server/rpc/command_service.h"
+#include "server/rpc/control_service.h"
 #include "server/rpc/device_service.h"
 #include "server/rpc/diagnostics_service.h"
 #include "server/rpc/entrances.h"
@@ -61,6 +62,7 @@ class Server {
   EventService events_;
   CommandService commands_;
   DiagnosticsService diagnostics_;
+  ControlService control_;
   HealthService health_;
   StopService stops_;
   NamesService names_;

@@ -6,9 +6,9 @@
 
 namespace axisgate::rpc {
 
-inline constexpr std::array<std::string_view, 5> kApiServices = {
-    "axisgate.v1.DeviceService", "axisgate.v1.StageService", "axisgate.v1.EventService", "axisgate.v1.CommandService",
-    "axisgate.v1.DiagnosticsService"};
+inline constexpr std::array<std::string_view, 6> kApiServices = {
+    "axisgate.v1.DeviceService",  "axisgate.v1.StageService",       "axisgate.v1.EventService",
+    "axisgate.v1.CommandService", "axisgate.v1.DiagnosticsService", "axisgate.v1.ControlService"};
 
 // Those of gRPC itself.
 inline constexpr std::array<std::string_view, 2> kCommonServices = {"grpc.health.v1.Health",

@@ -57,7 +57,7 @@ SupportReport::SupportReport(server::Gateway& gateway, StreamLimit::Place place)
 
 void SupportReport::add_devices(server::Gateway& gateway) {
   for (const auto& device : gateway.devices()) {
-    api::Device state = to_proto(*device, *device->newest_state().get().state);
+    api::Device state = to_proto(*device, *device->newest_state().get().value);
     state.set_serial_number(redactor_.hide(Redactor::Kind::serial_number, state.serial_number()));
     state.set_link_problem(redactor_.redact(state.link_problem()));
     first_ += fmt::format("\n== state of {} ==\n{}", device->name(), state.DebugString());

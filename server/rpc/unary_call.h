@@ -4,7 +4,9 @@
 #include <grpcpp/support/server_callback.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <utility>
 
 #include "server/rpc/status.h"
@@ -26,9 +28,27 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   // `fill` is called with the response to fill, or not at all.
   template <class Fill>
   void answer(Fill&& fill) {
-    if (ended_.exchange(true)) return;
+    (void)try_answer(std::forward<Fill>(fill));
+  }
+  // The same; false: the caller has gone.
+  template <class Fill>
+  bool try_answer(Fill&& fill) {
+    if (ended_.exchange(true)) return false;
     fill(*response_);
     Finish(grpc::Status::OK);
+    return true;
+  }
+
+  // Calls `leave` once when the caller goes before the answer, at once where he has gone already. Call it once.
+  void when_cancelled(std::function<void()> leave) {
+    {
+      const std::lock_guard lock(mutex_);
+      if (!cancelled_) {
+        leave_ = std::move(leave);
+        return;
+      }
+    }
+    leave();
   }
 
   // Returns the reactor, so that a handler can end with it.
@@ -38,7 +58,15 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   }
 
   void OnCancel() override {
-    if (!ended_.exchange(true)) Finish(grpc::Status::CANCELLED);
+    if (ended_.exchange(true)) return;
+    std::function<void()> leave;
+    {
+      const std::lock_guard lock(mutex_);
+      cancelled_ = true;
+      leave = std::exchange(leave_, {});
+    }
+    if (leave) leave();
+    Finish(grpc::Status::CANCELLED);
   }
 
   void OnDone() override { self_.reset(); }
@@ -47,6 +75,9 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   explicit UnaryCall(Response* response) : response_(response) {}
 
   std::atomic<bool> ended_ = false;
+  std::mutex mutex_;
+  std::function<void()> leave_;
+  bool cancelled_ = false;
   Response* response_;  // gRPC's, until Finish()
   Handle self_;
 };

@@ -70,6 +70,7 @@ class Daemon:
             file.write(config.format(socket=self.socket))
         self._log_path = os.path.join(folder, "axisgated.log")
         self._log = open(self._log_path, "a+", encoding="utf-8")
+        process.setdefault("env", dict(os.environ, STATE_DIRECTORY=os.path.join(folder, "state")))
         self._process = subprocess.Popen([BIN / program, "--config", path], stdout=self._log,
                                          stderr=subprocess.STDOUT, **process)
         self.pid = self._process.pid
@@ -92,6 +93,9 @@ class Daemon:
 
     def start(self, *arguments):
         return Lines(self.command(*arguments))
+
+    def address(self):
+        return re.search(r"gRPC on (\S+) and", self.log())[1]
 
     def log(self):
         with open(self._log_path, encoding="utf-8") as file:

@@ -30,7 +30,7 @@ class RpcTest : public ::testing::Test {
     config.socket = directory_ + "/axisgate.sock";
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
     config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
-    gateway_ = std::make_unique<server::Gateway>(config);
+    gateway_ = std::make_unique<server::Gateway>(config, 1);
     auto started = Server::start(*gateway_, config.listen, config.socket, limits_);
     ASSERT_TRUE(started) << started.error().message;
     server_ = *std::move(started);

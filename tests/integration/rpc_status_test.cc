@@ -44,6 +44,11 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::outcome_unknown, grpc::UNKNOWN},
       {Reason::compacted, grpc::OUT_OF_RANGE},
       {Reason::internal, grpc::INTERNAL},
+      {Reason::lease_held, grpc::FAILED_PRECONDITION},
+      {Reason::lease_lost, grpc::FAILED_PRECONDITION},
+      {Reason::outside_lease, grpc::FAILED_PRECONDITION},
+      {Reason::stopped_by, grpc::FAILED_PRECONDITION},
+      {Reason::not_allowed, grpc::PERMISSION_DENIED},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(api::Reason_ARRAYSIZE));

@@ -26,7 +26,7 @@ int serve(const char* config_path) {
   server::EndSignals end_signals;
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
-  server::Gateway gateway(*config);
+  server::Gateway gateway(*config, 1);
   const auto server = rpc::Server::start(gateway, config->listen, config->socket, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);

@@ -47,7 +47,7 @@ int maximum_speed(std::size_t device, int axis) { return 50'000 + 100 * number_o
 
 Bench::Bench() : directory_(make_directory()) {
   for (std::size_t device = 0; device < kDevices; ++device) plug(device);
-  gateway_ = std::make_unique<server::Gateway>(config());
+  gateway_ = std::make_unique<server::Gateway>(config(), 1);
 }
 
 Bench::~Bench() {
@@ -86,7 +86,7 @@ void Bench::plug(std::size_t device) {
 
 bool Bench::wait_until_link(std::size_t number, bool up) {
   const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
-  while ((device(number).newest_state().get().state->link == shrc203::LinkState::up) != up) {
+  while ((device(number).newest_state().get().value->link == shrc203::LinkState::up) != up) {
     if (monotonic_now() > limit) return false;
     std::this_thread::sleep_for(milliseconds(1));  // between two looks; the limit above decides
   }

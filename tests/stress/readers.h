@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "server/events/event_bus.h"
-#include "server/events/newest_state.h"
+#include "server/events/newest.h"
 #include "tests/stress/bench.h"
 
 namespace axisgate::stress {
@@ -44,7 +44,7 @@ class StateReader {
  private:
   void read();
 
-  server::NewestState& states_;
+  server::Newest<shrc203::State>& states_;
   const std::size_t device_;
   std::uint64_t version_ = 0;
   std::unique_ptr<server::WakeUps::Subscription> subscription_;

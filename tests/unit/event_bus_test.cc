@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "server/events/newest_state.h"
+#include "server/events/newest.h"
 
 namespace axisgate::server {
 namespace {
@@ -147,9 +147,9 @@ TEST(EventBus, WritersOnSeveralThreadsLeaveNoGap) {
   for (std::size_t i = 0; i < reading.facts.size(); ++i) EXPECT_EQ(reading.facts[i]->revision, i + 1);
 }
 
-TEST(NewestState, OnlyTheNewestIsKept) {
+TEST(Newest, OnlyTheNewestIsKept) {
   HeldTasks tasks;
-  NewestState newest(tasks.executor());
+  Newest<shrc203::State> newest(tasks.executor());
   EXPECT_EQ(newest.get().version, 0u);
   int woken = 0;
   const auto subscription = newest.subscribe([&] { ++woken; });
@@ -161,7 +161,7 @@ TEST(NewestState, OnlyTheNewestIsKept) {
   tasks.run();
   EXPECT_EQ(woken, 1);
   EXPECT_EQ(newest.get().version, 2u);
-  EXPECT_EQ(newest.get().state->axis(1).position_pulses, 2);
+  EXPECT_EQ(newest.get().value->axis(1).position_pulses, 2);
 }
 
 }  // namespace

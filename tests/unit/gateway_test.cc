@@ -23,7 +23,7 @@ DeviceConfig device_named(std::string name) {
 }
 
 shrc203::State state_of(const Gateway& gateway, std::string_view device) {
-  return *gateway.find(device)->newest_state().get().state;
+  return *gateway.find(device)->newest_state().get().value;
 }
 
 // Waits for a condition that a device's strand brings about.
@@ -89,7 +89,7 @@ TEST(Gateway, NoDeviceHoldsAnotherUp) {
   healthy.connection = SimulatedConnection{20, false, {}};
   Config config = default_config();
   config.devices = {silent, stuck, healthy};
-  Gateway gateway(config);
+  Gateway gateway(config, 1);
   gateway.start();
 
   ASSERT_TRUE(comes_true([&] { return state_of(gateway, "healthy").link == LinkState::up; }));

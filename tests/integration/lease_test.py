@@ -1,0 +1,182 @@
+#!/usr/bin/env python3
+"""Two people at one stage: one on the Unix socket, the other over TCP, whom nobody knows by name."""
+
+import json
+import os
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from programs import BIN, LIMIT_S, Daemon, Lines
+
+CONFIG = """
+listen = "127.0.0.1:0"
+metrics = "127.0.0.1:0"
+socket = "{socket}"
+
+[[device]]
+name = "stage"
+connection = "simulated"
+"""
+
+STRANGER = r"tcp 127\.0\.0\.1:\d+"
+
+
+class Leases(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="axisctl-lease-")
+        self.addCleanup(folder.cleanup)
+        self.daemon = Daemon(folder.name, CONFIG)
+        self.addCleanup(lambda: self.daemon.stop())
+
+    def stranger(self, *arguments):
+        return [BIN / "axisctl", "--target", self.daemon.address(), *arguments]
+
+    def run_as_stranger(self, *arguments):
+        return subprocess.run(self.stranger(*arguments), capture_output=True, text=True, timeout=2 * LIMIT_S,
+                              check=False)
+
+    def hold(self, *arguments):
+        """The stranger holds a lease, as long as the command sleeps."""
+        holder = Lines(self.stranger("lease", "run", *arguments, "--", "sh", "-c", "echo held; exec sleep 60"))
+        self.addCleanup(self.let_go, holder)
+        holder.until("held")
+        return holder
+
+    def let_go(self, holder):
+        holder.process.terminate()  # passed on to its command
+        holder.end()
+
+    def command_of(self, holder):
+        children = subprocess.run(["pgrep", "-P", str(holder.process.pid)], capture_output=True, text=True, check=True)
+        return int(children.stdout.split()[0])
+
+    def await_board(self, pattern):
+        deadline = time.monotonic() + LIMIT_S
+        while True:
+            board = self.daemon.run("lease", "list").stdout
+            if re.search(pattern, board):
+                return board
+            self.assertLess(time.monotonic(), deadline, board)
+            time.sleep(0.05)  # between two looks; the deadline above decides
+
+    def test_a_refusal_says_who_holds_it_and_since_when(self):
+        self.hold("--axes", "1", "--purpose", "scan of sample 12")
+        refused = self.daemon.run("move", "1=1mm")
+        self.assertEqual(refused.returncode, 3)
+        self.assertRegex(refused.stderr, rf"\Aaxisctl: LEASE_HELD: {STRANGER} has held axis 1 for \d+ s "
+                                         r"\(\"scan of sample 12\"\) \(wait for your turn \(--wait\)[^\n]*\n\Z")
+        self.assertEqual(self.daemon.run("move", "2=1mm").returncode, 0)
+        self.assertEqual(self.daemon.run("position").returncode, 0)
+
+    def test_a_shell_and_its_scripts_share_one_lease(self):
+        script = f"{BIN}/axisctl --target {self.daemon.address()} move 1=1mm && " \
+                 f"{BIN}/axisctl --target {self.daemon.socket} exec 'D:1S100F1000R100'"
+        ran = self.run_as_stranger("lease", "run", "--", "sh", "-c", script)
+        self.assertEqual((ran.returncode, ran.stderr), (0, ""), ran.stdout)
+        self.assertIn("done: 1 1000 um", ran.stdout)
+
+    def test_the_commands_exit_code(self):
+        self.assertEqual(self.run_as_stranger("lease", "run", "--", "sh", "-c", "exit 7").returncode, 7)
+        self.assertEqual(self.run_as_stranger("lease", "run", "--", "sh", "-c", "kill -9 $$").returncode, 137)
+        missing = self.run_as_stranger("lease", "run", "--", "/nonexistent/command")
+        self.assertEqual(missing.returncode, 2)
+        self.assertRegex(missing.stderr, r"cannot run /nonexistent/command")
+        self.assertEqual(self.daemon.run("lease", "list").stdout, "nobody holds anything\n")
+
+    def test_one_who_waits_gets_it_next(self):
+        holder = self.hold("--axes", "1")
+        waiting = self.daemon.start("move", "1=1mm", "--wait", "60")
+        self.await_board(r"1\. unix \S+ waits")
+        holder.process.terminate()  # passed on to its command
+        waiting.until("done: 1 1000 um")
+        self.assertEqual(waiting.end(), 0)
+        self.assertRegex(waiting.errors, "has held axis 1 .*; waiting")
+
+    def test_handing_over(self):
+        script = f"sleep 0.1; until {BIN}/axisctl --target {self.daemon.socket} lease list | grep -q waits; " \
+                 f"do sleep 0.05; done; {BIN}/axisctl --target {self.daemon.address()} lease hand-over \"$0\""
+        holder = Lines(self.stranger("lease", "run", "--", "sh", "-c", "echo held; read -r x < /dev/null; " + script,
+                                     self.own_name()))
+        holder.until("held")
+        waiting = self.daemon.start("move", "1=1mm", "--wait", "60")
+        holder.until("handed over to unix")
+        waiting.until("done: 1 1000 um")
+        self.assertEqual(waiting.end(), 0)
+        self.assertEqual(holder.end(), 0)
+
+    def own_name(self):
+        moved = self.daemon.run("--json", "move", "1=0mm").stdout.splitlines()
+        return json.loads(moved[-1])["motion"]["who"]
+
+    def test_only_an_administrator_takes_over(self):
+        refused = self.run_as_stranger("lease", "run", "--take-over", "--", "true")
+        self.assertEqual(refused.returncode, 3)
+        self.assertRegex(refused.stderr, rf"NOT_ALLOWED: only an administrator may do this, and {STRANGER} calls")
+
+    def test_a_take_over_stops_what_moves(self):
+        holder = self.hold("--axes", "1")
+        moving = Lines(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=9mm")])
+        moving.until("RUNNING")
+        took = self.daemon.run("lease", "run", "--take-over", "--", BIN / "axisctl", "--target", self.daemon.socket,
+                               "move", "1=0mm")
+        self.assertEqual(took.returncode, 0, took.stderr)
+        self.assertIn("done: 1 0 um", took.stdout)
+        moving.end()
+        self.assertRegex(moving.errors, "STOPPED: ")
+
+    def token_of(self, holder):
+        with open(f"/proc/{self.command_of(holder)}/environ", "rb") as file:
+            for entry in file.read().split(b"\0"):
+                if entry.startswith(b"AXISGATE_LEASE="):
+                    return entry.decode().split("=", 1)[1]
+        raise AssertionError("the command has no token")
+
+    def test_a_holder_who_is_killed_leaves_nothing_moving(self):
+        holder = self.hold("--axes", "1", "--at-loss", "stop-and-release")
+        moving = Lines(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=9mm")])
+        moving.until("RUNNING")
+        command = self.command_of(holder)
+        holder.process.kill()
+        moving.end()
+        os.kill(command, signal.SIGTERM)  # it outlived what had started it
+        self.assertRegex(moving.errors, "STOPPED: ")
+        self.assertEqual(self.daemon.run("move", "1=0mm").returncode, 0)
+
+    def test_a_scan_loop_stays_stopped_and_its_author_reads_why(self):
+        loop = f"while {BIN}/axisctl --target {self.daemon.address()} move 1=1mm --relative; do :; done"
+        scan = Lines(self.stranger("lease", "run", "--axes", "1", "--", "sh", "-c", loop))
+        scan.until("done")
+        self.assertEqual(self.daemon.run("stop").returncode, 0)
+        scan.end()
+        self.assertRegex(scan.errors, r"STOPPED_BY: unix \S+ stopped axis 1 \d+ s ago: nothing moves there until you rearm"
+                                      r"|STOPPED: stopped by unix")
+
+    def test_rearm(self):
+        holder = self.hold("--axes", "1")
+        self.daemon.run("stop")
+        move = ["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=1mm")]
+        stopped = subprocess.run(move, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        self.assertEqual(stopped.returncode, 3)
+        self.assertRegex(stopped.stderr, "STOPPED_BY: unix .* nothing moves there until you rearm")
+        rearmed = subprocess.run(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("rearm")],
+                                 capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        self.assertEqual(rearmed.stdout, "axis 1 may move again\n")
+        self.assertEqual(subprocess.run(move, capture_output=True, timeout=LIMIT_S, check=False).returncode, 0)
+
+    def test_a_token_that_is_none(self):
+        wrong = subprocess.run(self.stranger("move", "1=1mm"), env=dict(os.environ, AXISGATE_LEASE="mine"),
+                               capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        self.assertEqual(wrong.returncode, 2)
+        self.assertIn('AXISGATE_LEASE is "mine"', wrong.stderr)
+        old = subprocess.run(self.stranger("move", "1=1mm"), env=dict(os.environ, AXISGATE_LEASE="5"),
+                             capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        self.assertEqual(old.returncode, 3)
+        self.assertIn("LEASE_LOST: no lease has this token", old.stderr)
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=2)
