@@ -35,11 +35,14 @@ constexpr int kKnownAnswers = 10;
 // What a line that comes and goes, full queues and other callers' stops may make of a request.
 void expect_excuse(const Problem& problem, const std::string& asked) {
   static const std::set<Reason> kExcuses = {
-      Reason::link_down,        Reason::not_sent,          Reason::reply_timed_out, Reason::line_fault,
-      Reason::axis_busy,        Reason::stopped,           Reason::deadline_passed, Reason::completion_outstanding,
-      Reason::queue_full,       Reason::not_found,         Reason::outcome_unknown, Reason::target_not_reached,
-      Reason::position_unknown, Reason::left_over_setting, Reason::too_fast};  // a path, by a machine whose load makes
-                                                                               // each answer late
+      Reason::link_down,        Reason::not_sent,
+      Reason::reply_timed_out,  Reason::line_fault,
+      Reason::axis_busy,        Reason::stopped,
+      Reason::deadline_passed,  Reason::completion_outstanding,
+      Reason::queue_full,       Reason::not_found,
+      Reason::outcome_unknown,  Reason::target_not_reached,
+      Reason::position_unknown, Reason::left_over_setting,
+      Reason::stopped_by,       Reason::too_fast};  // a path, by a machine whose load makes each answer late
   EXPECT_TRUE(kExcuses.contains(problem.reason)) << asked << ": " << name(problem.reason) << ": " << problem.message;
 }
 
@@ -57,11 +60,17 @@ void Caller::ask(int requests, std::size_t window) {
   }
 }
 
+void Caller::rearm(std::size_t device) {
+  server::Device& there = bench_.device(device);
+  there.post([&there, who = name()](shrc203::Controller&, TimePoint now) { (void)there.leases().rearm(0, who, now); });
+}
+
 void Caller::flood(int requests) {
   for (int i = 0; i < requests; ++i) request(static_cast<std::size_t>(draw(0, kDevices - 1)));
 }
 
 void Caller::request(std::size_t device) {
+  if (draw(0, 1) == 0) rearm(device);  // others stop what this one moves
   const int kind = draw(0, 99);
   if (kind < 45) return question(device);
   if (kind < 55) return transaction(device);
@@ -80,9 +89,7 @@ Caller::Ticket Caller::ticket(std::size_t device, const std::string& what) {
 }
 
 // The request's id names it, so that a motion which came back to the wrong caller shows.
-RequestContext Caller::context(const Ticket& ticket) const {
-  return {fmt::format("caller {}", number_), ticket->asked(), {}};
-}
+RequestContext Caller::context(const Ticket& ticket) const { return {name(), ticket->asked(), {}}; }
 
 void Caller::question(std::size_t device) {
   auto [line, answer] = known_answer(device, draw(0, kKnownAnswers - 1));

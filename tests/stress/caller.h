@@ -1,6 +1,8 @@
 // One of the threads that ask everything of every device at once.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cstddef>
 #include <random>
@@ -41,8 +43,10 @@ class Caller {
   void set_and_go(std::size_t device);
   void stop(std::size_t device);
   void cancel(std::size_t device);
+  void rearm(std::size_t device);
   void execute(std::size_t device, std::vector<std::string> lines, std::vector<std::string> right);
 
+  std::string name() const { return fmt::format("caller {}", number_); }
   Ticket ticket(std::size_t device, const std::string& what);
   shrc203::RequestContext context(const Ticket& ticket) const;
   shrc203::Controller::OnStarted on_started(const Ticket& ticket, std::size_t device);
