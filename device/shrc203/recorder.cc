@@ -46,15 +46,17 @@ void Recorder::tell(const BytesWritten& written) {
 }
 
 void Recorder::tell(const BytesReceived& received) {
-  const bool ends_the_line = received.bytes == "\n" && last_byte_ == '\r' && open_;
-  if (complete_ && !ends_the_line) flush();
+  const bool rest_of_end = received.bytes == "\n" && last_byte_ == '\r' && open_;
+  if (complete_ && !rest_of_end) flush();
   if (!complete_) go_on();
-  if (!goes_on_with_piece()) {
+  const bool joined = goes_on_with_piece();
+  if (!joined) {
     add(Item::received, {});
     piece_began_ = now_;
   }
   RecordedItem& piece = open_->items.back();
-  piece.after = now_ - open_->at;
+  // The line was whole with its CR.
+  if (!joined || !rest_of_end) piece.after = now_ - open_->at;
   piece.text += received.bytes;
   last_byte_ = received.bytes.back();
   complete_ = complete_ || (open_->exchange == 0 && received.bytes.ends_with('\n'));

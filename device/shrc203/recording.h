@@ -35,9 +35,10 @@ struct RecordingHeader {
 
 struct RecordedItem {
   enum class Kind {
-    written,     // bytes
-    received,    // bytes; what came within 16 ms, up to the end of a line, is one piece, at the time of its last byte
-    ended,       // the exchange; text: the outcome's name
+    written,   // bytes
+    received,  // bytes; what came within 16 ms, up to the end of a line, is one piece, at the time of its last byte, of
+               // a line its CR
+    ended,     // the exchange; text: the outcome's name
     completion,  // an axis number came by itself; text: the number
     unexpected,  // a line that nothing waited for
   };

@@ -138,6 +138,16 @@ class Replay(InAFolder):
         self.assertEqual(run_axisctl("replay", "/nonexistent/recording").returncode, 2)
 
 
+class AtTheLinesPace(InAFolder):
+    def test_lines_that_come_byte_by_byte_read_as_lines_and_replay(self):
+        self.serve(CONFIG.replace("speed = 20", "baud = 38400"))
+        self.ok("move", "1=1mm", "--relative")
+        self.ok("record", "--no-follow", "--output", self.recording)
+        for line in read(self.recording).splitlines():
+            self.assertLess(line.count(' < "'), 10, line)
+        self.assert_replays(self.recording)
+
+
 class TheDaemonsFile(InAFolder):
     def test_is_complete_over_a_restart(self):
         config = CONFIG + f'record = "{self.recording}"\n'

@@ -114,6 +114,18 @@ TEST_F(RecorderTest, BytesOfALineAreOnePiece) {
                   "0.010000 - +0.002000 < \"1\\r\" completion 1 < \"\\n\""));
 }
 
+// The core takes a line for whole at its CR, so that is when the piece came.
+TEST_F(RecorderTest, APieceCameWithItsCarriageReturn) {
+  write(0, "*IDN?\r\n");
+  now_ = 3;
+  receive("A,B");
+  now_ = 4;
+  receive("\r");
+  now_ = 5;
+  receive("\n");
+  EXPECT_THAT(lines(), ElementsAre("0.000000 - > \"*IDN?\\r\\n\" +0.004000 < \"A,B\\r\\n\""));
+}
+
 TEST_F(RecorderTest, ALongPauseDividesALine) {
   write(1, "?:V\r\n", "lab");
   receive("V");
