@@ -56,7 +56,12 @@ void LeaseKeeping::keep(server::Device& device, server::LeaseToken token, TimePo
     *due_->mutable_lease() = to_proto(*lease);
   }
   pump();
-  StartRead(&incoming_);
+}
+
+// Begun from within gRPC's own callback: elsewhere the call could be over already.
+void LeaseKeeping::OnWriteDone(bool ok) {
+  if (ok) StartRead(&incoming_);
+  PullStream::OnWriteDone(ok);
 }
 
 void LeaseKeeping::OnCancel() {

@@ -40,6 +40,7 @@ class LeaseKeeping final
   static LeaseKeeping* start(server::Gateway& gateway, Result<StreamLimit::Place> place);
 
   void OnReadDone(bool ok) override;
+  void OnWriteDone(bool ok) override;
   void OnCancel() override;
 
  private:

@@ -12,6 +12,7 @@
 #include <string>
 
 #include "axisgate/v1/command.grpc.pb.h"
+#include "axisgate/v1/control.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
@@ -41,6 +42,7 @@ class RpcTest : public ::testing::Test {
     events_ = api::EventService::NewStub(channel_);
     commands_ = api::CommandService::NewStub(channel_);
     diagnostics_ = api::DiagnosticsService::NewStub(channel_);
+    control_ = api::ControlService::NewStub(channel_);
     wait_until_up();
   }
 
@@ -158,6 +160,7 @@ class RpcTest : public ::testing::Test {
   std::unique_ptr<api::EventService::Stub> events_;
   std::unique_ptr<api::CommandService::Stub> commands_;
   std::unique_ptr<api::DiagnosticsService::Stub> diagnostics_;
+  std::unique_ptr<api::ControlService::Stub> control_;
 };
 
 }  // namespace axisgate::rpc
