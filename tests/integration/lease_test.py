@@ -51,8 +51,9 @@ class Leases(unittest.TestCase):
         holder.end()
 
     def command_of(self, holder):
-        children = subprocess.run(["pgrep", "-P", str(holder.process.pid)], capture_output=True, text=True, check=True)
-        return int(children.stdout.split()[0])
+        pid = holder.process.pid
+        with open(f"/proc/{pid}/task/{pid}/children", encoding="ascii") as file:
+            return int(file.read().split()[0])
 
     def await_board(self, pattern):
         deadline = time.monotonic() + LIMIT_S
@@ -97,10 +98,9 @@ class Leases(unittest.TestCase):
         self.assertRegex(waiting.errors, "has held axis 1 .*; waiting")
 
     def test_handing_over(self):
-        script = f"sleep 0.1; until {BIN}/axisctl --target {self.daemon.socket} lease list | grep -q waits; " \
+        script = f"echo held; until {BIN}/axisctl --target {self.daemon.socket} lease list | grep -q waits; " \
                  f"do sleep 0.05; done; {BIN}/axisctl --target {self.daemon.address()} lease hand-over \"$0\""
-        holder = Lines(self.stranger("lease", "run", "--", "sh", "-c", "echo held; read -r x < /dev/null; " + script,
-                                     self.own_name()))
+        holder = Lines(self.stranger("lease", "run", "--", "sh", "-c", script, self.own_name()))
         holder.until("held")
         waiting = self.daemon.start("move", "1=1mm", "--wait", "60")
         holder.until("handed over to unix")
