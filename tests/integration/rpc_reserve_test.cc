@@ -90,6 +90,7 @@ TEST_F(ReserveTest, AClientThatWasRefusedIsServedOnceThereIsAPlace) {
   events_.reset();
   commands_.reset();
   diagnostics_.reset();
+  control_.reset();
   channel_.reset();
   // It asks again and again, so that its connection is never idle.
   const TimePoint limit = monotonic_now() + std::chrono::seconds(30);
