@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <memory>
+
 #include "server/access/leases.h"
 #include "tests/simulation/scenario.h"
 
@@ -42,17 +44,17 @@ class HazardOfSharing : public testing::Test {
     asked.lease = token;
     return asked;
   }
-  // Why it was refused; unspecified where it was taken.
+  // Why it was refused at once; unspecified where it was taken. What comes later is in the world's outcomes.
   Reason move(const std::string& who, LeaseToken token, int axis, std::int64_t way) {
     MoveRequest request = move_of(world, {{axis, way}}, true);
     request.context = context(who, token);
-    Reason reason = Reason::unspecified;
-    world.controller().move(std::move(request), world.now(), [&, this](const Result<Motion>& motion) {
+    const auto reason = std::make_shared<Reason>(Reason::unspecified);
+    world.controller().move(std::move(request), world.now(), [this, reason](const Result<Motion>& motion) {
       if (motion) return;
-      reason = motion.error().reason;
+      *reason = motion.error().reason;
       told = motion.error().message;
     });
-    return reason;
+    return *reason;
   }
   void run_until_written(std::string_view prefix) {
     EXPECT_TRUE(world.run_until([&] { return world.wire().commands().back().starts_with(prefix); }, seconds(5)))
