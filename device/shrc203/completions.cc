@@ -46,8 +46,11 @@ AxisSet Completions::ready(AxisSet axes, TimePoint now) {
 AxisSet Completions::busy(AxisSet axes) {
   AxisSet changed;
   for (const int number : axes.list()) {
-    if (axis(number).until) changed.add(number);
-    axis(number).until.reset();
+    Axis& one = axis(number);
+    const bool unasked = !one.possible && guarded(Guard::possible_when_seen_busy);
+    if (unasked || one.until) changed.add(number);
+    if (unasked) one = {.possible = true, .arrived = false, .started = {}, .until = {}};
+    one.until.reset();
   }
   return changed;
 }

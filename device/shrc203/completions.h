@@ -29,7 +29,8 @@ class Completions {
   // An axis number came, one for each start, more in a chain.
   void arrived(int axis);
 
-  // A reading told these axes to be READY, or busy. Those for which it changed anything.
+  // A reading told these axes to be READY, or busy. Those for which it changed anything. An axis that moves may
+  // complete though nothing was started on it: the line may have made another command of one for other axes.
   AxisSet ready(AxisSet axes, TimePoint now);
   AxisSet busy(AxisSet axes);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <utility>
 
 namespace axisgate::shrc203 {
 namespace {
@@ -21,6 +22,7 @@ bool looks_like_command(std::string_view line) {
 void Continuity::connected() {
   before_.clear();
   answered_ = true;
+  refused_ = false;
   open_ = false;
 }
 
@@ -42,6 +44,7 @@ void Continuity::wrote(std::string_view line, TimePoint now) {
 void Continuity::answered(bool taken, TimePoint now) {
   alive_ = now;
   answered_ = true;
+  refused_ = !taken;
   if (!in_time_) open_ = true;
   if (taken) {
     before_ = {newest_};
@@ -55,8 +58,9 @@ bool Continuity::tells(std::string_view line) const {
 }
 
 Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now) {
-  const bool known = std::ranges::find(before_, line_before) != before_.end();
-  const bool foreign = !known && line_before != kQuestion && looks_like_command(line_before);
+  const bool refused = std::exchange(refused_, false);
+  const bool known = std::ranges::find(before_, line_before) != before_.end() || (refused && in_time_);
+  const bool foreign = !known && !refused && line_before != kQuestion && looks_like_command(line_before);
   alive_ = now;
   answered_ = newest_ == kQuestion;
   open_ = open_ || !known;

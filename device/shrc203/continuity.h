@@ -43,6 +43,7 @@ class Continuity {
   std::vector<std::string> before_;  // what ?:CMD may tell when there was no restart
   std::string newest_;
   bool answered_ = true;  // the newest line was
+  bool refused_ = false;  // the line answered last was, and may have come in as another
   bool in_time_ = false;  // the newest line was written before any restart could have ended
   bool open_ = false;
   TimePoint alive_{};

@@ -107,6 +107,7 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_excitation(std::string caller);
   Task<Problem> explain_refusal(std::string sent, AxisSet axes, std::string caller);
   Task<void> refresh(Duration max_age, RequestContext context, OnState done);
+  AxisSet moving_silently();
   bool apply_positions(const Reply& reply);
   void publish_state();
 

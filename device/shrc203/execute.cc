@@ -10,7 +10,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr int kClosedTries = 5;
+constexpr int kClosedTries = 8;
 
 // One caller's transaction.
 class Transaction {
@@ -105,26 +105,33 @@ bool Transaction::single_motion() const {
 
 Task<ExchangeResult> Transaction::exchange(const Command& command) {
   const bool closed = command.row->separation == Separation::closed && single_motion();
-  std::vector<int> before;
+  std::optional<int> before;
+  std::vector<int> came;
   ExchangeResult result;
   for (int attempt = 0; attempt < kClosedTries; ++attempt) {
     auto request = request_for(command);
     request.closed = closed;
     auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
     result = co_await pending;
-    if (result.candidates.empty() || !guarded(Guard::two_answers_agree)) co_return result;
-    const auto agreed = std::ranges::find_first_of(result.candidates, before);
-    if (agreed != result.candidates.end()) {
-      const int answer = *agreed;
-      result.reply->text = std::to_string(answer);
-      result.candidates.erase(agreed);
-      before.erase(std::ranges::find(before, answer));
-      // What is left over is no answer, so it was a completion.
-      for (const int axis : before) impl_.note_completion(axis, true, true, impl_.now_);
-      for (const int axis : result.candidates) impl_.note_completion(axis, true, true, impl_.now_);
-      co_return result;
+    const auto& numbers = result.candidates;
+    if (numbers.empty() || !guarded(Guard::two_answers_agree)) co_return result;
+    came.insert(came.end(), numbers.begin(), numbers.end());
+    // Among numbers of several axes the answer may be any of them, and be missing.
+    const bool alone = std::ranges::count(numbers, numbers.front()) == std::ssize(numbers);
+    if (!alone && guarded(Guard::answers_come_alone)) {
+      before.reset();
+      continue;
     }
-    before = std::exchange(result.candidates, {});
+    const int answer = numbers.front();
+    if (std::exchange(before, answer) != answer) continue;
+    result.reply->text = std::to_string(answer);
+    result.candidates.clear();
+    // What is left over is no answer, so it was a completion.
+    for (int answers = 0; answers <= attempt; ++answers) {
+      if (const auto one = std::ranges::find(came, answer); one != came.end()) came.erase(one);
+    }
+    for (const int axis : came) impl_.note_completion(axis, true, true, impl_.now_);
+    co_return result;
   }
   result.problem = Problem{Reason::completion_outstanding,
                            "the answer could not be told from an axis number",

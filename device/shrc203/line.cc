@@ -36,6 +36,8 @@ void Line::link_up(TimePoint now) {
   handshake_passed_ = false;
   framer_.clear();
   owed_ = {};
+  maybe_in_two_ = false;
+  after_refused_stop_.reset();
   pace_.connected();
   completions_.connected();
   continuity_.connected();
@@ -241,7 +243,7 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
   if (barrier_) sooner(barrier_->next_deadline());
   if (in_flight_) sooner(in_flight_->limit);
   if (can_send()) {
-    TimePoint held = quiet_until_;
+    TimePoint held = after_refused_stop_.value_or(now);
     if (partial_since_) held = std::max(held, *partial_since_ + kPartialLineMax);
     if (held > now || partial_since_) sooner(held);
     const auto expiry = reservations_.next_expiry(now);

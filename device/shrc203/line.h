@@ -166,7 +166,6 @@ class Line {
   void barrier_moved(TimePoint now);
   void in_barrier(std::string_view text, TimePoint now);
   void hear_echo(std::string_view line_before, TimePoint now);
-  void keep_quiet(bool stops_too, TimePoint now);
   void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
   void learned(LineLearned::What what, AxisSet axes = {});
@@ -195,9 +194,9 @@ class Line {
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;
-  TimePoint quiet_until_{};                 // after a refusal; only a stop is sent before
-  bool stops_keep_quiet_ = false;           // nor even that: it was a stop that was refused
-  std::optional<TimePoint> partial_since_;  // an incomplete line has been coming in since then
+  bool maybe_in_two_ = false;                    // the newest line was answered so that another answer to it may follow
+  std::optional<TimePoint> after_refused_stop_;  // it was a stop: nothing is sent before
+  std::optional<TimePoint> partial_since_;       // an incomplete line has been coming in since then
   std::unique_ptr<Barrier> barrier_;
   std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
   WaitingPtr doubted_waiting_;

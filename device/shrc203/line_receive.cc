@@ -13,9 +13,8 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr std::string_view kClosing = "!:S";  // behind a number that may be a completion
-// A command that the line has cut in two is refused twice: the second NG must not meet the next command.
-// The same holds for a ?:CMD of which one part is a question of its own.
-constexpr Duration kQuietAfterRefusal = std::chrono::milliseconds(20);
+// A stop that the line has cut in two is refused twice: the second NG must not meet the next stop.
+constexpr Duration kBetweenStops = std::chrono::milliseconds(20);
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   switch (kind) {
@@ -72,10 +71,10 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     doubt_answer(line.text, now);
     return;
   }
-  // Only a stop is sent amid the quiet, and none that follows another: this may still refuse the other half of the
-  // command before it.
-  const bool amid_quiet = now < quiet_until_ && in_flight_->waiting->request.lane == Lane::stop;
-  if (refusal && amid_quiet && guarded(Guard::refusals_amid_quiet)) return doubt_answer(line.text, now);
+  // A stop does not wait until no other answer to the line before can come; behind another stop it waits a little.
+  const bool is_stop = in_flight_->waiting->request.lane == Lane::stop;
+  const bool maybe_older = is_stop && maybe_in_two_ && !after_refused_stop_;
+  if (refusal && maybe_older && guarded(Guard::refusals_before_stops)) return doubt_answer(line.text, now);
   const bool line_before = in_flight_->echo_first || row.name == kLineBefore;
   const bool told = !overlong && (continuity_.tells(line.text) || !guarded(Guard::possible_lines_before));
   if (line_before && !told) return doubt_answer(line.text, now);
@@ -101,18 +100,14 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
 // Who else writes may have set anything, and moved the frame: as after a restart, nothing is known any more.
 void Line::hear_echo(std::string_view line_before, TimePoint now) {
   const auto verdict = continuity_.told(line_before, now);
-  if (verdict != Continuity::Verdict::same) keep_quiet(false, now);
+  // Part of the ?:CMD may have been a question of its own.
+  maybe_in_two_ = verdict != Continuity::Verdict::same;
   if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
     give_up(fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
                         "line is disturbed",
                         escaped(line_before)),
             now);
   }
-}
-
-void Line::keep_quiet(bool stops_too, TimePoint now) {
-  quiet_until_ = now + kQuietAfterRefusal;
-  stops_keep_quiet_ = stops_too && guarded(Guard::quiet_after_refused_stop);
 }
 
 void Line::look_at_continuity(TimePoint now) {
@@ -211,7 +206,11 @@ void Line::on_reply(Reply reply, TimePoint now) {
                   why, now);
     return;
   }
-  if (reply.kind == Reply::Kind::ng) keep_quiet(request.lane == Lane::stop, now);
+  if (reply.kind == Reply::Kind::ng) {
+    maybe_in_two_ = true;
+    after_refused_stop_.reset();
+    if (request.lane == Lane::stop) after_refused_stop_ = now + kBetweenStops;
+  }
   if (reply.kind == Reply::Kind::ok_d) completions_.chained(request.command.axes(controllable_), now);
   finish({.written = true, .reply = std::move(reply), .problem = {}, .candidates = {}}, outcome, now);
   if (line_before) hear_echo(told, now);
@@ -272,6 +271,7 @@ void Line::barrier_moved(TimePoint now) {
   const std::optional<bool> barrier_told = barrier_->received();
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   owed_.echoes = 0;
+  maybe_in_two_ = false;
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
   const bool connecting = !handshake_passed_ && !doubted_waiting_;

@@ -42,11 +42,11 @@ bool Line::may_send(const ExchangeRequest& request) const {
 void Line::pump(TimePoint now) {
   if (!can_send()) return;
   expire(now);
-  const bool quiet = now < quiet_until_ && guarded(Guard::quiet_after_refusal);
+  const bool quiet = after_refused_stop_ && now < *after_refused_stop_ && guarded(Guard::quiet_after_refused_stop);
   const bool coming = line_is_coming(now) || quiet;
   const auto may_go = [&](const WaitingPtr& waiting) {
     const auto& request = waiting->request;
-    const bool does_not_wait = request.lane == Lane::stop && !(quiet && stops_keep_quiet_);
+    const bool does_not_wait = request.lane == Lane::stop && !quiet;
     return (!coming || does_not_wait) && may_send(request) && leaves_refills_alone(request, now);
   };
   const auto settles = coming ? std::nullopt : conflicts_settle_from();
@@ -81,10 +81,14 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
   return nullptr;
 }
 
-// After a pause, ?:CMD comes before whatever may go now; before a stop it is written without waiting for its answer.
+// ?:CMD comes before whatever may go now: after a pause, of which it tells whether the controller has restarted in it;
+// and after NG, because the line may have cut the command in two, and its other part's NG, however late, is no answer
+// to that question.
 bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
-  if (!handshake_passed_ || continuity_.open() || !continuity_.due(now)) return false;
-  if (!guarded(Guard::question_before_pause_ends)) return false;
+  const bool paused =
+      handshake_passed_ && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
+  const bool refused = maybe_in_two_ && guarded(Guard::question_after_refusal);
+  if (!paused && !refused) return false;
   bool any = settle, stop = false;
   queue_.for_each([&](const WaitingPtr& waiting) {
     stop = stop || waiting->request.lane == Lane::stop;
@@ -119,6 +123,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   // Only a stop does not wait: what is half in must not end as its answer.
   if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
+  // A stop does not wait for the answer.
   const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
   if (echo_first) write_line(kLineBefore);
   write_line(request.command.line, ++exchanges_, &request);

@@ -8,9 +8,8 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr std::string_view kLongestAcknowledgement = "OK_D";
-// A command that the line has cut in two is refused twice, so that after NG nothing is sent for a while. A question is
-// refused where the mode forbids it, and nothing moves along a path there.
-constexpr Duration kRefusalTakes = std::chrono::milliseconds(20);
+// What follows NG, and is answered by the line that was refused.
+constexpr std::string_view kAfterRefusal = "?:CMD";
 
 }  // namespace
 
@@ -37,10 +36,11 @@ Duration Pace::longest_turnaround() const {
 }
 
 Duration Pace::longest_exchange(const Command& command) const {
-  const bool question = command.row->effect == Effect::question;
-  const std::size_t reply_bytes = question ? kReplyBytesMax : kLongestAcknowledgement.size();
-  return time_of(command.line.size() + reply_bytes + 2 * kTerminator) + longest_turnaround() +
-         (question ? Duration::zero() : kRefusalTakes);
+  const auto lasts = [this](std::size_t bytes) { return time_of(bytes + 2 * kTerminator) + longest_turnaround(); };
+  const std::size_t line = command.line.size();
+  // A question is refused where the mode forbids it, and nothing moves along a path there.
+  if (command.row->effect == Effect::question) return lasts(line + kReplyBytesMax);
+  return lasts(line + kLongestAcknowledgement.size()) + lasts(kAfterRefusal.size() + line);
 }
 
 }  // namespace axisgate::shrc203

@@ -66,6 +66,15 @@ Task<Result<void>> Controller::Impl::read_positions(Lane lane, std::string calle
   co_return fail(Reason::line_fault, "the positions read make no sense", "check the cable and the line settings");
 }
 
+// Axes that move as asked and will not tell when they stand.
+AxisSet Controller::Impl::moving_silently() {
+  AxisSet moving;
+  for (const auto& [id, live] : live_) {
+    if (live->motion.state != MotionState::queued) moving = moving | live->motion.axes;
+  }
+  return moving - line_.completions().possible();
+}
+
 bool Controller::Impl::apply_positions(const Reply& reply) {
   const auto readings = parse_positions(reply, state_.controllable());
   if (!readings) return false;
@@ -80,7 +89,7 @@ bool Controller::Impl::apply_positions(const Reply& reply) {
     (reading.busy ? busy : ready).add(number);
   }
   line_.ready(ready | (AxisSet::all() - state_.controllable()), now_);
-  line_.busy(busy, now_);
+  line_.busy(busy - moving_silently(), now_);
   state_.read = now_;
   if (busy.empty()) state_.moving_unknown = false;
   publish_state();

@@ -277,9 +277,15 @@ void Replay::ask_for(std::size_t index) {
   }
   if (asked_.contains(index)) return;
   if (moment.begins->who.empty()) {
-    // The line asks on behalf of somebody who waits. Where he has given up before his turn, nobody knows of him.
+    // The line asks on behalf of somebody who waits. Where he has given up before his turn, nobody knows of him. He
+    // asks again when his turn has come, of which a path may have been the judge, or a restart that was suspected
+    // meanwhile.
     const std::size_t cause = next_asked_by_somebody(index);
-    if (waited_at(cause, moment)) ask(cause);
+    if (waited_at(cause, moment)) {
+      ask(cause);
+      asked_.erase(cause);
+      line_.withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, {});
+    }
     if (!deeds_.empty()) return;
   }
   ask(index);

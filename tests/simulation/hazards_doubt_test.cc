@@ -58,9 +58,30 @@ void cut_a_command(const std::string& halves) {
 
 TEST(Hazard, H10_ALineFaultIsAnsweredTwice) { cut_a_command(std::string("C:\0001\r\n1\r\n", 9)); }
 
+// ... of which a short quiet is all that anybody notices.
 TEST(Hazard, H10_ARefusalIsAnsweredTwice) { cut_a_command("C:\r\n11\r\n"); }
 
-// A stop does not wait for the quiet: it is the second refusal that is not believed.
+// Seeds 402608 and 501949: the second answer comes late, from a slow controller or over a slow line.
+TEST(Hazard, H10_ASecondRefusalComesLate) {
+  for (int late = 10; late < 900 && !HasFailure(); late += 10) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 700}});  // a counter other than 0 tells that it has not restarted
+    int refusals = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
+      if (kind == LineKind::command && text == "C:11" && refusals == 0) {
+        return {.drop = false, .delay = {}, .instead = "C:\r\n11\r\n"};
+      }
+      const bool second = kind == LineKind::reply && text == "NG" && ++refusals == 2;
+      return {.drop = false, .delay = second ? milliseconds(late) : Duration::zero(), .instead = {}};
+    });
+    EXPECT_THAT(ask_at_once(world, {"C:11", "?:V", "C:21"}), ElementsAre("NG", "V2.00.000", "OK")) << late;
+    EXPECT_GE(refusals, 2);
+    expect_no_mix_up(world);
+  }
+}
+
+// A stop does not wait for that: it is the second refusal that is not believed.
 TEST(Hazard, H10_ASecondRefusalIsNotTheAnswerOfAStop) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -169,6 +190,33 @@ TEST(Hazard, H02_TheBarrierEndsWithSilence) {
   ASSERT_TRUE(world.run_until([&] { return world.wire().commands().size() > first; }, seconds(5))) << world.replay();
   EXPECT_GE(world.now() - asked, milliseconds(50)) << world.replay();
 }
+
+// Seeds 201536 and 303141: a slow controller still owes the identity that the line before it was lost had asked for. It
+// is taken for the new one, and what answers the stops written before that is to meet nobody.
+void stop_over_a_reopened_line(const std::vector<std::string>& answers) {
+  World world(quiet());
+  world.device().set_answer_delay(milliseconds(400), world.now());
+  std::size_t stops = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind == LineKind::command && line.starts_with("L:")) return {.drop = false, .delay = {}, .instead = "L:9\r\n"};
+    if (kind != LineKind::reply || line != "NG" || stops >= answers.size()) return {};
+    return {.drop = false, .delay = {}, .instead = answers[stops++]};
+  });
+  ASSERT_TRUE(world.run_until([&] { return written(world, "*IDN?") == 1; }, seconds(1)));
+  world.run_for(milliseconds(250));
+  world.wire().cut(world.now(), {});
+  for (int axis = 1; axis <= static_cast<int>(answers.size()); ++axis) {
+    world.controller().stop(AxisSet::of(axis), world.context("caller"), world.now(), [](const StopReport&) {});
+  }
+  world.run_for(seconds(5));
+  EXPECT_EQ(stops, answers.size());
+  expect_no_mix_up(world);
+}
+
+TEST(Hazard, H02_TheSilenceAfterAReconnect) { stop_over_a_reopened_line({"NG\r\n"}); }
+
+// The end of the first answer is lost.
+TEST(Hazard, H02_HalfALineInTheSilence) { stop_over_a_reopened_line({"NG", "NG\r\n"}); }
 
 // Every answer comes twice, with a pause in the middle of the second one.
 Faults doubled_and_split() {

@@ -126,6 +126,59 @@ TEST(Hazard, H01_InputsAreReadDuringAMotion) {
   EXPECT_TRUE(world.device().busy(1));
 }
 
+// Seeds 402359 and 500862: a strange controller repeats the number of another axis around each of two answers. And one
+// of them alone, where the answer is lost.
+TEST(Hazard, H01_InputsAmidAFloodOfNumbers) {
+  const std::vector<std::vector<std::string>> floods = {
+      {"3\r\n3\r\n2\r\n3\r\n", "3\r\n2\r\n3\r\n"}, {"3\r\n1\r\n2\r\n", "1\r\n1\r\n2\r\n"}, {"3\r\n", "3\r\n2\r\n"}};
+  for (const auto& flood : floods) {
+    World world(quiet());
+    world.device().set_inputs(2);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    move_by(world, {{1, 500000}, {2, 500000}, {3, 500000}});
+    world.run_for(milliseconds(500));
+    std::size_t asked = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
+      if (kind != LineKind::reply || text != "2" || asked >= flood.size()) return {};
+      return {.drop = false, .delay = {}, .instead = flood[asked++]};
+    });
+    EXPECT_THAT(execute(world, {"I:"}), ElementsAre("2")) << world.replay();
+    EXPECT_EQ(asked, flood.size()) << "the last answers came without others";
+    EXPECT_TRUE(world.outcomes().empty()) << world.replay();
+  }
+}
+
+// Seed 701287: a byte of ZRT:1 is lost, and the controller returns all axes to their origin.
+void ask_while_axis_2_returns_unasked(World& world, Duration before_it_stands) {
+  world.wire().set_script([](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::command || line != "ZRT:1") return {};
+    return {.drop = false, .delay = {}, .instead = "ZRT:\r\n"};
+  });
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const auto return_axis_1 = [&] {
+    moved(world, {{2, 50000}});
+    world.run_for(seconds(1));
+    world.controller().return_to_origin({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+    return world.now();
+  };
+  const TimePoint first = return_axis_1();
+  ASSERT_TRUE(world.run_until([&] { return world.device().busy(2); }, seconds(1)));
+  ASSERT_TRUE(world.run_until([&] { return !world.device().busy(2); }, seconds(5)));
+  const Duration lasts = world.now() - first;
+  world.run_for(seconds(2));
+  return_axis_1();
+  world.run_for(lasts - before_it_stands);
+  EXPECT_THAT(execute(world, {"?:AXIS"}), ElementsAre("6")) << world.replay();
+  EXPECT_TRUE(world.violations().empty()) << world.violations().front() << "\n" << world.replay();
+}
+
+TEST(Hazard, H01_CompletionOfAnAxisThatNobodyAskedToMove) {
+  for (Duration ahead{}; ahead < milliseconds(120) && !HasFailure(); ahead += milliseconds(1)) {
+    World world(quiet());
+    ask_while_axis_2_returns_unasked(world, ahead);
+  }
+}
+
 // OK_D: the setting begins by itself when another axis has ended, before its G, and completes while a question that
 // came in between waits for its answer, which is lost.
 TEST(Hazard, H01_CompletionOfASettingThatChains) {

@@ -233,6 +233,7 @@ TEST_F(LeftOver, H12_ByACallersOwnLines) {
 }
 
 // Something moves that was not started from here, and nothing but the status tells.
+// Nor an axis number, which may not be that of the axis that moves.
 TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -241,8 +242,10 @@ TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   world.device().set_limit(1, +1, true, world.now());
   EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::limit_detected);
   bool unheard = true;
-  world.wire().set_script([&](LineKind kind, const std::string&) {
-    return Scripted{.drop = unheard && kind != LineKind::command, .delay = {}, .instead = {}};
+  world.wire().set_script([&](LineKind kind, const std::string& text) {
+    Scripted fault{.drop = unheard && kind != LineKind::command, .delay = {}, .instead = {}};
+    if (kind == LineKind::reply && text.find(",B") != std::string::npos) fault.instead = text + "\r\n2\r\n";
+    return fault;
   });
   world.device().receive("M:2+P60000\r\nG:2\r\n", world.now());
   unheard = false;

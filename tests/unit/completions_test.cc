@@ -67,6 +67,16 @@ TEST(Completions, BusyAgainTakesReadyBack) {
   EXPECT_EQ(completions.possible(), kOne);
 }
 
+TEST(Completions, AnAxisThatMovesUnaskedMayComplete) {
+  Completions completions;
+  EXPECT_EQ(completions.busy(kTwo), kTwo);
+  EXPECT_EQ(completions.outstanding(), kTwo);
+  EXPECT_EQ(completions.busy(kTwo), AxisSet()) << "no news";
+  completions.ready(kTwo, at(1000));
+  completions.answered(at(1200));
+  EXPECT_EQ(completions.possible(), AxisSet());
+}
+
 // READY so soon may be the answer of the time before the start.
 TEST(Completions, ReadyRightAfterTheStartIsNotBelieved) {
   Completions completions;

@@ -49,8 +49,9 @@ TEST_F(PaceTest, OneSlowAnswerIsForgotten) {
 TEST_F(PaceTest, AnExchangeLastsAsLongAsItsLongestReply) {
   answered_in(milliseconds(7));
   EXPECT_EQ(pace.longest_exchange(make_command("?:V")), milliseconds(3 + 2 + 64 + 2 + 7));
-  // OK, or 20 ms in which NG may come again.
-  EXPECT_EQ(pace.longest_exchange(make_command("G:", AxisSet::of(1))), milliseconds(3 + 2 + 4 + 2 + 7 + 20));
+  // OK_D; or NG, and ?:CMD behind it, which is answered by the line.
+  EXPECT_EQ(pace.longest_exchange(make_command("G:", AxisSet::of(1))),
+            milliseconds(3 + 2 + 4 + 2 + 7) + milliseconds(5 + 2 + 3 + 2 + 7));
 }
 
 }  // namespace
