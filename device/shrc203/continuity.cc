@@ -4,6 +4,8 @@
 #include <cctype>
 #include <utility>
 
+#include "device/core/guard.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -32,10 +34,11 @@ void Continuity::begin(TimePoint now) {
   alive_ = now;
 }
 
-void Continuity::wrote(std::string_view line, TimePoint now) {
+void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint now) {
   // A controller that restarted in the pause before the line now left unanswered would tell that line as well.
   if (!answered_ && !in_time_) std::erase(before_, newest_);
   newest_ = line;
+  due_ = now + on_the_wire;
   answered_ = false;
   in_time_ = !due(now);
   if (in_time_) before_.push_back(newest_);
@@ -45,12 +48,18 @@ void Continuity::answered(bool taken, TimePoint now) {
   alive_ = now;
   answered_ = true;
   refused_ = !taken;
-  if (!in_time_) open_ = true;
+  doubt(!in_time_, now);
   if (taken) {
     before_ = {newest_};
   } else if (std::ranges::find(before_, newest_) == before_.end()) {
     before_.push_back(newest_);
   }
+}
+
+void Continuity::doubt(bool strongly, TimePoint now) {
+  const bool late = now > due_ + kPause && guarded(Guard::late_answers_hide_restarts);
+  only_late_ = !strongly && (open_ ? only_late_ : late);
+  open_ = open_ || strongly || late;
 }
 
 bool Continuity::tells(std::string_view line) const {
@@ -63,7 +72,7 @@ Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now
   const bool foreign = !known && !refused && line_before != kQuestion && looks_like_command(line_before);
   alive_ = now;
   answered_ = newest_ == kQuestion;
-  open_ = open_ || !known;
+  doubt(!known, now);
   in_time_ = true;
   before_ = {std::string(kQuestion)};
   if (newest_ != kQuestion) before_.push_back(newest_);

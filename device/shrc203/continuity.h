@@ -16,7 +16,8 @@ namespace axisgate::shrc203 {
 
 class Continuity {
  public:
-  // No controller restarts in so short a time, the answer's and the line's way included.
+  // No controller restarts in so short a time, the answer's and the line's way included. One may have behind an answer
+  // that came later than that.
   static constexpr Duration kPause = std::chrono::milliseconds(150);
 
   // After a connect nothing is known of what the controller took before.
@@ -28,8 +29,11 @@ class Continuity {
   bool due(TimePoint now) const { return now - alive_ > kPause; }
   // Nothing tells whether the controller has restarted: other facts must.
   bool open() const { return open_; }
+  // ... but no more speaks for a restart than that an answer came late.
+  bool only_late() const { return open_ && only_late_; }
 
-  void wrote(std::string_view line, TimePoint now);
+  // Its bytes and those of the answer take `on_the_wire` at most.
+  void wrote(std::string_view line, Duration on_the_wire, TimePoint now);
   // The newest line was answered. `taken`: by other than NG; whether ?:CMD tells a refused line is an open question.
   void answered(bool taken, TimePoint now);
 
@@ -40,12 +44,16 @@ class Continuity {
   Verdict told(std::string_view line_before, TimePoint now);
 
  private:
+  void doubt(bool strongly, TimePoint now);
+
   std::vector<std::string> before_;  // what ?:CMD may tell when there was no restart
   std::string newest_;
   bool answered_ = true;  // the newest line was
   bool refused_ = false;  // the line answered last was, and may have come in as another
   bool in_time_ = false;  // the newest line was written before any restart could have ended
   bool open_ = false;
+  bool only_late_ = false;
+  TimePoint due_{};  // the newest line's answer, unless the controller is slow
   TimePoint alive_{};
 };
 

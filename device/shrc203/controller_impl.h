@@ -199,6 +199,7 @@ class Controller::Impl : public LineListener {
   Line line_;
   State state_;
   std::string unit_;               // the serial number that has passed a handshake
+  std::string scale_told_;         // what ?:P was answered
   bool restart_possible_ = false;  // look_for_restart() runs
   Registers registers_;
   MotionGate gate_;

@@ -134,6 +134,7 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     }
     if (!is_data(*step.answer)) co_return false;
   }
+  scale_told_ = scale.reply->text;
   const auto controllable = from_axis_setting(axes.reply->text);
   const bool twice = axes_again.reply->text == axes.reply->text || !guarded(Guard::axes_twice);
   if (!controllable || !twice) co_return false;
@@ -198,17 +199,28 @@ Task<void> Controller::Impl::follow_mode() {
 }
 
 // After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
-// decided. Where all showed 0 before, nothing tells, and what is not known to be the same counts as another.
+// decided. Where all showed 0 before, nothing tells, and what is not known to be the same counts as another. Where only
+// an answer was late, that would be a false alarm on every slow host: from 0 to 0 places are the same, if pulses are.
 Task<void> Controller::Impl::look_for_restart(std::uint64_t connection) {
+  const bool at_origin = std::ranges::all_of(
+      state_.axes, [](const AxisState& axis) { return !axis.controllable || axis.position_pulses == 0; });
   Result<void> read;
   for (int attempt = 0; attempt < kTries; ++attempt) {
     read = co_await read_positions(Lane::question, kGateway, true);
     if (connection != connection_) co_return;
     if (read) break;
   }
-  const bool elsewhere = std::ranges::any_of(
-      state_.axes, [](const AxisState& axis) { return axis.controllable && axis.position_pulses.value_or(0) != 0; });
-  if (!read || !elsewhere) {
+  const auto elsewhere = [this] {
+    return std::ranges::any_of(
+        state_.axes, [](const AxisState& axis) { return axis.controllable && axis.position_pulses.value_or(0) != 0; });
+  };
+  bool same = read && elsewhere();
+  if (read && !same && at_origin && line_.restart_only_possible()) {
+    const auto scale = co_await ask("?:P", Lane::question, kGateway, true);
+    if (connection != connection_) co_return;
+    same = is_data(scale) && scale.reply->text == scale_told_;
+  }
+  if (!same) {
     line_.give_up("the controller seems to have restarted", now_);
     co_return;
   }

@@ -99,6 +99,7 @@ class Line {
   void open(AxisSet controllable, TimePoint now);       // the handshake has passed
   void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
   void still_the_same(TimePoint now);                   // the suspected restart was none
+  bool restart_only_possible() const { return continuity_.only_late(); }
 
   // A reading told these axes to stand, or to move.
   void ready(AxisSet axes, TimePoint now);

@@ -158,7 +158,7 @@ bool Line::write_waiting_stops() {
 void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
   std::string bytes(line);
   bytes += "\r\n";
-  continuity_.wrote(line, now_);
+  continuity_.wrote(line, pace_.time_of(bytes.size() + Pace::kReplyBytesMax), now_);
   link_.write(bytes);
   BytesWritten written;
   written.bytes = std::move(bytes);

@@ -97,14 +97,14 @@ bool Controller::Impl::apply_positions(const Reply& reply) {
 }
 
 Task<Result<void>> Controller::Impl::read_registers(std::string caller) {
-  registers_.begin_reading();
+  Registers::Reading reading = registers_.begin_reading();
   for (const auto question : Registers::questions()) {
     const auto result = co_await ask(question, Lane::motion, caller);
     if (result.problem) co_return tl::unexpected(*result.problem);
     if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable(question, result));
-    registers_.take(question, *result.reply, state_.controllable());
+    reading.take(question, *result.reply, state_.controllable());
   }
-  registers_.end_reading();
+  registers_.end_reading(std::move(reading));
   co_return Result<void>();
 }
 

@@ -1,5 +1,7 @@
 #include "device/shrc203/registers.h"
 
+#include <utility>
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -48,12 +50,17 @@ const std::vector<std::string_view>& Registers::questions() {
   return names;
 }
 
-void Registers::begin_reading() {
+void Registers::forget() {
   known_ = false;
-  set_.clear();
+  ++forgotten_;
 }
 
-void Registers::take(std::string_view question, const Reply& reply, AxisSet controllable) {
+void Registers::end_reading(Reading reading) {
+  set_ = std::move(reading.set_);
+  known_ = reading.begun_ == forgotten_;
+}
+
+void Registers::Reading::take(std::string_view question, const Reply& reply, AxisSet controllable) {
   Register reg = Register::none;
   for (const auto& known : kQuestions) {
     if (known.name == question) reg = known.reg;

@@ -1,6 +1,7 @@
 // The settings that a G may start (manual 85)): what is left over in them would run on somebody else's G.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <string_view>
@@ -19,13 +20,23 @@ class Registers {
   static const std::vector<std::string_view>& questions();
 
   // After a connect, foreign traffic, a set or a go in doubt, a stop: nobody knows.
-  void forget() { known_ = false; }
+  void forget();
   bool known() const { return known_; }
 
-  // Takes the answers to questions(), all given.
-  void begin_reading();
-  void take(std::string_view question, const Reply& reply, AxisSet controllable);
-  void end_reading() { known_ = true; }
+  // One's own answers to questions(). Several may read at once, and what one has heard is not another's.
+  class Reading {
+   public:
+    void take(std::string_view question, const Reply& reply, AxisSet controllable);
+
+   private:
+    friend class Registers;
+    explicit Reading(std::uint64_t begun) : begun_(begun) {}
+    std::uint64_t begun_;  // forgotten so often then
+    std::map<Register, AxisSet> set_;
+  };
+  Reading begin_reading() const { return Reading(forgotten_); }
+  // All questions were answered. What was forgotten meanwhile is not known for that.
+  void end_reading(Reading reading);
 
   // The axes on which one of these is set.
   AxisSet set_in(Register reg) const;
@@ -39,6 +50,7 @@ class Registers {
 
  private:
   bool known_ = false;
+  std::uint64_t forgotten_ = 0;  // times
   std::map<Register, AxisSet> set_;
 };
 

@@ -57,6 +57,8 @@ constexpr Row kTable[] = {
              "Line.EachQuestionHasItsOwnAnswer"),
     by_seeds(Guard::restart_suspected, "restart-suspected", "a restart that left no other trace is looked for",
              {0, 10}),
+    by_tests(Guard::late_answers_hide_restarts, "late-answers-hide-restarts",
+             "... also where it hides behind a late answer", "Hazard.H21_BehindALateAnswer"),
     by_tests(Guard::question_before_pause_ends, "question-before-pause-ends", "?:CMD comes first after a pause",
              "Hazard.H21_NoFalseAlarm"),
     by_tests(Guard::foreign_traffic, "foreign-traffic", "a line that is not ours in ?:CMD closes the line",

@@ -220,6 +220,24 @@ TEST_F(LeftOver, H12_BySomebodyElseWhileTheLineWasDown) {
   expect_refused();
 }
 
+// Seed 805722: two motions of different axes look for left-overs at once, and one begins to while the other does.
+TEST(Hazard, H12_LookedForByTwoAtOnce) {
+  for (int apart = 0; apart < 60 && !HasFailure(); apart += 2) {
+    auto setup = quiet();
+    setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+    for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    foreign_traffic(world, {"AP:3+P198"});
+    const int starts = world.device().starts(3);
+    move_by(world, {{3, 100}});
+    world.run_for(milliseconds(apart));
+    move_by(world, {{1, 100}});
+    (void)outcome_of(world, 2);
+    EXPECT_EQ(world.device().starts(3), starts) << apart << "\n" << world.replay();
+  }
+}
+
 TEST_F(LeftOver, H12_ByAMotionWhoseStartWasLost) {
   world.wire().set_script(drop_first(world, LineKind::command, "G:"));
   move_by(world, {{2, 500}});

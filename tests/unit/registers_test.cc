@@ -16,21 +16,30 @@ Reply reply_of(std::string_view question, std::string_view line, AxisSet control
 
 class RegistersTest : public testing::Test {
  protected:
-  RegistersTest() { registers.begin_reading(); }
   void take(std::string_view question, std::string_view line, AxisSet controllable = kAll) {
-    registers.take(question, reply_of(question, line, controllable), controllable);
+    reading.take(question, reply_of(question, line, controllable), controllable);
+    registers.end_reading(reading);
   }
   Registers registers;
+  Registers::Reading reading = registers.begin_reading();
 };
 
 TEST(RegistersUnread, NobodyKnows) {
   Registers registers;
   EXPECT_FALSE(registers.known());
-  registers.begin_reading();
+  const auto reading = registers.begin_reading();
   EXPECT_FALSE(registers.known());
-  registers.end_reading();
+  registers.end_reading(reading);
   EXPECT_TRUE(registers.known());
   registers.forget();
+  EXPECT_FALSE(registers.known());
+}
+
+TEST(RegistersUnread, WhatIsForgottenMeanwhileIsNotKnown) {
+  Registers registers;
+  const auto reading = registers.begin_reading();
+  registers.forget();
+  registers.end_reading(reading);
   EXPECT_FALSE(registers.known());
 }
 
