@@ -37,7 +37,7 @@ class LaneQueue {
   // The next work for which admissible(work) holds.
   template <class Admissible>
   std::optional<Work> take(Admissible admissible) {
-    for (const bool stops_wait : {last_was_stop_ && guarded(Guard::stops_by_turns), false}) {
+    for (const bool stops_wait : {!stops_turn(), false}) {
       for (const bool starving_only : {guarded(Guard::lanes_starve_not), false}) {
         for (std::size_t lane = stops_wait ? 1 : 0; lane < kLaneCount; ++lane) {
           if (starving_only && (lane == 0 || lanes_[lane].passes < kPassesMax)) continue;
@@ -72,6 +72,9 @@ class LaneQueue {
       for (const auto& entry : lane.waiting) visit(entry.work);
     }
   }
+
+  // Whether a stop would not have to let others go first.
+  bool stops_turn() const { return !last_was_stop_ || !guarded(Guard::stops_by_turns); }
 
   std::size_t size(Lane lane) const { return lanes_[index(lane)].waiting.size(); }
 

@@ -26,6 +26,7 @@ void Continuity::connected() {
   answered_ = true;
   refused_ = false;
   open_ = false;
+  question_due_.reset();
 }
 
 void Continuity::begin(TimePoint now) {
@@ -39,6 +40,7 @@ void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint no
   if (!answered_ && !in_time_) std::erase(before_, newest_);
   newest_ = line;
   due_ = now + on_the_wire;
+  if (newest_ == kQuestion && !question_due_) question_due_ = due_;
   answered_ = false;
   in_time_ = !due(now);
   if (in_time_) before_.push_back(newest_);
@@ -48,7 +50,7 @@ void Continuity::answered(bool taken, TimePoint now) {
   alive_ = now;
   answered_ = true;
   refused_ = !taken;
-  doubt(!in_time_, now);
+  doubt(!in_time_, due_, now);
   if (taken) {
     before_ = {newest_};
   } else if (std::ranges::find(before_, newest_) == before_.end()) {
@@ -56,8 +58,8 @@ void Continuity::answered(bool taken, TimePoint now) {
   }
 }
 
-void Continuity::doubt(bool strongly, TimePoint now) {
-  const bool late = now > due_ + kPause && guarded(Guard::late_answers_hide_restarts);
+void Continuity::doubt(bool strongly, TimePoint due, TimePoint now) {
+  const bool late = now > due + kPause && guarded(Guard::late_answers_hide_restarts);
   only_late_ = !strongly && (open_ ? only_late_ : late);
   open_ = open_ || strongly || late;
 }
@@ -72,7 +74,7 @@ Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now
   const bool foreign = !known && !refused && line_before != kQuestion && looks_like_command(line_before);
   alive_ = now;
   answered_ = newest_ == kQuestion;
-  doubt(!known, now);
+  doubt(!known, std::exchange(question_due_, {}).value_or(due_), now);
   in_time_ = true;
   before_ = {std::string(kQuestion)};
   if (newest_ != kQuestion) before_.push_back(newest_);

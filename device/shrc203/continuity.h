@@ -6,6 +6,7 @@
 // shows that somebody else has written to the controller.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -44,7 +45,7 @@ class Continuity {
   Verdict told(std::string_view line_before, TimePoint now);
 
  private:
-  void doubt(bool strongly, TimePoint now);
+  void doubt(bool strongly, TimePoint due, TimePoint now);
 
   std::vector<std::string> before_;  // what ?:CMD may tell when there was no restart
   std::string newest_;
@@ -53,7 +54,8 @@ class Continuity {
   bool in_time_ = false;  // the newest line was written before any restart could have ended
   bool open_ = false;
   bool only_late_ = false;
-  TimePoint due_{};  // the newest line's answer, unless the controller is slow
+  TimePoint due_{};                        // the newest line's answer, unless the controller is slow
+  std::optional<TimePoint> question_due_;  // that of the oldest ?:CMD without an answer
   TimePoint alive_{};
 };
 

@@ -143,7 +143,8 @@ class Line {
   void write_line(std::string_view line, std::uint64_t exchange = 0, const ExchangeRequest* cause = nullptr);
   ExchangeEnded ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,
                       TimePoint now) const;
-  bool must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const;
+  bool asks_first(TimePoint now) const;
+  bool asks_now(const std::function<bool(const WaitingPtr&)>& may_go, bool settle) const;
   bool may_send(const ExchangeRequest& request) const;
   WaitingPtr take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now);
   bool leaves_refills_alone(const ExchangeRequest& request, TimePoint now) const;

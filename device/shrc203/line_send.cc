@@ -51,17 +51,22 @@ void Line::pump(TimePoint now) {
   };
   const auto settles = coming ? std::nullopt : conflicts_settle_from();
   const bool settle = settles && now >= *settles && may_settle(now);
-  if (must_ask_before(may_go, settle, now)) {
+  const bool asks = asks_first(now);
+  if (asks && asks_now(may_go, settle)) {
     ExchangeRequest question;
     question.command = make_command(kLineBefore);
     send(std::make_shared<Waiting>(Waiting{std::move(question), {}, now}), now);
     return;
   }
-  if (auto next = take_next(may_go, now)) {
+  const auto may_go_unasked = [&](const WaitingPtr& waiting) {
+    const auto& request = waiting->request;
+    return may_go(waiting) && (!asks || request.lane == Lane::stop || request.command.line == kLineBefore);
+  };
+  if (auto next = take_next(may_go_unasked, now)) {
     send(std::move(next), now);
     return;
   }
-  if (!settle) return;
+  if (!settle || asks) return;
   ExchangeRequest probe;
   probe.command = make_command(kSettling);
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
@@ -84,17 +89,21 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
 // ?:CMD comes before whatever may go now: after a pause, of which it tells whether the controller has restarted in it;
 // and after NG, because the line may have cut the command in two, and its other part's NG, however late, is no answer
 // to that question.
-bool Line::must_ask_before(const std::function<bool(const WaitingPtr&)>& may_go, bool settle, TimePoint now) const {
+bool Line::asks_first(TimePoint now) const {
   const bool paused =
       handshake_passed_ && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
-  const bool refused = maybe_in_two_ && guarded(Guard::question_after_refusal);
-  if (!paused && !refused) return false;
+  return paused || (maybe_in_two_ && guarded(Guard::question_after_refusal));
+}
+
+// A stop whose turn it is does not wait for that.
+bool Line::asks_now(const std::function<bool(const WaitingPtr&)>& may_go, bool settle) const {
   bool any = settle, stop = false;
   queue_.for_each([&](const WaitingPtr& waiting) {
-    stop = stop || waiting->request.lane == Lane::stop;
-    any = any || (may_go(waiting) && waiting->request.command.line != kLineBefore);
+    const bool is_stop = waiting->request.lane == Lane::stop;
+    stop = stop || is_stop;
+    any = any || (!is_stop && may_go(waiting) && waiting->request.command.line != kLineBefore);
   });
-  return any && !stop;
+  return any && !(stop && queue_.stops_turn());
 }
 
 // While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.

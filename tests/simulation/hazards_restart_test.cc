@@ -141,27 +141,28 @@ TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
 
 INSTANTIATE_TEST_SUITE_P(Silences, HazardH21, testing::ValuesIn(kSilences));
 
-// Seed 903823: it restarts behind an answer that comes late, and what is asked then comes in time after that answer.
+// Seeds 903823 and 1201942: it restarts behind an answer that comes late, and what is asked then comes in time after
+// that answer. One to ?:CMD comes when another has been asked for.
 TEST(Hazard, H21_BehindALateAnswer) {
-  World world(quiet());
-  ASSERT_TRUE(world.run_until_up()) << world.replay();
-  moved(world, {{1, 4000}});
-  const std::uint64_t epoch = world.controller().state().device_epoch;
-  bool late = false;
-  world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
-    if (late || kind != LineKind::reply || text != "V2.00.000") return {};
-    late = true;
-    return {.drop = false, .delay = milliseconds(450), .instead = {}};
-  });
-  world.controller().execute({{"?:V"}, world.context("asker")}, world.now(), [](const ExecuteEvent&) {});
-  world.controller().execute({{"C:11"}, world.context("other")}, world.now(), [](const ExecuteEvent&) {});
-  ASSERT_TRUE(world.run_until([&] { return late; }, seconds(1)));
-  world.device().set_boot({.mode = "HOST", .silence = milliseconds(200)});
-  world.power_cycle(milliseconds(200));
-  world.controller().move(move_of(world, {{1, 5000}}, false), world.now(), [](Result<Motion>) {});
-  EXPECT_EQ(outcome_of(world, 2).state, MotionState::failed) << world.replay();
-  EXPECT_EQ(world.device().starts(1), 1) << "moved in another frame\n" << world.replay();
-  expect_new_epoch(world, epoch);
+  for (const auto& [question, delay] : {std::pair{"?:V", milliseconds(450)}, {"?:CMD", milliseconds(800)}}) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 4000}});
+    const std::uint64_t epoch = world.controller().state().device_epoch;
+    bool late = false;
+    world.wire().set_script([&, asked = question, delay = delay](LineKind kind, const std::string&) -> Scripted {
+      if (late || kind != LineKind::reply || world.wire().commands().back() != asked) return {};
+      late = true;
+      return {.drop = false, .delay = delay, .instead = {}};
+    });
+    world.controller().execute({{question}, world.context("asker")}, world.now(), [](const ExecuteEvent&) {});
+    ASSERT_TRUE(world.run_until([&] { return late; }, seconds(1)));
+    restart(world, milliseconds(200));
+    world.controller().move(move_of(world, {{1, 5000}}, false), world.now(), [](Result<Motion>) {});
+    EXPECT_EQ(outcome_of(world, 2).state, MotionState::failed) << question << "\n" << world.replay();
+    EXPECT_EQ(world.device().starts(1), 1) << "moved in another frame\n" << world.replay();
+    expect_new_epoch(world, epoch);
+  }
 }
 
 // Without a restart a quiet line stays what it is, whatever is asked on it and whenever.
