@@ -1,6 +1,7 @@
 // axisgated: owns the lines of the configured stage controllers and shares them over gRPC.
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <csignal>
@@ -11,8 +12,10 @@
 #include <memory>
 #include <string>
 
+#include "server/access/access.h"
 #include "server/access/generation.h"
 #include "server/config.h"
+#include "server/connections/callers.h"
 #include "server/descriptor_limit.h"
 #include "server/end_signals.h"
 #include "server/explain.h"
@@ -60,16 +63,24 @@ std::uint32_t start_generation() {
   return now;
 }
 
+Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& config) {
+  auto tokens = server::Tokens::open(server::default_state_directory() + "/tokens");
+  if (!tokens) return tl::unexpected(tokens.error());
+  return std::make_unique<server::Access>(config, server::caller_name(::geteuid()), *std::move(tokens));
+}
+
 int serve(const server::Config& config) {
   server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
+  const auto access = open_access(config.access);
+  if (!access) return complain(kExitFailed, server::explain(access.error()));
   server::Gateway gateway(config, start_generation());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{server::raise_descriptor_limit()};
-  const auto server = rpc::Server::start(gateway, config.listen, config.socket, limits);
+  const auto server = rpc::Server::start(gateway, **access, config.listen, config.socket, limits);
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};

@@ -14,6 +14,7 @@
 
 #include "device/core/quantity.h"
 #include "device/shrc203/simulator/options.h"
+#include "server/config_access.h"
 #include "server/config_table.h"
 #include "server/config_words.h"
 #include "server/default_socket.h"
@@ -80,6 +81,7 @@ class ConfigReader {
     read_address(table, "listen", config.listen, "gRPC");
     if (const auto socket = table.text("socket")) config.socket = checked_socket(table, *socket);
     read_address(table, "metrics", config.metrics, "metrics");
+    if (const toml::table* access = table.table("access")) read_access(*access, file_, errors_, config.access);
     const auto devices = table.tables("device");
     if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
     for (const toml::table* device : devices) config.devices.push_back(read_device(*device));
@@ -95,9 +97,12 @@ class ConfigReader {
     if (!parsed) {
       table.error(key, fmt::format("\"{}\" is not HOST:PORT, e.g. \"127.0.0.1:{}\"", *text, address.port));
     } else if (!is_loopback(parsed->host)) {
-      table.error(key, fmt::format("\"{}\" would offer {} to the network, where nobody is asked who they are yet; use "
-                                   "127.0.0.1, localhost or [::1], and a tunnel (ssh -L) from elsewhere",
-                                   *text, what));
+      table.error(
+          key,
+          fmt::format(
+              "\"{}\" would offer {} to the network, and what is said there could be read and changed on its way; use "
+              "127.0.0.1, localhost or [::1], and a tunnel (ssh -L) from elsewhere",
+              *text, what));
     } else {
       address = *parsed;
     }
@@ -353,7 +358,8 @@ std::string to_string(const ConfigError& error) {
 }
 
 Config default_config() {
-  return Config{{"127.0.0.1", kGrpcPort}, default_socket_to_listen(), {"127.0.0.1", kMetricsPort}, {DeviceConfig{}}};
+  return Config{
+      {"127.0.0.1", kGrpcPort}, default_socket_to_listen(), {"127.0.0.1", kMetricsPort}, {}, {DeviceConfig{}}};
 }
 
 Configured<Config> parse_config(std::string_view text, const std::string& file) {

@@ -12,6 +12,7 @@
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
 #include "device/shrc203/profile.h"
+#include "server/access/access.h"
 
 namespace axisgate::server {
 
@@ -41,6 +42,7 @@ struct Config {
   TcpAddress listen;
   std::string socket;  // path of the Unix socket
   TcpAddress metrics;
+  AccessConfig access;
   std::vector<DeviceConfig> devices;
 };
 

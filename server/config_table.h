@@ -1,6 +1,5 @@
 // One TOML table under strict reading: every key is asked for by type and range, what nobody asked for is an error, and
-// errors name file, line, key, what is wrong and what is allowed. Included by config.cc alone, since toml++ is slow to
-// compile.
+// errors name file, line, key, what is wrong and what is allowed. Included by few, since toml++ is slow to compile.
 #pragma once
 
 #include <toml++/toml.h>
@@ -69,6 +68,19 @@ class ConfigTable {
     const toml::node* node = find(key);
     if (node != nullptr && !node->is_table()) wrong_type(key, *node, "a table, { NAME = \"VALUE\" }");
     return node == nullptr ? nullptr : node->as_table();
+  }
+
+  std::optional<std::vector<std::string>> texts(std::string_view key) {
+    const toml::node* node = find(key);
+    if (node == nullptr) return std::nullopt;
+    const toml::array* array = node->as_array();
+    std::vector<std::string> found;
+    for (std::size_t i = 0; array != nullptr && i < array->size(); ++i) {
+      if (const auto text = array->get(i)->value_exact<std::string>()) found.push_back(*text);
+    }
+    if (array != nullptr && found.size() == array->size()) return found;
+    wrong_type(key, *node, "a list of texts, [\"A\", \"B\"]");
+    return std::nullopt;
   }
 
   // Accepts the key without reading it.

@@ -7,6 +7,7 @@
 
 #include "device/link/serial_port.h"
 #include "device/shrc203/profile.h"
+#include "server/access/roles.h"
 
 namespace axisgate::server {
 
@@ -16,6 +17,10 @@ inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = 
     {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
 inline constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
     {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, Role>, 3> kRoles = {
+    {{"observer", Role::observer}, {"operator", Role::operator_}, {"admin", Role::admin}}};
+inline constexpr std::array<std::pair<std::string_view, Role>, 4> kLocalRoles = {
+    {{"nobody", Role::nobody}, {"observer", Role::observer}, {"operator", Role::operator_}, {"admin", Role::admin}}};
 inline constexpr std::array<std::pair<std::string_view, shrc203::AtExit>, 2> kAtExit = {
     {{"stop", shrc203::AtExit::stop}, {"finish", shrc203::AtExit::finish}}};
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <utility>
 
+#include "clients/axisctl/bearer.h"
 #include "clients/axisctl/failure.h"
 
 namespace axisgate::axisctl {
@@ -21,7 +22,9 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& target) {
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5000);
   // Despite its name how long one attempt may take: a daemon that is being flooded accepts a stop, if not at once.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
-  return grpc::CreateCustomChannel(target, grpc::InsecureChannelCredentials(), arguments);
+  const char* const token = std::getenv(kTokenVariable);
+  return grpc::experimental::CreateCustomChannelWithInterceptors(target, grpc::InsecureChannelCredentials(), arguments,
+                                                                 with_bearer(token == nullptr ? "" : token));
 }
 
 Failure without_details(const grpc::Status& status, const std::string& target) {
@@ -32,6 +35,11 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {kDeadline, "DEADLINE_EXCEEDED", fmt::format("the daemon at {} did not answer in time", target),
               "what was asked may still happen: look with `axisctl status`"};
+    // Refused before anything that could tell more.
+    case grpc::StatusCode::UNAUTHENTICATED:
+      return {kRefused, "UNAUTHENTICATED", status.error_message(), ""};
+    case grpc::StatusCode::PERMISSION_DENIED:
+      return {kRefused, "NOT_ALLOWED", status.error_message(), ""};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {kRefused, "UNIMPLEMENTED", fmt::format("what answers at {} does not know this call", target),
               "is it axisgated, and of this version?"};
@@ -51,7 +59,8 @@ Connection::Connection(std::string target)
       events(v1::EventService::NewStub(channel_)),
       commands(v1::CommandService::NewStub(channel_)),
       diagnostics(v1::DiagnosticsService::NewStub(channel_)),
-      control(v1::ControlService::NewStub(channel_)) {}
+      control(v1::ControlService::NewStub(channel_)),
+      access(v1::AccessService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;

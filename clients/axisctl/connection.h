@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "axisgate/v1/access.grpc.pb.h"
 #include "axisgate/v1/command.grpc.pb.h"
 #include "axisgate/v1/control.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
@@ -24,8 +25,8 @@ inline constexpr std::chrono::seconds kStopLimit{30};
 
 class Connection {
  public:
-  // "unix:/path" or "host:port". Shares nothing with other connections of this process, so that a stop never waits
-  // behind a stream.
+  // "unix:/path" or "host:port". Calls as the token in AXISGATE_TOKEN, if there is one. Shares nothing with other
+  // connections of this process, so that a stop never waits behind a stream.
   explicit Connection(std::string target);
 
   // A call with a deadline. Throws Failure.
@@ -56,6 +57,7 @@ class Connection {
   const std::unique_ptr<v1::CommandService::Stub> commands;
   const std::unique_ptr<v1::DiagnosticsService::Stub> diagnostics;
   const std::unique_ptr<v1::ControlService::Stub> control;
+  const std::unique_ptr<v1::AccessService::Stub> access;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

@@ -1,9 +1,7 @@
 // lease run, list, hand-over, and rearm: who may move what.
 #include <fmt/format.h>
-#include <google/protobuf/util/time_util.h>
 
 #include <cstdlib>
-#include <ctime>
 #include <string>
 #include <vector>
 
@@ -16,20 +14,9 @@
 namespace axisgate::axisctl {
 namespace {
 
-using google::protobuf::util::TimeUtil;
-
 template <class Axes>
 std::string axes_text(const Axes& axes) {
   return fmt::format("{} {}", axes.size() == 1 ? "axis" : "axes", fmt::join(axes, ", "));
-}
-
-std::string time_text(const google::protobuf::Timestamp& time) {
-  const std::time_t seconds = TimeUtil::TimestampToTimeT(time);
-  std::tm local{};
-  ::localtime_r(&seconds, &local);
-  char text[32];
-  std::strftime(text, sizeof text, "%F %T", &local);
-  return text;
 }
 
 std::string latch_text(const v1::Latch& latch) {

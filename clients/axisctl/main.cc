@@ -48,6 +48,14 @@ int run(const Options& options) {
       return lease_hand_over(session);
     case Verb::rearm:
       return rearm(session);
+    case Verb::who_am_i:
+      return who_am_i(session);
+    case Verb::token_create:
+      return token_create(session);
+    case Verb::token_list:
+      return token_list(session);
+    case Verb::token_revoke:
+      return token_revoke(session);
   }
   return kUsage;
 }

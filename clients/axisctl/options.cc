@@ -147,6 +147,26 @@ void add_lease_verbs(CLI::App& app, Options& options) {
   hand_over->add_option("HOLDER", options.holder, "as `lease list` shows them: 'unix bert'")->required()->type_name("");
 }
 
+void add_access_verbs(CLI::App& app, Options& options) {
+  add_verb(app, options, Verb::who_am_i, "whoami", "as whom the daemon knows you, and what you may do");
+  CLI::App* token = app.add_subcommand("token", "for administrators: create, list, revoke");
+  token->require_subcommand(1);
+  token->fallthrough();
+  CLI::App* create = add_verb(*token, options, Verb::token_create, "create",
+                              "make a token and print it; its caller puts it into AXISGATE_TOKEN");
+  create->add_option("NAME", options.name, "shown as who calls, as 'token night-scan'")->required()->type_name("");
+  create->add_option("--role", options.role, "what its caller may do")
+      ->check(CLI::IsMember({"observer", "operator", "admin"}))
+      ->capture_default_str();
+  create->add_option("--days", options.days, "until it expires")
+      ->check(CLI::Range(1, 3650))
+      ->capture_default_str()
+      ->type_name("DAYS");
+  add_verb(*token, options, Verb::token_list, "list", "the tokens, with role and expiry");
+  CLI::App* revoke = add_verb(*token, options, Verb::token_revoke, "revoke", "no call with it is taken any more");
+  revoke->add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
+}
+
 bool writes_text_only(Verb verb) { return verb == Verb::record || verb == Verb::replay || verb == Verb::support; }
 
 // "/path" for people; gRPC wants "unix:/path".
@@ -203,6 +223,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_motion_verbs(app, options);
   add_other_verbs(app, options);
   add_lease_verbs(app, options);
+  add_access_verbs(app, options);
   add_recording_verbs(app, options);
   CLI::App* help = app.add_subcommand("help", "this, or about one verb");
   help->add_option("VERB", help_verb)->type_name("");

@@ -28,7 +28,11 @@ enum class Verb {
   lease_run,
   lease_list,
   lease_hand_over,
-  rearm
+  rearm,
+  who_am_i,
+  token_create,
+  token_list,
+  token_revoke
 };
 
 struct Options {
@@ -59,6 +63,9 @@ struct Options {
   std::string at_loss = "stop";                // lease run
   std::string purpose;                         // lease run
   std::string holder;                          // lease hand-over: to whom
+  std::string name;                            // token create, token revoke
+  std::string role = "operator";               // token create
+  int days = 90;                               // token create: until it expires
 };
 
 // The options, or the exit code with which to leave at once: help was shown, or the usage was wrong and that was said.

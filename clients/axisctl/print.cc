@@ -2,9 +2,11 @@
 
 #include <fmt/format.h>
 #include <google/protobuf/util/json_util.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 #include <cstdio>
+#include <ctime>
 #include <vector>
 
 namespace axisgate::axisctl {
@@ -158,5 +160,14 @@ std::string state_name(v1::MotionState state) {
 std::string link_name(v1::LinkState state) { return without_prefix(v1::LinkState_Name(state), "LINK_STATE_", state); }
 
 std::string_view last_part(std::string_view resource) { return resource.substr(resource.rfind('/') + 1); }
+
+std::string time_text(const google::protobuf::Timestamp& time) {
+  const std::time_t seconds = google::protobuf::util::TimeUtil::TimestampToTimeT(time);
+  std::tm local{};
+  ::localtime_r(&seconds, &local);
+  char text[32];
+  std::strftime(text, sizeof text, "%F %T", &local);
+  return text;
+}
 
 }  // namespace axisgate::axisctl

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <google/protobuf/message.h>
+#include <google/protobuf/timestamp.pb.h>
 
 #include <cstdint>
 #include <string>
@@ -44,6 +45,9 @@ std::string describe(const v1::Event& event);
 // "RUNNING" of MOTION_STATE_RUNNING: an enum value without the name of its enum.
 std::string state_name(v1::MotionState state);
 std::string link_name(v1::LinkState state);
+
+// "2026-11-21 16:00:00", the local time.
+std::string time_text(const google::protobuf::Timestamp& time);
 
 // "5" of "devices/stage/motions/5".
 std::string_view last_part(std::string_view resource);

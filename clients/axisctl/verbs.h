@@ -24,6 +24,10 @@ int lease_run(const Session& session);
 int lease_list(const Session& session);
 int lease_hand_over(const Session& session);
 int rearm(const Session& session);
+int who_am_i(const Session& session);
+int token_create(const Session& session);
+int token_list(const Session& session);
+int token_revoke(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

@@ -56,6 +56,7 @@ enum class Reason {
   outside_lease,
   stopped_by,
   not_allowed,
+  unauthenticated,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

@@ -17,6 +17,11 @@ inline WallTime to_wall(TimePoint time) {
   return std::chrono::system_clock::now() + std::chrono::duration_cast<WallTime::duration>(time - monotonic_now());
 }
 
+// Whole seconds, for what outlives the daemon.
+inline std::chrono::sys_seconds calendar_now() {
+  return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+}
+
 inline TimePoint to_monotonic(WallTime time) {
   return monotonic_now() + std::chrono::duration_cast<Duration>(time - std::chrono::system_clock::now());
 }

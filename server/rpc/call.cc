@@ -1,7 +1,6 @@
 #include "server/rpc/call.h"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -10,9 +9,8 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "server/connections/callers.h"
 #include "server/events/wall_time.h"
-#include "server/rpc/entrances.h"
+#include "server/rpc/gatekeeper.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -24,14 +22,6 @@ constexpr std::string_view kMotions = "/motions/";
 constexpr std::size_t kRequestIdMax = 128;
 constexpr Duration kMotionPatience = std::chrono::seconds(5);
 constexpr Duration kPatience = std::chrono::seconds(20);
-
-// "unix alice" or "tcp 127.0.0.1:39482": of the latter gRPC says "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".
-std::string caller(const grpc::CallbackServerContext& call) {
-  if (std::optional<std::string> user = unix_caller(call)) return *std::move(user);
-  const std::string peer = call.peer();
-  const std::size_t colon = peer.find(':');
-  return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
-}
 
 std::optional<TimePoint> call_deadline(const grpc::CallbackServerContext& call) {
   if (call.deadline() == WallTime::max()) return std::nullopt;
@@ -124,13 +114,6 @@ shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, co
 
 shrc203::RequestContext question_context(const grpc::CallbackServerContext& call) {
   return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience), 0};
-}
-
-Result<void> check_admin(const grpc::CallbackServerContext& call) {
-  const std::string admin = server::caller_name(::geteuid());
-  if (unix_caller(call) == admin) return {};
-  return fail(Reason::not_allowed, fmt::format("only an administrator may do this, and {} calls", caller(call)),
-              fmt::format("call as {}, over the Unix socket", admin));
 }
 
 }  // namespace axisgate::rpc

@@ -43,10 +43,6 @@ Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerConte
                                                  const api::CallContext& context);
 // A stop is never refused for its context, and asks for no not_after: it is waited for as long as for a question.
 shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context);
-// Whether the caller may do what only an administrator may: the user as whom the daemon runs, on the Unix socket.
-// not_allowed.
-Result<void> check_admin(const grpc::CallbackServerContext& call);
-
 // A question counts until the call's deadline, or for 20 s.
 shrc203::RequestContext question_context(const grpc::CallbackServerContext& call);
 

@@ -12,6 +12,7 @@
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
 #include "server/rpc/execute_stream.h"
+#include "server/rpc/gatekeeper.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
@@ -60,6 +61,25 @@ Result<void> check_lines(const api::ExecuteRequest& request) {
   return {};
 }
 
+// Every such line is refused before any is sent.
+Result<void> check_role(const api::ExecuteRequest& request, const grpc::CallbackServerContext& call,
+                        const server::Access& access) {
+  const auto special =
+      std::ranges::find_if(request.lines(), [&](const std::string& line) { return access.only_for_admins(line); });
+  if (special == request.lines().end()) return {};
+  const Result<server::Caller> caller = caller_with_role(call, access);
+  if (!caller) return tl::unexpected(caller.error());
+  if (caller->role == server::Role::admin) return {};
+  Problem problem{
+      Reason::not_allowed,
+      fmt::format("only an administrator may send this command, and {} is {}", caller->who, name(caller->role)),
+      "ask one, or leave it out of `admin_commands` in the configuration",
+      {},
+      *special,
+      {}};
+  return tl::unexpected(std::move(problem));
+}
+
 Result<Duration> timeout_of(const api::ExecuteRequest& request) {
   if (!request.has_timeout()) return kTimeout;
   const std::int64_t seconds = request.timeout().seconds();
@@ -92,6 +112,7 @@ grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::Ca
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return new Ended(device.error());
   if (const Result<void> checked = check_lines(*request); !checked) return new Ended(checked.error());
+  if (const Result<void> allowed = check_role(*request, *context, access_); !allowed) return new Ended(allowed.error());
   const Result<Duration> timeout = timeout_of(*request);
   if (!timeout) return new Ended(timeout.error());
   Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "axisgate/v1/command.grpc.pb.h"
+#include "server/access/access.h"
 #include "server/gateway.h"
 #include "server/rpc/stream_limit.h"
 
@@ -11,8 +12,9 @@ namespace api = axisgate::v1;
 
 class CommandService final : public api::CommandService::CallbackService {
  public:
-  // Both outlive this.
-  CommandService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // All outlive this.
+  CommandService(server::Gateway& gateway, const server::Access& access, StreamLimit& streams)
+      : gateway_(gateway), access_(access), streams_(streams) {}
 
   grpc::ServerUnaryReactor* ListCommands(grpc::CallbackServerContext* context, const api::ListCommandsRequest* request,
                                          api::ListCommandsResponse* response) override;
@@ -21,6 +23,7 @@ class CommandService final : public api::CommandService::CallbackService {
 
  private:
   server::Gateway& gateway_;
+  const server::Access& access_;
   StreamLimit& streams_;
 };
 

@@ -6,10 +6,10 @@
 #include <cstddef>
 #include <memory>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "device/link/descriptor.h"
+#include "server/access/access.h"
 #include "server/connections/callers.h"
 
 namespace axisgate::rpc {
@@ -17,8 +17,8 @@ namespace axisgate::rpc {
 // One for TCP and one for each slot of Unix callers. Used by the thread that accepts.
 class Entrances {
  public:
-  // Adds them to what `builder` builds. `callers` outlives that server.
-  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers);
+  // Adds them to what `builder` builds. Both others outlive that server.
+  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const server::Access& access);
 
   // The connection is gRPC's from here on; `slot` is the Unix caller's. Before the server has started, or once it has
   // been shut down, the descriptor leaks: gRPC drops it without closing it.
@@ -30,8 +30,5 @@ class Entrances {
   Entrance tcp_;
   std::vector<Entrance> unix_;
 };
-
-// "unix alice", as the entrance of the call's connection knows it; none for a TCP caller. In a handler.
-std::optional<std::string> unix_caller(const grpc::CallbackServerContext& call);
 
 }  // namespace axisgate::rpc

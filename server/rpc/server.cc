@@ -31,26 +31,29 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 
 }  // namespace
 
-Server::Server(server::Gateway& gateway, std::unique_ptr<server::Listener> listener)
-    : listener_(std::move(listener)),
+Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener)
+    : access_(access),
+      listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
       callers_(kCallerSlots),
       devices_(gateway, streams_),
       stage_(gateway, streams_),
       events_(gateway, streams_),
-      commands_(gateway, streams_),
+      commands_(gateway, access, streams_),
       diagnostics_(gateway, streams_),
       control_(gateway, streams_),
+      known_callers_(access),
       health_(streams_),
       stops_(stage_),
       names_(devices_) {}
 
-Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, const server::TcpAddress& listen,
-                                              const std::string& socket, const server::ConnectionLimits& limits) {
+Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::Access& access,
+                                              const server::TcpAddress& listen, const std::string& socket,
+                                              const server::ConnectionLimits& limits) {
   gpr_set_log_function(log_quietly);
   auto listener = server::Listener::open(listen, socket);
   if (!listener) return tl::unexpected(listener.error());
-  std::unique_ptr<Server> server(new Server(gateway, *std::move(listener)));
+  std::unique_ptr<Server> server(new Server(gateway, access, *std::move(listener)));
   server->build_ordinary();
   server->build_reserve();
   if (server->ordinary_.server == nullptr || server->reserve_.server == nullptr) {
@@ -70,12 +73,12 @@ void Server::build_ordinary() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
-  for (grpc::Service* service : std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_,
-                                                                      &diagnostics_, &control_, &health_}) {
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
+           &devices_, &stage_, &events_, &commands_, &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  ordinary_.entrances.emplace(builder, callers_);
+  ordinary_.entrances.emplace(builder, callers_, access_);
   ordinary_.server = builder.BuildAndStart();
 }
 
@@ -89,7 +92,7 @@ void Server::build_reserve() {
   builder.RegisterService(&names_);
   builder.RegisterCallbackGenericService(&refusing_);
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  reserve_.entrances.emplace(builder, callers_);
+  reserve_.entrances.emplace(builder, callers_, access_);
   reserve_.server = builder.BuildAndStart();
 }
 

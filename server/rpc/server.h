@@ -14,6 +14,7 @@
 #include "server/connections/callers.h"
 #include "server/gateway.h"
 #include "server/listener.h"
+#include "server/rpc/access_service.h"
 #include "server/rpc/command_service.h"
 #include "server/rpc/control_service.h"
 #include "server/rpc/device_service.h"
@@ -31,9 +32,10 @@ namespace axisgate::rpc {
 class Server {
  public:
   // Serves at once. Refuses an address that somebody else serves, and a socket whose directory cannot be trusted.
-  // Connections beyond `limits` are served a stop only (stop_only.h). `gateway` outlives the server.
-  static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, const server::TcpAddress& listen,
-                                               const std::string& socket, const server::ConnectionLimits& limits);
+  // Connections beyond `limits` are served a stop only (stop_only.h). `gateway` and `access` outlive the server.
+  static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
+                                               const server::TcpAddress& listen, const std::string& socket,
+                                               const server::ConnectionLimits& limits);
   // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
   ~Server();
 
@@ -48,10 +50,11 @@ class Server {
     std::optional<Entrances> entrances;
   };
 
-  Server(server::Gateway& gateway, std::unique_ptr<server::Listener> listener);
+  Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener);
   void build_ordinary();
   void build_reserve();
 
+  const server::Access& access_;
   std::unique_ptr<server::Listener> listener_;
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;
@@ -63,6 +66,7 @@ class Server {
   CommandService commands_;
   DiagnosticsService diagnostics_;
   ControlService control_;
+  AccessService known_callers_;
   HealthService health_;
   StopService stops_;
   NamesService names_;

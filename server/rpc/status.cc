@@ -15,7 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == api::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == api::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == api::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == api::REASON_INTERNAL);
-static_assert(static_cast<int>(Reason::not_allowed) == api::REASON_NOT_ALLOWED);
+static_assert(static_cast<int>(Reason::unauthenticated) == api::REASON_UNAUTHENTICATED);
 
 void pack(const char* type, const google::protobuf::Message& detail, api::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -79,6 +79,8 @@ grpc::StatusCode code_of(Reason reason) {
       return grpc::StatusCode::UNAVAILABLE;
     case Reason::deadline_passed:
       return grpc::StatusCode::DEADLINE_EXCEEDED;
+    case Reason::unauthenticated:
+      return grpc::StatusCode::UNAUTHENTICATED;
     case Reason::not_allowed:
       return grpc::StatusCode::PERMISSION_DENIED;
     case Reason::queue_full:

@@ -49,7 +49,7 @@ class WithoutDaemon(unittest.TestCase):
         answer = self.run_axisctl("help")
         self.assertEqual(answer.returncode, 0)
         for verb in ("devices status position home move path stop estop clear exec watch commands record replay "
-                     "support lease rearm").split():
+                     "support lease rearm whoami token").split():
             self.assertRegex(answer.stdout, rf"(?m)^  {verb} +\w")
         self.assertIn("Exit codes", answer.stdout)
 

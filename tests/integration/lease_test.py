@@ -115,7 +115,8 @@ class Leases(unittest.TestCase):
     def test_only_an_administrator_takes_over(self):
         refused = self.run_as_stranger("lease", "run", "--take-over", "--", "true")
         self.assertEqual(refused.returncode, 3)
-        self.assertRegex(refused.stderr, rf"NOT_ALLOWED: only an administrator may do this, and {STRANGER} calls")
+        self.assertRegex(refused.stderr, r"NOT_ALLOWED: /axisgate\.v1\.ControlService/TakeOverLease asks for the role admin, and a caller "
+                                         r"over TCP is operator; call as")
 
     def test_a_take_over_stops_what_moves(self):
         holder = self.hold("--axes", "1")

@@ -95,7 +95,7 @@ class Daemon:
         return Lines(self.command(*arguments))
 
     def address(self):
-        return re.search(r"gRPC on (\S+) and", self.log())[1]
+        return re.findall(r"gRPC on (\S+) and", self.log())[-1]  # a daemon of the same folder may have been before
 
     def log(self):
         with open(self._log_path, encoding="utf-8") as file:

@@ -17,6 +17,8 @@
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
+#include "server/access/access.h"
+#include "server/connections/callers.h"
 #include "server/events/wall_time.h"
 #include "server/gateway.h"
 #include "server/rpc/server.h"
@@ -32,7 +34,9 @@ class RpcTest : public ::testing::Test {
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
     config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
     gateway_ = std::make_unique<server::Gateway>(config, 1);
-    auto started = Server::start(*gateway_, config.listen, config.socket, limits_);
+    access_ = std::make_unique<server::Access>(server::AccessConfig{}, server::caller_name(::geteuid()),
+                                               *server::Tokens::open(directory_ + ".tokens"));
+    auto started = Server::start(*gateway_, *access_, config.listen, config.socket, limits_);
     ASSERT_TRUE(started) << started.error().message;
     server_ = *std::move(started);
     gateway_->start();
@@ -49,6 +53,7 @@ class RpcTest : public ::testing::Test {
   void TearDown() override {
     server_.reset();
     gateway_.reset();
+    std::filesystem::remove(directory_ + ".tokens");
     std::filesystem::remove(directory_);
   }
 
@@ -152,6 +157,7 @@ class RpcTest : public ::testing::Test {
 
   server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
+  std::unique_ptr<server::Access> access_;
   std::unique_ptr<server::Gateway> gateway_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;

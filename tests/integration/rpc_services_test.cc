@@ -243,10 +243,10 @@ TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
 }
 
 TEST_F(RpcTest, ASecondServerIsRefused) {
-  const auto tcp = Server::start(*gateway_, server_->listen(), server_->socket() + "2", limits_);
+  const auto tcp = Server::start(*gateway_, *access_, server_->listen(), server_->socket() + "2", limits_);
   ASSERT_FALSE(tcp);
   EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
-  const auto socket = Server::start(*gateway_, {"127.0.0.1", 0}, server_->socket(), limits_);
+  const auto socket = Server::start(*gateway_, *access_, {"127.0.0.1", 0}, server_->socket(), limits_);
   ASSERT_FALSE(socket);
   EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
 }

@@ -49,6 +49,7 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::outside_lease, grpc::FAILED_PRECONDITION},
       {Reason::stopped_by, grpc::FAILED_PRECONDITION},
       {Reason::not_allowed, grpc::PERMISSION_DENIED},
+      {Reason::unauthenticated, grpc::UNAUTHENTICATED},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(api::Reason_ARRAYSIZE));

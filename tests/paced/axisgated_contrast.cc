@@ -6,7 +6,9 @@
 #include <cstdio>
 #include <string_view>
 
+#include "server/access/access.h"
 #include "server/config.h"
+#include "server/connections/callers.h"
 #include "server/descriptor_limit.h"
 #include "server/end_signals.h"
 #include "server/gateway.h"
@@ -27,7 +29,9 @@ int serve(const char* config_path) {
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
   server::Gateway gateway(*config, 1);
-  const auto server = rpc::Server::start(gateway, config->listen, config->socket, {server::raise_descriptor_limit()});
+  server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
+  const auto server =
+      rpc::Server::start(gateway, access, config->listen, config->socket, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);
     return 1;

@@ -222,7 +222,7 @@ TEST(Config, AFileWithoutADeviceIsAnError) {
 TEST(Config, NetworkAddressesAreRefusedWithTheReason) {
   EXPECT_THAT(
       errors_of("listen = \"0.0.0.0:50203\"\nmetrics = \"lab.example:9203\"\n" + std::string(kStage)),
-      ElementsAre(HasSubstr("nobody is asked who they are yet"), HasSubstr("would offer metrics to the network")));
+      ElementsAre(HasSubstr("could be read and changed on its way"), HasSubstr("would offer metrics to the network")));
 }
 
 TEST(Config, PortsAndSocketsAreChecked) {

@@ -1,0 +1,47 @@
+#include "server/access/access.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+namespace axisgate::server {
+namespace {
+
+// As the command table reads what people type: blanks and letter case do not count.
+std::string plain(std::string_view line) {
+  std::string text;
+  for (const char c : line) {
+    if (c != ' ' && c != '\t') text += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+  }
+  return text;
+}
+
+}  // namespace
+
+Access::Access(AccessConfig config, std::string administrator, std::unique_ptr<Tokens> tokens)
+    : config_(std::move(config)), administrator_(std::move(administrator)), tokens_(std::move(tokens)) {}
+
+Caller Access::local(std::string who) const {
+  if (who == administrator_) return {std::move(who), Role::admin};
+  const auto named = config_.roles.find(who);
+  const Role role = named == config_.roles.end() ? config_.local : named->second;
+  return {std::move(who), role};
+}
+
+Result<Caller> Access::by_token(std::string_view token, Calendar now) const {
+  const Result<Token> known = tokens_->check(token, now);
+  if (!known) return tl::unexpected(known.error());
+  return Caller{token_caller(known->name), known->role};
+}
+
+bool Access::only_for_admins(std::string_view command) const {
+  const std::string text = plain(command);
+  return std::ranges::any_of(config_.admin_commands,
+                             [&](const std::string& one) { return text.starts_with(plain(one)); });
+}
+
+std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }
+
+}  // namespace axisgate::server

@@ -1,0 +1,52 @@
+// Who calls, and what that caller may ask for.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "server/access/roles.h"
+#include "server/access/tokens.h"
+
+namespace axisgate::server {
+
+struct AccessConfig {
+  Role local = Role::operator_;       // of local callers that `roles` does not name; nobody: they need a token
+  std::map<std::string, Role> roles;  // by the caller's name, "unix alice"
+  std::vector<std::string> admin_commands = {"BEC:", "RESET:", "FMT:", "MODE:", "MS:", "P:ON", "take-over"};
+};
+
+struct Caller {
+  std::string who;  // as in Motion.who: "unix alice", "tcp 127.0.0.1:39482", "token night-scan"
+  Role role = Role::nobody;
+};
+
+// Thread safe.
+class Access {
+ public:
+  // `administrator` is the user as whom the daemon runs, as "unix alice".
+  Access(AccessConfig config, std::string administrator, std::unique_ptr<Tokens> tokens);
+
+  // Somebody on this machine without a token.
+  Caller local(std::string who) const;
+  // unauthenticated.
+  Result<Caller> by_token(std::string_view token, Calendar now) const;
+
+  // Whether that command, or `take-over`, is for administrators. `command` is a line as a caller wrote it.
+  bool only_for_admins(std::string_view command) const;
+
+  Tokens& tokens() const { return *tokens_; }
+
+ private:
+  const AccessConfig config_;
+  const std::string administrator_;
+  const std::unique_ptr<Tokens> tokens_;
+};
+
+// "token night-scan"
+std::string token_caller(std::string_view name);
+
+}  // namespace axisgate::server

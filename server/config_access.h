@@ -1,0 +1,15 @@
+// The table [access] of the configuration.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "server/access/access.h"
+#include "server/config_table.h"
+
+namespace axisgate::server {
+
+void read_access(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
+                 AccessConfig& access);
+
+}  // namespace axisgate::server

@@ -1,0 +1,91 @@
+#include "server/rpc/gatekeeper.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <vector>
+
+#include "device/core/escape.h"
+#include "server/access/tokens.h"
+#include "server/events/wall_time.h"
+#include "server/rpc/method_roles.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using server::Caller;
+using server::Role;
+
+constexpr const char* kUser = "axisgate_user";
+constexpr const char* kAuthorization = "authorization";
+constexpr const char* kMethod = ":path";
+constexpr std::string_view kBearer = "Bearer ";
+constexpr const char* kNobodyKnown = "a caller over TCP";
+
+template <class Metadata>
+std::optional<std::string_view> find(const Metadata& metadata, const char* key) {
+  const auto found = metadata.find(key);
+  if (found == metadata.end()) return std::nullopt;
+  return std::string_view(found->second.data(), found->second.size());
+}
+
+// The token in `authorization`; empty text where that is something else.
+std::optional<std::string_view> token_in(const std::optional<std::string_view>& authorization) {
+  if (!authorization) return std::nullopt;
+  return authorization->starts_with(kBearer) ? authorization->substr(kBearer.size()) : std::string_view{};
+}
+
+// "tcp 127.0.0.1:39482": gRPC says "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".
+std::string from_where(const grpc::CallbackServerContext& call) {
+  const std::string peer = call.peer();
+  const std::size_t colon = peer.find(':');
+  return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
+}
+
+std::string user_of(const grpc::CallbackServerContext& call) {
+  const std::vector<grpc::string_ref> users = call.auth_context()->FindPropertyValues(kUser);
+  return users.empty() ? from_where(call) : std::string(users.front().data(), users.front().size());
+}
+
+grpc::Status refuse(grpc::StatusCode code, const std::string& message, const std::string& hint) {
+  return {code, fmt::format("{}; {}", message, hint)};
+}
+
+}  // namespace
+
+grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContext* connection, OutputMetadata*,
+                                 OutputMetadata*) {
+  if (user_ != nullptr) {
+    // The context is the connection's, and has no lock of its own: with ours it changes once, before its first handler
+    // reads it.
+    const std::lock_guard lock(mutex_);
+    if (connection->FindPropertyValues(kUser).empty()) connection->AddProperty(kUser, *user_);
+  }
+  const std::optional<std::string_view> token = token_in(find(metadata, kAuthorization));
+  const Result<Caller> caller = token ? access_.by_token(*token, server::calendar_now())
+                                      : access_.local(user_ == nullptr ? kNobodyKnown : *user_);
+  if (!caller) return refuse(grpc::StatusCode::UNAUTHENTICATED, caller.error().message, caller.error().hint);
+  if (caller->role == Role::nobody) {
+    return refuse(grpc::StatusCode::UNAUTHENTICATED, fmt::format("{} needs a token here", caller->who),
+                  "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
+  }
+  const std::string_view method = find(metadata, kMethod).value_or("");
+  const Role needed = role_for(method, access_);
+  if (caller->role >= needed) return grpc::Status::OK;
+  return refuse(grpc::StatusCode::PERMISSION_DENIED,
+                fmt::format("{} asks for the role {}, and {} is {}", escaped(method), name(needed), caller->who,
+                            name(caller->role)),
+                "call as the user as whom the daemon runs, over the Unix socket, or with a token of that role");
+}
+
+std::string caller(const grpc::CallbackServerContext& call) {
+  const auto token = token_in(find(call.client_metadata(), kAuthorization));
+  return token ? server::token_caller(server::name_in(*token)) : user_of(call);
+}
+
+Result<Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access) {
+  const auto token = token_in(find(call.client_metadata(), kAuthorization));
+  return token ? access.by_token(*token, server::calendar_now()) : access.local(user_of(call));
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,194 @@
+// Who is let in to what: every method, every role, every kind of credential, over the Unix socket and loopback.
+#include <google/protobuf/descriptor.h>
+
+#include <map>
+#include <set>
+
+#include "server/rpc/services.h"
+#include "tests/integration/rpc_fixture.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using server::Role;
+
+// What each asks for, typed from README's table of roles. In kOperator are also what `admin_commands` keeps for
+// administrators.
+const std::set<std::string> kObserver = {"AccessService/GetCaller",    "CommandService/ListCommands",
+                                         "ControlService/WatchLeases", "DeviceService/ListDevices",
+                                         "DeviceService/GetDevice",    "DeviceService/WatchDevice",
+                                         "DiagnosticsService/Record",  "DiagnosticsService/GetSupportReport",
+                                         "EventService/Watch",         "StageService/Stop",
+                                         "StageService/EmergencyStop", "StageService/GetMotion",
+                                         "StageService/ListMotions",   "StageService/WatchMotion"};
+const std::set<std::string> kOperator = {"CommandService/Execute",
+                                         "ControlService/AcquireLease",
+                                         "ControlService/KeepLeaseAlive",
+                                         "ControlService/ReleaseLease",
+                                         "ControlService/HandOverLease",
+                                         "ControlService/Rearm",
+                                         "StageService/Move",
+                                         "StageService/Home",
+                                         "StageService/ReturnToOrigin",
+                                         "StageService/RunPath",
+                                         "StageService/CancelMotion"};
+const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
+                                      "AccessService/RevokeToken", "ControlService/TakeOverLease",
+                                      "DeviceService/ClearErrors"};
+
+Role needed(const std::string& method) {
+  return kObserver.contains(method) ? Role::observer : kOperator.contains(method) ? Role::operator_ : Role::admin;
+}
+
+std::vector<std::string> methods() {
+  std::vector<std::string> all;
+  for (const std::string_view service : kApiServices) {
+    const auto* descriptor =
+        google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(std::string(service));
+    for (int i = 0; i < descriptor->method_count(); ++i) {
+      all.push_back(descriptor->name() + "/" + descriptor->method(i)->name());
+    }
+  }
+  return all;
+}
+
+class RpcAccess : public RpcTest {
+ protected:
+  static server::Calendar now() { return server::calendar_now(); }
+
+  // A token of that role; `kind` is "right", "expired" or "revoked".
+  std::string token(Role role, const std::string& kind) {
+    const std::string called = kind + "-" + std::string(name(role));
+    const auto hours = std::chrono::hours(1);
+    const auto made = kind == "expired" ? access_->tokens().create(called, role, now() - hours, now() - 2 * hours)
+                                        : access_->tokens().create(called, role, now() + hours, now());
+    EXPECT_TRUE(made) << made.error().message;
+    if (kind == "revoked") {
+      EXPECT_TRUE(access_->tokens().revoke(called, now()));
+    }
+    return made.value_or("");
+  }
+
+  // An empty request, cancelled where it is let in and goes on for ever.
+  static grpc::Status ask(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
+                          const std::string& authorization, bool let_in) {
+    grpc::GenericStub stub(channel);
+    grpc::CompletionQueue queue;
+    grpc::ClientContext context;
+    context.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(let_in ? 1 : 30)));
+    if (!authorization.empty()) context.AddMetadata("authorization", authorization);
+    const grpc::Slice nothing;
+    const grpc::ByteBuffer request(&nothing, 1);
+    const auto reader = stub.PrepareUnaryCall(&context, "/axisgate.v1." + method, request, &queue);
+    grpc::ByteBuffer response;
+    grpc::Status status;
+    reader->StartCall();
+    reader->Finish(&response, &status, nullptr);
+    void* tag = nullptr;
+    bool ok = false;
+    queue.Next(&tag, &ok);
+    queue.Shutdown();
+    return status;
+  }
+
+  void expect(const std::shared_ptr<grpc::Channel>& channel, Role role, const std::string& authorization,
+              const std::string& what) {
+    for (const std::string& method : methods()) {
+      const bool let_in = role >= needed(method);
+      const grpc::Status status = ask(channel, method, authorization, let_in);
+      const grpc::StatusCode code = status.error_code();
+      if (let_in) {
+        EXPECT_TRUE(code != grpc::UNAUTHENTICATED && code != grpc::PERMISSION_DENIED)
+            << method << " " << what << ": " << status.error_message();
+      } else {
+        EXPECT_EQ(code, role == Role::nobody ? grpc::UNAUTHENTICATED : grpc::PERMISSION_DENIED)
+            << method << " " << what << ": " << status.error_message();
+      }
+    }
+  }
+
+  std::shared_ptr<grpc::Channel> loopback() {
+    return grpc::CreateChannel(to_string(server_->listen()), grpc::InsecureChannelCredentials());
+  }
+
+  std::string who(const std::shared_ptr<grpc::Channel>& channel, const std::string& authorization) {
+    grpc::ClientContext context;
+    limit(context);
+    if (!authorization.empty()) context.AddMetadata("authorization", authorization);
+    api::GetCallerResponse caller;
+    const auto stub = api::AccessService::NewStub(channel);
+    const grpc::Status status = stub->GetCaller(&context, {}, &caller);
+    return status.ok() ? caller.who() + ", " + api::Role_Name(caller.role()) : status.error_message();
+  }
+};
+
+TEST_F(RpcAccess, EveryMethodHasARole) {
+  for (const std::string& method : methods()) {
+    EXPECT_TRUE(kObserver.contains(method) || kOperator.contains(method) || kAdmin.contains(method)) << method;
+  }
+}
+
+TEST_F(RpcAccess, WithoutAToken) {
+  expect(channel_, Role::admin, "", "as the user as whom the daemon runs");
+  expect(loopback(), Role::operator_, "", "over loopback");
+}
+
+TEST_F(RpcAccess, ATokenGoesBeforeTheUser) {
+  for (const Role role : {Role::observer, Role::operator_, Role::admin}) {
+    for (const std::string kind : {"right", "expired", "revoked"}) {
+      const std::string secret = token(role, kind);
+      for (const auto& channel : {channel_, loopback()}) {
+        expect(channel, kind == "right" ? role : Role::nobody, "Bearer " + secret, kind);
+      }
+    }
+  }
+}
+
+TEST_F(RpcAccess, ABadTokenIsRefusedWhereNoneWouldDo) {
+  const std::string good = token(Role::admin, "right");
+  std::string wrong = good;
+  wrong.back() = wrong.back() == '0' ? '1' : '0';
+  for (const std::string& bad : {"Bearer " + wrong, "Bearer " + good.substr(0, good.size() - 1), std::string("Bearer "),
+                                 std::string("Basic YTpi"), good, "bearer" + good}) {
+    expect(channel_, Role::nobody, bad, bad);
+  }
+  EXPECT_EQ(who(channel_, "Bearer " + good), "token right-admin, ROLE_ADMIN");
+}
+
+TEST_F(RpcAccess, WhoCalls) {
+  EXPECT_EQ(who(channel_, ""), server::caller_name(::geteuid()) + ", ROLE_ADMIN");
+  EXPECT_EQ(who(loopback(), "").substr(0, 14), "tcp 127.0.0.1:");
+  EXPECT_EQ(who(loopback(), "Bearer " + token(Role::observer, "right")), "token right-observer, ROLE_OBSERVER");
+}
+
+// The motion bears the name of the token.
+TEST_F(RpcAccess, AMotionByToken) {
+  grpc::ClientContext context;
+  limit(context);
+  context.AddMetadata("authorization", "Bearer " + token(Role::operator_, "right"));
+  api::MoveResponse response;
+  ASSERT_TRUE(stage_->Move(&context, move_request(1, "1"), &response).ok());
+  EXPECT_EQ(response.motion().who(), "token right-operator");
+}
+
+// "BEC: RESET: FMT: MODE: MS: P:ON" are administrators', however they are written, and none of the other lines goes.
+TEST_F(RpcAccess, CommandsForAdministrators) {
+  for (const std::string line : {"BEC:D", "bec: D", "MODE:MANUAL", "FMT:HIT", "RESET:", "MS:ON", "P:ON"}) {
+    grpc::ClientContext context;
+    limit(context);
+    api::ExecuteRequest request;
+    request.set_device("devices/stage");
+    request.add_lines("C:11");
+    request.add_lines(line);
+    const auto commands = api::CommandService::NewStub(loopback());
+    const auto stream = commands->Execute(&context, request);
+    api::ExecuteResponse response;
+    EXPECT_FALSE(stream->Read(&response)) << line;
+    const grpc::Status status = stream->Finish();
+    EXPECT_EQ(status.error_code(), grpc::PERMISSION_DENIED) << line << " " << status.error_message();
+    EXPECT_EQ(reason(status), api::REASON_NOT_ALLOWED);
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::rpc
