@@ -127,6 +127,7 @@ enum class Guard {
   lease_asked_as_bytes_go,
   latch_of_lease,
   latch_without_lease,
+  passed_epochs_refused,
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,

@@ -57,6 +57,7 @@ enum class Reason {
   stopped_by,
   not_allowed,
   unauthenticated,
+  epoch_passed,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

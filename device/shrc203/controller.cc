@@ -120,6 +120,14 @@ void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, Ti
 void Controller::Impl::line_event(const Event& event, TimePoint) { emit(event); }
 
 Result<void> Controller::Impl::may_use(const RequestContext& context, AxisSet axes) {
+  const bool passed = context.device_epoch != 0 && context.device_epoch != state_.device_epoch;
+  if (passed && guarded(Guard::passed_epochs_refused)) {
+    return fail(Reason::epoch_passed,
+                fmt::format("the request is of device epoch {}, and this is {}: the controller may have restarted "
+                            "meanwhile, and places may be others",
+                            context.device_epoch, state_.device_epoch),
+                "look where the axes are, find their origin where it matters, and take the epoch from Device");
+  }
   return permission_.may_use({context.who, context.lease, axes, 0}, now_);
 }
 

@@ -23,7 +23,8 @@ struct RequestContext {
   std::string who;
   std::string request_id;
   TimePoint not_after{};
-  std::uint64_t lease = 0;  // its fencing token; 0: none
+  std::uint64_t lease = 0;         // its fencing token; 0: none
+  std::uint64_t device_epoch = 0;  // ControllerState::device_epoch that the caller has in mind; 0: any
 };
 
 // S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.

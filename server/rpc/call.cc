@@ -47,7 +47,7 @@ Result<shrc203::RequestContext> context_until(const grpc::CallbackServerContext&
   }
   TimePoint until = not_after(context).value_or(otherwise);
   if (const auto deadline = call_deadline(call)) until = std::min(until, *deadline);
-  return shrc203::RequestContext{caller(call), id, until, context.lease_token()};
+  return shrc203::RequestContext{caller(call), id, until, context.lease_token(), context.device_epoch()};
 }
 
 }  // namespace
@@ -113,7 +113,7 @@ shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, co
 }
 
 shrc203::RequestContext question_context(const grpc::CallbackServerContext& call) {
-  return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience), 0};
+  return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience), 0, 0};
 }
 
 }  // namespace axisgate::rpc

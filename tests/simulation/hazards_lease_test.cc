@@ -135,6 +135,33 @@ TEST_F(HazardOfSharing, H21_ARestartEndsLeases) {
   EXPECT_THAT(told, HasSubstr("restarted"));
 }
 
+// A program has computed its targets before the controller restarted, and goes on as if nothing had happened.
+TEST_F(HazardOfSharing, H21_WhatWasMeantForAnotherEpoch) {
+  const std::uint64_t epoch = world.controller().state().device_epoch;
+  for (const bool restarted : {false, true}) {
+    if (restarted) {
+      world.power_cycle();
+      EXPECT_TRUE(world.run_until([&] { return world.controller().state().device_epoch > epoch; }, seconds(60)));
+      EXPECT_TRUE(world.run_until_up()) << world.replay();
+    }
+    const int lines = motion_lines(world, 0);
+    MoveRequest request = move_of(world, {{1, 5000}}, false);
+    request.context.device_epoch = epoch;
+    ExecuteRequest transaction{{"M:2+P10", "G:2"}, world.context("anna")};
+    transaction.context.device_epoch = epoch;
+    std::vector<Reason> refused;
+    world.controller().move(std::move(request), world.now(), [&](const Result<Motion>& motion) {
+      if (!motion) refused.push_back(motion.error().reason);
+    });
+    world.controller().execute(transaction, world.now(), [&](const ExecuteEvent& event) {
+      if (event.problem) refused.push_back(event.problem->reason);
+    });
+    world.run_for(seconds(5));
+    EXPECT_EQ(refused, restarted ? std::vector(2, Reason::epoch_passed) : std::vector<Reason>()) << world.replay();
+    EXPECT_EQ(motion_lines(world, 0) > lines, !restarted) << world.replay();
+  }
+}
+
 // A loop asks for the next move as soon as the last has ended, whatever became of it.
 TEST_F(HazardOfSharing, H53_AScanLoopStaysStopped) {
   for (const bool leased : {true, false}) {
