@@ -50,6 +50,20 @@ class TomlWriter {
   std::string text_;
 };
 
+void write(TomlWriter& out, const AccessConfig& access) {
+  out.table("[access]");
+  out.key("local", word(kLocalRoles, access.local));
+  std::string commands, roles;
+  for (const std::string& command : access.admin_commands) {
+    commands += fmt::format("{}{}", commands.empty() ? "" : ", ", quoted(command));
+  }
+  for (const auto& [who, role] : access.roles) {
+    roles += fmt::format("{}{} = {}", roles.empty() ? "" : ", ", quoted(who), word(kRoles, role));
+  }
+  out.key("admin_commands", fmt::format("[{}]", commands));
+  if (!roles.empty()) out.key("roles", fmt::format("{{ {} }}", roles));
+}
+
 void write(TomlWriter& out, const SerialSettings& serial, const shrc203::Profile& profile) {
   out.text("connection", "serial");
   out.text("path", serial.path);
@@ -112,6 +126,7 @@ std::string to_toml(const Config& config) {
   out.text("listen", to_string(config.listen));
   out.text("socket", config.socket);
   out.text("metrics", to_string(config.metrics));
+  write(out, config.access);
   for (const DeviceConfig& device : config.devices) write(out, device);
   return out.take();
 }

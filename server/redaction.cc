@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 
 #include "device/shrc203/own_questions.h"
@@ -11,6 +12,14 @@ namespace axisgate::server {
 namespace {
 
 constexpr std::string_view kById = "/dev/serial/by-id/";
+
+// Of a caller's name, in front of the name itself; empty where it has none.
+std::string_view way_of(std::string_view caller) {
+  for (const std::string_view way : {"unix ", "tcp ", "token "}) {
+    if (caller.starts_with(way)) return way;
+  }
+  return {};
+}
 
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
@@ -106,6 +115,10 @@ std::string Redactor::redact(std::string_view text) {
 
 Config Redactor::redact(Config config) {
   config.socket = hide(Kind::path, config.socket);
+  for (const auto& [who, role] : std::exchange(config.access.roles, {})) {
+    const std::string way(way_of(who));
+    config.access.roles[way + hide(Kind::user, who.substr(way.size()))] = role;
+  }
   for (DeviceConfig& device : config.devices) {
     device.profile.serial_number = hide(Kind::serial_number, device.profile.serial_number);
     device.record = hide(Kind::path, device.record);
@@ -135,7 +148,7 @@ void Redactor::learn_serial_numbers(std::string_view text, std::string_view befo
   }
 }
 
-// An exchange with its cause: 12.345678 #17 poll "unix alice" > "Q:S\r\n". The way, unix or tcp, stays.
+// An exchange with its cause: 12.345678 #17 poll "unix alice" > "Q:S\r\n". The way stays.
 void Redactor::hide_callers(std::string& lines) {
   for (std::size_t line = 0; line < lines.size(); line = std::min(lines.find('\n', line), lines.size() - 1) + 1) {
     std::size_t caller = std::min(lines.find('"', line), lines.size()) + 1;
@@ -143,9 +156,7 @@ void Redactor::hide_callers(std::string& lines) {
     const std::string_view before(lines.data() + line, caller - 1 - line);
     if (before.ends_with("> ") || before.ends_with("< ") || before.ends_with("unexpected ")) continue;
     const std::size_t end = end_of_quoted(lines, caller);
-    for (const std::string_view way : {"unix ", "tcp "}) {
-      if (std::string_view(lines).substr(caller).starts_with(way)) caller += way.size();
-    }
+    caller += way_of(std::string_view(lines).substr(caller)).size();
     const std::string name = lines.substr(caller, end - caller);
     if (name != shrc203::kGateway) lines.replace(caller, name.size(), hide(Kind::user, name));
   }

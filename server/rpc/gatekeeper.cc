@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
 #include <string_view>
 #include <vector>
 
@@ -19,7 +21,7 @@ using server::Role;
 constexpr const char* kUser = "axisgate_user";
 constexpr const char* kAuthorization = "authorization";
 constexpr const char* kMethod = ":path";
-constexpr std::string_view kBearer = "Bearer ";
+constexpr std::string_view kBearer = "bearer ";
 constexpr const char* kNobodyKnown = "a caller over TCP";
 
 template <class Metadata>
@@ -32,7 +34,10 @@ std::optional<std::string_view> find(const Metadata& metadata, const char* key) 
 // The token in `authorization`; empty text where that is something else.
 std::optional<std::string_view> token_in(const std::optional<std::string_view>& authorization) {
   if (!authorization) return std::nullopt;
-  return authorization->starts_with(kBearer) ? authorization->substr(kBearer.size()) : std::string_view{};
+  // The scheme's letter case does not count (RFC 9110, 11.1).
+  const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
+  const bool bearer = std::ranges::equal(authorization->substr(0, kBearer.size()), kBearer, same);
+  return bearer ? authorization->substr(kBearer.size()) : std::string_view{};
 }
 
 // "tcp 127.0.0.1:39482": gRPC says "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".

@@ -153,6 +153,7 @@ TEST_F(RpcAccess, ABadTokenIsRefusedWhereNoneWouldDo) {
     expect(channel_, Role::nobody, bad, bad);
   }
   EXPECT_EQ(who(channel_, "Bearer " + good), "token right-admin, ROLE_ADMIN");
+  EXPECT_EQ(who(channel_, "bearer " + good), "token right-admin, ROLE_ADMIN");
 }
 
 TEST_F(RpcAccess, WhoCalls) {

@@ -49,6 +49,7 @@ TEST(Redactor, CallersOfARecordingAreReplacedWhoeverTheyAre) {
                             "1.300000 #2 < \"unix alice\"\n"
                             "1.400000 - unexpected \"alice\"\n"
                             "1.500000 #4 stop \"unix uid 1234\" > \"L:W\\r\\n\"\n"
+                            "1.550000 #4 stop \"token night-scan\" > \"L:W\\r\\n\"\n"
                             "1.600000 #5 stop \"a \\\"b\\\" c\" > \"L:W\\r\\n\"\n"
                             "1.700000 #6 motion \"unix alice\" > \"G:1\\r\\n\""),
             "1.000000 #1 poll \"\" > \"Q:S\\r\\n\"\n"
@@ -58,7 +59,8 @@ TEST(Redactor, CallersOfARecordingAreReplacedWhoeverTheyAre) {
             "1.300000 #2 < \"unix alice\"\n"
             "1.400000 - unexpected \"alice\"\n"
             "1.500000 #4 stop \"unix user-3\" > \"L:W\\r\\n\"\n"
-            "1.600000 #5 stop \"user-4\" > \"L:W\\r\\n\"\n"
+            "1.550000 #4 stop \"token user-4\" > \"L:W\\r\\n\"\n"
+            "1.600000 #5 stop \"user-5\" > \"L:W\\r\\n\"\n"
             "1.700000 #6 motion \"unix user-1\" > \"G:1\\r\\n\"");
 }
 
@@ -106,6 +108,13 @@ port = 4001
   EXPECT_EQ(clean.devices[0].record, "/path-2");
   EXPECT_EQ(std::get<TcpSettings>(clean.devices[1].connection).host, "host-1");
   EXPECT_EQ(std::get<TcpSettings>(clean.devices[1].connection).port, 4001);
+}
+
+TEST(Redactor, CallersOfTheConfiguration) {
+  Redactor redactor;
+  Config config = default_config();
+  config.access.roles = {{"unix alice", Role::admin}};
+  EXPECT_EQ(redactor.redact(config).access.roles, (std::map<std::string, Role>{{"unix user-1", Role::admin}}));
 }
 
 }  // namespace
