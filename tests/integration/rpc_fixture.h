@@ -128,10 +128,14 @@ class RpcTest : public ::testing::Test {
 
   // An empty request to a method of whatever kind.
   static grpc::Status call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method) {
-    grpc::GenericStub stub(channel);
-    grpc::CompletionQueue queue;
     grpc::ClientContext context;
     limit(context);
+    return call(channel, method, context);
+  }
+  static grpc::Status call(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
+                           grpc::ClientContext& context) {
+    grpc::GenericStub stub(channel);
+    grpc::CompletionQueue queue;
     const grpc::Slice nothing;
     const grpc::ByteBuffer request(&nothing, 1);
     const auto reader = stub.PrepareUnaryCall(&context, method, request, &queue);
