@@ -41,9 +41,9 @@ class Leases(unittest.TestCase):
 
     def hold(self, *arguments):
         """The stranger holds a lease, as long as the command sleeps."""
-        holder = Lines(self.stranger("lease", "run", *arguments, "--", "sh", "-c", "echo held; exec sleep 60"))
+        holder = Lines(self.stranger("lease", "run", *arguments, "--", "sh", "-c", "echo held $AXISGATE_LEASE; exec sleep 60"))
         self.addCleanup(self.let_go, holder)
-        holder.until("held")
+        holder.token = holder.until("held").split()[1]
         return holder
 
     def let_go(self, holder):
@@ -120,7 +120,7 @@ class Leases(unittest.TestCase):
 
     def test_a_take_over_stops_what_moves(self):
         holder = self.hold("--axes", "1")
-        moving = Lines(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=9mm")])
+        moving = Lines(["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("move", "1=9mm")])
         moving.until("RUNNING")
         took = self.daemon.run("lease", "run", "--take-over", "--", BIN / "axisctl", "--target", self.daemon.socket,
                                "move", "1=0mm")
@@ -129,16 +129,9 @@ class Leases(unittest.TestCase):
         moving.end()
         self.assertRegex(moving.errors, "STOPPED: ")
 
-    def token_of(self, holder):
-        with open(f"/proc/{self.command_of(holder)}/environ", "rb") as file:
-            for entry in file.read().split(b"\0"):
-                if entry.startswith(b"AXISGATE_LEASE="):
-                    return entry.decode().split("=", 1)[1]
-        raise AssertionError("the command has no token")
-
     def test_a_holder_who_is_killed_leaves_nothing_moving(self):
         holder = self.hold("--axes", "1", "--at-loss", "stop-and-release")
-        moving = Lines(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=9mm")])
+        moving = Lines(["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("move", "1=9mm")])
         moving.until("RUNNING")
         command = self.command_of(holder)
         holder.process.kill()
@@ -159,11 +152,11 @@ class Leases(unittest.TestCase):
     def test_rearm(self):
         holder = self.hold("--axes", "1")
         self.daemon.run("stop")
-        move = ["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("move", "1=1mm")]
+        move = ["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("move", "1=1mm")]
         stopped = subprocess.run(move, capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(stopped.returncode, 3)
         self.assertRegex(stopped.stderr, "STOPPED_BY: unix .* nothing moves there until you rearm")
-        rearmed = subprocess.run(["env", f"AXISGATE_LEASE={self.token_of(holder)}", *self.stranger("rearm")],
+        rearmed = subprocess.run(["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("rearm")],
                                  capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(rearmed.stdout, "axis 1 may move again\n")
         self.assertEqual(subprocess.run(move, capture_output=True, timeout=LIMIT_S, check=False).returncode, 0)
