@@ -14,6 +14,7 @@
 
 #include "server/access/access.h"
 #include "server/access/generation.h"
+#include "server/certificate_metrics.h"
 #include "server/config.h"
 #include "server/connections/callers.h"
 #include "server/descriptor_limit.h"
@@ -80,11 +81,15 @@ int serve(const server::Config& config) {
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{server::raise_descriptor_limit()};
-  const auto server = rpc::Server::start(gateway, **access, config.listen, config.socket, limits);
+  const auto server = rpc::Server::start(gateway, **access, limits);
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};
   spdlog::info("gRPC on {} and unix:{}", to_string((*server)->listen()), (*server)->socket());
+  if (config.network) {
+    gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
+    spdlog::info("gRPC with TLS on {}", to_string(*(*server)->network()));
+  }
   spdlog::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
     spdlog::info("device {}: SHRC-203 on {}", device->name(), device->line_description());

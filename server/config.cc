@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <charconv>
 #include <cmath>
 #include <cstring>
 #include <fstream>
@@ -15,6 +14,7 @@
 #include "device/core/quantity.h"
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
+#include "server/config_network.h"
 #include "server/config_table.h"
 #include "server/config_words.h"
 #include "server/default_socket.h"
@@ -55,21 +55,6 @@ bool is_host(std::string_view host) {
   return version_6 || (!host.empty() && host.size() <= 253 && host.find_first_of(" \t:/[]") == std::string_view::npos);
 }
 
-bool is_loopback(std::string_view host) { return host == "::1" || host == "127.0.0.1"; }
-
-std::optional<TcpAddress> parse_address(std::string_view text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string_view::npos) return std::nullopt;
-  std::string_view host = text.substr(0, colon);
-  const std::string_view port = text.substr(colon + 1);
-  if (host.size() > 2 && host.front() == '[' && host.back() == ']') host = host.substr(1, host.size() - 2);
-  if (host == "localhost") host = "127.0.0.1";
-  TcpAddress address{std::string(host), 0};
-  const auto [end, error] = std::from_chars(port.data(), port.data() + port.size(), address.port);
-  if (host.empty() || error != std::errc() || end != port.data() + port.size()) return std::nullopt;
-  return address;
-}
-
 class ConfigReader {
  public:
   ConfigReader(std::string file, std::vector<ConfigError>& errors) : file_(std::move(file)), errors_(errors) {}
@@ -78,9 +63,10 @@ class ConfigReader {
     ConfigTable table(root, "", file_, errors_);
     Config config = default_config();
     config.devices.clear();
-    read_address(table, "listen", config.listen, "gRPC");
+    read_loopback(table, "listen", "gRPC", config.listen);
     if (const auto socket = table.text("socket")) config.socket = checked_socket(table, *socket);
-    read_address(table, "metrics", config.metrics, "metrics");
+    read_loopback(table, "metrics", "metrics", config.metrics);
+    config.network = read_network(table, file_, errors_);
     if (const toml::table* access = table.table("access")) read_access(*access, file_, errors_, config.access);
     const auto devices = table.tables("device");
     if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
@@ -90,24 +76,6 @@ class ConfigReader {
   }
 
  private:
-  void read_address(ConfigTable& table, std::string_view key, TcpAddress& address, std::string_view what) {
-    const std::optional<std::string> text = table.text(key);
-    if (!text) return;
-    const std::optional<TcpAddress> parsed = parse_address(*text);
-    if (!parsed) {
-      table.error(key, fmt::format("\"{}\" is not HOST:PORT, e.g. \"127.0.0.1:{}\"", *text, address.port));
-    } else if (!is_loopback(parsed->host)) {
-      table.error(
-          key,
-          fmt::format(
-              "\"{}\" would offer {} to the network, and what is said there could be read and changed on its way; use "
-              "127.0.0.1, localhost or [::1], and a tunnel (ssh -L) from elsewhere",
-              *text, what));
-    } else {
-      address = *parsed;
-    }
-  }
-
   std::string checked_socket(ConfigTable& table, const std::string& path) {
     // sockaddr_un holds 108 bytes with the final zero.
     if (path.empty() || path.front() != '/' || path.size() > 107) {
@@ -343,12 +311,6 @@ class ConfigReader {
 
 }  // namespace
 
-std::string to_string(const TcpAddress& address) {
-  const bool version_6 = address.host.find(':') != std::string::npos;
-  return version_6 ? fmt::format("[{}]:{}", address.host, address.port)
-                   : fmt::format("{}:{}", address.host, address.port);
-}
-
 std::string to_string(const ConfigError& error) {
   std::string text = error.file;
   if (error.line > 0) text += fmt::format(":{}", error.line);
@@ -358,8 +320,12 @@ std::string to_string(const ConfigError& error) {
 }
 
 Config default_config() {
-  return Config{
-      {"127.0.0.1", kGrpcPort}, default_socket_to_listen(), {"127.0.0.1", kMetricsPort}, {}, {DeviceConfig{}}};
+  return Config{.listen = {"127.0.0.1", kGrpcPort},
+                .socket = default_socket_to_listen(),
+                .metrics = {"127.0.0.1", kMetricsPort},
+                .network = {},
+                .access = {},
+                .devices = {DeviceConfig{}}};
 }
 
 Configured<Config> parse_config(std::string_view text, const std::string& file) {

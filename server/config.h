@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <tl/expected.hpp>
@@ -38,10 +39,20 @@ struct DeviceConfig {
   std::string record;  // the file that the daemon records the line to; empty: none
 };
 
+// Where other machines call: TLS 1.3, and every caller has a token or a certificate. The files are PEM, and read anew
+// when they change.
+struct NetworkConfig {
+  TcpAddress listen;
+  std::string certificate;  // of the daemon, with the chain up to, not with, the authority that callers know
+  std::string key;          // of that certificate
+  std::string client_ca;    // authorities whose certificates name callers; empty: tokens only
+};
+
 struct Config {
   TcpAddress listen;
   std::string socket;  // path of the Unix socket
   TcpAddress metrics;
+  std::optional<NetworkConfig> network;
   AccessConfig access;
   std::vector<DeviceConfig> devices;
 };

@@ -12,7 +12,8 @@ namespace axisgate::server {
 void read_access(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
                  AccessConfig& access) {
   ConfigTable table(source, "access", file, errors);
-  access.local = table.choice<Role>("local", kLocalRoles).value_or(access.local);
+  access.local = table.choice<Role>("local", kRoles).value_or(access.local);
+  access.certificates = table.choice<Role>("certificates", kRoles).value_or(access.certificates);
   if (const auto commands = table.texts("admin_commands")) {
     const std::vector<std::string> all = AccessConfig().admin_commands;
     for (const std::string& command : *commands) {
@@ -27,10 +28,10 @@ void read_access(const toml::table& source, std::string_view file, std::vector<C
     for (const auto& [caller, node] : *roles) {
       const auto role = named.choice<Role>(caller.str(), kRoles);
       if (role) access.roles[std::string(caller.str())] = *role;
-      if (!caller.str().starts_with("unix ")) {
+      if (!caller.str().starts_with("unix ") && !caller.str().starts_with("cert ")) {
         named.error(caller.str(),
-                    "is not \"unix LOGIN\", as whom callers on the Unix socket are known; tokens have "
-                    "the role that they were made with");
+                    "is neither \"unix LOGIN\", as whom callers on the Unix socket are known, nor \"cert NAME\", after "
+                    "the common name of a client certificate; tokens have the role that they were made with");
       }
     }
   }

@@ -50,9 +50,18 @@ class TomlWriter {
   std::string text_;
 };
 
+void write(TomlWriter& out, const NetworkConfig& network) {
+  out.table("[network]");
+  out.text("listen", to_string(network.listen));
+  out.text("certificate", network.certificate);
+  out.text("key", network.key);
+  if (!network.client_ca.empty()) out.text("client_ca", network.client_ca);
+}
+
 void write(TomlWriter& out, const AccessConfig& access) {
   out.table("[access]");
-  out.key("local", word(kLocalRoles, access.local));
+  out.key("local", word(kRoles, access.local));
+  out.key("certificates", word(kRoles, access.certificates));
   std::string commands, roles;
   for (const std::string& command : access.admin_commands) {
     commands += fmt::format("{}{}", commands.empty() ? "" : ", ", quoted(command));
@@ -126,6 +135,7 @@ std::string to_toml(const Config& config) {
   out.text("listen", to_string(config.listen));
   out.text("socket", config.socket);
   out.text("metrics", to_string(config.metrics));
+  if (config.network) write(out, *config.network);
   write(out, config.access);
   for (const DeviceConfig& device : config.devices) write(out, device);
   return out.take();

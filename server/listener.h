@@ -2,6 +2,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -16,9 +17,10 @@ namespace axisgate::server {
 // A thread of its own, so that neither lines nor readers make a stop wait for its connection.
 class Listener {
  public:
-  // Listens at both; clients wait to be accepted until start(). Refuses an address that somebody else serves, and a
-  // socket whose directory cannot be trusted.
-  static Result<std::unique_ptr<Listener>> open(TcpAddress address, const std::string& socket);
+  // Listens at all of them; clients wait to be accepted until start(). Refuses an address that somebody else serves,
+  // and a socket whose directory cannot be trusted.
+  static Result<std::unique_ptr<Listener>> open(TcpAddress address, const std::string& socket,
+                                                std::optional<TcpAddress> network);
   // No connection is handed over any more; the socket's file is gone.
   ~Listener();
 
@@ -27,13 +29,16 @@ class Listener {
 
   const TcpAddress& address() const { return address_; }  // with the port really taken
   const std::string& socket() const { return unix_.path(); }
+  const std::optional<TcpAddress>& network() const { return network_; }
   ConnectionCounts counts() { return acceptor_->counts(); }  // after start(), from any thread
 
  private:
   Listener(TcpAddress address, Descriptor tcp, UnixListener unix_socket);
 
   const TcpAddress address_;
+  std::optional<TcpAddress> network_;
   Descriptor tcp_;
+  Descriptor network_socket_;  // invalid without network_
   UnixListener unix_;
   boost::asio::io_context context_{1};
   std::unique_ptr<Acceptor> acceptor_;

@@ -15,7 +15,7 @@ constexpr std::string_view kById = "/dev/serial/by-id/";
 
 // Of a caller's name, in front of the name itself; empty where it has none.
 std::string_view way_of(std::string_view caller) {
-  for (const std::string_view way : {"unix ", "tcp ", "token "}) {
+  for (const std::string_view way : {"unix ", "cert ", "tcp ", "token "}) {
     if (caller.starts_with(way)) return way;
   }
   return {};
@@ -115,6 +115,13 @@ std::string Redactor::redact(std::string_view text) {
 
 Config Redactor::redact(Config config) {
   config.socket = hide(Kind::path, config.socket);
+  if (config.network) {
+    for (std::string* path : {&config.network->certificate, &config.network->key, &config.network->client_ca}) {
+      *path = hide(Kind::path, *path);
+    }
+    const std::string& host = config.network->listen.host;
+    if (host != "0.0.0.0" && host != "::") config.network->listen.host = hide(Kind::host, host);
+  }
   for (const auto& [who, role] : std::exchange(config.access.roles, {})) {
     const std::string way(way_of(who));
     config.access.roles[way + hide(Kind::user, who.substr(way.size()))] = role;

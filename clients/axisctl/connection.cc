@@ -4,6 +4,8 @@
 
 #include <charconv>
 #include <cstdlib>
+#include <fstream>
+#include <iterator>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -14,7 +16,20 @@
 namespace axisgate::axisctl {
 namespace {
 
-std::shared_ptr<grpc::Channel> open_channel(const std::string& target) {
+std::string content(const std::string& path) {
+  if (path.empty()) return "";
+  std::ifstream file(path);
+  std::string text{std::istreambuf_iterator<char>(file), {}};
+  if (!file) throw usage(fmt::format("{} cannot be read", path), "--ca, --certificate and --key name PEM files");
+  return text;
+}
+
+std::shared_ptr<grpc::ChannelCredentials> credentials(const Target& target) {
+  if (!target.tls) return grpc::InsecureChannelCredentials();
+  return grpc::SslCredentials({content(target.ca), content(target.key), content(target.certificate)});
+}
+
+std::shared_ptr<grpc::Channel> open_channel(const Target& target) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
   // gRPC itself would wait up to two minutes before it looks for a restarted daemon again.
@@ -23,7 +38,7 @@ std::shared_ptr<grpc::Channel> open_channel(const std::string& target) {
   // Despite its name how long one attempt may take: a daemon that is being flooded accepts a stop, if not at once.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   const char* const token = std::getenv(kTokenVariable);
-  return grpc::experimental::CreateCustomChannelWithInterceptors(target, grpc::InsecureChannelCredentials(), arguments,
+  return grpc::experimental::CreateCustomChannelWithInterceptors(target.address, credentials(target), arguments,
                                                                  with_bearer(token == nullptr ? "" : token));
 }
 
@@ -51,9 +66,9 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
 
 }  // namespace
 
-Connection::Connection(std::string target)
-    : target_(std::move(target)),
-      channel_(open_channel(target_)),
+Connection::Connection(const Target& target)
+    : target_(target.address),
+      channel_(open_channel(target)),
       devices(v1::DeviceService::NewStub(channel_)),
       stage(v1::StageService::NewStub(channel_)),
       events(v1::EventService::NewStub(channel_)),

@@ -14,6 +14,7 @@
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
+#include "clients/axisctl/options.h"
 
 namespace axisgate::axisctl {
 
@@ -25,9 +26,9 @@ inline constexpr std::chrono::seconds kStopLimit{30};
 
 class Connection {
  public:
-  // "unix:/path" or "host:port". Calls as the token in AXISGATE_TOKEN, if there is one. Shares nothing with other
-  // connections of this process, so that a stop never waits behind a stream.
-  explicit Connection(std::string target);
+  // Calls as the token in AXISGATE_TOKEN, if there is one. Shares nothing with other connections of this process, so
+  // that a stop never waits behind a stream. Throws Failure where a certificate cannot be read.
+  explicit Connection(const Target& target);
 
   // A call with a deadline. Throws Failure.
   template <class Stub, class Request, class Response>
@@ -44,7 +45,7 @@ class Connection {
   // Throws Failure unless the call ended well.
   void check(const grpc::Status& status) const;
 
-  const std::string& target() const { return target_; }
+  const std::string& target() const { return target_; }  // its address
 
  private:
   const std::string target_;

@@ -167,6 +167,24 @@ void add_access_verbs(CLI::App& app, Options& options) {
   revoke->add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
 }
 
+void add_target(CLI::App& app, Target& target) {
+  app.add_option("--target", target.address, "the daemon: a socket's path or HOST:PORT; none: the local one")
+      ->envname("AXISGATE_TARGET")
+      ->type_name("ADDRESS");
+  app.add_flag("--tls", target.tls, "the daemon is on another machine ([network] of its configuration)");
+  app.add_option("--ca", target.ca, "who has signed its certificate; implies --tls; none: whom this machine trusts")
+      ->envname("AXISGATE_CA")
+      ->type_name("FILE");
+  CLI::Option* certificate = app.add_option("--certificate", target.certificate,
+                                            "your own, to be known by; else put a token into AXISGATE_TOKEN")
+                                 ->envname("AXISGATE_CERTIFICATE")
+                                 ->type_name("FILE");
+  CLI::Option* key =
+      app.add_option("--key", target.key, "of your certificate")->envname("AXISGATE_KEY")->type_name("FILE");
+  certificate->needs(key);
+  key->needs(certificate);
+}
+
 bool writes_text_only(Verb verb) { return verb == Verb::record || verb == Verb::replay || verb == Verb::support; }
 
 // "/path" for people; gRPC wants "unix:/path".
@@ -212,8 +230,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   std::string help_verb;
   CLI::App app{"Moves stages and watches them through axisgated.", "axisctl"};
   app.require_subcommand(1);
-  app.add_option("--target", options.target, "the daemon: a socket's path or HOST:PORT; none: the local one")
-      ->type_name("ADDRESS");
+  add_target(app, options.target);
   app.add_option("--device", options.device, "none: the only one")->type_name("NAME");
   app.add_flag("--json", options.json, "print one JSON object a line");
   app.get_formatter()->label("SUBCOMMAND", "VERB");
@@ -240,7 +257,9 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
     print_failure(usage("this verb writes a text that has no other form", "leave out --json"));
     return kUsage;
   }
-  options.target = address(std::move(options.target));
+  Target& target = options.target;
+  target.address = address(std::move(target.address));
+  target.tls = target.tls || !target.ca.empty() || !target.certificate.empty();
   options.device = resource(options.device);
   return options;
 }

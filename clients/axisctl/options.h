@@ -35,8 +35,17 @@ enum class Verb {
   token_revoke
 };
 
+// The way to the daemon.
+struct Target {
+  std::string address;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
+  bool tls = false;
+  std::string ca;           // a PEM file: who may have signed the daemon's certificate; empty: whom this machine trusts
+  std::string certificate;  // a PEM file, to be known by; empty: a token
+  std::string key;
+};
+
 struct Options {
-  std::string target;  // "unix:/run/axisgate/axisgate.sock", "127.0.0.1:50203"
+  Target target;
   std::string device;  // "devices/stage"; empty: the only one
   bool json = false;
   Verb verb = Verb::devices;

@@ -63,7 +63,7 @@ void copy_report(const Session& session, Output& output) {
 int support(const Session& session) {
   const std::string& named = session.options.output;
   Output output(named.empty() ? default_name() : named);
-  output.write(head(session.options.target));
+  output.write(head(session.options.target.address));
   std::string_view lack;
   try {
     copy_report(session, output);

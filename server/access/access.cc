@@ -9,6 +9,8 @@
 namespace axisgate::server {
 namespace {
 
+constexpr std::string_view kCertificate = "cert ";
+
 // As the command table reads what people type: blanks and letter case do not count.
 std::string plain(std::string_view line) {
   std::string text;
@@ -23,10 +25,10 @@ std::string plain(std::string_view line) {
 Access::Access(AccessConfig config, std::string administrator, std::unique_ptr<Tokens> tokens)
     : config_(std::move(config)), administrator_(std::move(administrator)), tokens_(std::move(tokens)) {}
 
-Caller Access::local(std::string who) const {
+Caller Access::without_token(std::string who) const {
   if (who == administrator_) return {std::move(who), Role::admin};
-  const auto named = config_.roles.find(who);
-  const Role role = named == config_.roles.end() ? config_.local : named->second;
+  if (const auto named = config_.roles.find(who); named != config_.roles.end()) return {std::move(who), named->second};
+  const Role role = who.starts_with(kCertificate) ? config_.certificates : config_.local;
   return {std::move(who), role};
 }
 
@@ -43,5 +45,6 @@ bool Access::only_for_admins(std::string_view command) const {
 }
 
 std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }
+std::string certificate_caller(std::string_view name) { return fmt::format("{}{}", kCertificate, name); }
 
 }  // namespace axisgate::server

@@ -14,13 +14,14 @@
 namespace axisgate::server {
 
 struct AccessConfig {
-  Role local = Role::operator_;       // of local callers that `roles` does not name; nobody: they need a token
-  std::map<std::string, Role> roles;  // by the caller's name, "unix alice"
+  Role local = Role::operator_;         // of local callers that `roles` does not name; nobody: they need a token
+  Role certificates = Role::operator_;  // of callers with a client certificate that `roles` does not name
+  std::map<std::string, Role> roles;    // by the caller's name, "unix alice", "cert alice"
   std::vector<std::string> admin_commands = {"BEC:", "RESET:", "FMT:", "MODE:", "MS:", "P:ON", "take-over"};
 };
 
 struct Caller {
-  std::string who;  // as in Motion.who: "unix alice", "tcp 127.0.0.1:39482", "token night-scan"
+  std::string who;  // as in Motion.who: "unix alice", "cert alice", "tcp 127.0.0.1:39482", "token night-scan"
   Role role = Role::nobody;
 };
 
@@ -30,8 +31,8 @@ class Access {
   // `administrator` is the user as whom the daemon runs, as "unix alice".
   Access(AccessConfig config, std::string administrator, std::unique_ptr<Tokens> tokens);
 
-  // Somebody on this machine without a token.
-  Caller local(std::string who) const;
+  // Somebody on this machine, or with a certificate; without a token.
+  Caller without_token(std::string who) const;
   // unauthenticated.
   Result<Caller> by_token(std::string_view token, Calendar now) const;
 
@@ -48,5 +49,7 @@ class Access {
 
 // "token night-scan"
 std::string token_caller(std::string_view name);
+// "cert alice"
+std::string certificate_caller(std::string_view name);
 
 }  // namespace axisgate::server

@@ -46,9 +46,9 @@ int Acceptor::accept_connection(int listener) {
   return connection;
 }
 
-void Acceptor::listen(Descriptor listener) {
-  Listener& added = listeners_.emplace_back(strand_);
-  added.assign(listener.release());
+void Acceptor::listen(Descriptor listener, Origin origin) {
+  Listener& added = listeners_.emplace_back(Listener{boost::asio::posix::stream_descriptor(strand_), origin});
+  added.socket.assign(listener.release());
   wait(added);
 }
 
@@ -57,15 +57,16 @@ ConnectionCounts Acceptor::counts() {
 }
 
 void Acceptor::wait(Listener& listener) {
-  listener.async_wait(Listener::wait_read, [this, &listener](const boost::system::error_code& error) {
-    if (error == boost::asio::error::operation_aborted) return;
-    if (!error && accept_one(listener) == Next::wait) {
-      wait(listener);
-    } else {
-      paused_.push_back(&listener);
-      look_again_later();
-    }
-  });
+  listener.socket.async_wait(boost::asio::posix::stream_descriptor::wait_read,
+                             [this, &listener](const boost::system::error_code& error) {
+                               if (error == boost::asio::error::operation_aborted) return;
+                               if (!error && accept_one(listener) == Next::wait) {
+                                 wait(listener);
+                               } else {
+                                 paused_.push_back(&listener);
+                                 look_again_later();
+                               }
+                             });
 }
 
 Acceptor::Next Acceptor::accept_one(Listener& listener) {
@@ -75,11 +76,11 @@ Acceptor::Next Acceptor::accept_one(Listener& listener) {
   }
   // The reserve comes first: what its connections leave behind is not for ordinary ones, or it would wear away.
   if (!reserve_.restore()) return accept_out_of_descriptors(listener, EMFILE);
-  Descriptor connection(accept_(listener.native_handle()));
+  Descriptor connection(accept_(listener.socket.native_handle()));
   const int error = errno;
   if (connection.valid()) {
     open_.add(connection.get());
-    hand_over(std::move(connection), Service::all);
+    hand_over(std::move(connection), Service::all, listener.origin);
     return Next::wait;
   }
   if (is_out_of_descriptors(error)) return accept_out_of_descriptors(listener, error);
@@ -99,20 +100,20 @@ Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
   look_again_later();
   if (!reserve_.open_place()) return Next::pause;
   displaced_ = reserve_.displaced();
-  Descriptor connection(accept_(listener.native_handle()));
+  Descriptor connection(accept_(listener.socket.native_handle()));
   const int error = connection.valid() ? 0 : errno;
   if (connection.valid()) {
     reserve_.keep(connection.get());
     in_reserve_ = reserve_.connections();
     ++reserved_;
-    hand_over(std::move(connection), Service::stop_only);
+    hand_over(std::move(connection), Service::stop_only, listener.origin);
   }
   return error == 0 || is_passing(error) ? Next::wait : Next::pause;
 }
 
-void Acceptor::hand_over(Descriptor connection, Service service) {
+void Acceptor::hand_over(Descriptor connection, Service service, Origin origin) {
   ++accepted_;
-  on_connection_(std::move(connection), service);
+  on_connection_(std::move(connection), service, origin);
 }
 
 void Acceptor::warn_seldom(const std::string& what) {

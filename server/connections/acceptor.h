@@ -36,29 +36,34 @@ struct ConnectionCounts {
 class Acceptor {
  public:
   enum class Service { all, stop_only };
+  // By which kind of listener somebody came.
+  enum class Origin { this_machine, network };
   // A connection, non-blocking; whoever gets it closes it.
-  using OnConnection = std::function<void(Descriptor connection, Service service)>;
+  using OnConnection = std::function<void(Descriptor connection, Service service, Origin origin)>;
   // As accept(2): a descriptor, or -1 and errno.
   using Accept = std::function<int(int listener)>;
 
   Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_connection, Accept accept = accept_connection);
 
   // Accepts there, too; a non-blocking listening socket.
-  void listen(Descriptor listener);
+  void listen(Descriptor listener, Origin origin = Origin::this_machine);
 
   ConnectionCounts counts();  // from any thread
 
   static int accept_connection(int listener);
 
  private:
-  using Listener = boost::asio::posix::stream_descriptor;
+  struct Listener {
+    boost::asio::posix::stream_descriptor socket;
+    Origin origin;
+  };
   enum class Next { wait, pause };
 
   void wait(Listener& listener);
   Next accept_one(Listener& listener);
   Next accept_out_of_descriptors(Listener& listener, int error);
   Next accept_reserved(Listener& listener);
-  void hand_over(Descriptor connection, Service service);
+  void hand_over(Descriptor connection, Service service, Origin origin);
   void warn_seldom(const std::string& what);
   void look_again_later();
   void look_again();

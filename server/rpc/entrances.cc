@@ -6,37 +6,48 @@
 #include <utility>
 
 #include "server/rpc/gatekeeper.h"
+#include "server/rpc/network_credentials.h"
 
 namespace axisgate::rpc {
 namespace {
 
-// Insecure credentials take no processor. To a client these are the same: no byte of a handshake is exchanged.
-std::shared_ptr<grpc::ServerCredentials> local(grpc_local_connect_type type, const server::Access& access,
-                                               const std::string* user) {
-  auto credentials = grpc::experimental::LocalServerCredentials(type);
-  credentials->SetAuthMetadataProcessor(std::make_shared<Gatekeeper>(access, user));
-  return credentials;
-}
+using server::Access;
+using server::Caller;
+using Credentials = std::shared_ptr<grpc::ServerCredentials>;
 
-std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(
-    grpc::ServerBuilder& builder, const std::shared_ptr<grpc::ServerCredentials>& credentials) {
+// Insecure credentials take no processor. To a client these are the same: no byte of a handshake is exchanged.
+Credentials local(grpc_local_connect_type type) { return grpc::experimental::LocalServerCredentials(type); }
+
+std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(grpc::ServerBuilder& builder,
+                                                                    const Credentials& credentials,
+                                                                    const Access& access, Gatekeeper::Name name,
+                                                                    Caller unnamed) {
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
+  credentials->SetAuthMetadataProcessor(std::make_shared<Gatekeeper>(access, std::move(name), std::move(unnamed)));
   return builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, credentials);
 }
 
 }  // namespace
 
-Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const server::Access& access)
-    : tcp_(add(builder, local(LOCAL_TCP, access, nullptr))) {
+Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Access& access,
+                     const std::optional<server::NetworkConfig>& network) {
+  const auto nobody_known = [](const grpc::AuthContext&) { return std::optional<std::string>(); };
+  loopback_ = add(builder, local(LOCAL_TCP), access, nobody_known, access.without_token("a caller over TCP"));
   for (std::size_t slot = 0; slot < callers.size(); ++slot) {
-    unix_.push_back(add(builder, local(UDS, access, &callers.name(slot))));
+    const auto user = [name = &callers.name(slot)](const grpc::AuthContext&) { return std::optional(*name); };
+    unix_.push_back(add(builder, local(UDS), access, user, {}));
   }
+  if (!network) return;
+  network_ = add(builder, network_credentials(*network), access, name_in_certificate,
+                 {"a caller over the network without a certificate", server::Role::nobody});
 }
 
-void Entrances::enter(Descriptor connection, std::optional<std::size_t> slot) {
+void Entrances::enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot) {
   grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
   parameters.fd = connection.release();
-  (slot ? unix_[*slot] : tcp_)->HandleNewConnection(&parameters);
+  const bool far = origin == server::Acceptor::Origin::network;
+  const Entrance& entrance = far ? network_ : slot ? unix_[*slot] : loopback_;
+  entrance->HandleNewConnection(&parameters);
 }
 
 }  // namespace axisgate::rpc

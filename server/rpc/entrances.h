@@ -10,24 +10,29 @@
 
 #include "device/link/descriptor.h"
 #include "server/access/access.h"
+#include "server/config.h"
+#include "server/connections/acceptor.h"
 #include "server/connections/callers.h"
 
 namespace axisgate::rpc {
 
-// One for TCP and one for each slot of Unix callers. Used by the thread that accepts.
+// One for loopback, one for each slot of Unix callers, and one for the network, if it is served. Used by the thread
+// that accepts.
 class Entrances {
  public:
-  // Adds them to what `builder` builds. Both others outlive that server.
-  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const server::Access& access);
+  // Adds them to what `builder` builds. `callers` and `access` outlive that server.
+  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const server::Access& access,
+            const std::optional<server::NetworkConfig>& network);
 
   // The connection is gRPC's from here on; `slot` is the Unix caller's. Before the server has started, or once it has
   // been shut down, the descriptor leaks: gRPC drops it without closing it.
-  void enter(Descriptor connection, std::optional<std::size_t> slot);
+  void enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot);
 
  private:
   using Entrance = std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>;
 
-  Entrance tcp_;
+  Entrance loopback_;
+  Entrance network_;  // null: not served
   std::vector<Entrance> unix_;
 };
 

@@ -22,7 +22,6 @@ constexpr const char* kUser = "axisgate_user";
 constexpr const char* kAuthorization = "authorization";
 constexpr const char* kMethod = ":path";
 constexpr std::string_view kBearer = "bearer ";
-constexpr const char* kNobodyKnown = "a caller over TCP";
 
 template <class Metadata>
 std::optional<std::string_view> find(const Metadata& metadata, const char* key) {
@@ -58,17 +57,22 @@ grpc::Status refuse(grpc::StatusCode code, const std::string& message, const std
 
 }  // namespace
 
-grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContext* connection, OutputMetadata*,
-                                 OutputMetadata*) {
-  if (user_ != nullptr) {
+Caller Gatekeeper::without_token(grpc::AuthContext& connection) {
+  const std::optional<std::string> who = name_(connection);
+  if (!who) return unnamed_;
+  {
     // The context is the connection's, and has no lock of its own: with ours it changes once, before its first handler
     // reads it.
     const std::lock_guard lock(mutex_);
-    if (connection->FindPropertyValues(kUser).empty()) connection->AddProperty(kUser, *user_);
+    if (connection.FindPropertyValues(kUser).empty()) connection.AddProperty(kUser, *who);
   }
+  return access_.without_token(*who);
+}
+
+grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContext* connection, OutputMetadata*,
+                                 OutputMetadata*) {
   const std::optional<std::string_view> token = token_in(find(metadata, kAuthorization));
-  const Result<Caller> caller = token ? access_.by_token(*token, server::calendar_now())
-                                      : access_.local(user_ == nullptr ? kNobodyKnown : *user_);
+  const Result<Caller> caller = token ? access_.by_token(*token, server::calendar_now()) : without_token(*connection);
   if (!caller) return refuse(grpc::StatusCode::UNAUTHENTICATED, caller.error().message, caller.error().hint);
   if (caller->role == Role::nobody) {
     return refuse(grpc::StatusCode::UNAUTHENTICATED, fmt::format("{} needs a token here", caller->who),
@@ -90,7 +94,7 @@ std::string caller(const grpc::CallbackServerContext& call) {
 
 Result<Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access) {
   const auto token = token_in(find(call.client_metadata(), kAuthorization));
-  return token ? access.by_token(*token, server::calendar_now()) : access.local(user_of(call));
+  return token ? access.by_token(*token, server::calendar_now()) : access.without_token(user_of(call));
 }
 
 }  // namespace axisgate::rpc

@@ -10,6 +10,8 @@
 #include <initializer_list>
 #include <utility>
 
+#include "server/rpc/network_credentials.h"
+
 namespace axisgate::rpc {
 namespace {
 
@@ -33,6 +35,7 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 
 Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener)
     : access_(access),
+      network_(gateway.config().network),
       listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
       callers_(kCallerSlots),
@@ -48,22 +51,25 @@ Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr
       names_(devices_) {}
 
 Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::Access& access,
-                                              const server::TcpAddress& listen, const std::string& socket,
                                               const server::ConnectionLimits& limits) {
   gpr_set_log_function(log_quietly);
-  auto listener = server::Listener::open(listen, socket);
+  const server::Config& config = gateway.config();
+  const auto network = config.network ? std::optional(config.network->listen) : std::nullopt;
+  auto listener = server::Listener::open(config.listen, config.socket, network);
   if (!listener) return tl::unexpected(listener.error());
+  allow_only_tls_13();
   std::unique_ptr<Server> server(new Server(gateway, access, *std::move(listener)));
   server->build_ordinary();
   server->build_reserve();
   if (server->ordinary_.server == nullptr || server->reserve_.server == nullptr) {
     return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
   }
-  server->listener_->start(limits, [raw = server.get()](Descriptor connection, server::Acceptor::Service service) {
+  server->listener_->start(limits, [raw = server.get()](Descriptor connection, server::Acceptor::Service service,
+                                                        server::Acceptor::Origin origin) {
     const std::optional<uid_t> user = server::peer_uid(connection.get());
     const auto slot = user ? std::optional(raw->callers_.slot_of(*user)) : std::nullopt;
     Part& part = service == server::Acceptor::Service::all ? raw->ordinary_ : raw->reserve_;
-    part.entrances->enter(std::move(connection), slot);
+    part.entrances->enter(std::move(connection), origin, slot);
   });
   server->connection_metrics_.emplace(gateway.metrics(), [raw = server.get()] { return raw->connections(); });
   return server;
@@ -78,7 +84,7 @@ void Server::build_ordinary() {
     builder.RegisterService(service);
   }
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  ordinary_.entrances.emplace(builder, callers_, access_);
+  ordinary_.entrances.emplace(builder, callers_, access_, network_);
   ordinary_.server = builder.BuildAndStart();
 }
 
@@ -92,7 +98,7 @@ void Server::build_reserve() {
   builder.RegisterService(&names_);
   builder.RegisterCallbackGenericService(&refusing_);
   builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  reserve_.entrances.emplace(builder, callers_, access_);
+  reserve_.entrances.emplace(builder, callers_, access_, network_);
   reserve_.server = builder.BuildAndStart();
 }
 

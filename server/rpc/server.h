@@ -1,4 +1,4 @@
-// The gRPC server with all services, on a loopback address and a Unix socket.
+// The gRPC server with all services, on a loopback address, a Unix socket and, if configured, the network.
 #pragma once
 
 #include <grpcpp/server.h>
@@ -31,16 +31,17 @@ namespace axisgate::rpc {
 
 class Server {
  public:
-  // Serves at once. Refuses an address that somebody else serves, and a socket whose directory cannot be trusted.
-  // Connections beyond `limits` are served a stop only (stop_only.h). `gateway` and `access` outlive the server.
+  // Serves at once where the gateway's configuration says. Refuses an address that somebody else serves, and a socket
+  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only (stop_only.h). `gateway` and
+  // `access` outlive the server.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
-                                               const server::TcpAddress& listen, const std::string& socket,
                                                const server::ConnectionLimits& limits);
   // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
   ~Server();
 
   const server::TcpAddress& listen() const { return listener_->address(); }  // with the port really taken
   const std::string& socket() const { return listener_->socket(); }
+  const std::optional<server::TcpAddress>& network() const { return listener_->network(); }
   server::ConnectionCounts connections() { return listener_->counts(); }  // from any thread
 
  private:
@@ -55,6 +56,7 @@ class Server {
   void build_reserve();
 
   const server::Access& access_;
+  const std::optional<server::NetworkConfig> network_;
   std::unique_ptr<server::Listener> listener_;
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;

@@ -21,6 +21,8 @@ FIRING = {
     "AxisgateLineInDoubt": ({"__name__": "axisgate_barriers_total", "device": "stage"}, "0x8 10x40", "2m", "2m15s"),
     "AxisgateLineSaturated": ({"__name__": "axisgate_line_busy_seconds_total", "device": "stage"}, "0+14.2x60", "9m",
                               "10m15s"),
+    "AxisgateCertificateExpires": ({"__name__": "axisgate_certificate_expiry_timestamp_seconds"},
+                                   f"{14 * 86400 + 130}x40", "2m", "2m15s"),
     "AxisgateConnectionsRefused": ({"__name__": "axisgate_connections_refused_total"}, "0x8 3x40", "2m", "2m15s"),
 }
 # What is everyday life, and fires nothing.
@@ -30,6 +32,7 @@ QUIET = {
     "AxisgateUnderruns": ({"__name__": "axisgate_underruns_total", "device": "stage"}, "7x40"),
     "AxisgateLineInDoubt": ({"__name__": "axisgate_barriers_total", "device": "stage"}, "0x8 1x8 2x8 3x8 4x8"),
     "AxisgateLineSaturated": ({"__name__": "axisgate_line_busy_seconds_total", "device": "stage"}, "0+12.8x40"),
+    "AxisgateCertificateExpires": ({"__name__": "axisgate_certificate_expiry_timestamp_seconds"}, f"{90 * 86400}x40"),
     "AxisgateConnectionsRefused": ({"__name__": "axisgate_connections_refused_total"}, "3x40"),
 }
 MINUTES = [f"{minute}m" for minute in range(1, 11)]

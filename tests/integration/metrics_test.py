@@ -6,12 +6,17 @@ import subprocess
 import tempfile
 import unittest
 
-from programs import LIMIT_S, ROOT, Daemon
+from programs import BIN, LIMIT_S, ROOT, Daemon
 
 CONFIG = """
 listen = "127.0.0.1:0"
 metrics = "127.0.0.1:0"
 socket = "{socket}"
+
+[network]
+listen = "127.0.0.1:0"
+certificate = "{{folder}}/gateway.crt"
+key = "{{folder}}/gateway.key"
 
 [[device]]
 name = "stage"
@@ -50,7 +55,8 @@ class AtWork(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="axisgate-metrics-")
         cls.addClassCleanup(folder.cleanup)
-        daemon = Daemon(folder.name, CONFIG)
+        subprocess.run([BIN / "axisgate-certificates", folder.name, "lab", "gateway"], check=True, timeout=LIMIT_S)
+        daemon = Daemon(folder.name, CONFIG.replace("{{folder}}", folder.name))
         cls.addClassCleanup(daemon.stop)
         for arguments in (["home"], ["move", "1=+10um", "--relative"], ["move", "1=+1m"], ["exec", "?:P1"], ["stop"]):
             daemon.run(*arguments)

@@ -1,10 +1,14 @@
-// Who is let in to what: every method, every role, every kind of credential, over the Unix socket and loopback.
+// Who is let in to what: every method, every role, every kind of credential, over the Unix socket, loopback and TLS.
+#include <gmock/gmock.h>
 #include <google/protobuf/descriptor.h>
 
+#include <fstream>
+#include <iterator>
 #include <map>
 #include <set>
 
 #include "server/rpc/services.h"
+#include "tests/certificates/authority.h"
 #include "tests/integration/rpc_fixture.h"
 
 namespace axisgate::rpc {
@@ -54,6 +58,42 @@ std::vector<std::string> methods() {
 
 class RpcAccess : public RpcTest {
  protected:
+  void SetUp() override {
+    std::filesystem::create_directory(certificates_);
+    const Authority lab(certificates_, "lab");
+    for (const char* name : {"gateway", "anna", "guest", "expired"}) lab.issue(name);
+    lab.issue("expired", std::chrono::hours(-1));
+    Authority(certificates_, "elsewhere").issue("mallory");
+    RpcTest::SetUp();
+  }
+  void TearDown() override {
+    RpcTest::TearDown();
+    std::filesystem::remove_all(certificates_);
+  }
+  void configure(server::Config& config) override {
+    config.network = {.listen = {"127.0.0.1", 0},
+                      .certificate = certificates_ + "/gateway.crt",
+                      .key = certificates_ + "/gateway.key",
+                      .client_ca = certificates_ + "/lab.crt"};
+    config.access.roles["cert guest"] = Role::observer;
+  }
+
+  static std::string content(const std::string& path) {
+    std::ifstream file(path);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+
+  // With the certificate of `caller`; empty: without one.
+  std::shared_ptr<grpc::Channel> tls(const std::string& caller) {
+    grpc::SslCredentialsOptions options;
+    options.pem_root_certs = content(certificates_ + "/lab.crt");
+    if (!caller.empty()) {
+      options.pem_private_key = content(certificates_ + "/" + caller + ".key");
+      options.pem_cert_chain = content(certificates_ + "/" + caller + ".crt");
+    }
+    return grpc::CreateChannel(to_string(*server_->network()), grpc::SslCredentials(options));
+  }
+
   static server::Calendar now() { return server::calendar_now(); }
 
   // A token of that role; `kind` is "right", "expired" or "revoked".
@@ -107,6 +147,8 @@ class RpcAccess : public RpcTest {
     const grpc::Status status = stub->GetCaller(&context, {}, &caller);
     return status.ok() ? caller.who() + ", " + api::Role_Name(caller.role()) : status.error_message();
   }
+
+  const std::string certificates_ = directory_ + ".certificates";
 };
 
 TEST_F(RpcAccess, EveryMethodHasARole) {
@@ -118,13 +160,25 @@ TEST_F(RpcAccess, EveryMethodHasARole) {
 TEST_F(RpcAccess, WithoutAToken) {
   expect(channel_, Role::admin, "", "as the user as whom the daemon runs");
   expect(loopback(), Role::operator_, "", "over loopback");
+  expect(tls(""), Role::nobody, "", "over the network");
+  expect(tls("anna"), Role::operator_, "", "with a certificate");
+  expect(tls("guest"), Role::observer, "", "with a certificate that the configuration names");
+}
+
+// gRPC drops such a connection in its handshake.
+TEST_F(RpcAccess, ACertificateOfAnotherAuthorityOrAnExpiredOneOrNoTlsIsNoWayIn) {
+  const auto plain = grpc::CreateChannel(to_string(*server_->network()), grpc::InsecureChannelCredentials());
+  for (const auto& channel : {tls("mallory"), tls("expired"), plain}) {
+    const grpc::Status status = call(channel, "/axisgate.v1.AccessService/GetCaller");
+    EXPECT_EQ(status.error_code(), grpc::UNAVAILABLE) << status.error_message();
+  }
 }
 
 TEST_F(RpcAccess, ATokenGoesBeforeTheUser) {
   for (const Role role : {Role::observer, Role::operator_, Role::admin}) {
     for (const std::string kind : {"right", "expired", "revoked"}) {
       const std::string secret = token(role, kind);
-      for (const auto& channel : {channel_, loopback()}) {
+      for (const auto& channel : {channel_, loopback(), tls(""), tls("guest")}) {
         expect(channel, kind == "right" ? role : Role::nobody, "Bearer " + secret, kind);
       }
     }
@@ -138,6 +192,7 @@ TEST_F(RpcAccess, ABadTokenIsRefusedWhereNoneWouldDo) {
   for (const std::string& bad : {"Bearer " + wrong, "Bearer " + good.substr(0, good.size() - 1), std::string("Bearer "),
                                  std::string("Basic YTpi"), good, "bearer" + good}) {
     expect(channel_, Role::nobody, bad, bad);
+    expect(tls("anna"), Role::nobody, bad, bad);
   }
   EXPECT_EQ(who(channel_, "Bearer " + good), "token right-admin, ROLE_ADMIN");
   EXPECT_EQ(who(channel_, "bearer " + good), "token right-admin, ROLE_ADMIN");
@@ -146,6 +201,9 @@ TEST_F(RpcAccess, ABadTokenIsRefusedWhereNoneWouldDo) {
 TEST_F(RpcAccess, WhoCalls) {
   EXPECT_EQ(who(channel_, ""), server::caller_name(::geteuid()) + ", ROLE_ADMIN");
   EXPECT_EQ(who(loopback(), "").substr(0, 14), "tcp 127.0.0.1:");
+  EXPECT_EQ(who(tls("anna"), ""), "cert anna, ROLE_OPERATOR");
+  EXPECT_EQ(who(tls("anna"), "Bearer " + token(Role::admin, "right")), "token right-admin, ROLE_ADMIN");
+  EXPECT_THAT(who(tls(""), ""), ::testing::StartsWith("a caller over the network without a certificate needs a token"));
   EXPECT_EQ(who(loopback(), "Bearer " + token(Role::observer, "right")), "token right-observer, ROLE_OBSERVER");
 }
 

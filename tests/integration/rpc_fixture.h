@@ -33,10 +33,11 @@ class RpcTest : public ::testing::Test {
     config.socket = directory_ + "/axisgate.sock";
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
     config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
+    configure(config);
     gateway_ = std::make_unique<server::Gateway>(config, 1);
-    access_ = std::make_unique<server::Access>(server::AccessConfig{}, server::caller_name(::geteuid()),
+    access_ = std::make_unique<server::Access>(config.access, server::caller_name(::geteuid()),
                                                *server::Tokens::open(directory_ + ".tokens"));
-    auto started = Server::start(*gateway_, *access_, config.listen, config.socket, limits_);
+    auto started = Server::start(*gateway_, *access_, limits_);
     ASSERT_TRUE(started) << started.error().message;
     server_ = *std::move(started);
     gateway_->start();
@@ -49,6 +50,9 @@ class RpcTest : public ::testing::Test {
     control_ = api::ControlService::NewStub(channel_);
     wait_until_up();
   }
+
+  // What a test has different.
+  virtual void configure(server::Config&) {}
 
   void TearDown() override {
     server_.reset();

@@ -243,10 +243,14 @@ TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
 }
 
 TEST_F(RpcTest, ASecondServerIsRefused) {
-  const auto tcp = Server::start(*gateway_, *access_, server_->listen(), server_->socket() + "2", limits_);
+  server::Config same_address = gateway_->config();
+  same_address.listen = server_->listen();
+  same_address.socket += "2";
+  server::Gateway second(same_address, 2);
+  const auto tcp = Server::start(second, *access_, limits_);
   ASSERT_FALSE(tcp);
   EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
-  const auto socket = Server::start(*gateway_, *access_, {"127.0.0.1", 0}, server_->socket(), limits_);
+  const auto socket = Server::start(*gateway_, *access_, limits_);
   ASSERT_FALSE(socket);
   EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
 }

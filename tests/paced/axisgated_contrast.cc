@@ -30,8 +30,7 @@ int serve(const char* config_path) {
   server::start_logging();
   server::Gateway gateway(*config, 1);
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
-  const auto server =
-      rpc::Server::start(gateway, access, config->listen, config->socket, {server::raise_descriptor_limit()});
+  const auto server = rpc::Server::start(gateway, access, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);
     return 1;

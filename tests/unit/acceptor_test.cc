@@ -25,7 +25,7 @@ class AcceptorTest : public ::testing::Test {
   void accept(ConnectionLimits limits, Acceptor::Accept how = Acceptor::accept_connection) {
     acceptor_.emplace(
         loop_.strand(), limits,
-        [this](Descriptor descriptor, Service service) {
+        [this](Descriptor descriptor, Service service, Acceptor::Origin) {
           connections_.push_back({std::move(descriptor), service});
         },
         std::move(how));

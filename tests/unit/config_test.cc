@@ -12,6 +12,7 @@
 namespace axisgate::server {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::StartsWith;
@@ -222,7 +223,8 @@ TEST(Config, AFileWithoutADeviceIsAnError) {
 TEST(Config, NetworkAddressesAreRefusedWithTheReason) {
   EXPECT_THAT(
       errors_of("listen = \"0.0.0.0:50203\"\nmetrics = \"lab.example:9203\"\n" + std::string(kStage)),
-      ElementsAre(HasSubstr("could be read and changed on its way"), HasSubstr("would offer metrics to the network")));
+      ElementsAre(AllOf(HasSubstr("would offer gRPC to the network"), HasSubstr("by the table [network], with TLS")),
+                  AllOf(HasSubstr("would offer metrics to the network"), HasSubstr("through a tunnel"))));
 }
 
 TEST(Config, PortsAndSocketsAreChecked) {
