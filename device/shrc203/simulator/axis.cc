@@ -70,11 +70,15 @@ std::int64_t Axis::room(int direction) const {
 }
 
 std::int64_t Axis::place_at(TimePoint now) const {
-  if (phase_ != Phase::moving || leg_.amount == 0 || leg_.path.distance() <= 0) return place_;
-  const std::int64_t whole = std::abs(leg_.amount);
-  const double share = leg_.path.distance_at(now - leg_.start) / leg_.path.distance();
-  const auto made = static_cast<std::int64_t>(std::floor(share * static_cast<double>(whole) + kPulseTolerance));
-  return place_ + sign_of(leg_.amount) * std::min(made, whole);
+  if (phase_ != Phase::moving || leg_.amount == 0) return place_;
+  const double covered = leg_.begun + leg_.path.distance_at(now - leg_.start) * leg_.pulses_per_unit();
+  const auto made = static_cast<std::int64_t>(std::floor(covered + kPulseTolerance));
+  return place_ + sign_of(leg_.amount) * std::clamp<std::int64_t>(made, 0, std::abs(leg_.amount));
+}
+
+double Axis::Leg::pulses_per_unit() const {
+  if (path.distance() <= 0) return 0;
+  return (static_cast<double>(std::abs(amount)) - begun) / path.distance();
 }
 
 void Axis::start_leg(MotionProfile path, std::int64_t amount, const Speed& slope, TimePoint now) {
@@ -108,6 +112,22 @@ void Axis::jog(int direction, TimePoint now) {
             direction * std::max<std::int64_t>(free, 1), speed, now);
 }
 
+// The pulse that is under way now goes on in the new leg: however often the speed changes, none is lost.
+void Axis::change_jog(std::int64_t to_speed, TimePoint now) {
+  const Duration elapsed = now - leg_.start;
+  const std::int64_t here = place_at(now);
+  const double begun = leg_.begun + leg_.path.distance_at(elapsed) - static_cast<double>(std::abs(here - place_));
+  const int direction = sign_of(leg_.amount);
+  const std::int64_t left = std::abs(place_ + leg_.amount - here);
+  if (left == 0) return;
+  const Speed slope = leg_.slope;
+  MotionProfile path = MotionProfile::changing(static_cast<double>(left) - begun, leg_.path.speed_at(elapsed),
+                                               static_cast<double>(to_speed), slope);
+  place_ = here;
+  start_leg(std::move(path), direction * left, slope, now);
+  leg_.begun = begun;
+}
+
 void Axis::return_to_origin(TimePoint now) {
   stepped_ = true;
   const std::int64_t origin = in_pulses(setup_.origin_pulses);
@@ -125,9 +145,8 @@ void Axis::wait(std::optional<TimePoint> until) {
 }
 
 void Axis::decelerate(TimePoint now) {
-  const Duration elapsed = now - leg_.start;
-  const double share = static_cast<double>(std::abs(leg_.amount)) / std::max(leg_.path.distance(), 1.0);
-  MotionProfile path = MotionProfile::slowing(leg_.path.speed_at(elapsed) * share, leg_.slope);
+  const double path_speed = leg_.path.speed_at(now - leg_.start);
+  MotionProfile path = MotionProfile::slowing(path_speed * leg_.pulses_per_unit(), leg_.slope);
   const Speed slope = leg_.slope;
   const int sign = sign_of(leg_.amount);
   const std::int64_t left = std::abs(place_ + leg_.amount - place_at(now));

@@ -61,6 +61,9 @@ class Axis {
   void return_to_origin(TimePoint now);
   void wait(std::optional<TimePoint> until);
 
+  // Manual 93) JD:, while it jogs; pulses/s.
+  void change_jog(std::int64_t to_speed, TimePoint now);
+
   void decelerate(TimePoint now);  // to S, then at rest; at once when no faster
   void halt(TimePoint now);        // no further pulse
   LegEnd end_leg(TimePoint now);   // at next_event() while moving; then settle(), rest() or another leg
@@ -77,6 +80,9 @@ class Axis {
     std::int64_t amount = 0;
     TimePoint start{};
     Speed slope;
+    double begun = 0;  // how much of its first pulse the leg before it has made
+
+    double pulses_per_unit() const;  // of the path
   };
 
   std::int64_t place_at(TimePoint now) const;

@@ -28,7 +28,8 @@ struct Setting {
   Axes axes;
   // Per axis: pulses to go, the coordinate to go to, the sign of a jog, tenths of a second, or the inputs waited for.
   std::array<std::int64_t, kAxes> values{};
-  std::array<std::optional<Speed>, kAxes> speeds;  // of MP: and the like; they overwrite D: when it starts
+  // They overwrite D:, those of MP: and the like when it starts, those of JD: when the jog ends.
+  std::array<std::optional<Speed>, kAxes> speeds;
   std::optional<Arc> arc;
   char letter = ' ';  // the axis letter of a line or arc as it was sent
 

@@ -65,6 +65,17 @@ MotionProfile MotionProfile::slowing(double from_speed, const Speed& speed) {
   return profile;
 }
 
+MotionProfile MotionProfile::changing(double distance, double from_speed, double to_speed, const Speed& speed) {
+  if (speed.minimum == speed.maximum || speed.ramp_ms == 0) return constant(distance, to_speed);
+  const double acceleration = to_speed < from_speed ? -slope(speed) : slope(speed);
+  const double ramp_length = (to_speed * to_speed - from_speed * from_speed) / (2 * acceleration);
+  MotionProfile profile;
+  profile.distance_ = distance;
+  profile.add(seconds_for(std::min(ramp_length, distance), from_speed, acceleration), from_speed, acceleration);
+  if (ramp_length < distance) profile.add((distance - ramp_length) / to_speed, to_speed, 0);
+  return profile;
+}
+
 void MotionProfile::add(double seconds, double start_speed, double acceleration) {
   sections_.push_back({seconds, start_speed, acceleration});
 }

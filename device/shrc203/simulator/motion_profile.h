@@ -23,6 +23,8 @@ class MotionProfile {
   static MotionProfile constant(double distance, double speed);
   // From `from_speed` down to S as steeply as R says, and then at rest. Nothing is left of it at or below S.
   static MotionProfile slowing(double from_speed, const Speed& speed);
+  // From `from_speed` up or down to `to_speed` as steeply as R says, and on at that; it may end before.
+  static MotionProfile changing(double distance, double from_speed, double to_speed, const Speed& speed);
 
   double distance() const { return distance_; }
   Duration duration() const;  // rounded up to a whole nanosecond

@@ -54,6 +54,16 @@ bool Motions::returning(int number, Kind kind) const {
                      [&](const Run& run) { return run.setting.kind == kind && run.setting.axes.has(number); });
 }
 
+bool Motions::jogging(const Axes& axes) const {
+  const auto list = axes.list();
+  return std::all_of(list.begin(), list.end(), [this](int number) {
+    return axis(number).phase() == Axis::Phase::moving &&
+           std::any_of(runs_.begin(), runs_.end(), [number](const Run& run) {
+             return run.setting.kind == Kind::jog && run.setting.axes.has(number) && !run.stopped.has(number);
+           });
+  });
+}
+
 const Setting* Motions::execution(Kind kind, int number) const {
   if (const Setting* set = execution_.find(kind, number)) return set;
   for (const Run& run : runs_) {
@@ -272,6 +282,16 @@ void Motions::start_axis(const Setting& setting, int number, TimePoint now) {
       break;
   }
   if (moved.stepped()) ++starts_[index_of(number)];
+}
+
+// A jog may be slower than S, but F may not (manual 89)).
+void Motions::override_jog(int number, std::int64_t to_speed, TimePoint now) {
+  Axis& driven = axis(number);
+  driven.change_jog(to_speed, now);
+  if (is("jog_override_afterwards", "forgotten")) return;
+  Speed left_behind = driven.speed;
+  left_behind.maximum = std::max(to_speed, driven.speed.minimum);
+  run_of(number)->setting.speeds[index_of(number)] = left_behind;
 }
 
 // Manual 83), 84): the composite speed is S of the axis with the smallest number.

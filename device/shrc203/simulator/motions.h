@@ -41,6 +41,10 @@ class Motions {
   bool go(const Axes& axes, TimePoint now);
   void start_return(Kind kind, const Axes& axes, bool reports, TimePoint now);
 
+  // Manual 93) JD:. Whether J: drives each of these axes, and none is being stopped; pulses/s from now on.
+  bool jogging(const Axes& axes) const;
+  void override_jog(int axis, std::int64_t to_speed, TimePoint now);
+
   void stop(const Axes& axes, TimePoint now);
   void emergency_stop(TimePoint now);
   void lose_excitation(int axis, TimePoint now);
@@ -91,6 +95,7 @@ class Motions {
   void pulses_ended(int axis, TimePoint now);
   void finish(int axis, TimePoint now);
   void complete(const Run& run, int axis, bool done);
+  void leave_jog(const Run& run, int axis);
   void stop_run(Run& run, const Axes& axes, bool slowly, TimePoint now);
   void apply_stop_to_prebuffer(const Axes& axes);
 

@@ -61,6 +61,7 @@ void Motions::finish(int number, TimePoint now) {
   });
   if (found == runs_.end()) return;
   found->unfinished.remove(number);
+  leave_jog(*found, number);
   const bool done = found->unfinished.empty();
   const Run run = *found;
   if (done) {
@@ -69,6 +70,12 @@ void Motions::finish(int number, TimePoint now) {
   }
   complete(run, number, done);
   start_migrated(now);
+}
+
+// Manual 93): at the end of the jog, F of D: is overwritten.
+void Motions::leave_jog(const Run& run, int number) {
+  if (run.setting.kind != Kind::jog) return;
+  if (const auto& speed = run.setting.speeds[index_of(number)]) axis(number).speed = *speed;
 }
 
 void Motions::complete(const Run& run, int number, bool done) {
@@ -144,6 +151,9 @@ void Motions::emergency_stop(TimePoint now) {
     stopped.rest();
     stopped.emergency = true;
     if (is("emergency_excitation", "off")) stopped.excited = false;
+  }
+  for (const Run& run : runs_) {
+    for (const int number : run.unfinished.list()) leave_jog(run, number);
   }
   runs_.clear();
   migrated_.clear();

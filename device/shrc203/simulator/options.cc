@@ -35,6 +35,7 @@ constexpr std::array kRows = {
     Row{"previous_command_counts_refused", {"yes", "no"}},
     Row{"late_go_order", {"reply_first", "completion_first"}},
     Row{"jog_survives_gc", {"yes", "no"}},
+    Row{"jog_override_afterwards", {"becomes_maximum", "forgotten"}},
     Row{"q_s_sign", {"plus", "bare"}},
     Row{"command_error_status", {"normal_stays", "normal_clears"}},
     Row{"invalid_axis_fields", {"three_fields", "left_out", "three_fields_everywhere"}},

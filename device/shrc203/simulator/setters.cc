@@ -145,13 +145,19 @@ Answer speeds(Rig& rig, Reader reader, Speed Axis::*target) {
 Answer move_speeds(Rig& rig, Reader reader) { return speeds(rig, reader, &Axis::speed); }
 Answer origin_speeds(Rig& rig, Reader reader) { return speeds(rig, reader, &Axis::origin_speed); }
 
+// One speed in a unit of its own (manual 90), 91), 93)).
+std::optional<std::int64_t> take_speed_with_unit(const Rig& rig, Reader& reader, int axis) {
+  const auto amount = reader.take_amount(kSpeedUnits);
+  const auto pulses = amount ? rig.to_pulses(amount->number, amount->unit, axis) : std::nullopt;
+  return pulses && *pulses >= 1 && *pulses <= kSpeedMax ? pulses : std::nullopt;
+}
+
 Answer one_speed(Rig& rig, Reader reader, std::int64_t Speed::*part) {
   const auto axes = reader.take_axes(rig.controllable);
   if (!axes || !may_set_speed(rig, *axes)) return Answer::ng;
   const auto values = take_each<Speed>(reader, *axes, [&](int axis) -> std::optional<Speed> {
-    const auto amount = reader.take_amount(kSpeedUnits);
-    const auto pulses = amount ? rig.to_pulses(amount->number, amount->unit, axis) : std::nullopt;
-    if (!pulses || *pulses < 1 || *pulses > kSpeedMax) return std::nullopt;
+    const auto pulses = take_speed_with_unit(rig, reader, axis);
+    if (!pulses) return std::nullopt;
     Speed speed = rig.axis(axis).speed;
     speed.*part = *pulses;
     return speed.minimum <= speed.maximum ? std::optional(speed) : std::nullopt;
@@ -170,6 +176,17 @@ Answer ramp(Rig& rig, Reader reader) {
   const auto values = take_each<std::int64_t>(reader, *axes, [&](int) { return reader.take_integer(1, kRampMax); });
   if (!values) return Answer::ng;
   for (const int axis : axes->list()) rig.axis(axis).speed.ramp_ms = static_cast<int>((*values)[index_of(axis)]);
+  return Answer::ok;
+}
+
+// Manual 93): only while J: drives every axis named.
+Answer jog_speed(Rig& rig, Reader reader) {
+  const auto axes = reader.take_axes(rig.controllable);
+  if (!axes || !rig.motions.jogging(*axes)) return Answer::ng;
+  const auto values =
+      take_each<std::int64_t>(reader, *axes, [&](int axis) { return take_speed_with_unit(rig, reader, axis); });
+  if (!values) return Answer::ng;
+  for (const int axis : axes->list()) rig.motions.override_jog(axis, (*values)[index_of(axis)], rig.now);
   return Answer::ok;
 }
 
@@ -192,6 +209,7 @@ constexpr std::array kCommands = {
     Command{"DS:", minimum_speed},
     Command{"DF:", maximum_speed},
     Command{"DR:", ramp},
+    Command{"JD:", jog_speed},
 };
 
 }  // namespace
