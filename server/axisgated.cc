@@ -80,7 +80,8 @@ int serve(const server::Config& config) {
   server::Gateway gateway(config, start_generation());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
-  const server::ConnectionLimits limits{server::raise_descriptor_limit()};
+  const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
+                                        .of_one = static_cast<std::size_t>(config.limits.connections)};
   const auto server = rpc::Server::start(gateway, **access, limits);
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 

@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cmath>
 #include <cstring>
 #include <fstream>
 #include <set>
 
-#include "device/core/quantity.h"
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
+#include "server/config_axis.h"
+#include "server/config_limits.h"
+#include "server/config_name.h"
 #include "server/config_network.h"
 #include "server/config_table.h"
 #include "server/config_words.h"
@@ -24,7 +25,6 @@ namespace axisgate::server {
 namespace {
 
 using shrc203::AtExit;
-using shrc203::AxisProfile;
 using shrc203::Profile;
 using shrc203::Scope;
 
@@ -36,17 +36,6 @@ enum class Connection { serial, tcp, simulated };
 constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
     {{"serial", Connection::serial}, {"tcp", Connection::tcp}, {"simulated", Connection::simulated}}};
 constexpr std::array<std::pair<std::string_view, bool>, 1> kKinds = {{{"shrc203", true}}};
-
-constexpr std::string_view kNameRule =
-    "a letter, then letters, digits, '-' or '_', at most 32 in all: names stand in resource names and metrics";
-
-// ASCII by hand: what a name may hold must not depend on the locale.
-bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
-bool is_name(std::string_view name) {
-  return !name.empty() && name.size() <= 32 && is_letter(name.front()) &&
-         std::all_of(name.begin(), name.end(),
-                     [](char c) { return is_letter(c) || (c >= '0' && c <= '9') || c == '-' || c == '_'; });
-}
 
 // Names are for the name server to judge; a port or a blank in one is a slip.
 bool is_host(std::string_view host) {
@@ -68,6 +57,9 @@ class ConfigReader {
     read_loopback(table, "metrics", "metrics", config.metrics);
     config.network = read_network(table, file_, errors_);
     if (const toml::table* access = table.table("access")) read_access(*access, file_, errors_, config.access);
+    if (const toml::table* limits = table.table("limits")) {
+      read_identity_limits(*limits, file_, errors_, config.limits);
+    }
     const auto devices = table.tables("device");
     if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
     for (const toml::table* device : devices) config.devices.push_back(read_device(*device));
@@ -92,7 +84,7 @@ class ConfigReader {
     read_line(table, device);
     read_limits(table, device.profile);
     device.record = read_record(table);
-    read_axes(table, device.profile);
+    read_axes(table, file_, errors_, device.profile.axes);
     table.refuse_unknown();
     return device;
   }
@@ -217,91 +209,6 @@ class ConfigReader {
     if (const auto value = table.integer(key, minimum, maximum)) into = std::chrono::milliseconds(*value);
   }
 
-  void read_axes(ConfigTable& table, Profile& profile) {
-    std::set<std::int64_t> numbers;
-    std::set<std::string> names;
-    for (const toml::table* source : table.tables("axis")) {
-      ConfigTable axis(*source, "device.axis", file_, errors_);
-      const std::optional<std::int64_t> number = axis.integer("number", 1, shrc203::kAxisCount);
-      if (!number && !axis.has("number")) axis.missing("number", "1, 2 or 3");
-      if (number && !numbers.insert(*number).second) {
-        axis.error("number", fmt::format("{} is the number of another axis of this device, too", *number));
-      }
-      AxisProfile read = read_axis(axis);
-      if (!read.name.empty() && !names.insert(read.name).second) {
-        axis.error("name", fmt::format("\"{}\" is the name of another axis of this device, too", read.name));
-      }
-      if (number) profile.axes[static_cast<std::size_t>(*number - 1)] = std::move(read);
-      axis.refuse_unknown();
-    }
-  }
-
-  AxisProfile read_axis(ConfigTable& table) {
-    AxisProfile axis;
-    axis.name = table.text("name").value_or("");
-    if (!axis.name.empty() && !is_name(axis.name)) {
-      table.error("name", fmt::format("\"{}\" is not a name; use {}", axis.name, kNameRule));
-    }
-    if (const std::optional<std::string> unit = table.text("unit")) {
-      if (const Result<Unit> parsed = parse_unit(*unit)) {
-        axis.unit = *parsed;
-      } else {
-        table.error("unit", fmt::format("\"{}\" is not a unit; use pulse, nm, um, mm or deg", *unit));
-      }
-    }
-    axis.travel_minimum = read_quantity(table, "travel_minimum", axis.unit, parse_quantity);
-    axis.travel_maximum = read_quantity(table, "travel_maximum", axis.unit, parse_quantity);
-    axis.maximum_speed = read_quantity(table, "maximum_speed", axis.unit, parse_speed);
-    check_axis(table, axis);
-    return axis;
-  }
-
-  using Parse = Result<Quantity> (*)(std::string_view, Unit);
-  static std::optional<Quantity> read_quantity(ConfigTable& table, std::string_view key, Unit fallback, Parse parse) {
-    const std::optional<std::string> text = table.text(key);
-    if (!text) return std::nullopt;
-    const Result<Quantity> parsed = parse(*text, fallback);
-    if (!parsed) {
-      table.error(key, explain(parsed.error()));
-      return std::nullopt;
-    }
-    return *parsed;
-  }
-
-  static void check_axis(ConfigTable& table, const AxisProfile& axis) {
-    const std::array<std::pair<std::string_view, const std::optional<Quantity>*>, 3> limits = {
-        {{"travel_minimum", &axis.travel_minimum},
-         {"travel_maximum", &axis.travel_maximum},
-         {"maximum_speed", &axis.maximum_speed}}};
-    for (const auto& [key, limit] : limits) {
-      // Pulses go with either kind of axis.
-      if (!*limit || (*limit)->unit == Unit::pulses || axis.unit == Unit::pulses) continue;
-      if (((*limit)->unit == Unit::degrees) != (axis.unit == Unit::degrees)) {
-        table.error(key, fmt::format("is in {}, but the axis is shown in {}; an axis turns or slides, not both",
-                                     symbol((*limit)->unit), symbol(axis.unit)));
-      }
-    }
-    if (axis.maximum_speed && axis.maximum_speed->value.digits <= 0) {
-      table.error("maximum_speed", "must be above 0");
-    }
-    if (!axis.travel_minimum || !axis.travel_maximum) return;
-    const std::optional<bool> ascending = below(*axis.travel_minimum, *axis.travel_maximum);
-    if (ascending && !*ascending) table.error("travel_minimum", "must be below travel_maximum");
-  }
-
-  // Nothing where only the controller can tell, which knows what a pulse is.
-  static std::optional<bool> below(const Quantity& a, const Quantity& b) {
-    const bool comparable = a.unit == b.unit || (a.unit != Unit::pulses && b.unit != Unit::pulses);
-    if (!comparable) return std::nullopt;
-    return in_smallest_unit(a) < in_smallest_unit(b);
-  }
-
-  // A long double holds the 18 digits of a Decimal.
-  static long double in_smallest_unit(const Quantity& quantity) {
-    const int power = quantity.unit == Unit::millimeters ? 6 : quantity.unit == Unit::micrometers ? 3 : 0;
-    return static_cast<long double>(quantity.value.digits) * std::pow(10.0L, power - quantity.value.decimals);
-  }
-
   std::string file_;
   std::vector<ConfigError>& errors_;
   std::set<std::string> names_;
@@ -325,6 +232,7 @@ Config default_config() {
                 .metrics = {"127.0.0.1", kMetricsPort},
                 .network = {},
                 .access = {},
+                .limits = {},
                 .devices = {DeviceConfig{}}};
 }
 

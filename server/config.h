@@ -14,6 +14,7 @@
 #include "device/link/tcp_socket.h"
 #include "device/shrc203/profile.h"
 #include "server/access/access.h"
+#include "server/access/identity_limits.h"
 
 namespace axisgate::server {
 
@@ -54,6 +55,7 @@ struct Config {
   TcpAddress metrics;
   std::optional<NetworkConfig> network;
   AccessConfig access;
+  LimitsConfig limits;
   std::vector<DeviceConfig> devices;
 };
 

@@ -30,6 +30,8 @@ class ConfigTable {
 
   std::optional<std::string> text(std::string_view key) { return typed<std::string>(key, "a text in quotes"); }
 
+  std::optional<bool> flag(std::string_view key) { return typed<bool>(key, "true or false"); }
+
   std::optional<std::int64_t> integer(std::string_view key, std::int64_t minimum, std::int64_t maximum) {
     const std::string allowed = "a whole number from " + std::to_string(minimum) + " to " + std::to_string(maximum);
     const std::optional<std::int64_t> value = typed<std::int64_t>(key, allowed);

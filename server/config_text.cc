@@ -73,6 +73,14 @@ void write(TomlWriter& out, const AccessConfig& access) {
   if (!roles.empty()) out.key("roles", fmt::format("{{ {} }}", roles));
 }
 
+void write(TomlWriter& out, const LimitsConfig& limits) {
+  out.table("[limits]");
+  out.number("connections", limits.connections);
+  out.number("streams", limits.streams);
+  out.number("calls", limits.calls);
+  out.number("message_bytes", limits.message_bytes);
+}
+
 void write(TomlWriter& out, const SerialSettings& serial, const shrc203::Profile& profile) {
   out.text("connection", "serial");
   out.text("path", serial.path);
@@ -102,14 +110,24 @@ void write(TomlWriter& out, const SimulatedConnection& simulated, const shrc203:
   if (!options.empty()) out.key("options", fmt::format("{{ {} }}", options));
 }
 
+void write_limits(TomlWriter& out, const shrc203::AxisLimits& limits) {
+  out.quantity("travel_minimum", limits.travel_minimum);
+  out.quantity("travel_maximum", limits.travel_maximum);
+  out.quantity("maximum_speed", limits.maximum_speed, "/s");
+  if (limits.home_first) out.key("home_first", "true");
+}
+
 void write(TomlWriter& out, int number, const shrc203::AxisProfile& axis) {
   out.table("[[device.axis]]");
   out.number("number", number);
   if (!axis.name.empty()) out.text("name", axis.name);
   out.text("unit", symbol(axis.unit));
-  out.quantity("travel_minimum", axis.travel_minimum);
-  out.quantity("travel_maximum", axis.travel_maximum);
-  out.quantity("maximum_speed", axis.maximum_speed, "/s");
+  write_limits(out, axis);
+  for (const shrc203::NarrowerLimits& narrower : axis.narrower) {
+    out.table("[[device.axis.narrower]]");
+    out.text("whose", narrower.whose);
+    write_limits(out, narrower);
+  }
 }
 
 void write(TomlWriter& out, const DeviceConfig& device) {
@@ -137,6 +155,7 @@ std::string to_toml(const Config& config) {
   out.text("metrics", to_string(config.metrics));
   if (config.network) write(out, *config.network);
   write(out, config.access);
+  write(out, config.limits);
   for (const DeviceConfig& device : config.devices) write(out, device);
   return out.take();
 }

@@ -122,15 +122,21 @@ Config Redactor::redact(Config config) {
     const std::string& host = config.network->listen.host;
     if (host != "0.0.0.0" && host != "::") config.network->listen.host = hide(Kind::host, host);
   }
-  for (const auto& [who, role] : std::exchange(config.access.roles, {})) {
-    const std::string way(way_of(who));
-    config.access.roles[way + hide(Kind::user, who.substr(way.size()))] = role;
-  }
+  const auto hidden = [this](const std::string& caller) {
+    const std::string way(way_of(caller));
+    return way + hide(Kind::user, caller.substr(way.size()));
+  };
+  for (const auto& [who, role] : std::exchange(config.access.roles, {})) config.access.roles[hidden(who)] = role;
   for (DeviceConfig& device : config.devices) {
     device.profile.serial_number = hide(Kind::serial_number, device.profile.serial_number);
     device.record = hide(Kind::path, device.record);
     if (auto* serial = std::get_if<SerialSettings>(&device.connection)) serial->path = hide(Kind::path, serial->path);
     if (auto* tcp = std::get_if<TcpSettings>(&device.connection)) tcp->host = hide(Kind::host, tcp->host);
+    for (shrc203::AxisProfile& axis : device.profile.axes) {
+      for (shrc203::NarrowerLimits& limits : axis.narrower) {
+        if (!role_named(limits.whose)) limits.whose = hidden(limits.whose);
+      }
+    }
   }
   return config;
 }

@@ -55,6 +55,8 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
       return {kRefused, "UNAUTHENTICATED", status.error_message(), ""};
     case grpc::StatusCode::PERMISSION_DENIED:
       return {kRefused, "NOT_ALLOWED", status.error_message(), ""};
+    case grpc::StatusCode::RESOURCE_EXHAUSTED:
+      return {kRefused, "QUEUE_FULL", status.error_message(), ""};
     case grpc::StatusCode::UNIMPLEMENTED:
       return {kRefused, "UNIMPLEMENTED", fmt::format("what answers at {} does not know this call", target),
               "is it axisgated, and of this version?"};

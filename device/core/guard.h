@@ -128,6 +128,15 @@ enum class Guard {
   latch_of_lease,
   latch_without_lease,
   passed_epochs_refused,
+  passed_frames_refused,
+  travel_bounded,
+  speed_bounded,
+  narrower_for_some,
+  home_comes_first,
+  jog_needs_renewal,
+  jog_ends_before_bound,
+  jog_ends_with_its_right,
+  runaways_stopped,
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,

@@ -58,6 +58,7 @@ enum class Reason {
   not_allowed,
   unauthenticated,
   epoch_passed,
+  not_homed,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

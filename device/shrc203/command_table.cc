@@ -18,8 +18,12 @@ constexpr Parameter kUnit{"u", "unit: P pulse, N nm, U um, M mm, D degree", Kind
 constexpr Parameter kLineUnit{"u", "unit: P pulse, N nm, U um, M mm", Kind::choice, "P N U M"};
 constexpr Parameter kCounter{"c", "counter: E scale, C command", Kind::choice, "E C"};
 constexpr Parameter kDistance{"y", "distance", Kind::decimal, {}, 0, 999'999'999, "pulses"};
+constexpr Parameter kCoordinate{"c", "coordinate", Kind::decimal, {}, 0, 999'999'999, "pulses"};
 constexpr Parameter kMinimumSpeed{"spds", "minimum speed S", Kind::decimal, {}, 1, 1'000'000, "pulses/s"};
 constexpr Parameter kMaximumSpeed{"spdf", "maximum speed F", Kind::decimal, {}, 1, 1'000'000, "pulses/s"};
+constexpr Parameter kSpeedUnit{"u", "unit, each per second: F pulse, N nm, U um, M mm, D degree", Kind::choice,
+                               "F N U M D"};
+constexpr Parameter kSpeed{"spd", "speed", Kind::decimal, {}, 1, 1'000'000, "pulses/s"};
 constexpr Parameter kAcceleration{"r", "acceleration and deceleration time R", Kind::integer, {}, 1, 1000, "ms"};
 constexpr Parameter kMethod{"m", "origin return: 0 MARK, 1 MINI, 2 MIDDLE, 3 ORGS, 4 NORMAL", Kind::choice,
                             "0 1 2 3 4"};
@@ -33,10 +37,13 @@ constexpr std::array kUnitAndCounter{kUnit, kCounter};
 constexpr std::array kOriginReturn{kMethod, kAxes};
 constexpr std::array kAmounts{kAxes, kSign, kUnit, kDistance};
 constexpr std::array kAmountsAndSpeeds{kAxes, kSign, kUnit, kDistance, kMinimumSpeed, kMaximumSpeed, kAcceleration};
+constexpr std::array kCoordinates{kAxes, kSign, kUnit, kCoordinate};
 constexpr std::array kLineAmounts{kLineAxes, kSign, kLineUnit, kDistance};
 constexpr std::array kLineAmountsAndSpeed{kLineAxes,     kSign,         kUnit,        kDistance,
                                           kMinimumSpeed, kMaximumSpeed, kAcceleration};
 constexpr std::array kSpeeds{kAxes, kMinimumSpeed, kMaximumSpeed, kAcceleration};
+constexpr std::array kDirections{kAxes, kSign};
+constexpr std::array kSpeedsWithUnit{kAxes, kSpeedUnit, kSpeed};
 constexpr std::array kAxesAndExcitation{kAxes, kExcitation};
 
 constexpr CommandRow question(std::string_view name, std::string_view format, std::string_view description, int section,
@@ -104,6 +111,11 @@ constexpr CommandRow prebuffer(CommandRow row) {
   return row;
 }
 
+constexpr CommandRow shifts_frame(CommandRow row) {
+  row.shifts_frame = true;
+  return row;
+}
+
 constexpr CommandRow completes(CommandRow row) {
   row.completes = true;
   return row;
@@ -157,6 +169,8 @@ constexpr CommandRow kRows[] = {
     any_mode(question("?:CMD", "?:CMD", "the command received before this one", 40, kNone, "echo")),
     question("?:SN", "?:SN", "serial number", 43, kNone, "serial"),
     number_question("?:AXIS", "controllable axes", 44, "number:0:6"),
+    shifts_frame(command("PSET:", "PSET:<a>{<m><u><c>}", "make this the coordinate of where the axis stands", 45,
+                         kCoordinates, Effect::setting, kReady)),
     command("C:", "C:<a><c>", "switch motor excitation", 52, kAxesAndExcitation, Effect::setting, kReady),
     command("BEC:", "BEC:[<a>]", "clear BUSY, limit, overflow and emergency errors", 53, kAxesOnly, Effect::setting,
             kNothing),
@@ -166,6 +180,10 @@ constexpr CommandRow kRows[] = {
     command("Z:", "Z:[<a>]", "return to the logical origin", 61, kAxesOnly, Effect::motion, kReadyExcited),
     completes(command("ZRT:", "ZRT:[<a>]", "return to the logical origin with completions", 62, kAxesOnly,
                       Effect::motion, kReadyExcited)),
+    shifts_frame(command("R:", "R:[<a>]", "set the logical origin: the coordinate becomes 0", 63, kAxesOnly,
+                         Effect::setting, kReadyExcited)),
+    shifts_frame(
+        command("RC:", "RC:[<a>]", "take the logical origin back", 64, kAxesOnly, Effect::setting, kReadyExcited)),
     command("L:", "L:[<a>]", "decelerate and stop", 65, kAxesOnly, Effect::stop, kExcited),
     whole_controller(command("L:E", "L:E", "emergency stop of all axes", 66, kNone, Effect::stop, kNothing)),
     setter("M:", "M:<a>{<m><u><y>}", "set a relative movement", 67, kAmounts, Register::m, kReadyExcited),
@@ -182,7 +200,11 @@ constexpr CommandRow kRows[] = {
         command("G", "G", "start what was set, all controllable axes", 85, kNone, Effect::motion, kReadyExcited))),
     completes(command("G:", "G:[<a>]", "start what was set", 86, kAxesOnly, Effect::motion, kReadyExcited)),
     command("GC:", "GC:[<a>]", "delete what M, A, E and K have set", 87, kAxesOnly, Effect::setting, kReadyExcited),
+    setter("J:", "J:<a>{<m>}", "set a jog: at speed S until it is stopped", 88, kDirections, Register::j,
+           kReadyExcited),
     command("D:", "D:<a>{S<spds>F<spdf>R<r>| }", "set speeds S, F and time R", 89, kSpeeds, Effect::setting, kReady),
+    command("JD:", "JD:<a>{<u><spd>}", "change the speed of a running jog", 93, kSpeedsWithUnit, Effect::setting,
+            kExcited),
     closed(number_question("I:", "general-purpose inputs", 95, "number:0:63")),
 };
 

@@ -70,6 +70,7 @@ struct CommandRow {
   Separation separation = Separation::grammar;
   Needs needs = {};
   Register reg = Register::none;
+  bool shifts_frame = false;  // makes another coordinate of the place where the axis stands
   bool completes = false;     // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
   Duration reply_limit = {};  // zero: the profile's
 

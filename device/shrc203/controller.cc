@@ -34,6 +34,10 @@ std::optional<TimePoint> Controller::Impl::next_deadline() const {
 
 void Controller::Impl::line_connected(const Identity& identity, TimePoint) {
   ++connection_;
+  if (!runaways_.empty() && guarded(Guard::runaways_stopped)) {
+    const RequestContext gateway{.who = "the gateway: a jog ran on while the line was lost"};
+    stop(std::exchange(runaways_, {}), false, gateway, [](const StopReport&) {});
+  }
   executor_.spawn(handshake(identity, connection_));
 }
 
@@ -55,6 +59,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     if (!live->inside_gate) continue;
     live->line_lost = true;
     live->line_problem = why;
+    if (live->jog && live->wrote) runaways_ = runaways_ | live->motion.axes;
     // What it wrote last may have been its start, though no answer has come.
     state_.moving_unknown = state_.moving_unknown || (live->wrote && guarded(Guard::moving_unknown));
     live->news.notify();
@@ -119,15 +124,34 @@ void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, Ti
 
 void Controller::Impl::line_event(const Event& event, TimePoint) { emit(event); }
 
-Result<void> Controller::Impl::may_use(const RequestContext& context, AxisSet axes) {
-  const bool passed = context.device_epoch != 0 && context.device_epoch != state_.device_epoch;
-  if (passed && guarded(Guard::passed_epochs_refused)) {
+Result<void> Controller::Impl::check_epochs(const RequestContext& context) const {
+  const auto passed = [](std::uint64_t meant, std::uint64_t present) { return meant != 0 && meant != present; };
+  if (passed(context.device_epoch, state_.device_epoch) && guarded(Guard::passed_epochs_refused)) {
     return fail(Reason::epoch_passed,
                 fmt::format("the request is of device epoch {}, and this is {}: the controller may have restarted "
                             "meanwhile, and places may be others",
                             context.device_epoch, state_.device_epoch),
                 "look where the axes are, find their origin where it matters, and take the epoch from Device");
   }
+  if (passed(context.frame_epoch, state_.frame_epoch) && guarded(Guard::passed_frames_refused)) {
+    return fail(Reason::epoch_passed,
+                fmt::format("the request is of frame epoch {}, and this is {}: somebody has set coordinates anew (R:, "
+                            "RC:, PSET:), or the controller has restarted",
+                            context.frame_epoch, state_.frame_epoch),
+                "look where the axes are, reckon the targets anew, and take the epoch from Device");
+  }
+  return {};
+}
+
+// The travel limits count from the origin that the axis has found: coordinates set since are from elsewhere.
+void Controller::Impl::frame_shifted(AxisSet axes) {
+  ++state_.frame_epoch;
+  for (const int axis : axes.list()) state_.axis(axis).homed = false;
+  settled_ = false;
+}
+
+Result<void> Controller::Impl::may_use(const RequestContext& context, AxisSet axes) {
+  if (const auto good = check_epochs(context); !good) return good;
   return permission_.may_use({context.who, context.lease, axes, 0}, now_);
 }
 
@@ -208,9 +232,32 @@ void Controller::run_path(PathRequest request, TimePoint now, OnStarted started)
   impl_->at(now, [&] { impl_->run_path(std::move(request), std::move(started)); });
 }
 
+MotionId Controller::jog(JogRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) {
+    started(tl::unexpected(*impl_->ending_));
+    return 0;
+  }
+  MotionId id = 0;
+  impl_->at(now, [&] { id = impl_->jog(std::move(request), std::move(started)); });
+  return id;
+}
+
+Result<void> Controller::renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now) {
+  Result<void> renewed;
+  impl_->at(now, [&] { renewed = impl_->renew_jog(id, speeds); });
+  return renewed;
+}
+
+void Controller::end_jog(MotionId id, std::optional<Problem> why, TimePoint now) {
+  impl_->at(now, [&] {
+    const auto found = impl_->live_.find(id);
+    if (found != impl_->live_.end()) impl_->end_jog(found->second, std::move(why));
+  });
+}
+
 Result<void> Controller::check(const MoveRequest& request) const {
   const auto plan =
-      plan_move(request.moves, request.relative, positions_of(impl_->state_), impl_->profile_, impl_->state_);
+      plan_move(request.moves, request.relative, positions_of(impl_->state_), impl_->envelope(request.context));
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }

@@ -21,10 +21,12 @@ namespace axisgate::shrc203 {
 // wait; it never stops what has started.
 struct RequestContext {
   std::string who;
-  std::string request_id;
+  std::string request_id{};
   TimePoint not_after{};
   std::uint64_t lease = 0;         // its fencing token; 0: none
-  std::uint64_t device_epoch = 0;  // ControllerState::device_epoch that the caller has in mind; 0: any
+  std::uint64_t device_epoch = 0;  // State::device_epoch that the caller has in mind; 0: any
+  std::uint64_t frame_epoch = 0;   // the same of State::frame_epoch
+  std::string role{};              // a word of the configuration, "operator": for the travel envelope
 };
 
 // S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.
@@ -63,6 +65,17 @@ struct Segment {
 struct PathRequest {
   static constexpr std::size_t kSegmentsMax = 100'000;
   std::vector<Segment> segments;
+  RequestContext context;
+};
+
+// Axes that run until they are stopped: J: (manual 88)). The caller says again and again that they shall.
+struct JogRequest {
+  struct Axis {
+    int axis = 0;
+    int direction = 1;              // or -1
+    std::optional<Quantity> speed;  // per second (93) JD:); nothing: S
+  };
+  std::vector<Axis> axes;  // each once
   RequestContext context;
 };
 
@@ -130,6 +143,18 @@ class Controller : public LineMachine {
   void home(HomeRequest request, TimePoint now, OnStarted started);
   void return_to_origin(HomeRequest request, TimePoint now, OnStarted started);
   void run_path(PathRequest request, TimePoint now, OnStarted started);
+
+  // The axes run for as long as renew_jog() comes, at most kJogSilence apart: beyond that, at the end of the caller's
+  // right to them, and before a travel limit they are stopped by L:. Answers as move() does; with the motion's number
+  // at once, 0 where it was refused.
+  static constexpr Duration kJogSilence = std::chrono::milliseconds(500);
+  MotionId jog(JogRequest request, TimePoint now, OnStarted started);
+  // Lets it run on; at other speeds for the axes of `speeds` (directions do not count). unknown_axis, too_fast,
+  // out_of_range, not_found once it has ended.
+  Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now);
+  // Stops it: succeeded where the caller wanted that, else stopped, with the reason.
+  void end_jog(MotionId id, std::optional<Problem> why, TimePoint now);
+
   // The same checks as above, and nothing is sent.
   Result<void> check(const MoveRequest& request) const;
   Result<void> check(const PathRequest& request) const;

@@ -4,7 +4,7 @@
 //   move.cc       set, go, watch                        home.cc     origin returns
 //   path.cc       the double buffer's chain             stop.cc     L: and L:E
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
-//   wind_down.cc  the end
+//   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
 #pragma once
 
 #include <deque>
@@ -22,6 +22,22 @@
 #include "device/shrc203/registers.h"
 
 namespace axisgate::shrc203 {
+
+// What a jog needs besides.
+struct JogKeeping {
+  explicit JogKeeping(Executor& executor) : news(executor) {}
+
+  Signal news;  // a renewal, a new speed, its start, its end
+  TimePoint renewed{};
+  std::uint64_t epoch = 0;              // of the device, when it was asked for
+  std::map<int, int> directions;        // by axis
+  std::map<int, std::int64_t> speeds;   // asked for, by axis; in pulses/s
+  std::map<int, std::int64_t> sent;     // the last that JD: was accepted with
+  std::map<int, std::int64_t> fastest;  // that the axis may run at by now
+  bool ended = false;                   // the gateway stops it, or its caller
+  bool stop_pending = false, speed_pending = false;
+  std::optional<Problem> why;  // of that; nothing: its caller wanted it
+};
 
 // A motion and what its procedure needs to know of it.
 struct LiveMotion {
@@ -52,6 +68,7 @@ struct LiveMotion {
   AxisSet completed;                   // axes whose number has come at least once
   std::function<void(int axis)> on_completion;
   std::function<void()> on_success;  // before the outcome is told
+  std::optional<JogKeeping> jog;
 };
 using LiveMotionPtr = std::shared_ptr<LiveMotion>;
 
@@ -145,6 +162,12 @@ class Controller::Impl : public LineListener {
   using Speeds = std::map<int, SpeedSetting>;  // by axis
   void note_speeds(const Speeds& speeds);
   Speeds known_speeds(AxisSet axes) const;
+  bool speeds_known() const {
+    return known_speeds(state_.controllable()).size() == std::size_t(state_.controllable().count());
+  }
+  void forget_speeds();
+  // Speeds for axes whose own F is more than the caller may run at; none where all are slow enough.
+  Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
   Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
   ExchangeRequest motion_request(const LiveMotion& live, Command command, Lane lane) const;
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
@@ -153,12 +176,26 @@ class Controller::Impl : public LineListener {
   Task<bool> moves_all_the_same(LiveMotionPtr live);
   void home(MotionKind kind, HomeRequest request, OnStarted started);
   Task<void> run_home(LiveMotionPtr live);
+  Task<void> start_home(LiveMotionPtr live);
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
   Task<void> run_path_motion(LiveMotionPtr live, PathRequest request, Register reg);
   // As plan_path, and: the line can feed it.
   Result<PathPlan> plan_feasible_path(const PathRequest& request) const;
+
+  // jog.cc
+  MotionId jog(JogRequest request, OnStarted started);
+  Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds);
+  void end_jog(LiveMotionPtr live, std::optional<Problem> why);
+  Task<void> run_jog(LiveMotionPtr live, JogRequest request);
+  Task<void> start_jog(LiveMotionPtr live, MovePlan slower);
+  Task<void> keep_jog(LiveMotionPtr live);
+  void judge_jog(LiveMotionPtr live);
+  Task<void> change_jog_speeds(LiveMotionPtr live);
+  std::optional<Problem> must_end(const LiveMotion& live);
+  TimePoint next_look(const LiveMotion& live) const;
+  std::optional<TimePoint> stop_before_bound(const LiveMotion& live, int axis) const;
 
   // stop.cc
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);
@@ -182,9 +219,14 @@ class Controller::Impl : public LineListener {
   void stop_at_the_end(bool running_too, std::shared_ptr<WindDownReport> report);
   Task<void> wait_for_rest(TimePoint limit);
 
+  // epoch_passed, where the request was meant for another.
+  Result<void> check_epochs(const RequestContext& context) const;
+  void frame_shifted(AxisSet axes);
   // Whether the caller may use these axes now, before anything is queued.
   Result<void> may_use(const RequestContext& context, AxisSet axes);
   void carry_out_orders();
+
+  Envelope envelope(const RequestContext& context) const { return {profile_, state_, context.who, context.role}; }
 
   TimePoint default_limit(TimePoint asked, Duration otherwise) const {
     return asked == TimePoint{} ? now_ + otherwise : asked;
@@ -210,6 +252,7 @@ class Controller::Impl : public LineListener {
   std::vector<StopJobPtr> stops_;
   Signal wake_poll_;
   Signal tick_;                    // never notified: to wait for a time
+  AxisSet runaways_;               // a jog was running there when the line was lost
   bool settled_ = false;           // the last reading was READY and nothing has happened since
   std::optional<Problem> ending_;  // what is told to everybody who comes too late
 };

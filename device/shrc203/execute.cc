@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
+#include <utility>
+#include <vector>
 
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
@@ -27,7 +30,22 @@ class Transaction {
   Task<bool> send(std::size_t index);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
-  Result<void> check_travel();
+  // Where the axes are and how fast they run when the lines so far have been sent, as far as they tell.
+  struct Forecast {
+    struct Pending {
+      Register reg = Register::none;
+      bool relative = false;
+      bool lasting = false;  // GC: does not delete it
+      std::int64_t amount = 0;
+    };
+    Positions at{};
+    Controller::Impl::Speeds speeds;
+    std::map<int, std::vector<Pending>> pending;  // by axis, what a G would start
+  };
+  Result<void> check_envelope();
+  Result<void> check_speeds(const Command& command, const Envelope& envelope, Forecast& forecast);
+  Result<void> check_motion(const Command& command, const Envelope& envelope, Forecast& forecast);
+  Result<void> check_setting(const Command& command, const Envelope& envelope, Forecast& forecast);
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
 
@@ -47,41 +65,97 @@ void Transaction::end(std::optional<Problem> problem) {
   tell_(event);
 }
 
-Result<void> Transaction::check_travel() {
-  Positions at = positions_of(impl_.state_);
+Result<void> Transaction::check_envelope() {
+  const Envelope envelope = impl_.envelope(request_.context);
+  Forecast forecast{.at = positions_of(impl_.state_), .speeds = impl_.known_speeds(live_->motion.axes), .pending = {}};
   for (const Command& command : commands_) {
-    if (command.row->effect != Effect::motion_setting) continue;
-    const bool relative = command.row->reg != Register::a && command.row->reg != Register::ap;
-    const auto moves = moves_of(command, impl_.state_.controllable());
-    if (moves.empty()) continue;
-    const auto plan = plan_move(moves, relative, at, impl_.profile_, impl_.state_);
-    if (!plan) return tl::unexpected(plan.error());
-    for (const auto& one : plan->axes) at[static_cast<std::size_t>(one.axis - 1)] = one.target;
-    for (auto& result : live_->motion.results) {
-      for (const auto& one : plan->axes) {
-        if (one.axis == result.axis) result.target_pulses = one.target;
-      }
+    Result<void> good = check_speeds(command, envelope, forecast);
+    if (good) good = check_motion(command, envelope, forecast);
+    if (!good) return good;
+  }
+  for (auto& result : live_->motion.results) {
+    result.target_pulses = forecast.at[static_cast<std::size_t>(result.axis - 1)];
+  }
+  return {};
+}
+
+Result<void> Transaction::check_speeds(const Command& command, const Envelope& envelope, Forecast& forecast) {
+  for (const auto& [axis, minimum, maximum] : speeds_of(command, impl_.state_.controllable())) {
+    if (const auto good = envelope.check_axis(axis); !good) return good;
+    const auto lowest = envelope.speed(axis, minimum);
+    if (!lowest) return tl::unexpected(lowest.error());
+    // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
+    const auto highest = envelope.speed(axis, maximum);
+    if (!highest) return tl::unexpected(highest.error());
+    forecast.speeds[axis].minimum = *lowest;
+    forecast.speeds[axis].maximum = *highest;
+  }
+  return {};
+}
+
+// That it may be set or started, and where it ends.
+Result<void> Transaction::check_motion(const Command& command, const Envelope& envelope, Forecast& forecast) {
+  const AxisSet axes = command.axes(impl_.state_.controllable());
+  if (command.row->name == "GC:") {
+    for (const int axis : axes.list()) std::erase_if(forecast.pending[axis], [](const auto& p) { return !p.lasting; });
+  }
+  if (command.row->effect == Effect::motion_setting) return check_setting(command, envelope, forecast);
+  if (!command.row->moves()) return {};
+  for (const int axis : axes.list()) {
+    auto& at = forecast.at[static_cast<std::size_t>(axis - 1)];
+    if (!command.row->name.starts_with("G")) {
+      // The mechanical origin return is how the axis comes to know its places.
+      const bool logical = command.row->name.starts_with("Z");
+      Result<void> good = envelope.check_axis(axis);
+      if (good && logical) good = envelope.check_homed(axis);
+      if (good && logical) good = envelope.check_target(axis, 0);
+      if (good && logical) good = envelope.check_speed(axis, forecast.speeds[axis].maximum);
+      if (!good) return good;
+      at = 0;
+    }
+    // Whether both buffers of one axis run, or which, is an open question: each alone was checked, and both together.
+    for (const auto& pending : std::exchange(forecast.pending[axis], {})) {
+      at = pending.relative ? *at + pending.amount : pending.amount;
+      if (const auto good = envelope.check_target(axis, *at); !good) return good;
     }
   }
-  const bool home = std::ranges::any_of(
-      commands_, [](const Command& command) { return command.row->moves() && !command.row->name.starts_with("G"); });
-  for (auto& result : live_->motion.results) {
-    if (home) result.target_pulses = 0;
-    if (!result.target_pulses) result.target_pulses = impl_.state_.axis(result.axis).position_pulses;
+  return {};
+}
+
+Result<void> Transaction::check_setting(const Command& command, const Envelope& envelope, Forecast& forecast) {
+  const Register reg = command.row->reg;
+  const bool relative = reg != Register::a && reg != Register::ap;
+  const bool line = reg == Register::k || reg == Register::kp;
+  const auto moves = moves_of(command, impl_.state_.controllable());
+  const auto plan = moves.empty() ? MovePlan{} : plan_move(moves, relative, forecast.at, envelope);
+  if (!plan) return tl::unexpected(plan.error());
+  for (const auto& one : plan->axes) {
+    if (!one.target) {
+      return fail_on(one.axis, Reason::position_unknown,
+                     fmt::format("where {} stands is not known", envelope.label(one.axis)),
+                     "wait until the device is up");
+    }
+    const SpeedSetting& speed = forecast.speeds[line ? plan->axes.front().axis : one.axis];
+    if (const auto good = envelope.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
+    auto& pending = forecast.pending[one.axis];
+    std::erase_if(pending, [reg](const auto& before) { return before.reg == reg; });
+    const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
+    pending.push_back({reg, relative, lasting, one.amount});
   }
   return {};
 }
 
 Task<Result<void>> Transaction::begin() {
   auto ready = co_await impl_.enter_gate(live_, completes(commands_));
-  if (!ready || live_->motion.axes.empty()) co_return ready;
+  if (!ready) co_return ready;
+  if (live_->motion.axes.empty()) co_return check_envelope();
   Register reg = Register::none;
   for (const Command& command : commands_) {
     if (command.row->reg != Register::none) reg = command.row->reg;
   }
   ready = co_await impl_.prepare(live_, reg);
   if (!ready) co_return ready;
-  co_return check_travel();
+  co_return check_envelope();
 }
 
 ExchangeRequest Transaction::request_for(const Command& command) {
@@ -154,6 +228,9 @@ Task<bool> Transaction::send(std::size_t index) {
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
+  if (!speeds_of(command, AxisSet::all()).empty()) impl_.forget_speeds();
+  // Also where the answer was lost: it may have been taken.
+  if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
   if (result.problem) {
     end(result.problem);
     co_return false;
@@ -212,9 +289,11 @@ Task<void> Transaction::run() {
   if (guarded(Guard::registers_unknown_after_transaction)) impl_.registers_.forget();
   if (started_ || start_in_doubt_) {
     co_await impl_.watch(live_, start_in_doubt_);
+    if (!impl_.speeds_known()) co_await impl_.read_speeds(request_.context.who);
   } else {
     auto reread = co_await impl_.read_speeds(request_.context.who);
     if (reread) reread = co_await impl_.read_excitation(request_.context.who);
+    if (reread) reread = co_await impl_.read_positions(Lane::motion, request_.context.who);
     impl_.end_motion(live_, all && reread ? MotionState::succeeded : MotionState::failed, {});
   }
   if (wait) end(live_->motion.state == MotionState::succeeded ? std::nullopt : live_->motion.problem);

@@ -52,7 +52,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
     co_return;
   }
   if (++state_.device_epoch > 1) permission_.device_restarted(now_);
-  for (auto& axis : state_.axes) axis.homed = false;
+  frame_shifted(AxisSet::all());
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   unit_ = state_.serial_number;
   state_.link = LinkState::up;

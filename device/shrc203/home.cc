@@ -16,6 +16,14 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
                  "see `axisctl status`"));
     return;
   }
+  for (const int axis : axes.list()) {
+    if (kind != MotionKind::return_to_origin) break;
+    const Envelope limits = envelope(request.context);
+    auto good = limits.check_axis(axis);
+    if (good) good = limits.check_homed(axis);
+    if (good) good = limits.check_target(axis, 0);
+    if (!good) return started(tl::unexpected(good.error()));
+  }
   if (const auto allowed = may_use(request.context, axes); !allowed) {
     started(tl::unexpected(allowed.error()));
     return;
@@ -43,6 +51,26 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   }
   const bool mechanical = live->motion.kind == MotionKind::home;
   for (auto& result : live->motion.results) result.target_pulses = 0;
+  // Back to the logical origin the axes run at F of D:.
+  const Speeds before = known_speeds(live->motion.axes);
+  const auto slower = mechanical ? MovePlan{} : slowed_down(live->motion.axes, envelope(live->context));
+  ready = slower ? Result<void>() : tl::unexpected(slower.error());
+  if (slower && !slower->axes.empty()) {
+    live->keeps_gate = true;
+    ready = co_await set_speeds(live, *slower);
+    if (ready) note_speeds(speeds_of(*slower));
+  }
+  if (!ready) {
+    end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, ready.error());
+    co_await restore_speeds(live, before);
+    co_return;
+  }
+  co_await start_home(live);
+  co_await restore_speeds(live, before);
+}
+
+Task<void> Controller::Impl::start_home(LiveMotionPtr live) {
+  const bool mechanical = live->motion.kind == MotionKind::home;
   auto request = motion_request(*live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes), Lane::motion);
   request.completes = live->motion.axes;
   live->wrote = true;

@@ -14,6 +14,8 @@ std::string_view name(MotionKind kind) {
       return "path";
     case MotionKind::execute:
       return "execute";
+    case MotionKind::jog:
+      return "jog";
   }
   return "unspecified";
 }

@@ -14,7 +14,7 @@ namespace axisgate::shrc203 {
 
 using MotionId = std::uint64_t;  // 0 is none; counts from 1 as long as the daemon runs
 
-enum class MotionKind { move, home, return_to_origin, path, execute };
+enum class MotionKind { move, home, return_to_origin, path, execute, jog };
 
 // queued: accepted, its starting line not yet written. running: the controller accepted the start.
 // An outcome is one of the last four, and unknown is said when it is so.
@@ -44,7 +44,7 @@ struct Motion {
   int underruns = 0;
 };
 
-std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute"
+std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog"
 std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...
 
 }  // namespace axisgate::shrc203

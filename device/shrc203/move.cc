@@ -1,6 +1,8 @@
 // Moves: set, go, watch. Set and go are one step; nothing is ever sent twice that could move the stage.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 
@@ -15,14 +17,6 @@ bool any_speed(const MovePlan& plan) {
     if (axis.speed) return true;
   }
   return false;
-}
-
-std::map<int, SpeedSetting> speeds_of(const MovePlan& plan) {
-  std::map<int, SpeedSetting> speeds;
-  for (const auto& axis : plan.axes) {
-    if (axis.speed) speeds[axis.axis] = *axis.speed;
-  }
-  return speeds;
 }
 
 // MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
@@ -67,7 +61,7 @@ std::string_view question_of(Register reg) {
 
 void Controller::Impl::move(MoveRequest request, OnStarted started) {
   const auto plan = plan_move(request.moves, request.relative, anything_moves() ? Positions{} : positions_of(state_),
-                              profile_, state_);
+                              envelope(request.context));
   if (!plan) {
     started(tl::unexpected(plan.error()));
     return;
@@ -98,12 +92,24 @@ Task<void> Controller::Impl::run_move(LiveMotionPtr live, MoveRequest request) {
                ready.error());
     co_return;
   }
-  const auto plan = plan_move(request.moves, request.relative, positions_of(state_), profile_, state_);
+  const auto plan = plan_move(request.moves, request.relative, positions_of(state_), envelope(request.context));
   if (!plan) {
     end_motion(live, MotionState::failed, plan.error());
     co_return;
   }
-  for (std::size_t i = 0; i < plan->axes.size(); ++i) live->motion.results[i].target_pulses = plan->axes[i].target;
+  for (std::size_t i = 0; i < plan->axes.size(); ++i) {
+    const AxisPlan& one = plan->axes[i];
+    live->motion.results[i].target_pulses = one.target;
+    if (one.target) continue;
+    end_motion(live, MotionState::failed,
+               Problem{Reason::position_unknown,
+                       fmt::format("where axis {} stands is not known", one.axis),
+                       "wait until the device is up",
+                       one.axis,
+                       {},
+                       {}});
+    co_return;
+  }
   const Speeds before = known_speeds(plan->set());
   live->keeps_gate = any_speed(*plan);
   co_await set_go_watch(live, *plan, by_prebuffer);
@@ -181,6 +187,21 @@ Controller::Impl::Speeds Controller::Impl::known_speeds(AxisSet axes) const {
     speeds[number] = {*axis.minimum_speed, *axis.maximum_speed, *axis.acceleration_ms};
   }
   return speeds;
+}
+
+void Controller::Impl::forget_speeds() {
+  for (auto& axis : state_.axes) axis.minimum_speed = axis.maximum_speed = std::nullopt;
+}
+
+Result<MovePlan> Controller::Impl::slowed_down(AxisSet axes, const Envelope& limits) const {
+  MovePlan slower;
+  for (const auto& [axis, own] : known_speeds(axes)) {
+    const auto cap = limits.speed_cap(axis);
+    if (!cap) return tl::unexpected(cap.error());
+    if (!*cap || own.maximum <= **cap) continue;
+    slower.axes.push_back({axis, 0, {}, SpeedSetting{std::min(own.minimum, **cap), **cap, own.acceleration_ms}});
+  }
+  return slower;
 }
 
 // A speed is asked for one motion, but the controller keeps it (manual 68)): the next user gets back what was set

@@ -305,7 +305,7 @@ Task<void> PathRun::resume_from_ready() {
 
 // Where the axes and their speeds are known, which they are not always before the gate has been passed.
 Result<PathPlan> Controller::Impl::plan_feasible_path(const PathRequest& request) const {
-  auto plan = plan_path(request, positions_of(state_), profile_, state_);
+  auto plan = plan_path(request, positions_of(state_), envelope(request.context));
   if (!plan || !known_speeds(AxisSet::of(plan->axes.lowest())).contains(plan->axes.lowest())) return plan;
   const auto feasible = check_feeding(*plan, line_.pace());
   if (!feasible) return tl::unexpected(feasible.error());

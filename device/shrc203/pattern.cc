@@ -90,10 +90,14 @@ Result<void> check_value(const CommandRow& row, const Parameter& parameter, std:
   std::abort();
 }
 
+// P of a distance, F of a speed (manual 67), 93)).
+bool counts_pulses(std::string_view unit) { return unit == "P" || unit == "F"; }
+
 // Decimals have the range of their parameter only while they count pulses; S may not exceed F in any unit.
 Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
   bool in_pulses = true;
-  for (const auto& [letter, value] : arguments.values()) in_pulses = in_pulses && !(letter == "u" && value != "P");
+  for (const auto& [letter, value] : arguments.values())
+    in_pulses = in_pulses && (letter != "u" || counts_pulses(value));
   std::string minimum_speed;
   for (const auto& [letter, value] : arguments.values()) {
     const Parameter* parameter = find_parameter(row, letter);

@@ -2,12 +2,13 @@
 #pragma once
 
 #include <array>
+#include <map>
 #include <optional>
 #include <vector>
 
 #include "device/core/problem.h"
 #include "device/shrc203/controller.h"
-#include "device/shrc203/profile.h"
+#include "device/shrc203/envelope.h"
 #include "device/shrc203/reply.h"
 #include "device/shrc203/state.h"
 
@@ -26,14 +27,17 @@ struct MovePlan {
   AxisSet set() const;
 };
 
+// The speeds to be sent with it, by axis.
+std::map<int, SpeedSetting> speeds_of(const MovePlan& plan);
+
 // Where the axes stand when the motion begins; nothing for an axis that nobody knows.
 using Positions = std::array<std::optional<std::int64_t>, kAxisCount>;
 Positions positions_of(const State& state);
 
-// unknown_axis, unknown_unit, not_representable, out_of_range, outside_travel, too_fast, invalid_request. Where `from`
-// does not know an axis, its relative way is not checked against the travel limits.
+// What the envelope refuses, not_representable, out_of_range, invalid_request. Where `from` does not know an axis, its
+// relative way is not checked against the travel limits.
 Result<MovePlan> plan_move(const std::vector<AxisMove>& moves, bool relative, const Positions& from,
-                           const Profile& profile, const State& state);
+                           const Envelope& envelope);
 
 struct SegmentPlan {
   MovePlan move;
@@ -52,7 +56,6 @@ struct PathPlan {
 
 // As plan_move, and: the same axes in every segment, straight lines relative and of axes of one scale, no segment
 // without any way. Every axis of the path must be known in `from`.
-Result<PathPlan> plan_path(const PathRequest& request, const Positions& from, const Profile& profile,
-                           const State& state);
+Result<PathPlan> plan_path(const PathRequest& request, const Positions& from, const Envelope& envelope);
 
 }  // namespace axisgate::shrc203

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/core/quantity.h"
 #include "device/core/time.h"
@@ -11,12 +12,23 @@
 
 namespace axisgate::shrc203 {
 
-struct AxisProfile {
-  std::string name;                        // shown beside the number; may be empty
-  Unit unit = Unit::micrometers;           // how positions are shown, and what a bare number in a request means
-  std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame; checked before anything is sent
+// How far and how fast an axis may be moved; checked before anything is sent (envelope.h).
+struct AxisLimits {
+  std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame
   std::optional<Quantity> travel_maximum;
   std::optional<Quantity> maximum_speed;  // per second
+  bool home_first = false;                // no other motion before it has found its origin
+};
+
+// For some callers it is less. What is left out, or wider than everybody's, changes nothing.
+struct NarrowerLimits : AxisLimits {
+  std::string whose;  // a role, "operator", or a caller, "token student"
+};
+
+struct AxisProfile : AxisLimits {
+  std::string name;               // shown beside the number; may be empty
+  Unit unit = Unit::micrometers;  // how positions are shown, and what a bare number in a request means
+  std::vector<NarrowerLimits> narrower;
 };
 
 // How far one axis's business concerns the others, where the manual does not say (device/shrc203/README.md).

@@ -114,6 +114,27 @@ std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet cont
   return parse_integer(reply.fields[*place]);
 }
 
+namespace {
+
+// ?:J tells the sign of each axis (manual 31)).
+Held held_jog(const Reply& reply, const Command& setter, AxisSet controllable) {
+  std::vector<std::string> wanted;
+  for (const auto& [letter, value] : setter.arguments.values()) {
+    if (letter == "m") wanted.push_back(value);
+  }
+  bool all = true, none = true;
+  std::size_t next = 0;
+  for (const int axis : setter.axes(controllable).list()) {
+    const auto place = field_of(reply, axis, controllable);
+    const std::string field = place ? reply.fields[*place] : "";
+    all = all && field == wanted[next++];
+    none = none && field == "NS";
+  }
+  return all ? Held::as_set : none ? Held::nothing : Held::other;
+}
+
+}  // namespace
+
 Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
   std::vector<std::int64_t> wanted;
   for (const auto& [letter, value] : setter.arguments.values()) {
@@ -122,6 +143,7 @@ Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
   }
   std::size_t next = 0;
   bool all = true, none = true;
+  if (setter.row->reg == Register::j) return held_jog(reply, setter, controllable);
   const bool shared = setter.row->reg == Register::kp;
   if (shared && reply.text == "NS") return Held::nothing;
   const AxisSet axes = setter.axes(controllable);

@@ -37,7 +37,7 @@ struct AxisState {
   std::optional<std::int64_t> position_pulses;  // command counter, as last read
   std::optional<bool> busy;
   std::optional<bool> excited;
-  bool homed = false;  // by this gateway since the device epoch began
+  bool homed = false;  // by this gateway since the device epoch began, and no coordinate was set since
   AxisStatusBits status;
   std::optional<Scale> scale;
   std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses per second, as last read or set
@@ -50,6 +50,7 @@ struct State {
   std::string vendor, model, serial_number, firmware;
   std::string mode, format;
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
+  std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set anew: R: RC: PSET:
   std::array<AxisState, kAxisCount> axes;
   bool moving_unknown = false;  // the line was lost while something moved and nothing was read since
   TimePoint read{};             // when the positions were last read

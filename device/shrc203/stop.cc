@@ -54,6 +54,7 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
     stopped.push_back(id);
     if (live->motion.state == MotionState::running) set_state(*live, MotionState::stopping);
     live->news.notify();
+    if (live->jog) live->jog->news.notify();
   }
   const auto is_stopped = [&stopped](MotionId id) { return std::ranges::find(stopped, id) != stopped.end(); };
   const Problem problem{Reason::stopped,

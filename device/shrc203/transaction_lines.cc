@@ -13,9 +13,20 @@ constexpr std::size_t kLinesMax = 100;
 
 // A motion setting left without a start would run on somebody else's; a start without one would run what is there.
 Result<void> check_transaction(const std::vector<Command>& commands) {
+  const auto any = [&](auto of) { return std::ranges::any_of(commands, of); };
+  const bool frame = any([](const Command& c) { return c.row->shifts_frame; });
+  if (frame && any([](const Command& c) { return c.row->moves() || c.row->effect == Effect::motion_setting; })) {
+    return fail(Reason::invalid_request,
+                "coordinates are set anew in the lines that move, so that where they would lead is not certain",
+                "send R:, RC: or PSET: by itself, and the motion after it");
+  }
   bool set = false;
   for (const Command& command : commands) {
     const auto& row = *command.row;
+    if (row.name == "J:" || row.name == "JD:") {
+      return fail(Reason::invalid_request, fmt::format("{} is for a jog, which runs until somebody stops it", row.name),
+                  "use `axisctl jog` or the method Jog, under which an axis stops when its caller falls silent");
+    }
     if (row.effect == Effect::motion_setting) set = true;
     const bool is_start = row.name == "G" || row.name == "G:";
     if (row.effect == Effect::stop && commands.size() > 1) {
@@ -101,6 +112,21 @@ std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
     moves.push_back({axes[moves.size()], {amount, unit}, {}});
   }
   return moves;
+}
+
+std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable) {
+  std::vector<AxisSpeeds> speeds;
+  std::vector<Unit> units;  // of the ways, in the order of the axes: speeds are in the same
+  const auto axes = command.axes(controllable).list();
+  for (const auto& [letter, value] : command.arguments.values()) {
+    if (letter == "u") units.push_back(unit_of(value));
+    if (letter == "spds" && speeds.size() < axes.size()) {
+      const Unit unit = speeds.size() < units.size() ? units[speeds.size()] : Unit::pulses;
+      speeds.push_back({axes[speeds.size()], {*parse_decimal(value), unit}, {{}, unit}});
+    }
+    if (letter == "spdf" && !speeds.empty()) speeds.back().maximum.value = *parse_decimal(value);
+  }
+  return speeds;
 }
 
 AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable) {

@@ -30,6 +30,13 @@ bool completes(const std::vector<Command>& commands);
 // The ways or targets that a setter names, as a request of ours, for the same checks of travel.
 std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable);
 
+struct AxisSpeeds {
+  int axis = 0;
+  Quantity minimum, maximum;  // S and F, per second
+};
+// The speeds that a line sets: of each axis, or of a straight line's lower one (manual 68), 84), 89)).
+std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable);
+
 // The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
 Command as_sent(const Command& command);
 

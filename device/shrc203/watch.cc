@@ -90,7 +90,9 @@ Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuff
   const Use use{live->context.who, live->context.lease, live->uses, live->motion.id};
   const auto allowed = permission_.may_use(use, now_);
   if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
+  const auto meant = check_epochs(live->context);
   permission_.begin(use, now_);
+  if (!meant) co_return meant;
   if (live->stop_requested && guarded(Guard::stop_before_preparing)) {
     co_return fail(Reason::stopped, "a stop by " + live->stopped_by + " came before the motion was sent");
   }
@@ -140,9 +142,10 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
 Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Register reg) {
   const auto read = co_await read_registers(live->context.who);
   if (!read) co_return read;
-  if (guarded(Guard::left_overs_deleted) && !registers_.clearable().empty()) {
+  const AxisSet deletable = registers_.clearable() | registers_.set_in(Register::j);
+  if (guarded(Guard::left_overs_deleted) && !deletable.empty()) {
     ExchangeRequest request;
-    request.command = make_command("GC:", registers_.clearable() & state_.controllable());
+    request.command = make_command("GC:", deletable & state_.controllable());
     request.lane = Lane::motion;
     request.caller = live->context.who;
     request.not_after = now_ + kStepLimit;
@@ -156,6 +159,11 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
                      "see that all motors are excited and nothing moves, then try again");
     }
     registers_.cleared(AxisSet::all());
+    if (!registers_.set_in(Register::j).empty()) {
+      // 87) does not name J: among what it deletes.
+      const auto left = co_await read_registers(live->context.who);
+      if (!left) co_return left;
+    }
   }
   AxisSet lasting;
   for (const Register kept :
@@ -299,6 +307,8 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
                        {},
                        {},
                        {}});
+  } else if (live->jog && live->jog->ended && !error) {
+    judge_jog(live);
   } else if (live->stop_requested) {
     end_motion(live, MotionState::stopped, Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}});
   } else {

@@ -26,6 +26,7 @@ Task<void> Controller::Impl::wind_down(OnWoundDown done) {
   gate_.withdraw([](MotionId) { return true; }, *ending_);
   if (profile_.at_exit == AtExit::finish) {
     stop_at_the_end(false, report);
+    for (const auto& [id, live] : live_) end_jog(live, ending_);  // it never ends by itself
     co_await wait_for_rest(now_ + kFinishLimit);
   }
   stop_at_the_end(true, report);

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <utility>
 
+#include "server/connections/callers.h"
+
 namespace axisgate::server {
 namespace {
 
@@ -34,7 +36,7 @@ Acceptor::Acceptor(Strand strand, ConnectionLimits limits, OnConnection on_conne
       limits_(limits),
       on_connection_(std::move(on_connection)),
       accept_(std::move(accept)),
-      open_(limits.open),
+      open_(limits.open, limits.of_one),
       reserve_(limits.reserve),
       timer_(strand_) {}
 
@@ -79,8 +81,7 @@ Acceptor::Next Acceptor::accept_one(Listener& listener) {
   Descriptor connection(accept_(listener.socket.native_handle()));
   const int error = errno;
   if (connection.valid()) {
-    open_.add(connection.get());
-    hand_over(std::move(connection), Service::all, listener.origin);
+    take_in(std::move(connection), listener.origin);
     return Next::wait;
   }
   if (is_out_of_descriptors(error)) return accept_out_of_descriptors(listener, error);
@@ -102,13 +103,31 @@ Acceptor::Next Acceptor::accept_reserved(Listener& listener) {
   displaced_ = reserve_.displaced();
   Descriptor connection(accept_(listener.socket.native_handle()));
   const int error = connection.valid() ? 0 : errno;
-  if (connection.valid()) {
-    reserve_.keep(connection.get());
-    in_reserve_ = reserve_.connections();
-    ++reserved_;
-    hand_over(std::move(connection), Service::stop_only, listener.origin);
-  }
+  if (connection.valid()) take_into_reserve(std::move(connection), listener.origin);
   return error == 0 || is_passing(error) ? Next::wait : Next::pause;
+}
+
+void Acceptor::take_in(Descriptor connection, Origin origin) {
+  std::string owner = connection_owner(connection.get());
+  if (open_.has_room_for(owner)) {
+    open_.add(connection.get(), std::move(owner));
+    hand_over(std::move(connection), Service::all, origin);
+    return;
+  }
+  warn_seldom(fmt::format("{} has as many connections open as one caller may: {}", owner, limits_.of_one));
+  look_again_later();
+  // There is one: the reserve was full of spare descriptors before this connection was accepted.
+  reserve_.open_place();
+  displaced_ = reserve_.displaced();
+  take_into_reserve(std::move(connection), origin);
+}
+
+// Into a place that was opened for it.
+void Acceptor::take_into_reserve(Descriptor connection, Origin origin) {
+  reserve_.keep(connection.get());
+  in_reserve_ = reserve_.connections();
+  ++reserved_;
+  hand_over(std::move(connection), Service::stop_only, origin);
 }
 
 void Acceptor::hand_over(Descriptor connection, Service service, Origin origin) {

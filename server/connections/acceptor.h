@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ namespace axisgate::server {
 
 struct ConnectionLimits {
   std::size_t open = 0;     // at once, those in the reserve not counted
-  std::size_t reserve = 8;  // beyond that, or without free descriptors; 1 at least
+  std::size_t reserve = 8;  // beyond that or the next, or without free descriptors; 1 at least
+  std::size_t of_one = std::numeric_limits<std::size_t>::max();  // of the open ones, of one owner (callers.h)
 };
 
 struct ConnectionCounts {
@@ -63,6 +65,8 @@ class Acceptor {
   Next accept_one(Listener& listener);
   Next accept_out_of_descriptors(Listener& listener, int error);
   Next accept_reserved(Listener& listener);
+  void take_in(Descriptor connection, Origin origin);
+  void take_into_reserve(Descriptor connection, Origin origin);
   void hand_over(Descriptor connection, Service service, Origin origin);
   void warn_seldom(const std::string& what);
   void look_again_later();

@@ -1,6 +1,7 @@
 #include "server/connections/callers.h"
 
 #include <fmt/format.h>
+#include <netdb.h>
 #include <pwd.h>
 #include <sys/socket.h>
 
@@ -37,6 +38,20 @@ std::optional<uid_t> peer_uid(int connection) {
   size = sizeof(peer);
   if (::getsockopt(connection, SOL_SOCKET, SO_PEERCRED, &peer, &size) != 0) return std::nullopt;
   return peer.uid;
+}
+
+std::string connection_owner(int connection) {
+  if (const std::optional<uid_t> user = peer_uid(connection)) return fmt::format("uid {}", *user);
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  std::array<char, NI_MAXHOST> host{};
+  const auto* generic = reinterpret_cast<const sockaddr*>(&address);
+  if (::getpeername(connection, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+      ::getnameinfo(generic, size, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST) != 0) {
+    return "nobody";  // who has gone again already
+  }
+  const std::string text = host.data();
+  return text.starts_with("127.") ? "127.0.0.1" : text;
 }
 
 std::string caller_name(uid_t uid) {

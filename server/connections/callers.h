@@ -1,4 +1,4 @@
-// Who is at the other end of a Unix socket: the kernel knows.
+// Who is at the other end of a connection, before anything has been said: the kernel knows.
 #pragma once
 
 #include <sys/types.h>
@@ -12,6 +12,10 @@ namespace axisgate::server {
 
 // The user who connected; none for a TCP connection.
 std::optional<uid_t> peer_uid(int connection);
+
+// Whose connection that is, as far as limits go: "uid 1000", or the machine's address, "192.168.0.7". Whoever calls
+// over loopback is one, since he may choose among 16 million addresses.
+std::string connection_owner(int connection);
 
 // "unix alice", after the machine's own /etc/passwd, or "unix uid 1234". Directories over the network are not asked:
 // a stop would wait for them.

@@ -2,6 +2,9 @@
 
 #include <sys/stat.h>
 
+#include <algorithm>
+#include <utility>
+
 namespace axisgate::server {
 namespace {
 
@@ -19,10 +22,21 @@ bool OpenConnections::has_room() {
   return connections_.size() < limit_;
 }
 
-void OpenConnections::add(int descriptor) {
+bool OpenConnections::has_room_for(const std::string& owner) {
+  const std::lock_guard lock(mutex_);
+  const auto of_owner = [&] {
+    const auto count = std::ranges::count(connections_, owner, &Connection::owner);
+    return static_cast<std::size_t>(count);
+  };
+  if (of_owner() < limit_of_one_) return true;
+  forget_closed();
+  return of_owner() < limit_of_one_;
+}
+
+void OpenConnections::add(int descriptor, std::string owner) {
   const ino_t inode = socket_inode(descriptor);
   const std::lock_guard lock(mutex_);
-  connections_.push_back({descriptor, inode});
+  connections_.push_back({descriptor, inode, std::move(owner)});
 }
 
 std::size_t OpenConnections::count() {

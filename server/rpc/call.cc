@@ -47,7 +47,12 @@ Result<shrc203::RequestContext> context_until(const grpc::CallbackServerContext&
   }
   TimePoint until = not_after(context).value_or(otherwise);
   if (const auto deadline = call_deadline(call)) until = std::min(until, *deadline);
-  return shrc203::RequestContext{caller(call), id, until, context.lease_token(), context.device_epoch()};
+  return shrc203::RequestContext{.who = caller(call),
+                                 .request_id = id,
+                                 .not_after = until,
+                                 .lease = context.lease_token(),
+                                 .device_epoch = context.device_epoch(),
+                                 .frame_epoch = context.frame_epoch()};
 }
 
 }  // namespace
@@ -95,9 +100,13 @@ Result<shrc203::Motion> find_motion(const shrc203::Controller& controller, shrc2
                           shrc203::Controller::kMotionsKept));
 }
 
-Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call,
-                                               const api::CallContext& context) {
-  return context_until(call, context, monotonic_now() + kMotionPatience);
+Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
+                                               const server::Access& access) {
+  auto asked = context_until(call, context, monotonic_now() + kMotionPatience);
+  const Result<std::string> role = role_of(call, access);
+  if (!role) return tl::unexpected(role.error());
+  if (asked) asked->role = *role;
+  return asked;
 }
 
 Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerContext& call,
@@ -113,7 +122,7 @@ shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, co
 }
 
 shrc203::RequestContext question_context(const grpc::CallbackServerContext& call) {
-  return {caller(call), "", call_deadline(call).value_or(monotonic_now() + kPatience), 0, 0};
+  return {.who = caller(call), .not_after = call_deadline(call).value_or(monotonic_now() + kPatience)};
 }
 
 }  // namespace axisgate::rpc

@@ -9,6 +9,7 @@
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
 #include "device/shrc203/controller.h"
+#include "server/access/access.h"
 #include "server/gateway.h"
 
 namespace axisgate::rpc {
@@ -35,8 +36,8 @@ Result<shrc203::Motion> find_motion(const shrc203::Controller& controller, shrc2
 // All end at the call's own gRPC deadline at the latest.
 //
 // A motion may start until its not_after; without one, for 5 s.
-Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call,
-                                               const api::CallContext& context);
+Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
+                                               const server::Access& access);
 // Any other request that changes something counts until its not_after; without one, for 20 s or, with a gRPC deadline,
 // until that.
 Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerContext& call,

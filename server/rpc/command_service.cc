@@ -116,6 +116,11 @@ grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::Ca
   const Result<Duration> timeout = timeout_of(*request);
   if (!timeout) return new Ended(timeout.error());
   Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  if (const auto role = role_of(*context, access_); asked && role) {
+    asked->role = *role;
+  } else if (asked) {
+    asked = tl::unexpected(role.error());
+  }
   if (!asked) return new Ended(asked.error());
   if (!request->context().has_not_after()) asked->not_after = monotonic_now() + *timeout;
   shrc203::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};

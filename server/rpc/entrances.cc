@@ -5,13 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "server/rpc/gatekeeper.h"
 #include "server/rpc/network_credentials.h"
 
 namespace axisgate::rpc {
 namespace {
 
-using server::Access;
 using server::Caller;
 using Credentials = std::shared_ptr<grpc::ServerCredentials>;
 
@@ -19,26 +17,25 @@ using Credentials = std::shared_ptr<grpc::ServerCredentials>;
 Credentials local(grpc_local_connect_type type) { return grpc::experimental::LocalServerCredentials(type); }
 
 std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(grpc::ServerBuilder& builder,
-                                                                    const Credentials& credentials,
-                                                                    const Access& access, Gatekeeper::Name name,
-                                                                    Caller unnamed) {
+                                                                    const Credentials& credentials, const Gate& gate,
+                                                                    Gatekeeper::Name name, Caller unnamed) {
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
-  credentials->SetAuthMetadataProcessor(std::make_shared<Gatekeeper>(access, std::move(name), std::move(unnamed)));
+  credentials->SetAuthMetadataProcessor(std::make_shared<Gatekeeper>(gate, std::move(name), std::move(unnamed)));
   return builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, credentials);
 }
 
 }  // namespace
 
-Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Access& access,
+Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
                      const std::optional<server::NetworkConfig>& network) {
   const auto nobody_known = [](const grpc::AuthContext&) { return std::optional<std::string>(); };
-  loopback_ = add(builder, local(LOCAL_TCP), access, nobody_known, access.without_token("a caller over TCP"));
+  loopback_ = add(builder, local(LOCAL_TCP), gate, nobody_known, gate.access.without_token(kNameless));
   for (std::size_t slot = 0; slot < callers.size(); ++slot) {
     const auto user = [name = &callers.name(slot)](const grpc::AuthContext&) { return std::optional(*name); };
-    unix_.push_back(add(builder, local(UDS), access, user, {}));
+    unix_.push_back(add(builder, local(UDS), gate, user, {}));
   }
   if (!network) return;
-  network_ = add(builder, network_credentials(*network), access, name_in_certificate,
+  network_ = add(builder, network_credentials(*network), gate, name_in_certificate,
                  {"a caller over the network without a certificate", server::Role::nobody});
 }
 

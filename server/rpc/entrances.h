@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "device/link/descriptor.h"
-#include "server/access/access.h"
 #include "server/config.h"
 #include "server/connections/acceptor.h"
 #include "server/connections/callers.h"
+#include "server/rpc/gatekeeper.h"
 
 namespace axisgate::rpc {
 
@@ -20,8 +20,8 @@ namespace axisgate::rpc {
 // that accepts.
 class Entrances {
  public:
-  // Adds them to what `builder` builds. `callers` and `access` outlive that server.
-  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const server::Access& access,
+  // Adds them to what `builder` builds. `callers` and what `gate` names outlive that server.
+  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
             const std::optional<server::NetworkConfig>& network);
 
   // The connection is gRPC's from here on; `slot` is the Unix caller's. Before the server has started, or once it has

@@ -46,9 +46,16 @@ std::string from_where(const grpc::CallbackServerContext& call) {
   return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
 }
 
-std::string user_of(const grpc::CallbackServerContext& call) {
+// Whom the connection told of; none: nobody.
+std::optional<std::string> named_user(const grpc::ServerContextBase& call) {
   const std::vector<grpc::string_ref> users = call.auth_context()->FindPropertyValues(kUser);
-  return users.empty() ? from_where(call) : std::string(users.front().data(), users.front().size());
+  if (users.empty()) return std::nullopt;
+  return std::string(users.front().data(), users.front().size());
+}
+
+std::string user_of(const grpc::CallbackServerContext& call) {
+  const std::optional<std::string> user = named_user(call);
+  return user ? *user : from_where(call);
 }
 
 grpc::Status refuse(grpc::StatusCode code, const std::string& message, const std::string& hint) {
@@ -66,30 +73,52 @@ Caller Gatekeeper::without_token(grpc::AuthContext& connection) {
     const std::lock_guard lock(mutex_);
     if (connection.FindPropertyValues(kUser).empty()) connection.AddProperty(kUser, *who);
   }
-  return access_.without_token(*who);
+  return gate_.access.without_token(*who);
 }
 
 grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContext* connection, OutputMetadata*,
                                  OutputMetadata*) {
+  const grpc::Status answer = judge(metadata, *connection);
+  if (!answer.ok()) gate_.metrics.count_refusal(answer.error_code());
+  return answer;
+}
+
+grpc::Status Gatekeeper::judge(const InputMetadata& metadata, grpc::AuthContext& connection) {
   const std::optional<std::string_view> token = token_in(find(metadata, kAuthorization));
-  const Result<Caller> caller = token ? access_.by_token(*token, server::calendar_now()) : without_token(*connection);
+  const Result<Caller> caller =
+      token ? gate_.access.by_token(*token, server::calendar_now()) : without_token(connection);
   if (!caller) return refuse(grpc::StatusCode::UNAUTHENTICATED, caller.error().message, caller.error().hint);
   if (caller->role == Role::nobody) {
     return refuse(grpc::StatusCode::UNAUTHENTICATED, fmt::format("{} needs a token here", caller->who),
                   "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
   }
   const std::string_view method = find(metadata, kMethod).value_or("");
-  const Role needed = role_for(method, access_);
-  if (caller->role >= needed) return grpc::Status::OK;
-  return refuse(grpc::StatusCode::PERMISSION_DENIED,
-                fmt::format("{} asks for the role {}, and {} is {}", escaped(method), name(needed), caller->who,
-                            name(caller->role)),
-                "call as the user as whom the daemon runs, over the Unix socket, or with a token of that role");
+  const Role needed = role_for(method, gate_.access);
+  if (caller->role < needed) {
+    return refuse(grpc::StatusCode::PERMISSION_DENIED,
+                  fmt::format("{} asks for the role {}, and {} is {}", escaped(method), name(needed), caller->who,
+                              name(caller->role)),
+                  "call as the user as whom the daemon runs, over the Unix socket, or with a token of that role");
+  }
+  const Result<void> room = gate_.limits.check(caller->who, method);
+  if (!room) return refuse(grpc::StatusCode::RESOURCE_EXHAUSTED, room.error().message, room.error().hint);
+  return grpc::Status::OK;
 }
 
 std::string caller(const grpc::CallbackServerContext& call) {
   const auto token = token_in(find(call.client_metadata(), kAuthorization));
   return token ? server::token_caller(server::name_in(*token)) : user_of(call);
+}
+
+std::string identity(const grpc::ServerContextBase& call) {
+  const auto token = token_in(find(call.client_metadata(), kAuthorization));
+  return token ? server::token_caller(server::name_in(*token)) : named_user(call).value_or(kNameless);
+}
+
+Result<std::string> role_of(const grpc::CallbackServerContext& call, const server::Access& access) {
+  const Result<Caller> known = caller_with_role(call, access);
+  if (!known) return tl::unexpected(known.error());
+  return std::string(name(known->role));
 }
 
 Result<Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access) {

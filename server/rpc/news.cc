@@ -29,7 +29,7 @@ api::LinkState to_link_state(LinkState state) {
 
 api::MotionKind to_motion_kind(MotionKind kind) {
   static_assert(static_cast<int>(MotionKind::move) + 1 == api::MOTION_KIND_MOVE);
-  static_assert(static_cast<int>(MotionKind::execute) + 1 == api::MOTION_KIND_EXECUTE);
+  static_assert(static_cast<int>(MotionKind::jog) + 1 == api::MOTION_KIND_JOG);
   return static_cast<api::MotionKind>(static_cast<int>(kind) + 1);
 }
 
@@ -51,6 +51,7 @@ void fill_limits(const shrc203::AxisProfile& profile, api::Axis& axis) {
   if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
   if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
   if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
+  axis.set_home_first(profile.home_first);
 }
 
 void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::AxisState& state, api::Axis& axis) {
@@ -133,6 +134,7 @@ api::Device to_proto(const server::Device& device, const shrc203::State& state) 
   proto.set_mode(escaped(state.mode));
   proto.set_format(escaped(state.format));
   proto.set_device_epoch(state.device_epoch);
+  proto.set_frame_epoch(state.frame_epoch);
   for (int number = 1; number <= shrc203::kAxisCount; ++number) {
     fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number),
               *proto.add_axes());

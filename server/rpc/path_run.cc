@@ -20,9 +20,9 @@ constexpr Duration kBreakOffWait = std::chrono::milliseconds(10);
 
 }  // namespace
 
-PathRun* PathRun::start(server::Gateway& gateway, const grpc::CallbackServerContext& context,
-                        Result<StreamLimit::Place> place) {
-  std::shared_ptr<PathRun> run(new PathRun(gateway, context));
+PathRun* PathRun::start(server::Gateway& gateway, const server::Access& access,
+                        const grpc::CallbackServerContext& context, Result<StreamLimit::Place> place) {
+  std::shared_ptr<PathRun> run(new PathRun(gateway, access, context));
   run->open();
   if (!place) {
     run->end(to_status(place.error()));
@@ -57,7 +57,7 @@ Result<void> PathRun::take(const api::PathHeader& header) {
   const Result<server::Device*> device = find_device(gateway_, header.device());
   if (!device) return tl::unexpected(device.error());
   // Checked now, so that nobody sends a long path for nothing; counted from the path's end, in begin().
-  const Result<shrc203::RequestContext> asked = motion_context(context_, header.context());
+  const Result<shrc203::RequestContext> asked = motion_context(context_, header.context(), access_);
   if (!asked) return tl::unexpected(asked.error());
   header_context_ = header.context();
   validate_only_ = header.validate_only();
@@ -88,7 +88,7 @@ void PathRun::begin() {
         Reason::invalid_request, "the path has no segment", "send a header, then segments", {}, {}, {}};
     return end(to_status(problem));
   }
-  path_.context = motion_context(context_, header_context_).value();
+  path_.context = motion_context(context_, header_context_, access_).value();
   device_->post([run = self<PathRun>()](shrc203::Controller& controller, TimePoint now) { run->run(controller, now); });
 }
 

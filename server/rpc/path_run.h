@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "axisgate/v1/stage.pb.h"
+#include "server/access/access.h"
 #include "server/gateway.h"
 #include "server/rpc/fact_reader.h"
 #include "server/rpc/pull_stream.h"
@@ -21,14 +22,14 @@ class PathRun final
     : public PullStream<grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>, api::RunPathResponse> {
  public:
   // `context` is gRPC's and lives as long as the call.
-  static PathRun* start(server::Gateway& gateway, const grpc::CallbackServerContext& context,
-                        Result<StreamLimit::Place> place);
+  static PathRun* start(server::Gateway& gateway, const server::Access& access,
+                        const grpc::CallbackServerContext& context, Result<StreamLimit::Place> place);
 
   void OnReadDone(bool ok) override;
 
  private:
-  PathRun(server::Gateway& gateway, const grpc::CallbackServerContext& context)
-      : gateway_(gateway), context_(context), reader_(gateway, 0) {}
+  PathRun(server::Gateway& gateway, const server::Access& access, const grpc::CallbackServerContext& context)
+      : gateway_(gateway), access_(access), context_(context), reader_(gateway, 0) {}
 
   Result<void> take(const api::RunPathRequest& part);
   Result<void> take(const api::PathHeader& header);
@@ -43,6 +44,7 @@ class PathRun final
   void closed() override { subscription_.reset(); }
 
   server::Gateway& gateway_;
+  const server::Access& access_;
   const grpc::CallbackServerContext& context_;
   StreamLimit::Place place_;
 

@@ -1,7 +1,5 @@
 #include "server/rpc/rpc_metrics.h"
 
-#include <google/protobuf/descriptor.h>
-
 #include <array>
 #include <utility>
 
@@ -76,27 +74,29 @@ RpcMetrics::RpcMetrics(prometheus::Registry& registry)
       open_streams_(prometheus::BuildGauge()
                         .Name("axisgate_open_streams")
                         .Help("Streams that are open, by method.")
-                        .Register(registry)) {
-  for (const std::string_view service : kApiServices) add_methods(service);
-  for (const std::string_view service : kCommonServices) add_methods(service);
-}
-
-void RpcMetrics::add_methods(std::string_view service) {
-  const google::protobuf::ServiceDescriptor& descriptor =
-      *google::protobuf::DescriptorPool::generated_pool()->FindServiceByName(std::string(service));
-  for (int i = 0; i < descriptor.method_count(); ++i) {
-    const google::protobuf::MethodDescriptor& method = *descriptor.method(i);
-    const std::string name = descriptor.full_name() + "/" + method.name();
-    const bool streams = method.client_streaming() || method.server_streaming();
-    prometheus::Gauge* open = streams ? &open_streams_.Add({{"method", name}}) : nullptr;
-    methods_.try_emplace(name, Method{calls_.Add(labels(name, grpc::OK)), open});
+                        .Register(registry)),
+      refused_(prometheus::BuildCounter()
+                   .Name("axisgate_calls_refused_total")
+                   .Help("Calls that were not let in: nobody knows who calls, he may not, or he has too many open.")
+                   .Register(registry)),
+      unauthenticated_(refused_.Add({{"reason", "unauthenticated"}})),
+      permission_denied_(refused_.Add({{"reason", "permission_denied"}})),
+      too_many_(refused_.Add({{"reason", "too_many"}})) {
+  for (const ServedMethod& method : served_methods()) {
+    prometheus::Gauge* open = method.streams ? &open_streams_.Add({{"method", method.name}}) : nullptr;
+    methods_.try_emplace(method.name, Method{calls_.Add(labels(method.name, grpc::OK)), open});
   }
 }
 
-std::vector<std::unique_ptr<intercepting::ServerInterceptorFactoryInterface>> RpcMetrics::interceptors() {
-  std::vector<std::unique_ptr<intercepting::ServerInterceptorFactoryInterface>> factories;
-  factories.push_back(std::make_unique<Factory>(*this));
-  return factories;
+std::unique_ptr<intercepting::ServerInterceptorFactoryInterface> RpcMetrics::interceptor() {
+  return std::make_unique<Factory>(*this);
+}
+
+void RpcMetrics::count_refusal(grpc::StatusCode code) {
+  prometheus::Counter& counter = code == grpc::UNAUTHENTICATED     ? unauthenticated_
+                                 : code == grpc::PERMISSION_DENIED ? permission_denied_
+                                                                   : too_many_;
+  counter.Increment();
 }
 
 }  // namespace axisgate::rpc

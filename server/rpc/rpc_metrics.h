@@ -1,7 +1,9 @@
-// Calls by method and code, and the streams that are open, counted where gRPC hands every call through.
+// Calls by method and code, and the streams that are open, counted where gRPC hands every call through; and those that
+// are not let in.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
+#include <grpcpp/support/status_code_enum.h>
 #include <prometheus/counter.h>
 #include <prometheus/family.h>
 #include <prometheus/gauge.h>
@@ -9,9 +11,7 @@
 
 #include <memory>
 #include <string>
-#include <string_view>
 #include <unordered_map>
-#include <vector>
 
 namespace axisgate::rpc {
 
@@ -22,7 +22,10 @@ class RpcMetrics {
   explicit RpcMetrics(prometheus::Registry& registry);
 
   // For a grpc::ServerBuilder. This outlives the server that it builds.
-  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors();
+  std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor();
+
+  // A gatekeeper's: UNAUTHENTICATED, PERMISSION_DENIED or RESOURCE_EXHAUSTED. No handler and no interceptor sees them.
+  void count_refusal(grpc::StatusCode code);
 
  private:
   class CallCount;
@@ -32,10 +35,12 @@ class RpcMetrics {
     prometheus::Gauge* open = nullptr;  // null: no stream
   };
 
-  void add_methods(std::string_view service);
-
   prometheus::Family<prometheus::Counter>& calls_;
   prometheus::Family<prometheus::Gauge>& open_streams_;
+  prometheus::Family<prometheus::Counter>& refused_;
+  prometheus::Counter& unauthenticated_;
+  prometheus::Counter& permission_denied_;
+  prometheus::Counter& too_many_;
   std::unordered_map<std::string, Method> methods_;  // by "axisgate.v1.StageService/Move"; does not change
 };
 

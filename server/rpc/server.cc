@@ -9,6 +9,7 @@
 #include <chrono>
 #include <initializer_list>
 #include <utility>
+#include <vector>
 
 #include "server/rpc/network_credentials.h"
 
@@ -36,11 +37,13 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener)
     : access_(access),
       network_(gateway.config().network),
+      message_bytes_max_(gateway.config().limits.message_bytes),
       listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
+      call_limits_(gateway.config().limits),
       callers_(kCallerSlots),
       devices_(gateway, streams_),
-      stage_(gateway, streams_),
+      stage_(gateway, access, streams_),
       events_(gateway, streams_),
       commands_(gateway, access, streams_),
       diagnostics_(gateway, streams_),
@@ -83,9 +86,7 @@ void Server::build_ordinary() {
            &devices_, &stage_, &events_, &commands_, &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
-  builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  ordinary_.entrances.emplace(builder, callers_, access_, network_);
-  ordinary_.server = builder.BuildAndStart();
+  build(builder, ordinary_);
 }
 
 void Server::build_reserve() {
@@ -97,9 +98,18 @@ void Server::build_reserve() {
   builder.RegisterService(&stops_);
   builder.RegisterService(&names_);
   builder.RegisterCallbackGenericService(&refusing_);
-  builder.experimental().SetInterceptorCreators(rpc_metrics_.interceptors());
-  reserve_.entrances.emplace(builder, callers_, access_, network_);
-  reserve_.server = builder.BuildAndStart();
+  build(builder, reserve_);
+}
+
+// What both have in common.
+void Server::build(grpc::ServerBuilder& builder, Part& part) {
+  std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(rpc_metrics_.interceptor());
+  interceptors.push_back(call_limits_.interceptor());
+  builder.experimental().SetInterceptorCreators(std::move(interceptors));
+  builder.SetMaxReceiveMessageSize(message_bytes_max_);
+  part.entrances.emplace(builder, callers_, Gate{access_, call_limits_, rpc_metrics_}, network_);
+  part.server = builder.BuildAndStart();
 }
 
 Server::~Server() {

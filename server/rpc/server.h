@@ -15,6 +15,7 @@
 #include "server/gateway.h"
 #include "server/listener.h"
 #include "server/rpc/access_service.h"
+#include "server/rpc/call_limits.h"
 #include "server/rpc/command_service.h"
 #include "server/rpc/control_service.h"
 #include "server/rpc/device_service.h"
@@ -54,12 +55,15 @@ class Server {
   Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener);
   void build_ordinary();
   void build_reserve();
+  void build(grpc::ServerBuilder& builder, Part& part);
 
   const server::Access& access_;
   const std::optional<server::NetworkConfig> network_;
+  const int message_bytes_max_;
   std::unique_ptr<server::Listener> listener_;
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;
+  CallLimits call_limits_;
   server::CallerSlots callers_;
   StreamLimit streams_;
   DeviceService devices_;

@@ -1,8 +1,10 @@
-// The names of what is served.
+// What is served, by its names.
 #pragma once
 
 #include <array>
+#include <string>
 #include <string_view>
+#include <vector>
 
 namespace axisgate::rpc {
 
@@ -14,5 +16,12 @@ inline constexpr std::array<std::string_view, 7> kApiServices = {
 // Those of gRPC itself.
 inline constexpr std::array<std::string_view, 2> kCommonServices = {"grpc.health.v1.Health",
                                                                     "grpc.reflection.v1alpha.ServerReflection"};
+
+struct ServedMethod {
+  std::string name;  // "axisgate.v1.StageService/Move"
+  bool streams = false;
+};
+// Of all these services.
+std::vector<ServedMethod> served_methods();
 
 }  // namespace axisgate::rpc

@@ -6,6 +6,7 @@
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
+#include "server/rpc/jog_run.h"
 #include "server/rpc/motion_watch.h"
 #include "server/rpc/news.h"
 #include "server/rpc/path_run.h"
@@ -33,15 +34,15 @@ Controller::OnStarted tell_started(std::shared_ptr<UnaryCall<Response>> call, se
 
 // Home and ReturnToOrigin, which differ in the controller's member alone.
 template <class Response, class Request>
-grpc::ServerUnaryReactor* home(server::Gateway& gateway, const grpc::CallbackServerContext& context,
-                               const Request& request, Response* response,
+grpc::ServerUnaryReactor* home(server::Gateway& gateway, const server::Access& access,
+                               const grpc::CallbackServerContext& context, const Request& request, Response* response,
                                void (Controller::*start)(shrc203::HomeRequest, TimePoint, Controller::OnStarted)) {
   const auto call = UnaryCall<Response>::start(response);
   const Result<server::Device*> device = find_device(gateway, request.device());
   if (!device) return call->refuse(device.error());
   const Result<shrc203::AxisSet> named = to_axes(request.axes());
   if (!named) return call->refuse(named.error());
-  Result<shrc203::RequestContext> asked = motion_context(context, request.context());
+  Result<shrc203::RequestContext> asked = motion_context(context, request.context(), access);
   if (!asked) return call->refuse(asked.error());
   (*device)->post([call, start, &device = **device, validate_only = request.validate_only(),
                    home = shrc203::HomeRequest{*named, *std::move(asked)}](Controller& controller, TimePoint now) {
@@ -70,7 +71,7 @@ grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* contex
   const auto call = UnaryCall<api::MoveResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::RequestContext> asked = motion_context(*context, request->context());
+  const Result<shrc203::RequestContext> asked = motion_context(*context, request->context(), access_);
   if (!asked) return call->refuse(asked.error());
   // The request is copied: a caller who leaves takes gRPC's own with it.
   (*device)->post(
@@ -91,18 +92,22 @@ grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* contex
 
 grpc::ServerUnaryReactor* StageService::Home(grpc::CallbackServerContext* context, const api::HomeRequest* request,
                                              api::HomeResponse* response) {
-  return home(gateway_, *context, *request, response, &Controller::home);
+  return home(gateway_, access_, *context, *request, response, &Controller::home);
 }
 
 grpc::ServerUnaryReactor* StageService::ReturnToOrigin(grpc::CallbackServerContext* context,
                                                        const api::ReturnToOriginRequest* request,
                                                        api::ReturnToOriginResponse* response) {
-  return home(gateway_, *context, *request, response, &Controller::return_to_origin);
+  return home(gateway_, access_, *context, *request, response, &Controller::return_to_origin);
 }
 
 grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* StageService::RunPath(
     grpc::CallbackServerContext* context) {
-  return PathRun::start(gateway_, *context, paths_.take());
+  return PathRun::start(gateway_, access_, *context, paths_.take());
+}
+
+grpc::ServerBidiReactor<api::JogRequest, api::JogResponse>* StageService::Jog(grpc::CallbackServerContext* context) {
+  return JogRun::start(gateway_, access_, *context, streams_.take());
 }
 
 grpc::ServerUnaryReactor* StageService::Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,

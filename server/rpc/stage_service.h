@@ -2,6 +2,7 @@
 #pragma once
 
 #include "axisgate/v1/stage.grpc.pb.h"
+#include "server/access/access.h"
 #include "server/gateway.h"
 #include "server/rpc/stream_limit.h"
 
@@ -11,8 +12,9 @@ namespace api = axisgate::v1;
 
 class StageService final : public api::StageService::CallbackService {
  public:
-  // Both outlive this.
-  StageService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // All outlive this.
+  StageService(server::Gateway& gateway, const server::Access& access, StreamLimit& streams)
+      : gateway_(gateway), access_(access), streams_(streams) {}
 
   grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const api::MoveRequest* request,
                                  api::MoveResponse* response) override;
@@ -23,6 +25,7 @@ class StageService final : public api::StageService::CallbackService {
                                            api::ReturnToOriginResponse* response) override;
   grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* RunPath(
       grpc::CallbackServerContext* context) override;
+  grpc::ServerBidiReactor<api::JogRequest, api::JogResponse>* Jog(grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
                                  api::StopResponse* response) override;
   grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context,
@@ -42,6 +45,7 @@ class StageService final : public api::StageService::CallbackService {
   static constexpr int kPathsMax = 32;
 
   server::Gateway& gateway_;
+  const server::Access& access_;
   StreamLimit& streams_;
   StreamLimit paths_{kPathsMax};
 };

@@ -70,7 +70,7 @@ Authority::Certificate Authority::sign(const std::string& name, EVP_PKEY* key, X
   if (issuer == nullptr) {
     add_extension(made.get(), signed_by, NID_basic_constraints, "critical,CA:TRUE");
   } else {
-    add_extension(made.get(), signed_by, NID_subject_alt_name, "DNS:localhost,IP:127.0.0.1");
+    add_extension(made.get(), signed_by, NID_subject_alt_name, "DNS:localhost,IP:127.0.0.1,IP:192.0.2.1");
   }
   expect(X509_sign(made.get(), issuer_key, EVP_sha256()) > 0, "signing");
   return made;

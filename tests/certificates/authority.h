@@ -16,8 +16,8 @@ class Authority {
   // Kept in FOLDER/NAME.crt and FOLDER/NAME.key, and found there again.
   Authority(const std::string& folder, const std::string& name);
 
-  // Writes FOLDER/NAME.crt and FOLDER/NAME.key, or replaces them, each as a whole: for a daemon at localhost and
-  // 127.0.0.1, or a caller of that name.
+  // Writes FOLDER/NAME.crt and FOLDER/NAME.key, or replaces them, each as a whole: for a daemon at localhost,
+  // 127.0.0.1 and 192.0.2.1, which is for documentation and tests (RFC 5737), or a caller of that name.
   void issue(const std::string& name, std::chrono::hours valid = std::chrono::hours(24)) const;
 
  private:

@@ -122,7 +122,7 @@ class Access(unittest.TestCase):
         self.assertEqual(len(said), 4, checked.stderr)
         self.assertRegex(said[0], r'wrong.toml:2: access.local: "everybody" is not known; use one of "nobody", ')
         self.assertRegex(said[1], r'wrong.toml:3: access.admin_commands: "BEC" is not one of them; use some of "BEC:"')
-        self.assertRegex(said[2], r'wrong.toml:5: access.roles.alice: is not "unix LOGIN"')
+        self.assertRegex(said[2], r'wrong.toml:5: access.roles.alice: is neither "unix LOGIN"')
         self.assertRegex(said[3], r'wrong.toml:6: access.roles.unix bert: "boss" is not known; ')
 
 

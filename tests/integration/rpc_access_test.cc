@@ -35,6 +35,7 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "StageService/Home",
                                          "StageService/ReturnToOrigin",
                                          "StageService/RunPath",
+                                         "StageService/Jog",
                                          "StageService/CancelMotion"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
                                       "AccessService/RevokeToken", "ControlService/TakeOverLease",

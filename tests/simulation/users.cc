@@ -55,13 +55,15 @@ void Users::act_for(Duration duration) {
     world_.run_for(milliseconds(world_.random().between(1, 300)));
     User& user = users_[static_cast<std::size_t>(world_.random().between(0, kUsers - 1))];
     if (world_.now() >= user.paused_until) act(user);
+    keep_jogs();
     check_travel();
+    check_jogs();
   }
 }
 
 void Users::act(User& user) {
   auto& random = world_.random();
-  switch (random.between(0, 15)) {
+  switch (random.between(0, 16)) {
     case 0:
     case 1:
     case 2:
@@ -85,6 +87,8 @@ void Users::act(User& user) {
       return path(user, drawn_token(user));
     case 12:
       return &user < &users_[kAdmins] && random.chance(0.3) ? take_over(user) : keep_alive(user);
+    case 13:
+      return jog(user, drawn_token(user));
     default:
       return move(user, drawn_token(user));
   }
@@ -226,6 +230,36 @@ void Users::path(User& user, LeaseToken token) {
   world_.controller().run_path(std::move(request), world_.now(), [](const Result<Motion>&) {});
 }
 
+void Users::jog(User& user, LeaseToken token) {
+  auto& random = world_.random();
+  JogRequest request;
+  request.context = context(user, token);
+  const AxisSet axes = token != 0 && grants_.contains(token) ? grants_.at(token).axes : drawn_axes(random);
+  for (const int axis : axes.list()) {
+    request.axes.push_back({axis, random.chance(0.5) ? 1 : -1, {}});
+    if (random.chance(0.5)) request.axes.back().speed = pulses(random.between(100, 10'000));
+  }
+  user.jog = world_.controller().jog(std::move(request), world_.now(),
+                                     [this](const Result<Motion>& motion) { counts_.jogged += motion ? 1 : 0; });
+  if (user.jog != 0) renewed_[user.jog] = world_.now();
+}
+
+// Most of the time somebody who jogs keeps at it, if not always in time; some let go, some are never heard of again.
+void Users::keep_jogs() {
+  auto& random = world_.random();
+  for (User& user : users_) {
+    if (user.jog == 0 || world_.now() < user.paused_until) continue;
+    if (random.chance(0.05)) {
+      user.jog = 0;
+    } else if (random.chance(0.1)) {
+      world_.controller().end_jog(std::exchange(user.jog, 0), {}, world_.now());
+    } else {
+      const std::vector<JogRequest::Axis> same;
+      if (world_.controller().renew_jog(user.jog, same, world_.now())) renewed_[user.jog] = world_.now();
+    }
+  }
+}
+
 void Users::stop(User& user) {
   auto& random = world_.random();
   const AxisSet axes = random.chance(0.3) ? AxisSet() : drawn_axes(random);
@@ -284,6 +318,17 @@ void Users::check_bytes(const BytesWritten& written) {
       world_.violation(fmt::format("{} of {} went out for axis {}, which was stopped and not rearmed",
                                    written.bytes.substr(0, 6), written.who, axis));
     }
+  }
+}
+
+// Whoever falls silent has been stopped: within the silence, but for the step in which time passes here.
+void Users::check_jogs() {
+  for (const Motion& motion : world_.controller().motions()) {
+    const auto renewed = renewed_.find(motion.id);
+    if (renewed == renewed_.end() || motion.state != MotionState::running) continue;
+    if (world_.now() <= renewed->second + Controller::kJogSilence) continue;
+    world_.violation(fmt::format("jog {} of {} runs on after {} ms of silence", motion.id, motion.who,
+                                 (world_.now() - renewed->second) / milliseconds(1)));
   }
 }
 

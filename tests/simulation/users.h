@@ -23,7 +23,7 @@ class Users {
   World& world() { return world_; }
 
   struct Counts {
-    int granted = 0, refused = 0, expired = 0, taken_over = 0, handed_over = 0, latched = 0, moved = 0;
+    int granted = 0, refused = 0, expired = 0, taken_over = 0, handed_over = 0, latched = 0, moved = 0, jogged = 0;
   };
   const Counts& counts() const { return counts_; }
 
@@ -33,6 +33,7 @@ class Users {
     server::LeaseToken token = 0;
     std::vector<server::LeaseToken> stale;
     TimePoint paused_until{};
+    shrc203::MotionId jog = 0;  // that it keeps going
   };
   // What was granted, as the ledger has it.
   struct Grant {
@@ -54,6 +55,8 @@ class Users {
   void crash(User& user);
   void move(User& user, server::LeaseToken token);
   void path(User& user, server::LeaseToken token);
+  void jog(User& user, server::LeaseToken token);
+  void keep_jogs();
   void stop(User& user);
   void rearm(User& user);
   server::LeaseTerms drawn_terms();
@@ -63,6 +66,7 @@ class Users {
   void on_news(const shrc203::Event& event);
   void check_bytes(const shrc203::BytesWritten& written);
   void check_travel();
+  void check_jogs();
   bool owned(const Grant& grant);
   const Grant* owner_of(int axis);
 
@@ -74,6 +78,7 @@ class Users {
   std::map<std::string, shrc203::AxisSet> held_back_;
   std::map<shrc203::MotionId, server::LeaseToken> leases_of_;  // that they were asked for with
   server::LeaseToken asking_ = 0;
+  std::map<shrc203::MotionId, TimePoint> renewed_;  // jogs, when last
   Counts counts_;
 };
 

@@ -48,11 +48,12 @@ TEST(UserSeedsShow, EverythingHappens) {
     sum.handed_over += counts.handed_over;
     sum.latched += counts.latched;
     sum.moved += counts.moved;
+    sum.jogged += counts.jogged;
   }
   for (const int count :
-       {sum.granted, sum.refused, sum.expired, sum.taken_over, sum.handed_over, sum.latched, sum.moved}) {
+       {sum.granted, sum.refused, sum.expired, sum.taken_over, sum.handed_over, sum.latched, sum.moved, sum.jogged}) {
     EXPECT_GT(count, 0) << sum.granted << " " << sum.refused << " " << sum.expired << " " << sum.taken_over << " "
-                        << sum.handed_over << " " << sum.latched << " " << sum.moved;
+                        << sum.handed_over << " " << sum.latched << " " << sum.moved << " " << sum.jogged;
   }
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 namespace axisgate::simulation {
@@ -13,6 +14,8 @@ namespace {
 
 constexpr Duration kRecent = std::chrono::seconds(1);
 constexpr Duration kSwapSilence = std::chrono::milliseconds(200);
+// Drawn last: seeds in which something was found before these options came stay what they were.
+constexpr std::array<std::string_view, 1> kDrawnLater = {"jog_override_afterwards"};
 
 }  // namespace
 
@@ -21,16 +24,20 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
   setup.seed = seed;
   setup.faults = faults;
   Random random(seed * 7919 + 17);
-  for (const auto& option : simulator::option_names()) {
-    const auto value =
-        option.values[static_cast<std::size_t>(random.between(0, static_cast<std::int64_t>(option.values.size()) - 1))];
-    (void)setup.options.set(option.name, value);
-  }
+  const auto draw = [&](bool later) {
+    for (const auto& option : simulator::option_names()) {
+      if (later != (std::ranges::find(kDrawnLater, option.name) != kDrawnLater.end())) continue;
+      const auto last = static_cast<std::int64_t>(option.values.size()) - 1;
+      (void)setup.options.set(option.name, option.values[static_cast<std::size_t>(random.between(0, last))]);
+    }
+  };
+  draw(false);
   // The gateway is told what a lab would have found out, and only that; else it assumes the narrower reading.
   if (setup.options.is("busy_scope", "axis") && random.chance(0.5)) setup.profile.busy_scope = Scope::axis;
   if (setup.options.is("prebuffer_scope", "axis") && random.chance(0.5)) setup.profile.prebuffer_scope = Scope::axis;
   setup.baud = random.pick(std::vector<int>{9600, 38400, 115200});
   setup.profile.baud = setup.baud;
+  draw(true);
   return setup;
 }
 
@@ -208,11 +215,13 @@ void World::check_outcome(const Motion& motion) {
     violation(fmt::format("motion {} succeeded, but the device has restarted since it was asked for", motion.id));
   }
   for (const auto& result : motion.results) {
-    if (!result.target_pulses) {
+    // A jog has no target, but tells where it ended.
+    const auto place = motion.kind == MotionKind::jog ? result.command_pulses : result.target_pulses;
+    if (!place) {
       violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));
-    } else if (told_position(result.axis) != *result.target_pulses) {
+    } else if (told_position(result.axis) != *place) {
       violation(fmt::format("motion {} succeeded, but axis {} stands at {} instead of {}", motion.id, result.axis,
-                            told_position(result.axis), *result.target_pulses));
+                            told_position(result.axis), *place));
     } else if (device_->busy(result.axis) && !wire_.damaged_since(now_ - kRecent)) {
       // One flipped bit makes an R of the B of an axis that settles at its target.
       violation(fmt::format("motion {} succeeded, but axis {} is still busy", motion.id, result.axis));

@@ -39,6 +39,23 @@ class AcceptorTest : public ::testing::Test {
     return connections_.size() > before ? connections_.back().service : Service::stop_only;
   }
 
+  // Fills the reserve, which all come into, and more, again and again.
+  void expect_no_descriptor_lost() {
+    const std::size_t before = open_descriptors();
+    for (int round = 0; round < 3; ++round) {
+      std::vector<Descriptor> clients;
+      for (int i = 0; i < 6; ++i) {
+        clients.push_back(server_.connected());
+        EXPECT_EQ(next(), Service::stop_only);
+      }
+      EXPECT_NE(open_descriptors(), before);
+      clients.clear();
+      connections_.clear();
+      EXPECT_TRUE(loop_.run_until([&] { return open_descriptors() == before; }));
+      EXPECT_EQ(acceptor_->counts().in_reserve, 0u);
+    }
+  }
+
   EventLoop loop_;
   UnixServer server_;
   std::vector<Connection> connections_;
@@ -150,19 +167,41 @@ TEST_F(AcceptorTest, RestsWhenNothingCanBeAccepted) {
 
 TEST_F(AcceptorTest, WhatTheReserveNeedsIsTakenBackWhenItsConnectionsHaveEnded) {
   accept({0, 4});
-  const std::size_t before = open_descriptors();
-  for (int round = 0; round < 3; ++round) {
-    std::vector<Descriptor> clients;
-    for (int i = 0; i < 6; ++i) {
-      clients.push_back(server_.connected());
-      next();
-    }
-    EXPECT_NE(open_descriptors(), before);
-    clients.clear();
-    connections_.clear();
-    EXPECT_TRUE(loop_.run_until([&] { return open_descriptors() == before; }));
-    EXPECT_EQ(acceptor_->counts().in_reserve, 0u);
-  }
+  expect_no_descriptor_lost();
+}
+
+TEST_F(AcceptorTest, BeyondOnesShareAConnectionIsForStopsUntilAnotherOfHisHasClosed) {
+  accept({.open = 100, .of_one = 1});
+  const Descriptor first = server_.connected();
+  EXPECT_EQ(next(), Service::all);
+  const Descriptor second = server_.connected();
+  EXPECT_EQ(next(), Service::stop_only);
+  EXPECT_EQ(acceptor_->counts().open, 1u);
+  EXPECT_EQ(acceptor_->counts().reserved, 1u);
+  EXPECT_EQ(acceptor_->counts().in_reserve, 1u);
+  connections_[0].descriptor.reset();
+  const Descriptor third = server_.connected();
+  EXPECT_EQ(next(), Service::all);
+}
+
+TEST_F(AcceptorTest, AFloodBeyondOnesShareDisplacesItself) {
+  accept({.open = 100, .reserve = 2, .of_one = 0});
+  const Descriptor first = server_.connected();
+  next();
+  const Descriptor second = server_.connected();
+  next();
+  EXPECT_FALSE(ended(first));
+  const Descriptor third = server_.connected();
+  EXPECT_EQ(next(), Service::stop_only);
+  EXPECT_TRUE(ended(first));
+  EXPECT_FALSE(ended(second));
+  EXPECT_FALSE(ended(third));
+  EXPECT_EQ(acceptor_->counts().displaced, 1u);
+}
+
+TEST_F(AcceptorTest, WhatTheReserveNeedsIsTakenBackAfterAFloodBeyondOnesShare) {
+  accept({.open = 100, .reserve = 4, .of_one = 0});
+  expect_no_descriptor_lost();
 }
 
 }  // namespace

@@ -72,6 +72,32 @@ TEST(ConfigText, IsReadAsTheSameConfiguration) {
   }
 }
 
+TEST(ConfigText, TheTravelEnvelopeIsReadAsTheSame) {
+  const std::string axis = R"([[device.axis]]
+number = 2
+unit = "deg"
+travel_minimum = "-5.25deg"
+maximum_speed = "2deg/s"
+home_first = true
+
+[[device.axis.narrower]]
+whose = "operator"
+travel_maximum = "3.5deg"
+
+[[device.axis.narrower]]
+whose = "cert \"Ann\" Lee"
+maximum_speed = "500pulse/s"
+home_first = true
+)";
+  const auto config = parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const std::string text = to_toml(*config);
+  EXPECT_THAT(text, HasSubstr(axis));
+  const Configured<Config> again = parse_config(text, "again.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front()) << text;
+  EXPECT_EQ(to_toml(*again), text);
+}
+
 TEST(ConfigText, TellsTheBuiltInConfiguration) {
   const Configured<Config> again = parse_config(to_toml(default_config()), "again.toml");
   ASSERT_TRUE(again) << to_string(again.error().front());

@@ -4,12 +4,14 @@
 #include <sys/socket.h>
 
 #include <array>
+#include <string>
 
 #include "server/connections/callers.h"
 #include "server/connections/open_connections.h"
 #include "server/connections/reserve.h"
 #include "server/descriptor_limit.h"
 #include "tests/unit/connection_fixtures.h"
+#include "tests/unit/tcp_fixtures.h"
 
 namespace axisgate::server {
 namespace {
@@ -21,14 +23,31 @@ std::array<Descriptor, 2> socket_pair() {
 }
 
 TEST(OpenConnections, ANumberThatIsAnothersNowIsNotCounted) {
-  OpenConnections open(1);
+  OpenConnections open(1, 1);
   auto [one, other] = socket_pair();
-  open.add(one.get());
+  open.add(one.get(), "uid 1000");
   EXPECT_FALSE(open.has_room());
   // As when the number was closed and given out anew.
   ASSERT_EQ(::dup2(other.get(), one.get()), one.get());
   EXPECT_TRUE(open.has_room());
   EXPECT_EQ(open.count(), 0u);
+}
+
+TEST(OpenConnections, OneOwnerHasRoomForHisShareOnly) {
+  OpenConnections open(10, 2);
+  auto [one, other] = socket_pair();
+  auto [third, fourth] = socket_pair();
+  open.add(one.get(), "uid 1000");
+  EXPECT_TRUE(open.has_room_for("uid 1000"));
+  open.add(other.get(), "uid 1000");
+  EXPECT_FALSE(open.has_room_for("uid 1000"));
+  EXPECT_TRUE(open.has_room());
+  EXPECT_TRUE(open.has_room_for("192.168.0.7"));
+  open.add(third.get(), "192.168.0.7");
+  EXPECT_FALSE(open.has_room_for("uid 1000"));
+  one.reset();
+  EXPECT_TRUE(open.has_room_for("uid 1000"));
+  EXPECT_EQ(open.count(), 2u);
 }
 
 TEST(Reserve, FreesWhatOneConnectionNeedsAndTakesItBack) {
@@ -70,6 +89,26 @@ TEST(Callers, TheKernelNamesTheUserOfAUnixSocketAlone) {
   EXPECT_EQ(peer_uid(pair[0].get()), ::geteuid());
   const Descriptor tcp(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   EXPECT_EQ(peer_uid(tcp.get()), std::nullopt);
+}
+
+TEST(Callers, AConnectionIsItsUsersOrItsMachinesAndLoopbackIsOneMachine) {
+  const auto pair = socket_pair();
+  EXPECT_EQ(connection_owner(pair[0].get()), "uid " + std::to_string(::geteuid()));
+  link_test::SerialServer server;
+  for (const char* from : {"127.0.0.1", "127.1.2.3"}) {
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    ASSERT_EQ(::inet_pton(AF_INET, from, &address.sin_addr), 1);
+    const Descriptor client(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+    ASSERT_EQ(::bind(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    ASSERT_EQ(::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr), 1);
+    address.sin_port = ::htons(server.settings().port);
+    ASSERT_EQ(::connect(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    EXPECT_EQ(connection_owner(server.accept().get()), "127.0.0.1");
+    EXPECT_EQ(connection_owner(client.get()), "127.0.0.1");
+  }
+  const Descriptor alone(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  EXPECT_EQ(connection_owner(alone.get()), "nobody");
 }
 
 TEST(Callers, ANameIsTheLoginOrTheNumber) {

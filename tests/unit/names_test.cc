@@ -36,7 +36,7 @@ TEST(Names, OfLanes) { expect_names<Lane>({"stop", "path_refill", "motion", "que
 namespace device = shrc203;
 
 TEST(Names, OfMotions) {
-  expect_names<device::MotionKind>({"move", "home", "return-to-origin", "path", "execute"});
+  expect_names<device::MotionKind>({"move", "home", "return-to-origin", "path", "execute", "jog"});
   expect_names<device::MotionState>({"QUEUED", "RUNNING", "STOPPING", "SUCCEEDED", "STOPPED", "FAILED", "UNKNOWN"});
 }
 

@@ -31,14 +31,14 @@ class PlanTest : public testing::Test {
   }
 
   Result<MovePlan> move(std::vector<AxisMove> moves, bool relative) const {
-    return plan_move(moves, relative, positions_of(state), profile, state);
+    return plan_move(moves, relative, positions_of(state), Envelope(profile, state, "tester", "operator"));
   }
   Reason refused(std::vector<AxisMove> moves, bool relative = false) const {
     const auto plan = move(std::move(moves), relative);
     return plan ? Reason::unspecified : plan.error().reason;
   }
   Result<PathPlan> path(std::vector<Segment> segments) const {
-    return plan_path({std::move(segments), {}}, positions_of(state), profile, state);
+    return plan_path({std::move(segments), {}}, positions_of(state), Envelope(profile, state, "tester", "operator"));
   }
   Reason path_refused(std::vector<Segment> segments) const {
     const auto plan = path(std::move(segments));

@@ -117,5 +117,18 @@ TEST(Redactor, CallersOfTheConfiguration) {
   EXPECT_EQ(redactor.redact(config).access.roles, (std::map<std::string, Role>{{"unix user-1", Role::admin}}));
 }
 
+TEST(Redactor, CallersWhoseTravelIsNarrowerButNotRoles) {
+  Redactor redactor;
+  Config config = default_config();
+  config.access.roles = {{"unix alice", Role::operator_}};
+  auto& narrower = config.devices[0].profile.axes[1].narrower;
+  for (const char* whose : {"operator", "unix alice", "token night-scan"}) narrower.emplace_back().whose = whose;
+  const Config clean = redactor.redact(config);
+  const auto& hidden = clean.devices[0].profile.axes[1].narrower;
+  EXPECT_EQ(hidden[0].whose, "operator");
+  EXPECT_EQ(hidden[1].whose, "unix user-1") << "the same as in [access]";
+  EXPECT_EQ(hidden[2].whose, "token user-2");
+}
+
 }  // namespace
 }  // namespace axisgate::server

@@ -1,0 +1,17 @@
+// The tables [[device.axis]] of the configuration: names, units, and the travel envelope.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "device/shrc203/profile.h"
+#include "server/config_table.h"
+
+namespace axisgate::server {
+
+// Those of the table `device`. An axis without one stays as it is.
+void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
+               std::array<shrc203::AxisProfile, shrc203::kAxisCount>& axes);
+
+}  // namespace axisgate::server

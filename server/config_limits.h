@@ -1,0 +1,15 @@
+// The table [limits] of the configuration.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "server/access/identity_limits.h"
+#include "server/config_table.h"
+
+namespace axisgate::server {
+
+void read_identity_limits(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
+                          LimitsConfig& limits);
+
+}  // namespace axisgate::server
