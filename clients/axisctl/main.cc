@@ -22,6 +22,8 @@ int run(const Options& options) {
       return with_lease(session, move);
     case Verb::path:
       return with_lease(session, path);
+    case Verb::jog:
+      return with_lease(session, jog);
     case Verb::stop:
       return stop(session);
     case Verb::estop:

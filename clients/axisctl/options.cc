@@ -17,6 +17,7 @@ Amounts have a unit: pulse, nm, um, mm, deg; without one they are in the axis's 
 axis's configured name. Examples:
   axisctl move 1=+5mm 2=-200um --relative
   axisctl path square.txt              one segment a line: 1=1mm 2=-500um speed=2mm/s   # comment
+  axisctl jog 1=+ --speed 1mm/s        until Ctrl-C
   axisctl exec 'M:1+P1000' 'G:1'       one transaction
   axisctl --json watch --from 1
   axisctl lease run --purpose 'scan of sample 12' -- python3 scan.py
@@ -76,6 +77,14 @@ void add_motion_verbs(CLI::App& app, Options& options) {
   add_speed(*path, options);
   add_waiting(*path, options);
   add_wait(*path, options);
+
+  CLI::App* jog = add_verb(app, options, Verb::jog, "jog", "run axes until Ctrl-C");
+  jog->add_option("AXIS=DIRECTION", options.places, "as 1=+ 2=-")->required()->type_name("");
+  jog->add_option("--speed", options.speed, "as 1mm/s; none: the axis's lowest")->type_name("SPEED");
+  jog->add_option("--seconds", options.seconds, "end by itself after so long")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("S");
+  add_wait(*jog, options);
 
   add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop"), options);
   add_verb(app, options, Verb::estop, "estop", "stop all axes at once and latch; `clear` releases");

@@ -16,6 +16,7 @@ enum class Verb {
   home,
   move,
   path,
+  jog,
   stop,
   estop,
   clear,
@@ -51,12 +52,12 @@ struct Options {
   Verb verb = Verb::devices;
 
   std::vector<std::string> axes;               // home, stop, clear: numbers or names
-  std::vector<std::string> places;             // move: "1=+5mm"
+  std::vector<std::string> places;             // move: "1=+5mm"; jog: "1=+"
   std::vector<std::string> lines;              // exec; lease run: the command and its arguments
   std::string file;                            // path, replay; "-" is the standard input
   std::string output;                          // record, support: a file; empty: as the verb does by itself
   std::string command;                         // commands: one row only
-  std::string speed;                           // move, path; empty: as the axis is set
+  std::string speed;                           // move, path, jog; empty: as the axis is set, jog: its lowest
   int acceleration_ms = 0;                     // move, path; 0: as the axis is set
   bool relative = false;                       // move
   bool absolute = false;                       // path
@@ -64,9 +65,9 @@ struct Options {
   bool no_wait = false;                        // home, move, path
   bool no_follow = false;                      // record
   bool only_new = false;                       // record
-  std::optional<int> seconds;                  // record
+  std::optional<int> seconds;                  // record, jog
   std::optional<std::uint64_t> from_revision;  // watch
-  std::optional<int> wait_s;                   // home, move, path, lease run: for a lease that another holds
+  std::optional<int> wait_s;                   // home, move, path, jog, lease run: for a lease that another holds
   bool take_over = false;                      // lease run
   bool follow = false;                         // lease list
   std::string at_loss = "stop";                // lease run

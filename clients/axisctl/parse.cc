@@ -148,6 +148,18 @@ v1::AxisDistance parse_place(const v1::Device& device, std::string_view text) {
   return place;
 }
 
+v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const std::string_view sign = equals == std::string_view::npos ? "" : text.substr(equals + 1);
+  if (sign != "+" && sign != "-") {
+    throw usage(fmt::format("\"{}\" is not AXIS=+ or AXIS=-", text), "as 1=+ 2=-; `axisctl move` goes a certain way");
+  }
+  v1::AxisJog jog;
+  jog.set_axis(find_axis(device, text.substr(0, equals)).number());
+  jog.set_direction(sign == "+" ? v1::AxisJog::DIRECTION_PLUS : v1::AxisJog::DIRECTION_MINUS);
+  return jog;
+}
+
 std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions& options, std::istream& input,
                                     const std::string& file_name) {
   std::vector<v1::Segment> segments;

@@ -30,6 +30,9 @@ v1::Speed parse_speed_for(const v1::Axis& axis, std::string_view text);
 // "1=+5mm"; a bare number is in the axis's unit.
 v1::AxisDistance parse_place(const v1::Device& device, std::string_view text);
 
+// "1=+", "1=-": a way to run, without a speed.
+v1::AxisJog parse_direction(const v1::Device& device, std::string_view text);
+
 struct PathOptions {
   std::string speed;  // for the lines that name none; empty: as the axes are set
   int acceleration_ms = 0;

@@ -13,6 +13,7 @@ int commands(const Session& session);
 int home(const Session& session);
 int move(const Session& session);
 int path(const Session& session);
+int jog(const Session& session);
 int stop(const Session& session);
 int emergency_stop(const Session& session);
 int execute(const Session& session);

@@ -56,8 +56,8 @@ class Network(unittest.TestCase):
         return subprocess.run(self.arguments(*words, **way), env=environment, capture_output=True, text=True,
                               timeout=LIMIT_S, check=False)
 
-    def serial_number(self, version=None):
-        """Of the certificate that is served to a new connection, whichever authority signed it."""
+    def served(self, version=None):
+        """The certificate that a new connection sees, whichever authority signed it."""
         context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
         context.check_hostname = False
         context.verify_mode = ssl.CERT_NONE
@@ -87,9 +87,9 @@ class Network(unittest.TestCase):
             self.assertIn("no daemon answers at " + self.address, refused.stderr)
 
     def test_tls_1_2_is_not_spoken(self):
-        self.serial_number()
-        with self.assertRaisesRegex(OSError, "(?i)handshake|protocol"):
-            self.serial_number(ssl.TLSVersion.TLSv1_2)
+        self.served()
+        with self.assertRaises(OSError):  # what it says differs between versions of Python
+            self.served(ssl.TLSVersion.TLSv1_2)
 
     def test_certificates_are_replaced_without_a_restart(self):
         held = subprocess.Popen(self.arguments("--json", "watch", "--from", "1", caller="anna"), stdout=subprocess.PIPE,
@@ -98,12 +98,12 @@ class Network(unittest.TestCase):
         self.addCleanup(held.wait)
         self.addCleanup(held.terminate)
         self.assertIn("revision", held.stdout.readline())
-        before = self.serial_number()
+        before = self.served()
         self.issue("newlab", "gateway", "bert")
         os.replace(self.path("newlab.crt"), self.path("lab.crt.new"))
         os.replace(self.path("lab.crt.new"), self.path("lab.crt"))
         deadline = time.monotonic() + LIMIT_S
-        while self.serial_number() == before or self.run_axisctl("whoami", caller="bert").returncode != 0:
+        while self.served() == before or self.run_axisctl("whoami", caller="bert").returncode != 0:
             self.assertLess(time.monotonic(), deadline, "the new certificate is not served")
             time.sleep(0.1)  # between two looks; the deadline above decides
         self.assertEqual(self.run_axisctl("whoami", caller="bert").stdout, "cert bert, operator\n")

@@ -1,0 +1,155 @@
+// jog: axes run until Ctrl-C, or for so many seconds.
+#include <fmt/format.h>
+#include <semaphore.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <ctime>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/outcome.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using JogStream = grpc::ClientReaderWriter<v1::JogRequest, v1::JogResponse>;
+
+// The daemon stops the axes after 500 ms without one.
+constexpr std::chrono::milliseconds kRenewEvery{100};
+
+sem_t ended;  // by a signal, or because the call is over
+
+void end(int) { sem_post(&ended); }
+
+timespec to_timespec(Clock::time_point time) {
+  const auto since = time.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since);
+  timespec result{};
+  result.tv_sec = static_cast<std::time_t>(seconds.count());
+  result.tv_nsec = static_cast<long>(std::chrono::nanoseconds(since - seconds).count());
+  return result;
+}
+
+// Lets the axes run on, from a thread of its own, since a terminal that takes no output must not stop them. Ctrl-C and
+// SIGTERM close this side of the call, upon which the daemon stops them in order. One at a time.
+class Renewals {
+ public:
+  explicit Renewals(JogStream& stream) : stream_(stream) {
+    sem_init(&ended, 0, 0);
+    struct sigaction action = {};
+    action.sa_handler = end;
+    // The second one ends axisctl, where no answer comes to the first. SA_RESTART: no line is printed by halves.
+    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
+    sigaction(SIGINT, &action, nullptr);
+    sigaction(SIGTERM, &action, nullptr);
+    renewer_ = std::thread([this] { renew(); });
+  }
+
+  ~Renewals() {
+    sem_post(&ended);
+    renewer_.join();
+  }
+
+  void end_at(Clock::time_point time) { end_ = time; }
+
+ private:
+  void renew() {
+    const v1::JogRequest run_on;
+    Clock::time_point next = Clock::now();
+    do {
+      // What a process that was halted has missed is not made up for.
+      next = std::max(next + kRenewEvery, Clock::now());
+      if (ends_before(next)) {
+        stream_.WritesDone();
+        return;
+      }
+    } while (stream_.Write(run_on));
+  }
+
+  bool ends_before(Clock::time_point next) {
+    const Clock::time_point end = end_;
+    const timespec limit = to_timespec(std::min(next, end));
+    while (sem_clockwait(&ended, CLOCK_MONOTONIC, &limit) != 0) {
+      if (errno != EINTR) return end <= next;
+    }
+    return true;
+  }
+
+  JogStream& stream_;
+  std::atomic<Clock::time_point> end_ = Clock::time_point::max();
+  std::thread renewer_;
+};
+
+v1::JogRequest make_request(const Options& options, const v1::Device& device) {
+  v1::JogRequest request;
+  *request.mutable_context() = new_call_context();
+  request.set_device(device.name());
+  for (const std::string& place : options.places) {
+    v1::AxisJog& one = *request.add_axes() = parse_direction(device, place);
+    if (options.speed.empty()) continue;
+    *one.mutable_speed() = parse_speed_for(find_axis(device, std::to_string(one.axis())), options.speed);
+  }
+  return request;
+}
+
+// To a person, who can press it: elsewhere whoever has started axisctl knows how to end it.
+void say_how_it_ends(const v1::Device& device, const v1::JogRequest& request) {
+  if (::isatty(STDIN_FILENO) != 1) return;
+  std::vector<std::string> axes;
+  for (const v1::AxisJog& one : request.axes()) {
+    const std::string& name = find_axis(device, std::to_string(one.axis())).name();
+    axes.push_back(fmt::format("axis {}{} {}", one.axis(), name.empty() ? "" : fmt::format(" ({})", name),
+                               one.direction() == v1::AxisJog::DIRECTION_MINUS ? '-' : '+'));
+  }
+  print_note(fmt::format("jogging {}; Ctrl-C stops {}", fmt::join(axes, ", "), axes.size() == 1 ? "it" : "them"));
+}
+
+// To its outcome, or to the end of the call; a Motion without a name has not begun.
+v1::Motion run(const Session& session, const v1::Device& device, const v1::JogRequest& request, JogStream& stream,
+               MotionFollower& follower) {
+  v1::Motion motion;
+  stream.Write(request);  // where it cannot be, there is nothing to read: why is in the status
+  Renewals renewals(stream);
+  v1::JogResponse response;
+  while (stream.Read(&response)) {
+    if (motion.name().empty()) {
+      if (session.options.seconds) renewals.end_at(Clock::now() + std::chrono::seconds(*session.options.seconds));
+      say_how_it_ends(device, request);
+      follower.follow(response.motion().name());
+    }
+    motion = response.motion();
+  }
+  return motion;
+}
+
+}  // namespace
+
+int jog(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  const v1::JogRequest request = make_request(session.options, device);
+  MotionFollower follower(session, device);
+  grpc::ClientContext context;
+  const auto stream = session.connection.stage->Jog(&context);
+  v1::Motion motion = run(session, device, request, *stream, follower);
+  if (motion.name().empty()) {
+    session.connection.check(stream->Finish());
+    throw Failure{kMotionFailed, "INTERNAL", "the daemon ended the call without starting the jog", "see its log"};
+  }
+  // With the outcome known the status adds nothing; without it the daemon may still be there to be asked.
+  if (motion.state() < v1::MOTION_STATE_SUCCEEDED) motion = await_outcome(session, motion.name());
+  follower.finish();
+  return report_outcome(session, device, motion);
+}
+
+}  // namespace axisgate::axisctl
