@@ -61,6 +61,13 @@ void DeviceEvents::tell(const shrc203::StopRequested& stop, TimePoint now) {
                escaped(stop.who));
 }
 
+void DeviceEvents::tell(const shrc203::ForeignMotion& motion, TimePoint now) {
+  publish(motion, now);
+  spdlog::warn(
+      "{}: FOREIGN_MOTION: {} moves, and nobody asked for it here: the front panel, or a gateway before this one",
+      device_, to_string(motion.axes));
+}
+
 void DeviceEvents::tell(const shrc203::PathProgress& progress, TimePoint now) {
   publish(progress, now);
   if (progress.step != shrc203::PathProgress::Step::underrun) return;

@@ -98,6 +98,7 @@ class DeviceMetrics {
   void count(const shrc203::CompletionSeen& completion);
   void count(const shrc203::PathProgress& progress);
   void count(const shrc203::StopRequested& stop);
+  void count(const shrc203::ForeignMotion&) {}
   void count(const shrc203::LinkChanged& change);
   void count(const shrc203::BarrierEntered&) { barriers_.Increment(); }
   void count(const shrc203::LineLearned&) {}

@@ -46,6 +46,10 @@ void print_status(const v1::Device& device) {
                          device.model(), device.firmware(), device.serial_number(), device.mode(), device.format(),
                          device.device_epoch()));
   for (const v1::Axis& axis : device.axes()) print_line(axis_text(axis));
+  for (const v1::Axis& axis : device.axes()) {
+    if (axis.foreign_motion())
+      print_line(fmt::format("FOREIGN MOTION: nobody asked for that of axis {} here", axis.number()));
+  }
   if (device.moving_unknown()) print_line("MOVING UNKNOWN: the line was lost while something moved");
   if (!device.has_age()) print_line("never read");
 }

@@ -72,6 +72,11 @@ std::string describe_stop(const v1::StopRequested& stop) {
                      fmt::join(stop.axes(), ", "), stop.who().empty() ? "somebody" : stop.who());
 }
 
+std::string describe_foreign(const v1::ForeignMotion& motion) {
+  return fmt::format("FOREIGN_MOTION: axes {} move, and nobody asked the gateway for it",
+                     fmt::join(motion.axes(), ", "));
+}
+
 }  // namespace
 
 void print_line(std::string_view text) { write(stdout, text); }
@@ -147,6 +152,8 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_link(event.link()));
     case v1::Event::kStopRequested:
       return on_one_line(describe_stop(event.stop_requested()));
+    case v1::Event::kForeignMotion:
+      return on_one_line(describe_foreign(event.foreign_motion()));
     case v1::Event::FACT_NOT_SET:
       break;
   }

@@ -78,6 +78,7 @@ enum class Guard {
   jumps_read_again,
   possible_speeds,
   moving_unknown,
+  foreign_motion_told,
   one_home_an_axis,
 
   // Stop goes first

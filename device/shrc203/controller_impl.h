@@ -126,6 +126,7 @@ class Controller::Impl : public LineListener {
   Task<void> refresh(Duration max_age, RequestContext context, OnState done);
   AxisSet moving_silently();
   bool apply_positions(const Reply& reply);
+  void tell_foreign_motion(AxisSet busy);
   void publish_state();
 
   // watch.cc
@@ -252,6 +253,7 @@ class Controller::Impl : public LineListener {
   std::vector<StopJobPtr> stops_;
   Signal wake_poll_;
   Signal tick_;                    // never notified: to wait for a time
+  AxisSet strange_before_;         // moved at the last reading, and nobody had asked for it
   AxisSet runaways_;               // a jog was running there when the line was lost
   bool settled_ = false;           // the last reading was READY and nothing has happened since
   std::optional<Problem> ending_;  // what is told to everybody who comes too late

@@ -44,6 +44,11 @@ struct StopRequested {
   std::string who;
 };
 
+// Axes move that the gateway did not set going: the front panel did, or a gateway before this one.
+struct ForeignMotion {
+  AxisSet axes;
+};
+
 // A line was written, its CR LF included. For the recorder and metrics, as are the other news of the line itself.
 struct BytesWritten {
   std::string bytes;
@@ -106,9 +111,9 @@ struct UnexpectedLine {
 // Positions, mode, excitation or the like are newer; ask Controller::state().
 struct StateChanged {};
 
-using Event =
-    std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, BytesWritten, BytesReceived,
-                 TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned, UnexpectedLine, StateChanged>;
+using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
+                           BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned,
+                           UnexpectedLine, StateChanged>;
 
 class EventSink {
  public:

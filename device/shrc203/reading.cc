@@ -92,8 +92,27 @@ bool Controller::Impl::apply_positions(const Reply& reply) {
   line_.busy(busy - moving_silently(), now_);
   state_.read = now_;
   if (busy.empty()) state_.moving_unknown = false;
+  tell_foreign_motion(busy);
   publish_state();
   return true;
+}
+
+// One flipped bit makes a B of an R, so two readings must say it.
+void Controller::Impl::tell_foreign_motion(AxisSet busy) {
+  AxisSet ours = state_.moving_unknown ? AxisSet::all() : AxisSet();
+  for (const auto& [id, live] : live_) {
+    if (live->inside_gate) ours = ours | live->motion.axes;
+  }
+  const AxisSet strange = guarded(Guard::foreign_motion_told) ? busy - ours : AxisSet();
+  AxisSet told;
+  for (const int number : AxisSet::all().list()) {
+    bool& foreign = state_.axis(number).foreign_motion;
+    const bool now = strange.has(number) && (foreign || strange_before_.has(number));
+    if (now && !foreign) told.add(number);
+    foreign = now;
+  }
+  strange_before_ = strange;
+  if (!told.empty()) emit(ForeignMotion{told});
 }
 
 Task<Result<void>> Controller::Impl::read_registers(std::string caller) {

@@ -62,6 +62,7 @@ void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::A
   if (state.position_pulses) axis.set_position_pulses(*state.position_pulses);
   axis.set_position(position(state, profile.unit));
   if (state.busy) axis.set_busy(*state.busy);
+  axis.set_foreign_motion(state.foreign_motion);
   if (state.excited) axis.set_excited(*state.excited);
   axis.set_homed(state.homed);
   axis.set_status_bits(state.status.raw);
@@ -102,6 +103,9 @@ struct EventFiller {
   void operator()(const shrc203::LinkChanged& change) const {
     event.mutable_link()->set_state(to_link_state(change.link));
     event.mutable_link()->set_why(change.why);
+  }
+  void operator()(const shrc203::ForeignMotion& motion) const {
+    for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
   void operator()(const shrc203::StopRequested& stop) const {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);

@@ -125,6 +125,8 @@ constexpr Row kTable[] = {
              "Hazard.H08_ASpeedMisreadIsNotPutBack"),
     by_tests(Guard::moving_unknown, "moving-unknown", "what may move when the line is lost is said to",
              "Hazard.H31_UnpluggedInMidMove"),
+    by_tests(Guard::foreign_motion_told, "foreign-motion-told", "what moves unasked is said to",
+             "Hazard.H30_AGatewayThatStartsUnderAMotion"),
     by_tests(Guard::one_home_an_axis, "one-home-an-axis", "an origin return under way is not begun again",
              "Hazard.H06_HomeTwice"),
     by_tests(Guard::stop_lane, "stop-lane", "a stop goes before all that waits",

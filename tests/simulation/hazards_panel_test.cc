@@ -184,5 +184,65 @@ INSTANTIATE_TEST_SUITE_P(FrontPanel, HazardH19,
                          testing::Values(Panel{"MANUAL", "SHOT_FC"}, Panel{"REMOTE", "SHOT_FC"}, Panel{"HOST", "HIT"},
                                          Panel{"EDIT", "HIT"}));
 
+// What a test hears of them.
+struct ForeignMotions : EventSink {
+  void on_event(const Event& event, TimePoint) override {
+    if (const auto* motion = std::get_if<ForeignMotion>(&event)) told.push_back(motion->axes);
+  }
+  std::vector<AxisSet> told;
+};
+
+// The gateway before has set it going, and was killed: said, not stopped, and never gone on with.
+TEST(Hazard, H30_AGatewayThatStartsUnderAMotion) {
+  auto setup = quiet();
+  ForeignMotions foreign;
+  setup.listener = &foreign;
+  World world(setup);
+  world.wire().cut(world.now(), seconds(1));
+  for (const char* line : {"M:2+P300000\r\n", "G:2\r\n"}) world.device().receive(line, world.now());
+  ASSERT_TRUE(world.run_until([&] { return !foreign.told.empty(); }, seconds(10))) << world.replay();
+  EXPECT_EQ(foreign.told, std::vector{AxisSet::of(2)});
+  EXPECT_TRUE(world.controller().state().axis(2).foreign_motion);
+  EXPECT_TRUE(world.device().busy(2)) << world.replay();
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_FALSE(world.controller().state().axis(2).foreign_motion);
+  EXPECT_EQ(world.device().position(2), 300'000) << world.replay();
+  EXPECT_EQ(written(world, "L:"), 0);
+  EXPECT_EQ(motion_lines(world, 0), 0);
+}
+
+// Ours is not foreign, however it ends.
+TEST(Hazard, H30_OnesOwnMotionIsNone) {
+  auto setup = quiet();
+  ForeignMotions foreign;
+  setup.listener = &foreign;
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up());
+  moved(world, {{1, 30'000}, {3, 20'000}});
+  move_by(world, {{1, 500'000}});
+  world.run_for(seconds(1));
+  stopped(world);
+  move_by(world, {{1, 100'000}});
+  world.run_for(seconds(1));
+  world.wire().cut(world.now(), milliseconds(300));
+  world.run_for(seconds(10));
+  EXPECT_TRUE(foreign.told.empty()) << world.replay();
+}
+
+// Waits that start the next move (15), a wait for an input (16), dialects (23), memory switches (24), programs (25) and
+// waking (26): what the table does not know is never sent, whoever asks.
+class HazardOfUnknownCommands : public testing::TestWithParam<const char*> {};
+
+TEST_P(HazardOfUnknownCommands, AreNotSent) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  const std::size_t lines = world.wire().commands().size();
+  EXPECT_EQ(execute(world, {GetParam()}), std::vector<std::string>{"UNKNOWN_COMMAND"});
+  EXPECT_EQ(written(world, std::string_view(GetParam()).substr(0, 2), lines), 0) << world.replay();
+}
+
+INSTANTIATE_TEST_SUITE_P(Lines, HazardOfUnknownCommands,
+                         testing::Values("WT:1,5", "WI:1,3", "FMT:HIT", "MS:ON", "P:R", "SLEEP:0"));
+
 }  // namespace
 }  // namespace axisgate::simulation
