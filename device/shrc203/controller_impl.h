@@ -197,6 +197,8 @@ class Controller::Impl : public LineListener {
   std::optional<Problem> must_end(const LiveMotion& live);
   TimePoint next_look(const LiveMotion& live) const;
   std::optional<TimePoint> stop_before_bound(const LiveMotion& live, int axis) const;
+  std::optional<TimePoint> stop_before_bound(const LiveMotion& live, int axis, std::int64_t speed) const;
+  std::int64_t speed_that_fits(const LiveMotion& live, int axis) const;
 
   // stop.cc
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);

@@ -17,8 +17,10 @@ constexpr Duration kSpeedLimit = std::chrono::seconds(1);
 constexpr Duration kStopAgain = std::chrono::seconds(1);
 
 // Between a position's being true and the stop that follows from it there may be one whole time limit of a reply, and
-// the lines themselves.
-constexpr Duration kLineCycles = std::chrono::milliseconds(100);
+// some lines: that of the position, the one ahead, ?:CMD before a stop behind a silence, and the stop itself.
+constexpr int kLines = 4;
+constexpr int kLineBits = 64 * 10;
+constexpr Duration kHost = std::chrono::milliseconds(50);  // which is no real-time system
 
 double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -262,14 +264,20 @@ TimePoint Controller::Impl::next_look(const LiveMotion& live) const {
 // When at the latest a stop must be asked for, reckoned from the last reading at the highest speed since then; nothing
 // where the axis was not read.
 std::optional<TimePoint> Controller::Impl::stop_before_bound(const LiveMotion& live, int axis) const {
+  return stop_before_bound(live, axis, live.jog->fastest.at(axis));
+}
+
+std::optional<TimePoint> Controller::Impl::stop_before_bound(const LiveMotion& live, int axis,
+                                                             std::int64_t speed) const {
   const int direction = live.jog->directions.at(axis);
   const auto bound = envelope(live.context).bound(axis, direction);
   const auto& state = state_.axis(axis);
   if (!bound || !state.position_pulses) return {};
-  const std::int64_t speed = live.jog->fastest.at(axis);
   const double left = static_cast<double>(direction * (*bound - *state.position_pulses));
   const double free = (left - slowing_way(speed, state)) / static_cast<double>(speed);
-  const double wait = std::min(free - seconds(profile_.reply_limit + kLineCycles), 3600.0);
+  const Duration reaction =
+      profile_.reply_limit + kHost + kLines * Duration(std::chrono::seconds(kLineBits)) / profile_.baud;
+  const double wait = std::min(free - seconds(reaction), 3600.0);
   const TimePoint read = live.motion.state == MotionState::queued ? now_ : state_.read;
   return read + std::chrono::nanoseconds(static_cast<std::int64_t>(wait * 1e9));
 }
@@ -292,14 +300,28 @@ void Controller::Impl::judge_jog(LiveMotionPtr live) {
   }
 }
 
+// What was asked for, or what the way to the bound still allows.
+std::int64_t Controller::Impl::speed_that_fits(const LiveMotion& live, int axis) const {
+  std::int64_t speed = live.jog->speeds.at(axis);
+  const std::int64_t present = live.jog->fastest.at(axis);
+  while (speed > present) {
+    const auto stop_at = stop_before_bound(live, axis, speed);
+    if ((stop_at && *stop_at > now_) || !guarded(Guard::jog_ends_before_bound)) return speed;
+    speed /= 2;
+  }
+  return std::min(live.jog->speeds.at(axis), present);
+}
+
 // A speed can be set twice without harm, so one that was not answered is sent again.
 Task<void> Controller::Impl::change_jog_speeds(LiveMotionPtr live) {
   JogKeeping& jog = *live->jog;
   jog.speed_pending = true;
-  const auto wanted = jog.speeds;
+  const auto asked = jog.speeds;
+  auto wanted = asked;
   Arguments arguments;
   AxisSet axes;
-  for (const auto& [axis, speed] : wanted) {
+  for (auto& [axis, speed] : wanted) {
+    speed = speed_that_fits(*live, axis);
     axes.add(axis);
     jog.fastest[axis] = std::max(jog.fastest[axis], speed);
   }
@@ -316,7 +338,7 @@ Task<void> Controller::Impl::change_jog_speeds(LiveMotionPtr live) {
     if (!result.in_doubt()) break;
   }
   // Also where it was refused: what the caller asks for next is tried anew.
-  jog.sent = wanted;
+  jog.sent = asked;
   jog.speed_pending = false;
   jog.news.notify();
 }

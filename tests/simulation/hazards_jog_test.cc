@@ -177,7 +177,7 @@ TEST_F(HazardOfBoundedJogs, EndsBeforeTheTravelLimit) {
     EXPECT_EQ(reason_of(motion), Reason::outside_travel);
     EXPECT_LE(std::abs(world.device().position(1)), 20'000) << world.replay();
     // Not much before it, either: the way of 0.6 s and of the slowing down.
-    EXPECT_GE(std::abs(world.device().position(1)), 20'000 - 6'000 - 2'500) << world.replay();
+    EXPECT_GE(std::abs(world.device().position(1)), 20'000 - 6'200 - 2'500) << world.replay();
   }
 }
 
@@ -194,6 +194,16 @@ TEST_P(HazardOfBoundedJogsWhen, AnAnswerIsLost) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, HazardOfBoundedJogsWhen, testing::Range(900, 1500, 50));
+
+// Near the limit it speeds up no more than the way still allows, and comes nearer so.
+TEST_F(HazardOfBoundedJogs, ASpeedThatTheWayDoesNotAllow) {
+  moved(world, {{1, 17'400}});
+  const MotionId id = jog({{1, 1, pulses(8'000)}});
+  renew_for(id, seconds(3));
+  EXPECT_EQ(reason_of(outcome(id)), Reason::outside_travel) << world.replay();
+  EXPECT_LE(world.device().position(1), 20'000) << world.replay();
+  EXPECT_EQ(written(world, "JD:1F2000"), 1) << world.replay();
+}
 
 TEST_F(HazardOfBoundedJogs, TooNearToTheLimitItDoesNotStart) {
   moved(world, {{1, 19'900}});
