@@ -34,11 +34,14 @@ std::optional<TimePoint> Controller::Impl::next_deadline() const {
 
 void Controller::Impl::line_connected(const Identity& identity, TimePoint) {
   ++connection_;
-  if (!runaways_.empty() && guarded(Guard::runaways_stopped)) {
-    const RequestContext gateway{.who = "the gateway: a jog ran on while the line was lost"};
-    stop(std::exchange(runaways_, {}), false, gateway, [](const StopReport&) {});
-  }
+  stop_runaways();
   executor_.spawn(handshake(identity, connection_));
+}
+
+// Again and again, until everything was seen to stand.
+void Controller::Impl::stop_runaways() {
+  if (runaways_.empty() || !guarded(Guard::runaways_stopped)) return;
+  stop(runaways_, false, {.who = "the gateway: a jog ran on while the line was lost"}, [](const StopReport&) {});
 }
 
 void Controller::Impl::line_lost(const std::string& why, TimePoint) {

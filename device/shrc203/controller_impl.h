@@ -34,6 +34,7 @@ struct JogKeeping {
   std::map<int, std::int64_t> speeds;   // asked for, by axis; in pulses/s
   std::map<int, std::int64_t> sent;     // the last that JD: was accepted with
   std::map<int, std::int64_t> fastest;  // that the axis may run at by now
+  std::optional<TimePoint> begun;       // its G: may have been written since
   bool ended = false;                   // the gateway stops it, or its caller
   bool stop_pending = false, speed_pending = false;
   std::optional<Problem> why;  // of that; nothing: its caller wanted it
@@ -166,7 +167,7 @@ class Controller::Impl : public LineListener {
   bool speeds_known() const {
     return known_speeds(state_.controllable()).size() == std::size_t(state_.controllable().count());
   }
-  void forget_speeds();
+  void forget_speeds(AxisSet axes);
   // Speeds for axes whose own F is more than the caller may run at; none where all are slow enough.
   Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
   Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
@@ -178,6 +179,7 @@ class Controller::Impl : public LineListener {
   void home(MotionKind kind, HomeRequest request, OnStarted started);
   Task<void> run_home(LiveMotionPtr live);
   Task<void> start_home(LiveMotionPtr live);
+  Result<void> check_logical_origin(AxisSet axes, const Envelope& limits) const;
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
@@ -215,6 +217,8 @@ class Controller::Impl : public LineListener {
   void execute(ExecuteRequest request, OnExecute event);
   Task<void> run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event);
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
+
+  // clear_errors.cc
   Task<void> clear_errors(AxisSet axes, RequestContext context, OnDone done);
 
   // wind_down.cc
@@ -225,6 +229,7 @@ class Controller::Impl : public LineListener {
   // epoch_passed, where the request was meant for another.
   Result<void> check_epochs(const RequestContext& context) const;
   void frame_shifted(AxisSet axes);
+  void stop_runaways();
   // Whether the caller may use these axes now, before anything is queued.
   Result<void> may_use(const RequestContext& context, AxisSet axes);
   void carry_out_orders();

@@ -41,6 +41,7 @@ class Transaction {
     Positions at{};
     Controller::Impl::Speeds speeds;
     std::map<int, std::vector<Pending>> pending;  // by axis, what a G would start
+    AxisSet started{};
   };
   Result<void> check_envelope();
   Result<void> check_speeds(const Command& command, const Envelope& envelope, Forecast& forecast);
@@ -113,6 +114,7 @@ Result<void> Transaction::check_motion(const Command& command, const Envelope& e
       if (!good) return good;
       at = 0;
     }
+    forecast.started.add(axis);
     // Whether both buffers of one axis run, or which, is an open question: each alone was checked, and both together.
     for (const auto& pending : std::exchange(forecast.pending[axis], {})) {
       at = pending.relative ? *at + pending.amount : pending.amount;
@@ -138,8 +140,15 @@ Result<void> Transaction::check_setting(const Command& command, const Envelope& 
     const SpeedSetting& speed = forecast.speeds[line ? plan->axes.front().axis : one.axis];
     if (const auto good = envelope.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
     auto& pending = forecast.pending[one.axis];
-    std::erase_if(pending, [reg](const auto& before) { return before.reg == reg; });
     const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
+    // The one before may have chained, or not: where this one would start from is not certain.
+    const bool chains = forecast.started.has(one.axis) && std::ranges::any_of(pending, &Forecast::Pending::lasting);
+    if (lasting && chains) {
+      return fail_on(one.axis, Reason::invalid_request,
+                     fmt::format("{} has a second prebuffer setting before the next start", envelope.label(one.axis)),
+                     "start each with G:, or run a path");
+    }
+    std::erase_if(pending, [reg](const auto& before) { return before.reg == reg; });
     pending.push_back({reg, relative, lasting, one.amount});
   }
   return {};
@@ -228,7 +237,7 @@ Task<bool> Transaction::send(std::size_t index) {
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
-  if (!speeds_of(command, AxisSet::all()).empty()) impl_.forget_speeds();
+  if (!speeds_of(command, AxisSet::all()).empty()) impl_.forget_speeds(command.axes(impl_.state_.controllable()));
   // Also where the answer was lost: it may have been taken.
   if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
   if (result.problem) {
@@ -355,39 +364,6 @@ void Controller::Impl::execute_stop(const Command& command, const ExecuteRequest
          ended.problem = report.problem;
          event(ended);
        });
-}
-
-Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, OnDone done) {
-  ExchangeRequest request;
-  const AxisSet named = axes.empty() ? state_.controllable() : axes;
-  if (named.empty()) {
-    done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
-    co_return;
-  }
-  if (const auto allowed = may_use(context, named); !allowed) {
-    done(tl::unexpected(allowed.error()));
-    co_return;
-  }
-  request.command = make_command("BEC:", named);
-  request.lane = Lane::motion;
-  request.caller = context.who;
-  request.not_after = default_limit(context.not_after, kQuestionLimit);
-  auto pending = line_.exchange(std::move(request), now_);
-  const auto result = co_await pending;
-  settled_ = false;
-  if (result.problem) {
-    done(tl::unexpected(*result.problem));
-    co_return;
-  }
-  auto read = co_await read_excitation(context.who);
-  if (read) read = co_await read_positions(Lane::question, context.who);
-  if (!result.accepted()) {
-    done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
-  } else if (!read) {
-    done(tl::unexpected(read.error()));
-  } else {
-    done({});
-  }
 }
 
 }  // namespace axisgate::shrc203

@@ -103,12 +103,14 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
+      runaways_ = {};
       line_.ready(AxisSet::all(), now_);
       auto quiet = tick_.wait_until(now_ + Completions::kAfterReady + kQuiet);
       co_await quiet;
       co_return connection == connection_;
     }
     line_.busy(AxisSet::all(), now_);
+    stop_runaways();
     state_.link_problem = "something moves that the gateway did not start; waiting until it stands";
     const auto read = co_await read_positions(Lane::question, kGateway, true);
     if (!read) publish_state();

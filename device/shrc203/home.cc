@@ -16,12 +16,8 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
                  "see `axisctl status`"));
     return;
   }
-  for (const int axis : axes.list()) {
-    if (kind != MotionKind::return_to_origin) break;
-    const Envelope limits = envelope(request.context);
-    auto good = limits.check_axis(axis);
-    if (good) good = limits.check_homed(axis);
-    if (good) good = limits.check_target(axis, 0);
+  if (kind == MotionKind::return_to_origin) {
+    const auto good = check_logical_origin(axes, envelope(request.context));
     if (!good) return started(tl::unexpected(good.error()));
   }
   if (const auto allowed = may_use(request.context, axes); !allowed) {
@@ -41,9 +37,22 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
   executor_.spawn(run_home(live));
 }
 
+Result<void> Controller::Impl::check_logical_origin(AxisSet axes, const Envelope& limits) const {
+  for (const int axis : axes.list()) {
+    auto good = limits.check_axis(axis);
+    if (good) good = limits.check_homed(axis);
+    if (good) good = limits.check_target(axis, 0);
+    if (!good) return good;
+  }
+  return {};
+}
+
 Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   auto ready = co_await enter_gate(live, false);
   if (ready) ready = co_await prepare(live, Register::none);
+  if (ready && live->motion.kind == MotionKind::return_to_origin) {
+    ready = check_logical_origin(live->motion.axes, envelope(live->context));
+  }
   if (!ready) {
     end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
                ready.error());

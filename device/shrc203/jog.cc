@@ -15,6 +15,7 @@ using JogAxes = std::vector<JogRequest::Axis>;
 constexpr int kSpeedTries = 3;
 constexpr Duration kSpeedLimit = std::chrono::seconds(1);
 constexpr Duration kStopAgain = std::chrono::seconds(1);
+constexpr Duration kLookAtLease = std::chrono::milliseconds(50);
 
 // Between a position's being true and the stop that follows from it there may be one whole time limit of a reply, and
 // some lines: that of the position, the one ahead, ?:CMD before a stop behind a silence, and the stop itself.
@@ -164,7 +165,8 @@ Task<void> Controller::Impl::run_jog(LiveMotionPtr live, JogRequest request) {
   co_await start_jog(live, std::move(slower));
   live->jog->news.notify();
   if (state_.link != LinkState::down) {
-    // JD: has overwritten F, or not (manual 93), note).
+    // JD: has overwritten F, or not (manual 93), note): it is not known before it was read.
+    forget_speeds(live->motion.axes);
     const auto read = co_await read_speeds(live->context.who);
     settled_ = settled_ && read.has_value();
   }
@@ -179,12 +181,19 @@ Task<void> Controller::Impl::start_jog(LiveMotionPtr live, MovePlan slower) {
   if (!slower.axes.empty()) {
     const auto lowered = co_await set_speeds(live, slower);
     if (!lowered) co_return refused(lowered.error());
+    note_speeds(speeds_of(slower));
   }
   const Command setter = jog_setter(*live->jog, live->motion.axes);
   const auto set = co_await set_and_confirm(live, setter, Lane::motion);
   if (!set) co_return refused(set.error());
+  live->jog->begun = now_;
   const auto start = co_await go(live, {});
-  if (!start) co_return refused(start.error());
+  if (!start) {
+    refused(start.error());
+    // The refusal may be another line's: what ran all the same would never end.
+    stop(live->motion.axes, false, {.who = "the gateway: a jog that was refused"}, [](const StopReport&) {});
+    co_return;
+  }
   const bool in_doubt = *start == Start::in_doubt;
   if (in_doubt && co_await start_never_came(live, setter)) {
     co_return refused(
@@ -234,7 +243,7 @@ std::optional<Problem> Controller::Impl::must_end(const LiveMotion& live) {
   if (live.context.lease != 0 && guarded(Guard::jog_ends_with_its_right)) {
     if (const auto allowed = permission_.may_use(use, now_); !allowed) return allowed.error();
   }
-  if (live.motion.state == MotionState::queued) return {};
+  if (!live.jog->begun) return {};
   for (const int axis : live.motion.axes.list()) {
     const auto at = stop_before_bound(live, axis);
     if (!at || *at > now_ || !guarded(Guard::jog_ends_before_bound)) continue;
@@ -254,8 +263,10 @@ std::optional<Problem> Controller::Impl::must_end(const LiveMotion& live) {
 TimePoint Controller::Impl::next_look(const LiveMotion& live) const {
   if (live.jog->ended) return now_ + kStopAgain;
   TimePoint next = live.jog->renewed + kJogSilence;
+  // Nobody tells of a lease's end.
+  if (live.context.lease != 0) next = std::min(next, now_ + kLookAtLease);
   for (const int axis : live.motion.axes.list()) {
-    if (live.motion.state == MotionState::queued) break;
+    if (!live.jog->begun) break;
     if (const auto at = stop_before_bound(live, axis)) next = std::min(next, *at);
   }
   return std::max(next, now_ + std::chrono::milliseconds(1));
@@ -278,7 +289,8 @@ std::optional<TimePoint> Controller::Impl::stop_before_bound(const LiveMotion& l
   const Duration reaction =
       profile_.reply_limit + kHost + kLines * Duration(std::chrono::seconds(kLineBits)) / profile_.baud;
   const double wait = std::min(free - seconds(reaction), 3600.0);
-  const TimePoint read = live.motion.state == MotionState::queued ? now_ : state_.read;
+  // Until its start it stood, however old the reading is.
+  const TimePoint read = live.jog->begun ? std::max(state_.read, *live.jog->begun) : now_;
   return read + std::chrono::nanoseconds(static_cast<std::int64_t>(wait * 1e9));
 }
 
@@ -325,6 +337,7 @@ Task<void> Controller::Impl::change_jog_speeds(LiveMotionPtr live) {
     axes.add(axis);
     jog.fastest[axis] = std::max(jog.fastest[axis], speed);
   }
+  jog.news.notify();  // the bound is nearer now
   arguments.axes(axes);
   for (const auto& [axis, speed] : wanted) arguments.add("u", "F").add("spd", std::to_string(speed));
   for (int attempt = 0; attempt < kSpeedTries && !live->stop_requested && !jog.ended; ++attempt) {

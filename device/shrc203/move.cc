@@ -52,6 +52,8 @@ std::string_view question_of(Register reg) {
       return "?:KP";
     case Register::m:
       return "?:M";
+    case Register::j:
+      return "?:J";
     default:
       return "?:A";
   }
@@ -189,8 +191,8 @@ Controller::Impl::Speeds Controller::Impl::known_speeds(AxisSet axes) const {
   return speeds;
 }
 
-void Controller::Impl::forget_speeds() {
-  for (auto& axis : state_.axes) axis.minimum_speed = axis.maximum_speed = std::nullopt;
+void Controller::Impl::forget_speeds(AxisSet axes) {
+  for (const int axis : axes.list()) state_.axis(axis).minimum_speed = state_.axis(axis).maximum_speed = std::nullopt;
 }
 
 Result<MovePlan> Controller::Impl::slowed_down(AxisSet axes, const Envelope& limits) const {
@@ -213,7 +215,7 @@ Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
   const Speeds now_set = known_speeds(live->motion.axes);
   for (const auto& [axis, speed] : before) {
     const auto found = now_set.find(axis);
-    if (found != now_set.end() && !(found->second == speed)) changed.add(axis);
+    if (found == now_set.end() || !(found->second == speed)) changed.add(axis);
   }
   if (!changed.empty() && state_.link != LinkState::down) {
     arguments.axes(changed);

@@ -83,7 +83,8 @@ Result<std::optional<SpeedSetting>> segment_speed(const Segment& segment, const 
                                                   const Envelope& envelope, const SpeedSetting& before) {
   const int axis = move.axes.front().axis;
   if (!segment.speed && !segment.acceleration_ms) return move.axes.front().speed;
-  SpeedSetting speed = before;
+  // One axis runs at F, which may be more than the caller may run at.
+  SpeedSetting speed = move.axes.size() == 1 ? move.axes.front().speed.value_or(before) : before;
   speed.acceleration_ms = segment.acceleration_ms.value_or(before.acceleration_ms);
   if (auto good = check_acceleration(axis, speed.acceleration_ms); !good) return tl::unexpected(good.error());
   if (segment.speed) {

@@ -15,6 +15,7 @@ constexpr Duration kStartDoubt = std::chrono::milliseconds(300);
 constexpr Duration kConfirmAfter = std::chrono::milliseconds(60);
 // A gateway that does not hear the end of a motion for this long has lost it.
 constexpr int kReadFailuresMax = 20;
+constexpr int kSpeedReadings = 2;
 
 }  // namespace
 
@@ -48,6 +49,7 @@ void Controller::Impl::mark_running(LiveMotionPtr live) {
   settled_ = false;
   set_state(*live, live->stop_requested ? MotionState::stopping : MotionState::running);
   wake_poll_.notify();
+  if (live->jog) live->jog->news.notify();
   if (auto started = std::exchange(live->on_started, {})) started(live->motion);
 }
 
@@ -129,9 +131,14 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   }
   const auto problem = error_of(*live);
   if (problem) co_return tl::unexpected(*problem);
-  if (known_speeds(axes).size() < static_cast<std::size_t>(axes.count())) {
+  const auto speeds_missing = [&] { return known_speeds(axes).size() < static_cast<std::size_t>(axes.count()); };
+  for (int attempt = 0; attempt < kSpeedReadings && speeds_missing(); ++attempt) {
     const auto read = co_await read_speeds(live->context.who);
     if (!read) co_return read;
+  }
+  if (speeds_missing()) {
+    co_return fail(Reason::line_fault, "the speeds of the axes were read as ones that no axis can have",
+                   "look at them: axisctl exec ?:D; set them: axisctl exec D:...");
   }
   const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
   if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
@@ -255,7 +262,13 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
       judge(live, check);
       failures = 0;
     } else if (++failures > kReadFailuresMax) {
-      end_motion(live, MotionState::unknown, read.error());
+      failures = 0;
+      // A jog that was given up would run on.
+      if (live->jog) {
+        end_jog(live, read.error());
+      } else {
+        end_motion(live, MotionState::unknown, read.error());
+      }
     }
     // A completion may precede READY by the settling (open question completion_before_settle).
     pause = hinted || completed || check.ready ? std::min(profile_.moving_poll, kConfirmAfter) : profile_.moving_poll;

@@ -84,13 +84,13 @@ Result<void> JogRun::take_first() {
   const auto asked = motion_context(context_, incoming_.context(), access_);
   if (!asked) return tl::unexpected(asked.error());
   device_ = *device;
-  device_->post([run = self<JogRun>(), request = shrc203::JogRequest{*axes, *asked}](
-                    Controller& controller, TimePoint now) { run->begin(controller, request, now); });
+  device_.load()->post([run = self<JogRun>(), request = shrc203::JogRequest{*axes, *asked}](
+                           Controller& controller, TimePoint now) { run->begin(controller, request, now); });
   return {};
 }
 
 void JogRun::begin(Controller& controller, shrc203::JogRequest request, TimePoint now) {
-  if (over_) return refuse(kBrokenOff);
+  if (over_ || cancelled()) return refuse(kBrokenOff);
   {
     // Facts of this device are published on this strand only: none about this jog lies before this revision.
     const std::lock_guard lock(mutex_);
@@ -103,7 +103,7 @@ void JogRun::begin(Controller& controller, shrc203::JogRequest request, TimePoin
 Result<void> JogRun::take_renewal() {
   const auto axes = to_jog_axes(incoming_, false);
   if (!axes) return tl::unexpected(axes.error());
-  device_->post([run = self<JogRun>(), axes = *axes](Controller& controller, TimePoint now) {
+  device_.load()->post([run = self<JogRun>(), axes = *axes](Controller& controller, TimePoint now) {
     if (run->motion_ == 0 || run->over_) return;
     const Result<void> renewed = controller.renew_jog(run->motion_, axes, now);
     // Of a jog that has ended the outcome is told.
@@ -119,7 +119,7 @@ void JogRun::stop(std::optional<Problem> why) {
     // Nothing was asked for.
     return refuse({Reason::invalid_request, "the jog names no device and no axis", "send a first message", {}, {}, {}});
   }
-  device_->post([run = self<JogRun>(), why = std::move(why)](Controller& controller, TimePoint now) {
+  device_.load()->post([run = self<JogRun>(), why = std::move(why)](Controller& controller, TimePoint now) {
     run->over_ = true;
     if (run->motion_ != 0) controller.end_jog(run->motion_, why, now);
   });
@@ -138,14 +138,14 @@ void JogRun::show_or_end(const Result<shrc203::Motion>& motion) {
   {
     const std::lock_guard lock(mutex_);
     shown_ = motion->id;
-    show(*motion, device_->motion_revision(motion->id));
+    show(*motion, device_.load()->motion_revision(motion->id));
   }
   pump();
 }
 
 void JogRun::show(const shrc203::Motion& motion, std::uint64_t revision) {
   due_.emplace();
-  *due_->mutable_motion() = to_proto(device_->name(), motion, revision);
+  *due_->mutable_motion() = to_proto(device_.load()->name(), motion, revision);
   if (shrc203::is_outcome(motion.state) && !end_) end_ = grpc::Status::OK;
 }
 
@@ -163,7 +163,7 @@ void JogRun::read_changes() {
     if (std::holds_alternative<FactReader::Compacted>(reading)) return look();
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
     const auto* change = std::get_if<shrc203::MotionChanged>(&record.fact);
-    if (change != nullptr && change->motion.id == shown_ && record.device == device_->name()) {
+    if (change != nullptr && change->motion.id == shown_ && record.device == device_.load()->name()) {
       show(change->motion, record.revision);
     }
   }
@@ -172,7 +172,7 @@ void JogRun::read_changes() {
 // Too slow for every change: the motion as it is now stands for those that were missed.
 void JogRun::look() {
   shown_ = 0;
-  device_->post([run = self<JogRun>()](Controller& controller, TimePoint) {
+  device_.load()->post([run = self<JogRun>()](Controller& controller, TimePoint) {
     {
       const std::lock_guard lock(run->mutex_);
       run->reader_.go_to(run->gateway_.events().newest_revision() + 1);

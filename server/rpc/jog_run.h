@@ -4,6 +4,7 @@
 #include <grpcpp/server_context.h>
 #include <grpcpp/support/server_callback.h>
 
+#include <atomic>
 #include <memory>
 #include <optional>
 
@@ -49,8 +50,8 @@ class JogRun final : public PullStream<grpc::ServerBidiReactor<api::JogRequest, 
   const server::Access& access_;
   const grpc::CallbackServerContext& context_;
   StreamLimit::Place place_;
-  api::JogRequest incoming_;          // one read is outstanding at most
-  server::Device* device_ = nullptr;  // null: no message yet
+  api::JogRequest incoming_;                       // one read is outstanding at most
+  std::atomic<server::Device*> device_ = nullptr;  // null: no message yet
 
   // On the device's strand.
   shrc203::MotionId motion_ = 0;  // 0: none

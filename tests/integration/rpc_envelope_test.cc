@@ -106,6 +106,10 @@ TEST_F(RpcEnvelope, SpeedsAreInTheUnitOfTheirWay) {
 }
 
 // What is set last is what starts, from where the axis stands: manual section 2.
+TEST_F(RpcEnvelope, SettingsThatMayChainAreRefused) {
+  EXPECT_EQ(refused({"MP:1+P10", "G:1", "MP:1+P10", "MP:1+P10", "G:1"}), api::REASON_INVALID_REQUEST);
+}
+
 TEST_F(RpcEnvelope, ASettingReplacesTheOneBefore) {
   EXPECT_EQ(refused({"M:1-P190000", "M:1+P300000", "G:1"}), api::REASON_OUTSIDE_TRAVEL);
   EXPECT_EQ(refused({"M:1-P190000", "GC:1", "M:1+P300000", "G:1"}), api::REASON_OUTSIDE_TRAVEL);

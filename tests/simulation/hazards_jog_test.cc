@@ -205,6 +205,18 @@ TEST_F(HazardOfBoundedJogs, ASpeedThatTheWayDoesNotAllow) {
   EXPECT_EQ(written(world, "JD:1F2000"), 1) << world.replay();
 }
 
+// The answer to its start is lost: what may run by then is stopped before the limit all the same.
+TEST_F(HazardOfBoundedJogs, AStartInDoubt) {
+  moved(world, {{1, 19'000}});
+  world.wire().set_script(drop_first(world, LineKind::reply, "G:1"));
+  const MotionId id = jog({{1, 1, {}}});
+  renew_for(id, seconds(4));
+  EXPECT_TRUE(is_outcome(outcome(id).state)) << world.replay();
+  EXPECT_FALSE(world.device().busy(1));
+  EXPECT_GT(world.device().position(1), 19'000) << world.replay();
+  EXPECT_LE(world.device().position(1), 20'000) << world.replay();
+}
+
 TEST_F(HazardOfBoundedJogs, TooNearToTheLimitItDoesNotStart) {
   moved(world, {{1, 19'900}});
   const MotionId id = jog({{1, 1, {}}});
@@ -242,6 +254,31 @@ TEST_F(HazardOfJogs, H31_TheLineIsLostUnderIt) {
   EXPECT_TRUE(world.device().busy(1));
   ASSERT_TRUE(world.run_until([&] { return !world.device().busy(1); }, seconds(10))) << world.replay();
   ASSERT_TRUE(world.run_until_up()) << world.replay();
+}
+
+// The stop at the line's return is lost: it is stopped again.
+TEST_F(HazardOfJogs, H31_TheStopAtTheLinesReturnIsLost) {
+  const MotionId id = jog({{1, 1, {}}});
+  renew_for(id, seconds(1));
+  world.wire().set_script(drop_first(world, LineKind::command, "L:"));
+  world.wire().cut(world.now(), seconds(2));
+  renew_for(id, seconds(1));
+  ASSERT_TRUE(world.run_until([&] { return !world.device().busy(1); }, seconds(20))) << world.replay();
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+}
+
+// NG to its start may be another line's: what runs all the same is stopped.
+TEST_F(HazardOfJogs, H03_ARefusedStartThatWasNone) {
+  world.wire().set_script([this](LineKind kind, const std::string&) {
+    const bool answer = kind == LineKind::reply && world.wire().commands().back() == "G:1";
+    return answer ? Scripted{.drop = false, .delay = {}, .instead = "NG\r\n"} : Scripted{};
+  });
+  const MotionId id = jog({{1, 1, {}}});
+  renew_for(id, seconds(2));
+  world.controller().end_jog(id, {}, world.now());
+  EXPECT_TRUE(is_outcome(outcome(id).state)) << world.replay();
+  world.run_for(seconds(1));
+  EXPECT_FALSE(world.device().busy(1)) << world.replay();
 }
 
 TEST_F(HazardOfJogs, AnothersStopStopsIt) {

@@ -218,5 +218,15 @@ TEST_F(PlanTest, APathsRefusalNamesTheSegment) {
   EXPECT_THAT(plan.error().message, testing::StartsWith("segment 3: "));
 }
 
+// Also where a segment asks for a time only, its speed stays that of the caller, not of the controller.
+TEST_F(PlanTest, ASegmentWithoutASpeedIsNoFasterThanAllowed) {
+  Segment segment;
+  segment.moves.push_back({1, pulses(1000), {}});
+  segment.acceleration_ms = 50;
+  const auto plan = path({segment});
+  ASSERT_TRUE(plan) << plan.error().message;
+  EXPECT_EQ(plan->segments[0].move.axes[0].speed->maximum, 20000);  // 0.2 mm/s at 10 nm a pulse
+}
+
 }  // namespace
 }  // namespace axisgate::shrc203
