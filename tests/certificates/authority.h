@@ -18,7 +18,7 @@ class Authority {
 
   // Writes FOLDER/NAME.crt and FOLDER/NAME.key, or replaces them, each as a whole: for a daemon at localhost,
   // 127.0.0.1 and 192.0.2.1, which is for documentation and tests (RFC 5737), or a caller of that name.
-  void issue(const std::string& name, std::chrono::hours valid = std::chrono::hours(24)) const;
+  void issue(const std::string& name, std::chrono::hours valid = std::chrono::hours(90 * 24)) const;
 
  private:
   struct Free {

@@ -16,12 +16,17 @@ import urllib.request
 import yaml
 
 import dashboard
-from programs import LIMIT_S, ROOT, Daemon
+from programs import BIN, LIMIT_S, ROOT, Daemon
 
 CONFIG = """
 listen = "127.0.0.1:0"
 metrics = "127.0.0.1:0"
 socket = "{socket}"
+
+[network]
+listen = "127.0.0.1:0"
+certificate = "{{folder}}/gateway.crt"
+key = "{{folder}}/gateway.key"
 
 [[device]]
 name = "stage"
@@ -119,7 +124,8 @@ class AgainstPrometheus(unittest.TestCase):
     def setUpClass(cls):
         folder = tempfile.TemporaryDirectory(prefix="axisgate-dashboard-")
         cls.addClassCleanup(folder.cleanup)
-        daemon = Daemon(folder.name, CONFIG)
+        subprocess.run([BIN / "axisgate-certificates", folder.name, "lab", "gateway"], check=True, timeout=LIMIT_S)
+        daemon = Daemon(folder.name, CONFIG.replace("{{folder}}", folder.name))
         cls.addClassCleanup(daemon.stop)
         cls.prometheus = Prometheus(folder.name, daemon.metrics_address())
         cls.addClassCleanup(cls.prometheus.stop)
@@ -157,7 +163,7 @@ class AgainstPrometheus(unittest.TestCase):
         self.assertGreater(len(rules()), 5)
         for rule in rules():
             with self.subTest(rule["name"]):
-                looks_at = re.fullmatch(r"(.+) (?:==|>) [\d.]+", rule["query"])[1]
+                looks_at = re.fullmatch(r"(.+) (?:==|>|<) [\d.e+]+", rule["query"])[1]
                 target = {"expr": looks_at.replace("[5m]", "[10s]"), "legendFormat": ""}
                 wait_for(looks_at, lambda target=target: not self.problem(target))
                 self.assertEqual((rule["health"], rule["state"]), ("ok", "inactive"), rule.get("lastError"))
