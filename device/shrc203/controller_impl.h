@@ -5,6 +5,7 @@
 //   path.cc       the double buffer's chain             stop.cc     L: and L:E
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
 //   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
+//   clear_errors.cc  BEC:
 #pragma once
 
 #include <deque>
