@@ -95,6 +95,7 @@ enum class Guard {
   stop_again,
   stop_seen_to_stand,
   stop_looks_at_prebuffer,
+  stops_hold_motions,
   stops_join,
   stops_by_turns,
   stop_off_host,

@@ -76,6 +76,7 @@ using LiveMotionPtr = std::shared_ptr<LiveMotion>;
 
 struct StopJob {
   AxisSet axes;
+  AxisSet stops() const { return emergency ? AxisSet::all() : axes; }
   bool emergency = false;
   bool answered = false;  // its L: has been answered: a later stop is another one
   RequestContext context;

@@ -23,6 +23,16 @@ void MotionGate::leave(MotionId id) {
   admit();
 }
 
+void MotionGate::hold(AxisSet axes) {
+  if (guarded(Guard::stops_hold_motions)) held_.push_back(axes);
+}
+
+void MotionGate::let_go(AxisSet axes) {
+  const auto found = std::ranges::find(held_, axes);
+  if (found != held_.end()) held_.erase(found);
+  admit();
+}
+
 void MotionGate::withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem) {
   queue_.drain([&](const Entry& entry) { return chosen(entry.id); },
                [&](Entry entry) { entry.answer.deliver(tl::unexpected<Problem>(problem)); });
@@ -49,10 +59,11 @@ std::optional<TimePoint> MotionGate::next_deadline() const {
 void MotionGate::admit() {
   while (true) {
     AxisSet taken;
-    for (const auto& [id, axes] : inside_) taken = taken | axes;
-    auto entry = queue_.take([taken](const Entry& waiting) {
-      return !taken.touches(waiting.axes) || !guarded(Guard::one_motion_at_a_time);
-    });
+    if (guarded(Guard::one_motion_at_a_time)) {
+      for (const auto& [id, axes] : inside_) taken = taken | axes;
+    }
+    for (const AxisSet axes : held_) taken = taken | axes;
+    auto entry = queue_.take([taken](const Entry& waiting) { return !taken.touches(waiting.axes); });
     if (!entry) return;
     inside_[entry->id] = entry->axes;
     entry->answer.deliver({});

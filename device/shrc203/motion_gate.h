@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <vector>
 
 #include "device/core/lane_queue.h"
 #include "device/core/problem.h"
@@ -25,6 +26,11 @@ class MotionGate {
   void leave(MotionId id);
   bool others_inside(MotionId id) const { return inside_.size() > inside_.count(id); }
 
+  // Until a stop of these axes is over nothing new is set on them: it would be taken for what the stop left behind, and
+  // stopped. Stops may overlap.
+  void hold(AxisSet axes);
+  void let_go(AxisSet axes);
+
   // Turns away the waiting ones for which chosen(id) holds.
   void withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem);
 
@@ -44,6 +50,7 @@ class MotionGate {
   Executor& executor_;
   Scope busy_scope_;
   std::map<MotionId, AxisSet> inside_;
+  std::vector<AxisSet> held_;
   LaneQueue<Entry> queue_;
 };
 

@@ -49,7 +49,7 @@ void Recorder::tell(const BytesReceived& received) {
   const bool rest_of_end = received.bytes == "\n" && last_byte_ == '\r' && open_;
   if (complete_ && !rest_of_end) flush();
   if (!complete_) go_on();
-  const bool joined = goes_on_with_piece();
+  const bool joined = goes_on_with_piece(rest_of_end);
   if (!joined) {
     add(Item::received, {});
     piece_began_ = now_;
@@ -62,10 +62,13 @@ void Recorder::tell(const BytesReceived& received) {
   complete_ = complete_ || (open_->exchange == 0 && received.bytes.ends_with('\n'));
 }
 
-bool Recorder::goes_on_with_piece() const {
+// A whole line is a piece with its LF and no more: when it came may decide how long the line must be silent.
+bool Recorder::goes_on_with_piece(bool rest_of_end) const {
   if (open_->items.empty() || now_ - piece_began_ > kOnePiece) return false;
   const RecordedItem& last = open_->items.back();
-  return last.kind == Item::received && !last.text.ends_with('\n') && last.text.size() < kPieceBytes;
+  if (last.kind != Item::received || last.text.size() >= kPieceBytes) return false;
+  const bool whole = last.text.find_first_of("\r\n", last.text.starts_with('\n') ? 1 : 0) != std::string::npos;
+  return rest_of_end ? !last.text.ends_with('\n') : !whole;
 }
 
 void Recorder::tell(const ExchangeEnded& ended) {

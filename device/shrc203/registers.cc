@@ -78,6 +78,12 @@ void Registers::Reading::take(std::string_view question, const Reply& reply, Axi
   if (!set.empty()) set_[reg] = set;
 }
 
+AxisSet Registers::Reading::set() const {
+  AxisSet all;
+  for (const auto& [reg, axes] : set_) all = all | axes;
+  return all;
+}
+
 AxisSet Registers::set_in(Register reg) const {
   const auto found = set_.find(reg);
   return found == set_.end() ? AxisSet() : found->second;

@@ -27,6 +27,8 @@ class Registers {
   class Reading {
    public:
     void take(std::string_view question, const Reply& reply, AxisSet controllable);
+    // The axes on which anything that was asked for is set.
+    AxisSet set() const;
 
    private:
     friend class Registers;

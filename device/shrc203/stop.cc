@@ -39,6 +39,7 @@ void Controller::Impl::stop(AxisSet axes, bool emergency, const RequestContext& 
   job->done.push_back(std::move(done));
   for (const int axis : named.list()) job->report.axes.push_back({axis, {}, false, {}, {}});
   stops_.push_back(job);
+  gate_.hold(job->stops());
   executor_.spawn(run_stop(job));
 }
 
@@ -93,6 +94,7 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
     if (!excitation) settled_ = false;
   }
   std::erase(stops_, job);
+  gate_.let_go(job->stops());
   for (auto& done : job->done) done(job->report);
 }
 
@@ -194,10 +196,12 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
 // Whether L: clears the prebuffer is not documented (manual 65), 87)); what it left would run on the next start.
 Task<bool> Controller::Impl::prebuffer_is_empty(StopJobPtr job) {
   if (!guarded(Guard::stop_looks_at_prebuffer)) co_return true;
+  auto reading = registers_.begin_reading();
   for (const std::string_view question : {"?:MP", "?:AP", "?:KP", "?:EP"}) {
     const auto answer = co_await ask(question, Lane::motion, job->context.who);
     if (!answer.reply || answer.problem) co_return true;  // cannot be told; the registers stay unknown
-    if (answer.reply->text.find_first_of("0123456789") == std::string::npos) continue;
+    reading.take(question, *answer.reply, state_.controllable());
+    if (!reading.set().touches(job->stops())) continue;
     job->report.problem = Problem{
         Reason::left_over_setting,
         fmt::format("the axes were stopped, but {} tells that a prebuffer setting is left in the controller", question),

@@ -154,6 +154,8 @@ constexpr Row kTable[] = {
              "Hazard.H17_AnAxisWithoutExcitationIsNotNamed"),
     by_tests(Guard::stop_looks_at_prebuffer, "stop-looks-at-prebuffer", "... and the prebuffers to be empty",
              "Hazard.H14_AStopThatKeepsThePrebuffer"),
+    by_tests(Guard::stops_hold_motions, "stops-hold-motions", "until then nothing new is set on the stopped axes",
+             "Hazard.H14_AMoveAskedForRightAfterAStopIsNotHit"),
     by_tests(Guard::stops_join, "stops-join", "stops that come while one is pending join it",
              "Hazard.H38_StopsThatComeTogetherAreOne"),
     by_tests(Guard::stops_by_turns, "stops-by-turns", "at most every second exchange is a stop",

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "tests/simulation/scenario.h"
 
@@ -93,6 +94,43 @@ TEST(Hazard, H14_TheKeptSegmentStarts) {
   EXPECT_EQ(written(world, "L:"), 2) << world.replay();
   EXPECT_EQ(written(world, "L:A"), 2) << world.replay();
   EXPECT_FALSE(world.device().busy(1));
+}
+
+// What is set for the next motion is not what the stop left behind, nor what a motion of other axes has set.
+TEST(Hazard, H14_AMoveAskedForRightAfterAStopIsNotHit) {
+  for (int apart = 0; apart < 120 && !HasFailure(); apart += 3) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 100}});
+    std::optional<StopReport> report;
+    world.controller().stop({}, world.context("stopper"), world.now(), [&](const StopReport& told) { report = told; });
+    world.run_for(milliseconds(apart));
+    move_by(world, {{1, 5000}});
+    EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << apart << "\n" << world.replay();
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->problem) << apart << ": " << report->problem->message << "\n" << world.replay();
+    EXPECT_EQ(written(world, "L:"), 1) << apart << "\n" << world.replay();
+  }
+}
+
+TEST(Hazard, H14_AStopOfOneAxisLeavesThePathOfOthers) {
+  for (int after = 0; after < 200 && !HasFailure(); after += 7) {
+    auto setup = quiet();
+    setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+    for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    world.controller().run_path(line_of(world, 12), world.now(), [](Result<Motion>) {});
+    ASSERT_TRUE(world.run_until([&] { return written(world, "KP:") == 3; }, seconds(5))) << world.replay();
+    world.run_for(milliseconds(after));
+    std::optional<StopReport> report;
+    world.controller().stop(AxisSet::of(3), world.context("stopper"), world.now(),
+                            [&](const StopReport& told) { report = told; });
+    EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << after << "\n" << world.replay();
+    ASSERT_TRUE(report);
+    EXPECT_FALSE(report->problem) << after << ": " << report->problem->message << "\n" << world.replay();
+    EXPECT_EQ(written(world, "L:"), 1) << after << "\n" << world.replay();
+  }
 }
 
 // The number that a stopped axis sends comes up to 190 ms late: the next move neither begins before nor ends by it.

@@ -127,8 +127,9 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   EXPECT_EQ(differences(text), "");
 }
 
-// 7000: a question that waited until no number could come. 7002, 7003: an exchange asked for just after the line had
-// asked something for itself. 20094, 20114: two stops that waited for the end of one exchange.
+// 7000: a question that waited until no number could come. 7001: an identity told twice, the second right behind the
+// first. 7002, 7003: an exchange asked for just after the line had asked something for itself. 20094, 20114: two stops
+// that waited for the end of one exchange.
 INSTANTIATE_TEST_SUITE_P(Hostile, Recorded,
                          testing::Values(7000, 7001, 7002, 7003, 7004, 7005, 7006, 7007, 20094, 20114));
 

@@ -1,6 +1,7 @@
 #include "tests/stress/bench.h"
 
 #include <fmt/format.h>
+#include <gtest/gtest.h>
 #include <stdlib.h>
 
 #include <chrono>
@@ -53,7 +54,11 @@ Bench::Bench() : directory_(make_directory()) {
 Bench::~Bench() {
   gateway_.reset();
   for (auto& unit : units_) unit.reset();
-  std::filesystem::remove_all(directory_);
+  if (testing::Test::HasFailure()) {
+    fmt::print("What went over the lines is kept in {}\n", directory_.string());
+  } else {
+    std::filesystem::remove_all(directory_);
+  }
 }
 
 server::Config Bench::config() const {
