@@ -25,6 +25,7 @@ namespace axisgate::server {
 namespace {
 
 using shrc203::AtExit;
+using shrc203::AtLeaseEnd;
 using shrc203::Profile;
 using shrc203::Scope;
 
@@ -200,6 +201,8 @@ class ConfigReader {
     profile.busy_scope = table.choice<Scope>("busy_scope", kScopes).value_or(profile.busy_scope);
     profile.prebuffer_scope = table.choice<Scope>("prebuffer_scope", kScopes).value_or(profile.prebuffer_scope);
     profile.at_exit = table.choice<AtExit>("at_exit", kAtExit).value_or(profile.at_exit);
+    profile.speeds_at_lease_end =
+        table.choice<AtLeaseEnd>("speeds_at_lease_end", kAtLeaseEnd).value_or(profile.speeds_at_lease_end);
     read_milliseconds(table, "reply_limit_ms", 50, 60'000, profile.reply_limit);
     read_milliseconds(table, "idle_poll_ms", 10, 60'000, profile.idle_poll);
     read_milliseconds(table, "moving_poll_ms", 10, 10'000, profile.moving_poll);

@@ -21,5 +21,7 @@ inline constexpr std::array<std::pair<std::string_view, Role>, 4> kRoles = {
     {{"nobody", Role::nobody}, {"observer", Role::observer}, {"operator", Role::operator_}, {"admin", Role::admin}}};
 inline constexpr std::array<std::pair<std::string_view, shrc203::AtExit>, 2> kAtExit = {
     {{"stop", shrc203::AtExit::stop}, {"finish", shrc203::AtExit::finish}}};
+inline constexpr std::array<std::pair<std::string_view, shrc203::AtLeaseEnd>, 2> kAtLeaseEnd = {
+    {{"restored", shrc203::AtLeaseEnd::restored}, {"kept", shrc203::AtLeaseEnd::kept}}};
 
 }  // namespace axisgate::server

@@ -29,11 +29,18 @@ std::string link_text(const v1::Device& device) {
 // yes, no, or ? where nobody knows.
 std::string_view known(bool is_known, bool value) { return !is_known ? "?" : value ? "yes" : "no"; }
 
+// S, F and R as D: takes them (manual 89)), in pulses/s and ms.
+std::string speed_text(const v1::Axis& axis) {
+  if (!axis.has_minimum_speed() || !axis.has_maximum_speed() || !axis.has_acceleration_ms()) return "?";
+  return fmt::format("S{}F{}R{}", axis.minimum_speed(), axis.maximum_speed(), axis.acceleration_ms());
+}
+
 std::string axis_text(const v1::Axis& axis) {
   if (!axis.controllable()) return fmt::format("axis {}  {}  not controllable", axis.number(), label(axis));
-  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}", axis.number(), label(axis),
-                     position_text(axis), known(axis.has_busy(), axis.busy()),
-                     known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits());
+  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}", axis.number(),
+                     label(axis), position_text(axis), known(axis.has_busy(), axis.busy()),
+                     known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits(),
+                     speed_text(axis));
 }
 
 void print_status(const v1::Device& device) {

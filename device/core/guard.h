@@ -139,6 +139,8 @@ enum class Guard {
   jog_ends_before_bound,
   jog_ends_with_its_right,
   runaways_stopped,
+  speeds_restored,
+  speeds_owed,
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,

@@ -169,10 +169,12 @@ std::optional<Problem> Controller::Impl::may_write(const ExchangeRequest& reques
 }
 
 void Controller::Impl::carry_out_orders() {
-  for (const StopOrder& order : permission_.advance(now_)) {
+  const Orders orders = permission_.advance(now_);
+  for (const StopOrder& order : orders.stops) {
     const RequestContext gateway{.who = "the gateway on behalf of " + order.who, .request_id = {}, .not_after = {}};
     stop(order.axes, false, gateway, [this, id = order.id](const StopReport&) { permission_.stopped(id, now_); });
   }
+  for (const EndedLease& lease : orders.restoring) executor_.spawn(restore_speeds_of(lease));
 }
 
 Controller::Controller(Profile profile, ByteLink& link, EventSink& events)

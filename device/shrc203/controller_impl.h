@@ -5,7 +5,7 @@
 //   path.cc       the double buffer's chain             stop.cc     L: and L:E
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
 //   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
-//   clear_errors.cc  BEC:
+//   clear_errors.cc  BEC:                               speeds.cc   what D: has set, for a motion or a lease
 #pragma once
 
 #include <deque>
@@ -157,12 +157,7 @@ class Controller::Impl : public LineListener {
   std::optional<Problem> error_of(const LiveMotion& live) const;
   bool anything_moves() const;
 
-  // move.cc, home.cc
-  void move(MoveRequest request, OnStarted started);
-  Task<void> run_move(LiveMotionPtr live, MoveRequest request);
-  Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
-  Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
-  Task<bool> start_never_came(LiveMotionPtr live, Command setter);
+  // speeds.cc
   using Speeds = std::map<int, SpeedSetting>;  // by axis
   void note_speeds(const Speeds& speeds);
   Speeds known_speeds(AxisSet axes) const;
@@ -172,7 +167,19 @@ class Controller::Impl : public LineListener {
   void forget_speeds(AxisSet axes);
   // Speeds for axes whose own F is more than the caller may run at; none where all are slow enough.
   Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
+  Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
   Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
+  Task<void> pay_speeds(AxisSet axes, std::string caller);
+  Task<bool> set_back(Speeds before, ExchangeRequest request);
+  void remember_speeds(const RequestContext& context, AxisSet axes);
+  Task<void> restore_speeds_of(EndedLease lease);
+  Task<void> restore_all_speeds();
+
+  // move.cc, home.cc
+  void move(MoveRequest request, OnStarted started);
+  Task<void> run_move(LiveMotionPtr live, MoveRequest request);
+  Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
+  Task<bool> start_never_came(LiveMotionPtr live, Command setter);
   ExchangeRequest motion_request(const LiveMotion& live, Command command, Lane lane) const;
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
   enum class Start { accepted, in_doubt };
@@ -255,7 +262,9 @@ class Controller::Impl : public LineListener {
   bool restart_possible_ = false;  // look_for_restart() runs
   Registers registers_;
   MotionGate gate_;
-  std::map<MotionId, LiveMotionPtr> live_;  // without an outcome yet
+  std::map<MotionId, LiveMotionPtr> live_;         // without an outcome yet
+  std::map<std::uint64_t, Speeds> speeds_before_;  // the lease of this token has set others
+  Speeds speeds_owed_;                             // by axis; a motion that ended has set others
   std::deque<Motion> ended_;
   MotionId last_motion_ = 0;
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one

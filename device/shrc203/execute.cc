@@ -157,7 +157,10 @@ Result<void> Transaction::check_setting(const Command& command, const Envelope& 
 Task<Result<void>> Transaction::begin() {
   auto ready = co_await impl_.enter_gate(live_, completes(commands_));
   if (!ready) co_return ready;
-  if (live_->motion.axes.empty()) co_return check_envelope();
+  if (live_->motion.axes.empty()) {
+    co_await impl_.pay_speeds(live_->uses, request_.context.who);
+    co_return check_envelope();
+  }
   Register reg = Register::none;
   for (const Command& command : commands_) {
     if (command.row->reg != Register::none) reg = command.row->reg;
@@ -231,13 +234,16 @@ Task<bool> Transaction::send(std::size_t index) {
   event.line = index;
   event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
+  const AxisSet sped =
+      speeds_of(command, AxisSet::all()).empty() ? AxisSet() : command.axes(impl_.state_.controllable());
+  if (!sped.empty()) impl_.remember_speeds(request_.context, sped);
   const auto result = co_await exchange(command);
   if (command.row->moves()) {
     started_ = started_ || result.accepted();
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
-  if (!speeds_of(command, AxisSet::all()).empty()) impl_.forget_speeds(command.axes(impl_.state_.controllable()));
+  impl_.forget_speeds(sped);
   // Also where the answer was lost: it may have been taken.
   if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
   if (result.problem) {

@@ -50,6 +50,7 @@ void MotionGate::expire(TimePoint now) {
 std::optional<TimePoint> MotionGate::next_deadline() const {
   std::optional<TimePoint> next;
   queue_.for_each([&](const Entry& entry) {
+    if (entry.not_after == TimePoint::max()) return;
     const TimePoint at = entry.not_after + Duration(1);
     if (!next || at < *next) next = at;
   });

@@ -20,8 +20,8 @@ class MotionGate {
  public:
   MotionGate(Executor& executor, Scope busy_scope) : executor_(executor), busy_scope_(busy_scope) {}
 
-  // co_await yields nothing once entered, or the problem that kept it out: queue_full, deadline_passed, or what
-  // withdraw() was given. Callers take turns.
+  // `not_after` may be TimePoint::max(), for ever. co_await yields nothing once entered, or the problem that kept it
+  // out: queue_full, deadline_passed, or what withdraw() was given. Callers take turns.
   OneShot<Result<void>> enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after);
   void leave(MotionId id);
   bool others_inside(MotionId id) const { return inside_.size() > inside_.count(id); }

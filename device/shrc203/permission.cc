@@ -9,8 +9,10 @@ class EverybodyMay final : public Permission {
   void end(MotionId, TimePoint) override {}
   void stop_asked(const Use&, TimePoint) override {}
   void device_restarted(TimePoint) override {}
-  std::vector<StopOrder> advance(TimePoint) override { return {}; }
+  void settings_changed(std::uint64_t) override {}
+  Orders advance(TimePoint) override { return {}; }
   void stopped(std::uint64_t, TimePoint) override {}
+  void settings_restored(std::uint64_t, TimePoint) override {}
   std::optional<TimePoint> next_deadline() const override { return {}; }
 };
 

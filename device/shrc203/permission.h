@@ -29,6 +29,17 @@ struct StopOrder {
   std::string who;  // on whose behalf, for people
 };
 
+// A lease under which nothing moves any more, whose holder had changed what would outlive him.
+struct EndedLease {
+  std::uint64_t token = 0;
+  std::string who;
+};
+
+struct Orders {
+  std::vector<StopOrder> stops;       // each is answered by stopped(), whatever became of it
+  std::vector<EndedLease> restoring;  // each by settings_restored(); its axes are nobody's until then
+};
+
 // Not thread safe: called on the controller's strand, and must not call back into the controller.
 class Permission {
  public:
@@ -46,9 +57,13 @@ class Permission {
   // The controller may have restarted: what was promised about it before is void.
   virtual void device_restarted(TimePoint now) = 0;
 
-  // Lets time pass, and fetches what is to be stopped. Each order is answered by stopped(), whatever became of it.
-  virtual std::vector<StopOrder> advance(TimePoint now) = 0;
+  // Under that lease a setting was changed that is to be what it was when the lease has ended.
+  virtual void settings_changed(std::uint64_t lease) = 0;
+
+  // Lets time pass, and fetches what is to be done.
+  virtual Orders advance(TimePoint now) = 0;
   virtual void stopped(std::uint64_t order, TimePoint now) = 0;
+  virtual void settings_restored(std::uint64_t lease, TimePoint now) = 0;
   virtual std::optional<TimePoint> next_deadline() const = 0;
 };
 

@@ -37,6 +37,10 @@ enum class Scope { axis, controller };
 // What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
 enum class AtExit { stop, finish };
 
+// Speeds that a lease's holder has set by D: for good (manual 89)): what they were before is set again when his lease
+// has ended, or they stay.
+enum class AtLeaseEnd { restored, kept };
+
 // What the refills of a running path are to its line. `reserved`: they go before everything but a stop, and the line is
 // free when they are due. The others only show what that is needed for: no configuration names them.
 enum class Refills { reserved, first, among_questions };
@@ -53,6 +57,7 @@ struct Profile {
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);
   AtExit at_exit = AtExit::stop;
+  AtLeaseEnd speeds_at_lease_end = AtLeaseEnd::restored;
   Refills refills = Refills::reserved;
 };
 

@@ -84,8 +84,8 @@ void Controller::Impl::leave_gate(LiveMotion& live) {
 
 Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuffer) {
   const bool alone = prebuffer && guarded(Guard::path_owns_prebuffers) && profile_.prebuffer_scope == Scope::controller;
-  auto entry = gate_.enter(live->motion.id, alone ? AxisSet::all() : live->motion.axes, live->context.who,
-                           live->context.not_after);
+  auto entry =
+      gate_.enter(live->motion.id, alone ? AxisSet::all() : live->uses, live->context.who, live->context.not_after);
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   live->inside_gate = true;
@@ -125,6 +125,7 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
     if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   }
+  if (guarded(Guard::speeds_owed)) co_await pay_speeds(axes, live->context.who);
   if (!registers_.known() || registers_.any()) {
     const auto cleared = co_await clear_left_overs(live, reg);
     if (!cleared) co_return cleared;

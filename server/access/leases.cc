@@ -113,8 +113,7 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
   end_lease(**held, "it was handed over to " + to, false);
   Waiting waiting = std::move(*next);
   waiting_.erase(next);
-  drop_ended();
-  waiting.answer(start(waiting.lease, now));
+  waiting_.push_front(std::move(waiting));
   settle(now);
   return {};
 }
@@ -219,7 +218,7 @@ void Leases::end_lease(Held& held, std::string why, bool goes_on) {
   held.goes_on = goes_on;
 }
 
-void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.push_back({++last_order_, axes, who}); }
+void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.push_back({++last_order_, axes, who}); }
 
 void Leases::expire(TimePoint now) {
   for (Held& held : held_) {
@@ -253,8 +252,16 @@ void Leases::settle(TimePoint now) {
 }
 
 bool Leases::drop_ended() {
-  return std::erase_if(held_,
-                       [this](const Held& held) { return !held.lease.ending.empty() && !runs(held.lease.token); }) > 0;
+  return std::erase_if(held_, [this](Held& held) { return is_over(held); }) > 0;
+}
+
+bool Leases::is_over(Held& held) {
+  if (held.lease.ending.empty() || runs(held.lease.token)) return false;
+  if (held.settings == Settings::changed) {
+    held.settings = Settings::being_restored;
+    orders_.restoring.push_back({held.lease.token, held.lease.holder});
+  }
+  return held.settings == Settings::untouched;
 }
 
 AxisSet Leases::taken() const {
@@ -281,12 +288,21 @@ bool Leases::grant(TimePoint now) {
 }
 
 Lease Leases::start(const WaitingLease& waiting, TimePoint now) {
-  held_.push_back(
-      {{tokens_.next(), waiting.holder, waiting.terms, now, now + waiting.terms.time_to_live, {}, {}}, false});
+  held_.push_back({{tokens_.next(), waiting.holder, waiting.terms, now, now + waiting.terms.time_to_live, {}, {}}});
   return held_.back().lease;
 }
 
-std::vector<shrc203::StopOrder> Leases::advance(TimePoint now) {
+void Leases::settings_changed(LeaseToken lease) {
+  Held* held = find(lease);
+  if (held != nullptr && held->settings == Settings::untouched) held->settings = Settings::changed;
+}
+
+void Leases::settings_restored(LeaseToken lease, TimePoint now) {
+  if (Held* held = find(lease)) held->settings = Settings::untouched;
+  settle(now);
+}
+
+shrc203::Orders Leases::advance(TimePoint now) {
   expire(now);
   settle(now);
   return std::exchange(orders_, {});
@@ -302,7 +318,7 @@ void Leases::stopped(std::uint64_t order, TimePoint now) {
 std::optional<TimePoint> Leases::next_deadline() const {
   std::optional<TimePoint> next;
   const auto sooner = [&next](TimePoint at) { next = next ? std::min(*next, at) : at; };
-  if (!orders_.empty()) return TimePoint{};
+  if (!orders_.stops.empty() || !orders_.restoring.empty()) return TimePoint{};
   for (const Held& held : held_) {
     if (held.lease.ending.empty()) sooner(held.lease.expires);
   }

@@ -2,7 +2,7 @@
 //
 //   acquire ──► waiting ──► held ──► (released, expired, taken over, device restarted) ──► ending ──► gone
 //                  │           ▲                                                             │
-//               given up       └── keep_alive                  no motion of it is left ──────┘
+//               given up       └── keep_alive      no motion of it is left, settings restored ──────┘
 #pragma once
 
 #include <atomic>
@@ -123,14 +123,18 @@ class Leases : public shrc203::Permission {
   void end(MotionId motion, TimePoint now) override;
   void stop_asked(const shrc203::Use& stop, TimePoint now) override;
   void device_restarted(TimePoint now) override;
-  std::vector<shrc203::StopOrder> advance(TimePoint now) override;
+  void settings_changed(LeaseToken lease) override;
+  shrc203::Orders advance(TimePoint now) override;
   void stopped(std::uint64_t order, TimePoint now) override;
+  void settings_restored(LeaseToken lease, TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
 
  private:
+  enum class Settings { untouched, changed, being_restored };
   struct Held {
     Lease lease;
     bool goes_on = false;  // of an ending one: what runs may send on until it has ended
+    Settings settings = Settings::untouched;
   };
   struct Waiting {
     WaitingLease lease;
@@ -159,6 +163,7 @@ class Leases : public shrc203::Permission {
   void expire(TimePoint now);
   void settle(TimePoint now);
   bool drop_ended();
+  bool is_over(Held& held);
   bool grant(TimePoint now);
   AxisSet taken() const;
   Lease start(const WaitingLease& waiting, TimePoint now);
@@ -182,7 +187,7 @@ class Leases : public shrc203::Permission {
     std::string why;
   };
   std::deque<Ended> ended_;
-  std::vector<shrc203::StopOrder> orders_;
+  shrc203::Orders orders_;
   std::uint64_t last_waiting_ = 0, last_order_ = 0;
 };
 

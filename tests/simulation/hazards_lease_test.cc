@@ -85,6 +85,114 @@ TEST_F(HazardOfSharing, H35_AnExpiredLeaseStopsItsMotion) {
   EXPECT_EQ(move("anna", token, 1, 100), Reason::lease_lost);
 }
 
+TEST_F(HazardOfSharing, H35_AMotionWhoseLeaseEndedWhileItWaited) {
+  // For 14 s, and what it leaves in the registers has to be asked for.
+  world.controller().execute({{"A:2+P700000", "G:2"}, context("bert", 0)}, world.now(), [](const ExecuteEvent&) {});
+  const LeaseToken anna = lease("anna", kOne);
+  world.run_for(seconds(1));
+  MoveRequest request = move_of(world, {{1, 100}}, true);
+  request.context = context("anna", anna);
+  request.context.not_after = world.now() + seconds(60);
+  world.controller().move(std::move(request), world.now(), [](const Result<Motion>&) {});
+  int lines_of_anna = 0;
+  world.on_news = [&](const Event& event) {
+    const auto* bytes = std::get_if<BytesWritten>(&event);
+    lines_of_anna += bytes != nullptr && bytes->who == "anna" ? 1 : 0;
+  };
+  world.run_for(seconds(20));
+  ASSERT_EQ(world.outcomes().size(), 2u) << world.replay();
+  EXPECT_EQ(reason_of(world.outcomes()[1]), Reason::lease_lost) << world.replay();
+  EXPECT_EQ(lines_of_anna, 0) << "it was begun without the right to\n" << world.replay();
+}
+
+// D: of a lease's holder, and what the next one finds.
+TEST_F(HazardOfSharing, H28_SpeedsEndWithTheLease) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  ASSERT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+  std::optional<std::int64_t> found;
+  leases.acquire({.axes = kOne}, "bert", true, world.now() + seconds(60), world.now(),
+                 [&](const Result<Lease>& got) { found = got ? world.device().maximum_speed(1) : 0; });
+  world.run_for(seconds(20));
+  EXPECT_EQ(found, 50'000) << world.replay();
+  EXPECT_EQ(written(world, "D:1S1000F50000R100"), 1) << world.replay();
+  EXPECT_EQ(world.controller().state().axis(1).maximum_speed, 50'000);
+}
+
+TEST_F(HazardOfSharing, H28_SpeedsSetWithoutALeaseStay) {
+  execute(world, {"D:1S500F7000R300"});
+  world.run_for(seconds(30));
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+}
+
+// The line is pulled while the lease expires: the axis is nobody's until its speeds could be put back.
+TEST_F(HazardOfSharing, H28_SpeedsEndWithTheLeaseWhenTheLineComesBack) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  world.wire().set_script([](LineKind, const std::string&) -> Scripted { return {true, {}, {}}; });
+  world.run_for(seconds(20));
+  world.wire().set_script({});
+  EXPECT_FALSE(leases.held().empty());
+  ASSERT_TRUE(world.run_until([&] { return leases.held().empty(); }, seconds(60))) << world.replay();
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+// Whatever the lease ends by, and the daemon's end is one of them.
+TEST_F(HazardOfSharing, H52_SpeedsEndWithTheDaemon) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  bool ended = false;
+  world.controller().wind_down(world.now(), [&](const WindDownReport&) { ended = true; });
+  ASSERT_TRUE(world.run_until([&] { return ended; }, seconds(5))) << world.replay();
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+// Users' seed 29876: a D: alone went out while a path moved its axis, and took the path's speed for what was before.
+TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  auto setup = with(leases);
+  setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+  for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  LeaseToken token = 0;
+  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+                 [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+  PathRequest path;
+  path.context = world.context("anna");
+  path.context.lease = token;
+  for (int i = 0; i < 4; ++i) path.segments.push_back({{{1, pulses(2000), {}}}, true, pulses(4000), {}});
+  world.controller().run_path(path, world.now(), [](const Result<Motion>&) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "MP:") == 3; }, seconds(5))) << world.replay();
+  world.controller().execute({{"D:1S500F7000R300"}, path.context}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+  world.run_for(seconds(20));
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  auto setup = with(leases);
+  setup.profile.speeds_at_lease_end = AtLeaseEnd::kept;
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  LeaseToken token = 0;
+  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+                 [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+  RequestContext asked = world.context("anna");
+  asked.lease = token;
+  world.controller().execute({{"D:1S500F7000R300"}, asked}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(30));
+  EXPECT_TRUE(leases.held().empty());
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+}
+
 TEST_F(HazardOfSharing, H35_AMotionThatMayFinishFinishes) {
   const LeaseToken token = lease("anna", kOne, AtLoss::finish);
   EXPECT_EQ(move("anna", token, 1, 700'000), Reason::unspecified);

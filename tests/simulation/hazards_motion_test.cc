@@ -241,5 +241,21 @@ TEST(Hazard, H44_LimitStopIsNoSuccess) {
   EXPECT_EQ(reason_of(motion), Reason::limit_detected);
 }
 
+// The speed of a move stays in the controller when the line is lost under it: the next one runs at the old one.
+TEST(Hazard, H28_SpeedsOfAMotionWhoseLineWasLost) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  MoveRequest request = move_of(world, {{1, 5000}}, true);
+  request.moves[0].profile = SpeedProfile{pulses(200), pulses(2000), 30};
+  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
+  world.run_for(seconds(1));
+  ASSERT_EQ(world.device().maximum_speed(1), 2000) << world.replay();
+  foreign_traffic(world, {});
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.run_for(seconds(5));
+  moved(world, {{1, 100}});
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
 }  // namespace
 }  // namespace axisgate::simulation

@@ -12,6 +12,7 @@ using server::AtLoss;
 using server::Lease;
 using server::LeaseTerms;
 using server::LeaseToken;
+using simulator::AxisSetup;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -63,7 +64,7 @@ void Users::act_for(Duration duration) {
 
 void Users::act(User& user) {
   auto& random = world_.random();
-  switch (random.between(0, 16)) {
+  switch (random.between(0, 17)) {
     case 0:
     case 1:
     case 2:
@@ -89,6 +90,8 @@ void Users::act(User& user) {
       return &user < &users_[kAdmins] && random.chance(0.3) ? take_over(user) : keep_alive(user);
     case 13:
       return jog(user, drawn_token(user));
+    case 14:
+      return execute(user, drawn_token(user));
     default:
       return move(user, drawn_token(user));
   }
@@ -153,6 +156,7 @@ void Users::granted(User& user, const Lease& lease) {
                           until,
                           lease.terms.at_loss,
                           {},
+                          false,
                           false,
                           world_.controller().state().device_epoch};
   if (user.token != 0) user.stale.push_back(user.token);
@@ -244,6 +248,24 @@ void Users::jog(User& user, LeaseToken token) {
   if (user.jog != 0) renewed_[user.jog] = world_.now();
 }
 
+// Speeds that outlive their user, under a lease only: what is set without one is meant to stay.
+void Users::execute(User& user, LeaseToken token) {
+  auto& random = world_.random();
+  const bool leased = token != 0 && grants_.contains(token);
+  const int axis = leased ? grants_.at(token).axes.lowest() : static_cast<int>(random.between(1, 3));
+  ExecuteRequest request;
+  if (leased && random.chance(0.7)) request.lines.push_back(fmt::format("D:{}S{}F4000R50", axis, random.between(1, 9)));
+  if (!leased || random.chance(0.5)) {
+    request.lines.push_back(fmt::format("A:{}+P{}", axis, random.between(0, 20'000)));
+    request.lines.push_back(fmt::format("G:{}", axis));
+  }
+  if (request.lines.empty()) return;
+  request.context = context(user, token);
+  world_.controller().execute(std::move(request), world_.now(), [this](const ExecuteEvent& event) {
+    counts_.executed += event.kind == ExecuteEvent::Kind::ended && !event.problem ? 1 : 0;
+  });
+}
+
 // Most of the time somebody who jogs keeps at it, if not always in time; some let go, some are never heard of again.
 void Users::keep_jogs() {
   auto& random = world_.random();
@@ -305,6 +327,7 @@ void Users::on_news(const Event& event) {
 
 // Every line that sets or starts a motion is its owner's, or nobody owns the axes; and nobody holds its author back.
 void Users::check_bytes(const BytesWritten& written) {
+  check_speeds(written);
   if (written.exchange == 0 || !moves_something(written.bytes)) return;
   for (const int axis : axes_of(written.bytes).list()) {
     const Grant* owner = owner_of(axis);
@@ -318,6 +341,26 @@ void Users::check_bytes(const BytesWritten& written) {
       world_.violation(fmt::format("{} of {} went out for axis {}, which was stopped and not rearmed",
                                    written.bytes.substr(0, 6), written.who, axis));
     }
+  }
+}
+
+// Whoever moves at the controller's own speeds finds those that were there before, unless he has set others; a wrong
+// bit of a line may have, or of what was read.
+void Users::check_speeds(const BytesWritten& written) {
+  if (world_.wire().damaged_since(TimePoint{})) return;
+  const bool sets_speed = written.bytes.find("F4000R50") != std::string::npos;
+  const bool at_given_speed = written.bytes.starts_with("J:") || written.bytes.find(",S") != std::string::npos;
+  if (!sets_speed && (!sets_motion(written.bytes) || at_given_speed)) return;
+  for (const int axis : axes_of(written.bytes).list()) {
+    bool sped = false;
+    for (auto& [token, grant] : grants_) {
+      if (grant.who != written.who || !grant.axes.has(axis)) continue;
+      grant.sped = grant.sped || sets_speed;
+      sped = sped || grant.sped;
+    }
+    if (sped || world_.device().maximum_speed(axis) == AxisSetup().maximum_speed) continue;
+    world_.violation(fmt::format("{} moves axis {} at {} pulses/s, which another has set", written.who, axis,
+                                 world_.device().maximum_speed(axis)));
   }
 }
 

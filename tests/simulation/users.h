@@ -23,7 +23,8 @@ class Users {
   World& world() { return world_; }
 
   struct Counts {
-    int granted = 0, refused = 0, expired = 0, taken_over = 0, handed_over = 0, latched = 0, moved = 0, jogged = 0;
+    int granted = 0, refused = 0, expired = 0, taken_over = 0, handed_over = 0, latched = 0, moved = 0, jogged = 0,
+        executed = 0;
   };
   const Counts& counts() const { return counts_; }
 
@@ -43,6 +44,7 @@ class Users {
     TimePoint valid_until{};
     server::AtLoss at_loss = server::AtLoss::stop;
     shrc203::AxisSet latched;
+    bool sped = false;  // it has set speeds of its own
     bool over = false;  // released, handed over or taken over
     std::uint64_t epoch = 0;
   };
@@ -57,6 +59,7 @@ class Users {
   void path(User& user, server::LeaseToken token);
   void jog(User& user, server::LeaseToken token);
   void keep_jogs();
+  void execute(User& user, server::LeaseToken token);
   void stop(User& user);
   void rearm(User& user);
   server::LeaseTerms drawn_terms();
@@ -66,6 +69,7 @@ class Users {
   void on_news(const shrc203::Event& event);
   void check_bytes(const shrc203::BytesWritten& written);
   void check_travel();
+  void check_speeds(const shrc203::BytesWritten& written);
   void check_jogs();
   bool owned(const Grant& grant);
   const Grant* owner_of(int axis);

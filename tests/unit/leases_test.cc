@@ -50,7 +50,7 @@ class LeasesTest : public testing::Test {
   }
   void pass(Duration time) {
     now_ += time;
-    for (const auto& order : leases_.advance(now_)) orders_.push_back(order);
+    for (const auto& order : leases_.advance(now_).stops) orders_.push_back(order);
   }
   void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0) {
     leases_.stop_asked({who, lease, axes, 0}, now_);
@@ -103,6 +103,34 @@ TEST_F(LeasesTest, ALeaseExpiresUnlessItIsKeptAlive) {
   EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
   EXPECT_EQ(may("bert", 0, kOne), kAllowed);
   EXPECT_THAT(leases_.held(), IsEmpty());
+}
+
+TEST_F(LeasesTest, TheAxesAreNobodysUntilTheSettingsAreRestored) {
+  const LeaseToken token = held_by("anna", kOne);
+  leases_.settings_changed(token);
+  wait_for("bert", kOne);
+  ASSERT_TRUE(leases_.release(token, now_));
+  EXPECT_THAT(answers_, IsEmpty());
+  EXPECT_EQ(leases_.next_deadline(), TimePoint{});
+  const auto orders = leases_.advance(now_);
+  ASSERT_EQ(orders.restoring.size(), 1u);
+  EXPECT_EQ(orders.restoring[0].token, token);
+  EXPECT_EQ(orders.restoring[0].who, "anna");
+  EXPECT_THAT(leases_.advance(now_).restoring, IsEmpty()) << "asked for twice";
+  EXPECT_EQ(may("anna", token, kOne), Reason::lease_lost);
+  leases_.settings_restored(token, now_);
+  EXPECT_THAT(answers_, ElementsAre("bert has it"));
+}
+
+TEST_F(LeasesTest, AHandOverWaitsForTheSettings) {
+  const LeaseToken token = held_by("anna", kOne);
+  leases_.settings_changed(token);
+  wait_for("carl", kOne);
+  wait_for("bert", kOne);
+  ASSERT_TRUE(leases_.hand_over(token, "bert", now_));
+  EXPECT_THAT(answers_, IsEmpty());
+  leases_.settings_restored(token, now_);
+  EXPECT_THAT(answers_, ElementsAre("bert has it"));
 }
 
 TEST_F(LeasesTest, ThoseWhoWaitGetItInTheirOrder) {

@@ -37,6 +37,8 @@ std::optional<TimePoint> Simulator::next_deadline() const { return device_->next
 
 std::int64_t Simulator::position(int axis) const { return device_->rig().axis(axis).coordinate(device_->rig().now); }
 
+std::int64_t Simulator::maximum_speed(int axis) const { return device_->rig().axis(axis).speed.maximum; }
+
 bool Simulator::busy(int axis) const { return device_->rig().motions.busy(axis); }
 
 void Simulator::set_excitation(int axis, bool on, TimePoint now) {

@@ -35,7 +35,8 @@ class Simulator : public LineMachine {
   std::optional<TimePoint> next_deadline() const override;
 
   // What a person standing at the device could do or see.
-  std::int64_t position(int axis) const;  // pulses, at the time of the last call
+  std::int64_t position(int axis) const;       // pulses, at the time of the last call
+  std::int64_t maximum_speed(int axis) const;  // F, pulses/s, as D: or a prebuffer setting has left it
   bool busy(int axis) const;
   void set_excitation(int axis, bool on, TimePoint now);
   void press_emergency(TimePoint now);
