@@ -60,14 +60,26 @@ TEST(ConfigText, IsReadAsTheSameConfiguration) {
   EXPECT_EQ(to_toml(*again), text);
   EXPECT_EQ(again->socket, config->socket);
   EXPECT_EQ(again->devices.at(0).record, "/var/tmp/stage.recording");
-  for (const char* line :
-       {"listen = \"127.0.0.1:50203\"", "local = \"observer\"", "admin_commands = [\"BEC:\", \"take-over\"]",
-        "roles = { \"unix alice\" = \"admin\" }", "path = \"/dev/ttyUSB0\"", "baud = 38400", "parity = \"even\"",
-        "stop_bits = 2", "flow_control = \"none\"", "serial_number = \"2106001001\"", "busy_scope = \"axis\"",
-        "prebuffer_scope = \"controller\"", "at_exit = \"finish\"", "speeds_at_lease_end = \"restored\"", "reply_limit_ms = 750", "idle_poll_ms = 1000",
-        "name = \"y\"\nunit = \"deg\"\ntravel_minimum = \"-5.25deg\"\nmaximum_speed = \"2deg/s\"",
-        "host = \"moxa.lab\"\nport = 4001\nbaud = 38400", "speed = 0.5\nbaud = 9600",
-        "options = { \"busy_scope\" = \"controller\" }"}) {
+  for (const char* line : {"listen = \"127.0.0.1:50203\"",
+                           "local = \"observer\"",
+                           "admin_commands = [\"BEC:\", \"take-over\"]",
+                           "roles = { \"unix alice\" = \"admin\" }",
+                           "path = \"/dev/ttyUSB0\"",
+                           "baud = 38400",
+                           "parity = \"even\"",
+                           "stop_bits = 2",
+                           "flow_control = \"none\"",
+                           "serial_number = \"2106001001\"",
+                           "busy_scope = \"axis\"",
+                           "prebuffer_scope = \"controller\"",
+                           "at_exit = \"finish\"",
+                           "speeds_at_lease_end = \"restored\"",
+                           "reply_limit_ms = 750",
+                           "idle_poll_ms = 1000",
+                           "name = \"y\"\nunit = \"deg\"\ntravel_minimum = \"-5.25deg\"\nmaximum_speed = \"2deg/s\"",
+                           "host = \"moxa.lab\"\nport = 4001\nbaud = 38400",
+                           "speed = 0.5\nbaud = 9600",
+                           "options = { \"busy_scope\" = \"controller\" }"}) {
     EXPECT_THAT(text, HasSubstr(line));
   }
 }
