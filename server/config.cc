@@ -201,6 +201,7 @@ class ConfigReader {
     profile.busy_scope = table.choice<Scope>("busy_scope", kScopes).value_or(profile.busy_scope);
     profile.prebuffer_scope = table.choice<Scope>("prebuffer_scope", kScopes).value_or(profile.prebuffer_scope);
     profile.at_exit = table.choice<AtExit>("at_exit", kAtExit).value_or(profile.at_exit);
+    profile.wait_for_inputs = table.flag("wait_for_inputs").value_or(profile.wait_for_inputs);
     profile.speeds_at_lease_end =
         table.choice<AtLeaseEnd>("speeds_at_lease_end", kAtLeaseEnd).value_or(profile.speeds_at_lease_end);
     read_milliseconds(table, "reply_limit_ms", 50, 60'000, profile.reply_limit);

@@ -54,6 +54,7 @@ void print_status(const v1::Device& device) {
                          device.device_epoch()));
   for (const v1::Axis& axis : device.axes()) print_line(axis_text(axis));
   for (const v1::Axis& axis : device.axes()) {
+    if (axis.armed()) print_line(fmt::format("ARMED: the inputs may start axis {}", axis.number()));
     if (axis.foreign_motion())
       print_line(fmt::format("FOREIGN MOTION: nobody asked for that of axis {} here", axis.number()));
   }

@@ -139,6 +139,8 @@ enum class Guard {
   jog_ends_before_bound,
   jog_ends_with_its_right,
   runaways_stopped,
+  inputs_start_nothing,
+  away_alone,
   speeds_restored,
   speeds_owed,
 

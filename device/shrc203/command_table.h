@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string_view>
 
@@ -17,7 +18,7 @@ struct Parameter {
     choice,   // one of the words of `choices`, separated by blanks
     integer,  // minimum to maximum
     decimal,  // digits with an optional point; minimum to maximum apply to whole pulses only, by the unit before it
-    text,     // anything printable
+    text,     // the rest of the line
   };
   std::string_view letter;   // as the manual writes it: a, m, u, y, spds ...
   std::string_view meaning;  // for people
@@ -36,12 +37,16 @@ enum class Separation {
   closed,    // while a single motion runs: closed by an !:S and asked until two answers agree; else as `waits`
 };
 
+// Where a command works, and how ?:MODE names it (manual 37)). Out of HOST by P:R and MS:ON nobody else is answered.
+enum class Mode { host, program, program_edit, memory_switches };
+
 // What the manual demands for the command to be accepted.
 struct Needs {
   bool ready = false;     // "In the case of Busy ... NG"
   bool excited = false;   // "... or the motor excitation is OFF"
   bool no_limit = false;  // "... or the limit sensor is detected"
   bool any_mode = false;  // usable off HOST too (manual 4., last note)
+  Mode mode = Mode::host;
 };
 
 // Which of the settings that a G may start (manual 85)) the command writes.
@@ -72,7 +77,8 @@ struct CommandRow {
   Register reg = Register::none;
   bool shifts_frame = false;  // makes another coordinate of the place where the axis stands
   bool completes = false;     // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
-  Duration reply_limit = {};  // zero: the profile's
+  std::optional<Mode> enters = {};  // the mode that follows, where it is another
+  Duration reply_limit = {};        // zero: the profile's
 
   constexpr bool moves() const { return effect == Effect::motion; }
   // A prebuffer setting: OK_D says that it chains (manual section 2).

@@ -67,7 +67,7 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     state_.moving_unknown = state_.moving_unknown || (live->wrote && guarded(Guard::moving_unknown));
     live->news.notify();
   }
-  gate_.withdraw([](MotionId) { return true; },
+  gate_.withdraw([this](MotionId id) { return live_.contains(id); },
                  {Reason::not_sent,
                   "the line to the controller was lost before the motion was sent: " + why,
                   "try again when the device is up",
@@ -161,6 +161,8 @@ Result<void> Controller::Impl::may_use(const RequestContext& context, AxisSet ax
 // The right may have ended since the exchange was queued: this is the last look before the bytes go out.
 std::optional<Problem> Controller::Impl::may_write(const ExchangeRequest& request, TimePoint now) {
   const auto found = live_.find(request.motion);
+  // What was given up at the gateway's end sends nothing more.
+  if (found == live_.end() && ending_) return ending_;
   if (found == live_.end() || !guarded(Guard::lease_asked_as_bytes_go)) return {};
   const LiveMotion& live = *found->second;
   const auto allowed = permission_.may_use({live.context.who, live.context.lease, live.uses, live.motion.id}, now);

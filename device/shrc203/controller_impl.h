@@ -5,6 +5,7 @@
 //   path.cc       the double buffer's chain             stop.cc     L: and L:E
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
 //   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
+//   excursion.cc  out of HOST and back
 //   clear_errors.cc  BEC:                               speeds.cc   what D: has set, for a motion or a lease
 #pragma once
 
@@ -169,6 +170,7 @@ class Controller::Impl : public LineListener {
   Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
   Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
   Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
+  Task<Result<void>> learn_speeds(AxisSet axes, std::string caller);
   Task<void> pay_speeds(AxisSet axes, std::string caller);
   Task<bool> set_back(Speeds before, ExchangeRequest request);
   void remember_speeds(const RequestContext& context, AxisSet axes);
@@ -215,6 +217,8 @@ class Controller::Impl : public LineListener {
   void stop(AxisSet axes, bool emergency, const RequestContext& context, OnStopped done);
   Task<void> run_stop(StopJobPtr job);
   Task<void> write_stop(StopJobPtr job);
+  bool stop_has_no_use(StopJob& job) const;
+  Command stop_command(bool emergency, AxisSet axes) const;
   Task<ExchangeResult> write_stop_line(StopJobPtr job, Command command);
   Duration slowing(AxisSet axes) const;
   Task<void> wait_for_standstill(StopJobPtr job);
@@ -226,6 +230,13 @@ class Controller::Impl : public LineListener {
   void execute(ExecuteRequest request, OnExecute event);
   Task<void> run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event);
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
+
+  // excursion.cc
+  Problem away_problem() const;
+  void leave_host(MotionId motion);
+  Task<Result<void>> wait_for_program(LiveMotionPtr live);
+  Task<void> come_back(LiveMotionPtr live, bool all, bool switches);
+  Task<void> come_back_in_handshake();
 
   // clear_errors.cc
   Task<void> clear_errors(AxisSet axes, RequestContext context, OnDone done);
@@ -244,6 +255,8 @@ class Controller::Impl : public LineListener {
   void carry_out_orders();
 
   Envelope envelope(const RequestContext& context) const { return {profile_, state_, context.who, context.role}; }
+
+  bool line_works() const { return state_.link == LinkState::up || state_.link == LinkState::doubtful; }
 
   TimePoint default_limit(TimePoint asked, Duration otherwise) const {
     return asked == TimePoint{} ? now_ + otherwise : asked;
@@ -269,6 +282,7 @@ class Controller::Impl : public LineListener {
   MotionId last_motion_ = 0;
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one
   std::vector<StopJobPtr> stops_;
+  std::optional<Mode> away_;  // a transaction leads out of HOST; where it is by now
   Signal wake_poll_;
   Signal tick_;                    // never notified: to wait for a time
   AxisSet strange_before_;         // moved at the last reading, and nobody had asked for it

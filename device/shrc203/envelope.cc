@@ -84,6 +84,15 @@ Result<std::int64_t> Envelope::bound(int axis, int direction) const {
   return *limit ? (*limit)->pulses : direction * kPulsesMax;
 }
 
+bool Envelope::is_bounded(int axis) const {
+  const auto applies = [&](auto limit, int sign) {
+    const auto one = innermost(axis, limit, sign);
+    return !one || one->has_value();
+  };
+  return applies(&AxisLimits::travel_minimum, -1) || applies(&AxisLimits::travel_maximum, 1) ||
+         applies(&AxisLimits::maximum_speed, 1);
+}
+
 Result<std::int64_t> Envelope::speed(int axis, const Quantity& asked) const {
   const auto wanted = pulses(axis, asked);
   if (!wanted) return wanted;

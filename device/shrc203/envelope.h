@@ -30,6 +30,9 @@ class Envelope {
   // The furthest that the axis may go in that direction (1 or -1).
   Result<std::int64_t> bound(int axis, int direction) const;
 
+  // Whether any travel limit or speed cap applies to the caller there.
+  bool is_bounded(int axis) const;
+
   // Pulses per second: out_of_range, too_fast.
   Result<std::int64_t> speed(int axis, const Quantity& asked) const;
   // too_fast.

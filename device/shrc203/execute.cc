@@ -8,6 +8,7 @@
 
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/forecast.h"
 #include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
@@ -30,23 +31,7 @@ class Transaction {
   Task<bool> send(std::size_t index);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
-  // Where the axes are and how fast they run when the lines so far have been sent, as far as they tell.
-  struct Forecast {
-    struct Pending {
-      Register reg = Register::none;
-      bool relative = false;
-      bool lasting = false;  // GC: does not delete it
-      std::int64_t amount = 0;
-    };
-    Positions at{};
-    Controller::Impl::Speeds speeds;
-    std::map<int, std::vector<Pending>> pending;  // by axis, what a G would start
-    AxisSet started{};
-  };
   Result<void> check_envelope();
-  Result<void> check_speeds(const Command& command, const Envelope& envelope, Forecast& forecast);
-  Result<void> check_motion(const Command& command, const Envelope& envelope, Forecast& forecast);
-  Result<void> check_setting(const Command& command, const Envelope& envelope, Forecast& forecast);
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
 
@@ -67,89 +52,13 @@ void Transaction::end(std::optional<Problem> problem) {
 }
 
 Result<void> Transaction::check_envelope() {
-  const Envelope envelope = impl_.envelope(request_.context);
-  Forecast forecast{.at = positions_of(impl_.state_), .speeds = impl_.known_speeds(live_->motion.axes), .pending = {}};
+  Forecast forecast(impl_.envelope(request_.context), positions_of(impl_.state_),
+                    impl_.known_speeds(live_->motion.axes), impl_.state_.controllable());
   for (const Command& command : commands_) {
-    Result<void> good = check_speeds(command, envelope, forecast);
-    if (good) good = check_motion(command, envelope, forecast);
-    if (!good) return good;
+    if (const auto good = forecast.add(command); !good) return good;
   }
   for (auto& result : live_->motion.results) {
-    result.target_pulses = forecast.at[static_cast<std::size_t>(result.axis - 1)];
-  }
-  return {};
-}
-
-Result<void> Transaction::check_speeds(const Command& command, const Envelope& envelope, Forecast& forecast) {
-  for (const auto& [axis, minimum, maximum] : speeds_of(command, impl_.state_.controllable())) {
-    if (const auto good = envelope.check_axis(axis); !good) return good;
-    const auto lowest = envelope.speed(axis, minimum);
-    if (!lowest) return tl::unexpected(lowest.error());
-    // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
-    const auto highest = envelope.speed(axis, maximum);
-    if (!highest) return tl::unexpected(highest.error());
-    forecast.speeds[axis].minimum = *lowest;
-    forecast.speeds[axis].maximum = *highest;
-  }
-  return {};
-}
-
-// That it may be set or started, and where it ends.
-Result<void> Transaction::check_motion(const Command& command, const Envelope& envelope, Forecast& forecast) {
-  const AxisSet axes = command.axes(impl_.state_.controllable());
-  if (command.row->name == "GC:") {
-    for (const int axis : axes.list()) std::erase_if(forecast.pending[axis], [](const auto& p) { return !p.lasting; });
-  }
-  if (command.row->effect == Effect::motion_setting) return check_setting(command, envelope, forecast);
-  if (!command.row->moves()) return {};
-  for (const int axis : axes.list()) {
-    auto& at = forecast.at[static_cast<std::size_t>(axis - 1)];
-    if (!command.row->name.starts_with("G")) {
-      // The mechanical origin return is how the axis comes to know its places.
-      const bool logical = command.row->name.starts_with("Z");
-      Result<void> good = envelope.check_axis(axis);
-      if (good && logical) good = envelope.check_homed(axis);
-      if (good && logical) good = envelope.check_target(axis, 0);
-      if (good && logical) good = envelope.check_speed(axis, forecast.speeds[axis].maximum);
-      if (!good) return good;
-      at = 0;
-    }
-    forecast.started.add(axis);
-    // Whether both buffers of one axis run, or which, is an open question: each alone was checked, and both together.
-    for (const auto& pending : std::exchange(forecast.pending[axis], {})) {
-      at = pending.relative ? *at + pending.amount : pending.amount;
-      if (const auto good = envelope.check_target(axis, *at); !good) return good;
-    }
-  }
-  return {};
-}
-
-Result<void> Transaction::check_setting(const Command& command, const Envelope& envelope, Forecast& forecast) {
-  const Register reg = command.row->reg;
-  const bool relative = reg != Register::a && reg != Register::ap;
-  const bool line = reg == Register::k || reg == Register::kp;
-  const auto moves = moves_of(command, impl_.state_.controllable());
-  const auto plan = moves.empty() ? MovePlan{} : plan_move(moves, relative, forecast.at, envelope);
-  if (!plan) return tl::unexpected(plan.error());
-  for (const auto& one : plan->axes) {
-    if (!one.target) {
-      return fail_on(one.axis, Reason::position_unknown,
-                     fmt::format("where {} stands is not known", envelope.label(one.axis)),
-                     "wait until the device is up");
-    }
-    const SpeedSetting& speed = forecast.speeds[line ? plan->axes.front().axis : one.axis];
-    if (const auto good = envelope.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
-    auto& pending = forecast.pending[one.axis];
-    const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
-    // The one before may have chained, or not: where this one would start from is not certain.
-    const bool chains = forecast.started.has(one.axis) && std::ranges::any_of(pending, &Forecast::Pending::lasting);
-    if (lasting && chains) {
-      return fail_on(one.axis, Reason::invalid_request,
-                     fmt::format("{} has a second prebuffer setting before the next start", envelope.label(one.axis)),
-                     "start each with G:, or run a path");
-    }
-    std::erase_if(pending, [reg](const auto& before) { return before.reg == reg; });
-    pending.push_back({reg, relative, lasting, one.amount});
+    result.target_pulses = forecast.at()[static_cast<std::size_t>(result.axis - 1)];
   }
   return {};
 }
@@ -157,10 +66,15 @@ Result<void> Transaction::check_setting(const Command& command, const Envelope& 
 Task<Result<void>> Transaction::begin() {
   auto ready = co_await impl_.enter_gate(live_, completes(commands_));
   if (!ready) co_return ready;
-  if (live_->motion.axes.empty()) {
-    co_await impl_.pay_speeds(live_->uses, request_.context.who);
-    co_return check_envelope();
+  AxisSet sped;  // whose speeds have to be known, to be set back
+  for (const Command& command : commands_) {
+    if (!speeds_of(command, AxisSet::all()).empty()) sped = sped | command.axes(impl_.state_.controllable());
   }
+  if (!sped.empty()) {
+    const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
+    if (!learned) co_return learned;
+  }
+  if (live_->motion.axes.empty()) co_return check_envelope();
   Register reg = Register::none;
   for (const Command& command : commands_) {
     if (command.row->reg != Register::none) reg = command.row->reg;
@@ -177,7 +91,8 @@ ExchangeRequest Transaction::request_for(const Command& command) {
   request.caller = request_.context.who;
   request.not_after = request_.context.not_after;
   request.motion = live_ ? live_->motion.id : 0;
-  if (command.row->moves() && completes(commands_)) request.completes = live_->motion.axes;
+  const bool waits = command.row->reg != Register::none;  // its end tells no number of its own that is documented
+  if (command.row->moves() && !waits && completes(commands_)) request.completes = live_->motion.axes;
   return request;
 }
 
@@ -234,6 +149,7 @@ Task<bool> Transaction::send(std::size_t index) {
   event.line = index;
   event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
+  if (command.row->enters && !impl_.away_) impl_.leave_host(live_->motion.id);
   const AxisSet sped =
       speeds_of(command, AxisSet::all()).empty() ? AxisSet() : command.axes(impl_.state_.controllable());
   if (!sped.empty()) impl_.remember_speeds(request_.context, sped);
@@ -250,10 +166,26 @@ Task<bool> Transaction::send(std::size_t index) {
     end(result.problem);
     co_return false;
   }
+  if (command.row->enters && result.accepted()) impl_.away_ = *command.row->enters;
+  if (command.row->reg == Register::wi && result.accepted()) {
+    for (const int axis : command.axes(impl_.state_.controllable()).list()) {
+      impl_.state_.axis(axis).armed = !cancels_wait(command);
+    }
+    impl_.publish_state();
+  }
   event.wire_reply = result.reply->text;
   event.answer = picked(command, *result.reply, impl_.state_.controllable());
   tell_(event);
-  if (command.row->effect == Effect::question || result.accepted()) co_return true;
+  if (command.row->effect == Effect::question) co_return true;
+  if (result.accepted()) {
+    const bool program = command.row->moves() && command.row->needs.mode == Mode::program;
+    if (program) {
+      const auto ended = co_await impl_.wait_for_program(live_);
+      if (!ended) end(ended.error());
+      co_return ended.has_value();
+    }
+    co_return true;
+  }
   auto why =
       co_await impl_.explain_refusal(command.line, command.axes(impl_.state_.controllable()), request_.context.who);
   end(std::move(why));
@@ -262,7 +194,9 @@ Task<bool> Transaction::send(std::size_t index) {
 
 Task<bool> Transaction::send_all() {
   for (std::size_t index = 0; index < commands_.size(); ++index) {
-    if (live_ && live_->stop_requested && !started_) {
+    const CommandRow& row = *commands_[index].row;
+    const bool goes_on = started_ && !row.moves() && row.effect != Effect::motion_setting;
+    if (live_ && live_->stop_requested && !goes_on) {
       end(Problem{Reason::stopped, "stopped by " + live_->stopped_by, {}, {}, {}, {}});
       co_return false;
     }
@@ -294,6 +228,14 @@ Task<void> Transaction::run() {
   const bool all = co_await send_all();
   if (!live_) {
     if (all) end({});
+    co_return;
+  }
+  if (leaves_host(commands_)) {
+    const bool switches = std::ranges::any_of(
+        commands_, [](const Command& command) { return command.row->enters == Mode::memory_switches; });
+    co_await impl_.come_back(live_, all, switches);
+    if (all) end({});
+    live_->on_completion = {};
     co_return;
   }
   const bool wait = all && completes(commands_);
@@ -336,6 +278,17 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   }
   request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
   if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
+  if (away_ && !needs_gate(commands)) return refuse(away_problem());
+  const bool arms = std::ranges::any_of(
+      commands, [](const Command& one) { return one.row->reg == Register::wi && !cancels_wait(one); });
+  if (arms && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
+    return refuse({Reason::not_allowed,
+                   "WI: lets an input pin start a motion, whoever may stand beside the stage",
+                   "an administrator may allow it for this device: wait_for_inputs = true",
+                   {},
+                   {},
+                   {}});
+  }
   const auto allowed = may_use(request.context, axes_used(commands, state_.controllable()));
   if (!allowed) return refuse(allowed.error());
   executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));

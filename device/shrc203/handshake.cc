@@ -75,6 +75,7 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
     }
     state_.mode = mode.reply->text;
     if (state_.mode == "HOST" || !guarded(Guard::host_mode)) {
+      away_.reset();
       const auto format = co_await ask("?:FMT", Lane::question, kGateway, true);
       if (connection != connection_) co_return false;
       state_.format = is_data(format) ? format.reply->text : "";
@@ -83,6 +84,7 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
     }
     state_.link_problem = wrong_panel(state_);
     publish_state();
+    co_await come_back_in_handshake();
     auto wait = tick_.wait_until(now_ + kModePoll);
     co_await wait;
   }
@@ -162,6 +164,7 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
     note_speeds({{number, *speed}});
     axis.excited = field(excitation, number) == "1";
+    axis.armed = false;
   }
   const auto positions = co_await read_positions(Lane::question, kGateway, true);
   co_return positions.has_value();
@@ -173,7 +176,7 @@ Task<void> Controller::Impl::poll() {
     const bool fast = anything_moves();
     auto wait = wake_poll_.wait_until(now_ + (fast ? profile_.moving_poll : profile_.idle_poll));
     co_await wait;
-    if (state_.link != LinkState::up) continue;
+    if (state_.link != LinkState::up || away_) continue;
     const TimePoint read_before = state_.read;
     const bool watched = std::ranges::any_of(live_, [](const auto& entry) { return entry.second->watched; });
     if (watched) continue;  // its motion reads at the same pace

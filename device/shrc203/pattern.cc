@@ -27,6 +27,17 @@ bool is_choice(std::string_view choices, std::string_view value) {
   return false;
 }
 
+// Of the longest of the words that `text` begins with.
+std::size_t choice_length(std::string_view choices, std::string_view text) {
+  std::size_t longest = 0;
+  while (!choices.empty()) {
+    const auto end = std::min(choices.find(' '), choices.size());
+    if (text.starts_with(choices.substr(0, end))) longest = std::max(longest, end);
+    choices = choices.substr(std::min(end + 1, choices.size()));
+  }
+  return longest;
+}
+
 // A bracketed part of a format and what follows it.
 struct Group {
   std::string_view inner, rest;
@@ -253,9 +264,9 @@ class Decoder {
   bool read_value(const Parameter& parameter, bool repeated) {
     std::string_view taken;
     if (parameter.kind == Parameter::Kind::choice) {
-      taken = text_.substr(0, 1);
-      if (!taken.empty() && is_choice(parameter.choices, taken)) {
-        text_.remove_prefix(1);
+      taken = text_.substr(0, choice_length(parameter.choices, text_));
+      if (!taken.empty()) {
+        text_.remove_prefix(taken.size());
       } else if (parameter.choices == "+ -") {
         taken = "+";  // "If there is no sign, it will be +" (manual 83), 88)); clients omit it elsewhere too
       } else if (parameter.letter == "u" && repeated && !text_.empty() && text_.front() >= '0' &&
@@ -264,6 +275,9 @@ class Decoder {
       } else {
         return false;
       }
+    } else if (parameter.kind == Parameter::Kind::text) {
+      taken = std::exchange(text_, {});
+      if (taken.empty()) return false;
     } else {
       std::size_t end = 0;
       while (end < text_.size() && ((text_[end] >= '0' && text_[end] <= '9') ||

@@ -57,6 +57,7 @@ struct Profile {
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);
   AtExit at_exit = AtExit::stop;
+  bool wait_for_inputs = false;  // WI: is taken, by which an input pin starts a motion
   AtLeaseEnd speeds_at_lease_end = AtLeaseEnd::restored;
   Refills refills = Refills::reserved;
 };

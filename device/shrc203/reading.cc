@@ -196,6 +196,10 @@ Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, 
 }
 
 Task<void> Controller::Impl::refresh(Duration max_age, RequestContext context, OnState done) {
+  if (away_) {
+    done(tl::unexpected(away_problem()));
+    co_return;
+  }
   if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
     done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
     co_return;

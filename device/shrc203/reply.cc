@@ -95,6 +95,12 @@ bool is_echo(std::string_view line) {
          !is_one_of(line, {"OK", "OK_D", "NG", "NG_I"});
 }
 
+// A line of a program: a word or a letter, and what belongs to it (manual 115)).
+bool is_step(std::string_view line) {
+  return is_echo(line) && is_one_of(line.substr(0, line.find(',')), {"M", "A", "K", "E", "EH", "CM", "CA", "PAV", "H",
+                                                                     "Z", "R", "INPUT", "F", "N", "END", "NONE"});
+}
+
 // Takes the next ':'-separated number off `spec`.
 std::int64_t take_number(std::string_view& spec) {
   const auto end = spec.find(':');
@@ -116,10 +122,12 @@ std::optional<Range> parse_range(std::string_view spec) {
   return Range{spec.substr(0, colon), {minimum, take_number(numbers)}};
 }
 
+bool is_number(std::string_view field) { return all_digits(field) && field.size() <= 9; }
+
 bool field_matches(std::string_view spec, std::string_view field) {
   if (const auto range = parse_range(spec)) {
     if (range->kind == "number_or_NS" && field == "NS") return true;
-    if (!all_digits(field) || field.size() > 9) return false;
+    if (!is_number(field)) return false;
     const auto number = parse_integer(field);
     return number && *number >= range->range.minimum && *number <= range->range.maximum;
   }
@@ -151,6 +159,7 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   if (spec == "echo") return is_echo(line);
   if (spec == "line") return is_line_setting(line);
   if (spec == "arc") return is_arc_setting(line);
+  if (spec == "step") return is_step(line);
   return {};
 }
 
@@ -174,6 +183,7 @@ bool fields_match(std::string_view specs, const std::vector<std::string>& fields
 bool data_matches(const CommandRow& row, std::string_view line, const std::vector<std::string>& fields,
                   int axis_count) {
   if (const auto whole = whole_line_matches(row.reply, line)) return *whole;
+  if (row.reply == "numbers") return fields.size() > 1 && std::ranges::all_of(fields, is_number);
   if (row.reply.find('*') == std::string_view::npos) return fields_match(row.reply, fields, 0);
   for (std::size_t count = 1; count <= kAxisCount; ++count) {
     const bool fits = axis_count == 0 || count == static_cast<std::size_t>(axis_count) || count == kAxisCount ||

@@ -8,10 +8,9 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr int kSetBackTries = 3;
-// D: is refused while the axes move (manual 89)), which somebody at the front panel may make them do.
-constexpr int kRestoreTries = 100;
-constexpr Duration kRestorePause = std::chrono::milliseconds(100);
+constexpr int kSetBackTries = 3, kSpeedReadings = 3;
+constexpr Duration kRestoreLimit = std::chrono::seconds(10), kRestorePause = std::chrono::milliseconds(100);
+constexpr Duration kEndLimit = std::chrono::seconds(1);  // at the gateway's end
 
 }  // namespace
 
@@ -58,6 +57,8 @@ Result<MovePlan> Controller::Impl::slowed_down(AxisSet axes, const Envelope& lim
 // before.
 Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
   if (!live->keeps_gate) co_return;
+  // What was sent last may have been taken though its answer was lost.
+  if (live->motion.state != MotionState::succeeded) forget_speeds(live->motion.axes);
   auto request = motion_request(*live, {}, Lane::motion);
   request.tidies = true;
   const bool back = co_await set_back(before, std::move(request));
@@ -68,23 +69,21 @@ Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {
 // By D: for the axes whose speeds are others now. What cannot be set is read, so that the state tells what is. The
 // answer tells whether the speeds are `before`.
 Task<bool> Controller::Impl::set_back(Speeds before, ExchangeRequest request) {
-  AxisSet axes;
-  for (const auto& [axis, speed] : before) axes.add(axis);
-  const Speeds now_set = known_speeds(axes);
   AxisSet changed;
   for (const auto& [axis, speed] : before) {
-    const auto found = now_set.find(axis);
-    if (found == now_set.end() || !(found->second == speed)) changed.add(axis);
+    const Speeds now_set = known_speeds(AxisSet::of(axis));
+    const bool same = !now_set.empty() && now_set.begin()->second == speed;
+    if (!same && state_.controllable().has(axis)) changed.add(axis);
   }
   if (changed.empty()) co_return true;
-  if (state_.link == LinkState::down) co_return false;
+  if (!line_works()) co_return false;
   Arguments arguments;
   arguments.axes(changed);
   for (const int axis : changed.list()) {
     arguments.speeds(before[axis].minimum, before[axis].maximum, before[axis].acceleration_ms);
   }
   request.command = make_command("D:", arguments);
-  request.not_after = now_ + kStepLimit;
+  request.not_after = now_ + (ending_ ? kEndLimit : kStepLimit);
   const std::string caller = request.caller;
   auto pending = line_.exchange(std::move(request), now_);
   const auto result = co_await pending;
@@ -92,6 +91,7 @@ Task<bool> Controller::Impl::set_back(Speeds before, ExchangeRequest request) {
     note_speeds(before);
     co_return true;
   }
+  if (ending_) co_return false;
   const auto read = co_await read_speeds(caller);
   settled_ = settled_ && read.has_value();
   co_return false;
@@ -103,58 +103,84 @@ Task<void> Controller::Impl::pay_speeds(AxisSet axes, std::string caller) {
   for (const int axis : axes.list()) {
     if (auto one = speeds_owed_.extract(axis)) owed.insert(std::move(one));
   }
-  for (int attempt = 0; attempt < kSetBackTries && !owed.empty(); ++attempt) {
+  bool paid = owed.empty();
+  for (int attempt = 0; attempt < kSetBackTries && !paid; ++attempt) {
     ExchangeRequest request;
     request.lane = Lane::motion;
     request.caller = caller;
-    const bool back = co_await set_back(owed, std::move(request));
-    if (back) break;
+    paid = co_await set_back(owed, std::move(request));
   }
+  if (!paid) speeds_owed_.merge(owed);
 }
 
-// Before a D: of a lease's holder goes out.
+// Before a D: of somebody's own goes out: it takes the place of what was owed there, and what a lease's holder sets is
+// set back one day.
 void Controller::Impl::remember_speeds(const RequestContext& context, AxisSet axes) {
+  Speeds owed;
+  for (const int axis : axes.list()) {
+    if (auto one = speeds_owed_.extract(axis)) owed.insert(std::move(one));
+  }
   if (context.lease == 0 || profile_.speeds_at_lease_end == AtLeaseEnd::kept) return;
   auto& before = speeds_before_[context.lease];
+  before.merge(owed);
   for (const auto& [axis, speed] : known_speeds(axes)) before.try_emplace(axis, speed);
   permission_.settings_changed(context.lease);
 }
 
-// The lease has ended and its axes are nobody's yet. A line that is down is waited for.
+// The lease has ended and its axes are nobody's yet. A line that is down is waited for. D: is refused while the axes
+// move (manual 89)), which somebody at the front panel may make them do; others have their turns meanwhile.
 Task<void> Controller::Impl::restore_speeds_of(EndedLease lease) {
-  AxisSet axes;
-  for (const auto& [axis, speed] : speeds_before_[lease.token]) axes.add(axis);
-  // Fencing tokens are far above any motion's id.
-  auto turn = gate_.enter(lease.token, axes, lease.who, TimePoint::max());
-  const auto entered = co_await turn;
-  for (int attempt = 0; entered && attempt < kRestoreTries && guarded(Guard::speeds_restored);) {
-    const auto before = speeds_before_.find(lease.token);
-    if (before == speeds_before_.end() || ending_) break;
-    if (state_.link == LinkState::up || state_.link == LinkState::doubtful) {
-      ExchangeRequest request;
-      request.lane = Lane::motion;
-      request.caller = "the gateway on behalf of " + lease.who;
-      const bool restored = co_await set_back(before->second, std::move(request));
-      if (restored) break;
-      ++attempt;
+  std::optional<TimePoint> give_up_at;
+  while (!ending_ && guarded(Guard::speeds_restored)) {
+    if (line_works()) {
+      Speeds before = speeds_before_[lease.token];
+      AxisSet axes;
+      for (const auto& [axis, speed] : before) axes.add(axis);
+      // Fencing tokens are far above any motion's id.
+      auto turn = gate_.enter(lease.token, axes, lease.who, TimePoint::max());
+      const auto entered = co_await turn;
+      bool back = false;
+      if (entered) {
+        for (const int axis : axes.list()) speeds_owed_.erase(axis);  // older is what was there before the lease
+        ExchangeRequest request;
+        request.lane = Lane::motion;
+        request.caller = "the gateway on behalf of " + lease.who;
+        back = co_await set_back(std::move(before), std::move(request));
+        gate_.leave(lease.token);
+        if (!give_up_at) give_up_at = now_ + kRestoreLimit;
+      }
+      if (back || (give_up_at && now_ >= *give_up_at)) break;
+    } else {
+      give_up_at.reset();
     }
     auto pause = tick_.wait_until(now_ + kRestorePause);
     co_await pause;
   }
   if (!ending_) speeds_before_.erase(lease.token);  // the end restores by itself
-  if (entered) gate_.leave(lease.token);
   permission_.settings_restored(lease.token, now_);
 }
 
 // At the gateway's end, when nothing moves any more: no lease outlives it.
 Task<void> Controller::Impl::restore_all_speeds() {
-  co_await pay_speeds(AxisSet::all(), "the gateway, which is ending");
+  const std::string caller = "the gateway, which is ending";
+  co_await pay_speeds(AxisSet::all(), caller);
+  speeds_owed_.clear();
   for (const auto& [token, before] : std::exchange(speeds_before_, {})) {
-    ExchangeRequest request;
-    request.lane = Lane::motion;
-    request.caller = "the gateway, which is ending";
-    (void)co_await set_back(before, std::move(request));
+    speeds_owed_ = before;
+    co_await pay_speeds(AxisSet::all(), caller);
   }
+}
+
+// The speeds of those axes, asked for where they are not known: line_fault.
+Task<Result<void>> Controller::Impl::learn_speeds(AxisSet axes, std::string caller) {
+  const auto missing = [&] { return known_speeds(axes).size() < static_cast<std::size_t>(axes.count()); };
+  for (int attempt = 0; attempt < kSpeedReadings && missing(); ++attempt) {
+    const auto read = co_await read_speeds(caller);
+    if (!read) co_return read;
+  }
+  if (!missing()) co_return Result<void>();
+  co_return fail(Reason::line_fault, "the speeds of the axes were read as ones that no axis can have",
+                 "look at them: axisctl exec ?:D; set them: axisctl exec D:...");
 }
 
 Task<Result<void>> Controller::Impl::set_speeds(LiveMotionPtr live, MovePlan plan) {

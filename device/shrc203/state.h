@@ -36,6 +36,7 @@ struct AxisState {
   bool controllable = false;
   std::optional<std::int64_t> position_pulses;  // command counter, as last read
   std::optional<bool> busy;
+  bool armed = false;           // WI: was accepted there: an input pin starts what is set (manual 58))
   bool foreign_motion = false;  // it moves, and nobody asked the gateway for that
   std::optional<bool> excited;
   bool homed = false;  // by this gateway since the device epoch began, and no coordinate was set since

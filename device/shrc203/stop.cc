@@ -70,11 +70,21 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
   settled_ = false;
 }
 
+// In memory switch edit mode nothing moves and no stop is taken (manual 117)); a program is stopped by P:E (manual
+// 107)).
+bool Controller::Impl::stop_has_no_use(StopJob& job) const {
+  if (away_ != Mode::memory_switches || !guarded(Guard::stop_off_host)) return false;
+  job.report.problem = away_problem();
+  job.report.problem->hint = "nothing moves in it; use the wired emergency stop if something does";
+  return true;
+}
+
 Task<void> Controller::Impl::run_stop(StopJobPtr job) {
-  co_await write_stop(job);
+  if (!stop_has_no_use(*job)) co_await write_stop(job);
   job->answered = true;
   const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
-  const bool line_works = written && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
+  const bool line_works =
+      written && away_ != Mode::memory_switches && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
   if (written && !line_works) {
     // Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
     const bool off_host = !state_.mode.empty() && state_.mode != "HOST" && guarded(Guard::stop_off_host);
@@ -98,6 +108,11 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   for (auto& done : job->done) done(job->report);
 }
 
+Command Controller::Impl::stop_command(bool emergency, AxisSet axes) const {
+  if (emergency) return make_command("L:E");
+  return away_ == Mode::program ? make_command("P:E") : make_command("L:", axes);
+}
+
 Task<ExchangeResult> Controller::Impl::write_stop_line(StopJobPtr job, Command command) {
   ExchangeRequest request;
   request.command = std::move(command);
@@ -117,7 +132,7 @@ Task<void> Controller::Impl::write_stop(StopJobPtr job) {
     if (!job->emergency && off) named.remove(axis);
   }
   if (named.empty()) named = job->axes;  // what is known of the excitation may be old: let the controller say
-  const Command all = job->emergency ? make_command("L:E") : make_command("L:", named);
+  const Command all = stop_command(job->emergency, named);
   ExchangeResult result;
   for (int attempt = 0; attempt < kStopTries; ++attempt) {
     result = co_await write_stop_line(job, all);
@@ -174,7 +189,7 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       for (const auto& axis : job->report.axes) {
         if (axis.named) named.add(axis.axis);
       }
-      const Command again = job->emergency ? make_command("L:E") : make_command("L:", named);
+      const Command again = stop_command(job->emergency, named);
       const auto stopped = co_await write_stop_line(job, again);
       if (!stopped.written) break;
     }

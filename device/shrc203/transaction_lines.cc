@@ -5,11 +5,54 @@
 #include <algorithm>
 
 #include "device/core/guard.h"
+#include "device/shrc203/forecast.h"
 
 namespace axisgate::shrc203 {
 namespace {
 
 constexpr std::size_t kLinesMax = 100;
+
+std::string_view name_of(Mode mode) {
+  switch (mode) {
+    case Mode::host:
+      return "HOST";
+    case Mode::program:
+      return "program mode";
+    case Mode::program_edit:
+      return "program edit mode";
+    case Mode::memory_switches:
+      break;
+  }
+  return "memory switch edit mode";
+}
+
+// Out of HOST nobody else is answered, so who goes there comes back in the same lines.
+Result<void> check_modes(const std::vector<Command>& commands) {
+  Mode mode = Mode::host;
+  for (const Command& command : commands) {
+    const CommandRow& row = *command.row;
+    const bool question = row.effect == Effect::question && (row.name.starts_with("?:") || row.name == "*IDN?");
+    const bool works = row.needs.mode == mode || (question && mode != Mode::program_edit);
+    if (!works) {
+      return fail(Reason::incomplete_transaction,
+                  fmt::format("{} works in {}, and the lines before it lead to {}", row.name, name_of(row.needs.mode),
+                              name_of(mode)),
+                  "give the whole way in one: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+    }
+    if (row.name == "P:C" || row.name == "P:T") {
+      if (command.arguments.values().front().second == "1") {
+        return fail(Reason::invalid_request,
+                    fmt::format("{} lets the controller write lines that nobody asked for", command.line),
+                    "leave it off: Execute waits for the program's end by itself");
+      }
+    }
+    mode = row.enters.value_or(mode);
+  }
+  if (mode == Mode::host) return {};
+  return fail(Reason::incomplete_transaction,
+              fmt::format("the lines leave the controller in {}, where nobody else is answered", name_of(mode)),
+              "come back in the same lines: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+}
 
 // A motion setting left without a start would run on somebody else's; a start without one would run what is there.
 Result<void> check_transaction(const std::vector<Command>& commands) {
@@ -20,6 +63,7 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
                 "coordinates are set anew in the lines that move, so that where they would lead is not certain",
                 "send R:, RC: or PSET: by itself, and the motion after it");
   }
+  if (const auto good = check_modes(commands); !good) return good;
   bool set = false;
   for (const Command& command : commands) {
     const auto& row = *command.row;
@@ -27,7 +71,8 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
       return fail(Reason::invalid_request, fmt::format("{} is for a jog, which runs until somebody stops it", row.name),
                   "use `axisctl jog` or the method Jog, under which an axis stops when its caller falls silent");
     }
-    if (row.effect == Effect::motion_setting) set = true;
+    const bool waits = row.reg == Register::wt || row.reg == Register::wi;
+    if (row.effect == Effect::motion_setting || (waits && !cancels_wait(command))) set = true;
     const bool is_start = row.name == "G" || row.name == "G:";
     if (row.effect == Effect::stop && commands.size() > 1) {
       return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
@@ -78,6 +123,10 @@ bool needs_gate(const std::vector<Command>& commands) {
     return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
            command.row->name != "BEC:";
   });
+}
+
+bool leaves_host(const std::vector<Command>& commands) {
+  return std::ranges::any_of(commands, [](const Command& command) { return command.row->enters.has_value(); });
 }
 
 AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable) {

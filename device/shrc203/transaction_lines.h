@@ -18,6 +18,9 @@ Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines);
 // Whether the lines must not come between another's.
 bool needs_gate(const std::vector<Command>& commands);
 
+// Whether they lead out of HOST, and back.
+bool leaves_host(const std::vector<Command>& commands);
+
 // The axes that they set in motion or make ready to be.
 AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable);
 

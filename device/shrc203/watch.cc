@@ -15,7 +15,6 @@ constexpr Duration kStartDoubt = std::chrono::milliseconds(300);
 constexpr Duration kConfirmAfter = std::chrono::milliseconds(60);
 // A gateway that does not hear the end of a motion for this long has lost it.
 constexpr int kReadFailuresMax = 20;
-constexpr int kSpeedReadings = 2;
 
 }  // namespace
 
@@ -59,6 +58,9 @@ void Controller::Impl::end_motion(LiveMotionPtr live, MotionState outcome, std::
   if (outcome == MotionState::succeeded && live->on_success) live->on_success();
   live->motion.ended = now_;
   live->motion.problem = std::move(problem);
+  if (outcome == MotionState::succeeded || outcome == MotionState::stopped) {
+    for (const int axis : live->motion.axes.list()) state_.axis(axis).armed = false;
+  }
   for (auto& result : live->motion.results) result.command_pulses = state_.axis(result.axis).position_pulses;
   settled_ = outcome == MotionState::succeeded;
   if (!settled_ && live->wrote && guarded(Guard::registers_unknown_after_failure)) registers_.forget();
@@ -132,15 +134,8 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   }
   const auto problem = error_of(*live);
   if (problem) co_return tl::unexpected(*problem);
-  const auto speeds_missing = [&] { return known_speeds(axes).size() < static_cast<std::size_t>(axes.count()); };
-  for (int attempt = 0; attempt < kSpeedReadings && speeds_missing(); ++attempt) {
-    const auto read = co_await read_speeds(live->context.who);
-    if (!read) co_return read;
-  }
-  if (speeds_missing()) {
-    co_return fail(Reason::line_fault, "the speeds of the axes were read as ones that no axis can have",
-                   "look at them: axisctl exec ?:D; set them: axisctl exec D:...");
-  }
+  const auto learned = co_await learn_speeds(axes, live->context.who);
+  if (!learned) co_return learned;
   const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
   if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   co_return Result<void>();

@@ -63,6 +63,7 @@ void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::A
   axis.set_position(position(state, profile.unit));
   if (state.busy) axis.set_busy(*state.busy);
   axis.set_foreign_motion(state.foreign_motion);
+  axis.set_armed(state.armed);
   if (state.excited) axis.set_excited(*state.excited);
   axis.set_homed(state.homed);
   axis.set_status_bits(state.status.raw);

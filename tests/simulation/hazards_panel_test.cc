@@ -229,20 +229,5 @@ TEST(Hazard, H30_OnesOwnMotionIsNone) {
   EXPECT_TRUE(foreign.told.empty()) << world.replay();
 }
 
-// Waits that start the next move (15), a wait for an input (16), dialects (23), memory switches (24), programs (25) and
-// waking (26): what the table does not know is never sent, whoever asks.
-class HazardOfUnknownCommands : public testing::TestWithParam<const char*> {};
-
-TEST_P(HazardOfUnknownCommands, AreNotSent) {
-  World world(quiet());
-  ASSERT_TRUE(world.run_until_up());
-  const std::size_t lines = world.wire().commands().size();
-  EXPECT_EQ(execute(world, {GetParam()}), std::vector<std::string>{"UNKNOWN_COMMAND"});
-  EXPECT_EQ(written(world, std::string_view(GetParam()).substr(0, 2), lines), 0) << world.replay();
-}
-
-INSTANTIATE_TEST_SUITE_P(Lines, HazardOfUnknownCommands,
-                         testing::Values("WT:1,5", "WI:1,3", "FMT:HIT", "MS:ON", "P:R", "SLEEP:0"));
-
 }  // namespace
 }  // namespace axisgate::simulation

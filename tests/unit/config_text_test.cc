@@ -73,6 +73,7 @@ TEST(ConfigText, IsReadAsTheSameConfiguration) {
                            "busy_scope = \"axis\"",
                            "prebuffer_scope = \"controller\"",
                            "at_exit = \"finish\"",
+                           "wait_for_inputs = false",
                            "speeds_at_lease_end = \"restored\"",
                            "reply_limit_ms = 750",
                            "idle_poll_ms = 1000",

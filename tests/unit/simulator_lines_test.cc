@@ -52,7 +52,7 @@ TEST(SimulatorLines, RefusesWhatIsNoCommand) {
   SimulatorBench bench;
   for (const auto* line :
        {"X",    "M",   "M:", "?",    "?:",    "!",   "!:4S", "Q",     "Q:1",       "SRQ:1",   "*IDN", "?:WA",
-        "?:MX", "L:X", "G1", "H5:1", "MODE:", "T:S", "P:R",  "MS:ON", "PIT:GET,1", "JD:1F10", "?:?"}) {
+        "?:MX", "L:X", "G1", "H5:1", "MODE:", "T:X", "P:S",  "MS:NO", "PIT:GET,1", "JD:1F10", "?:?"}) {
     EXPECT_EQ(bench.ask(line), "NG") << line;
   }
   EXPECT_EQ(bench.ask(std::string(5000, 'M')), "NG");

@@ -333,10 +333,9 @@ TEST(SimulatorMotion, AMotorThatLosesItsExcitationStops) {
   EXPECT_EQ(bench.ask("M:1+P1"), "OK");
 }
 
-TEST(SimulatorMotion, ArcsAreStoredButNotStarted) {
+TEST(SimulatorMotion, ArcsAreDeletedByGc) {
   SimulatorBench bench;
   bench.ask("E:0A0+P1000+P0");
-  EXPECT_EQ(bench.ask("G:A"), "NG");
   EXPECT_EQ(bench.ask("GC:"), "OK");
   EXPECT_EQ(bench.ask("?:E"), "NS");
 }

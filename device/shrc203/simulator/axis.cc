@@ -23,7 +23,7 @@ Axis::Axis(const AxisSetup& setup) : setup_(setup), base_nanometers_e6_(setup.nm
 }
 
 void Axis::power_on(TimePoint now) {
-  place_ = place_at(now);
+  stand_at(place_at(now), now);
   rest();
   set_divide(kDefaultDivide);
   zero_ = mechanical_zero_ = place_;
@@ -59,6 +59,10 @@ bool Axis::origin_sensor(TimePoint now) const { return place_at(now) == in_pulse
 
 void Axis::force_limit(int direction, bool on, TimePoint now) {
   (direction > 0 ? forced_plus_ : forced_minus_) = on;
+  if (phase_ == Phase::moving && leg_.curve) {
+    watch_limits(now);
+    return;
+  }
   if (!on || phase_ != Phase::moving || leg_.amount == 0 || sign_of(leg_.amount) != sign_of(direction)) return;
   halt(now);
   leg_meets_limit_ = true;
@@ -70,10 +74,32 @@ std::int64_t Axis::room(int direction) const {
 }
 
 std::int64_t Axis::place_at(TimePoint now) const {
+  if (phase_ == Phase::moving && leg_.curve) return place_ + leg_.curve->offset(fraction_at(now));
   if (phase_ != Phase::moving || leg_.amount == 0) return place_;
   const double covered = leg_.begun + leg_.path.distance_at(now - leg_.start) * leg_.pulses_per_unit();
   const auto made = static_cast<std::int64_t>(std::floor(covered + kPulseTolerance));
   return place_ + sign_of(leg_.amount) * std::clamp<std::int64_t>(made, 0, std::abs(leg_.amount));
+}
+
+Mileage Axis::mileage(TimePoint now) const {
+  Mileage gone = mileage_;
+  if (phase_ == Phase::moving && leg_.curve) {
+    leg_.curve->cover(fraction_at(now), gone);
+  } else {
+    gone.add(place_at(now) - place_);
+  }
+  return gone;
+}
+
+void Axis::stand_at(std::int64_t place, TimePoint now) {
+  mileage_ = mileage(now);
+  mileage_.add(place - place_at(now));
+  place_ = place;
+}
+
+double Axis::fraction_at(TimePoint now) const {
+  const double whole = leg_.path.distance();
+  return whole <= 0 ? 1 : leg_.path.distance_at(now - leg_.start) / whole;
 }
 
 double Axis::Leg::pulses_per_unit() const {
@@ -89,7 +115,7 @@ void Axis::start_leg(MotionProfile path, std::int64_t amount, const Speed& slope
   if (leg_meets_limit_) {
     length = path.time_at(path.distance() * static_cast<double>(free) / static_cast<double>(whole));
   }
-  leg_ = {std::move(path), amount, now, slope};
+  leg_ = {std::move(path), amount, now, slope, 0, {}};
   phase_ = Phase::moving;
   event_ = now + length;
 }
@@ -103,6 +129,31 @@ void Axis::follow(std::int64_t amount, const MotionProfile& path, TimePoint now)
   stepped_ = path.distance() > 0;
   start_leg(path, amount, speed, now);
   if (amount == 0) event_ = now + path.duration();
+}
+
+void Axis::follow(const Curve& curve, const MotionProfile& path, TimePoint now) {
+  stepped_ = path.distance() > 0;
+  leg_ = {path, curve.end, now, speed, 0, curve};
+  phase_ = Phase::moving;
+  watch_limits(now);
+}
+
+// A curve may turn round and meet either sensor; the first that it comes to ends it.
+void Axis::watch_limits(TimePoint now) {
+  leg_meets_limit_ = false;
+  event_ = leg_.start + leg_.path.duration();
+  for (const int direction : {1, -1}) {
+    const bool forced = direction > 0 ? forced_plus_ : forced_minus_;
+    const std::int64_t free = room(direction);
+    const double half_before = direction * (static_cast<double>(std::max<std::int64_t>(free, 1)) - 0.5);
+    const auto met = forced ? leg_.curve->heads(direction, fraction_at(now)) : leg_.curve->reaches(half_before);
+    if (!met) continue;
+    const TimePoint when = std::max(now, leg_.start + leg_.path.time_at(leg_.path.distance() * *met));
+    if (leg_meets_limit_ && when >= *event_) continue;
+    leg_meets_limit_ = true;
+    event_ = when;
+    curve_limit_ = forced ? leg_.curve->offset(*met) : direction * free;
+  }
 }
 
 void Axis::jog(int direction, TimePoint now) {
@@ -123,7 +174,7 @@ void Axis::change_jog(std::int64_t to_speed, TimePoint now) {
   const Speed slope = leg_.slope;
   MotionProfile path = MotionProfile::changing(static_cast<double>(left) - begun, leg_.path.speed_at(elapsed),
                                                static_cast<double>(to_speed), slope);
-  place_ = here;
+  stand_at(here, now);
   start_leg(std::move(path), direction * left, slope, now);
   leg_.begun = begun;
 }
@@ -145,6 +196,10 @@ void Axis::wait(std::optional<TimePoint> until) {
 }
 
 void Axis::decelerate(TimePoint now) {
+  if (leg_.curve) {  // it runs at S
+    halt(now);
+    return;
+  }
   const double path_speed = leg_.path.speed_at(now - leg_.start);
   MotionProfile path = MotionProfile::slowing(path_speed * leg_.pulses_per_unit(), leg_.slope);
   const Speed slope = leg_.slope;
@@ -156,7 +211,7 @@ void Axis::decelerate(TimePoint now) {
 }
 
 void Axis::halt(TimePoint now) {
-  place_ = place_at(now);
+  stand_at(place_at(now), now);
   creep_to_.reset();
   leg_ = Leg{};
   leg_meets_limit_ = false;
@@ -167,13 +222,17 @@ void Axis::halt(TimePoint now) {
 Axis::LegEnd Axis::end_leg(TimePoint now) {
   const int direction = sign_of(leg_.amount);
   if (leg_meets_limit_) {
-    if (leg_.amount != 0) place_ += direction * room(direction);
+    if (leg_.curve) {
+      stand_at(place_ + curve_limit_, now);
+    } else if (leg_.amount != 0) {
+      stand_at(place_ + direction * room(direction), now);
+    }
     leg_ = Leg{};
     creep_to_.reset();
     limit_error = true;
     return LegEnd::limit;
   }
-  place_ += leg_.amount;
+  stand_at(place_ + leg_.amount, now);
   leg_ = Leg{};
   if (!creep_to_) return LegEnd::target;
   const std::int64_t amount = *creep_to_ - place_;

@@ -5,6 +5,8 @@
 #include <optional>
 
 #include "device/core/time.h"
+#include "device/shrc203/simulator/curve.h"
+#include "device/shrc203/simulator/mileage.h"
 #include "device/shrc203/simulator/motion_profile.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/units.h"
@@ -26,14 +28,16 @@ class Axis {
 
   // --- the counter (pulses) -------------------------------------------------------------------------------------
   std::int64_t coordinate(TimePoint now) const { return place_at(now) - zero_; }
-  void preset(std::int64_t coordinate);  // manual 45) PSET:
-  void set_logical_origin();             // manual 63) R:
-  void clear_logical_origin();           // manual 64) RC:
+  std::int64_t zero() const { return zero_; }  // the place, from where it stood when it was built, that reads 0
+  void preset(std::int64_t coordinate);        // manual 45) PSET:
+  void set_logical_origin();                   // manual 63) R:
+  void clear_logical_origin();                 // manual 64) RC:
   void set_mechanical_origin();
 
   // --- settings -------------------------------------------------------------------------------------------------
   Pitch pitch() const { return {base_nanometers_e6_, divide_}; }
   std::int64_t divide() const { return divide_; }
+  void set_base(std::int64_t nanometers_e6) { base_nanometers_e6_ = nanometers_e6; }  // of an undivided pulse
   void set_divide(std::int64_t divide);  // the counter keeps its number of pulses
 
   Speed speed;         // manual 89) D:
@@ -46,6 +50,11 @@ class Axis {
   // These last as long as their cause, whatever is sent (manual 53) BEC: does not name them).
   bool scale_error = false;          // bit 3
   bool disconnection_error = false;  // bit 4
+  // As the memory switches had it at power-on (manual 5), 12), 32), 66)).
+  char name = '1';
+  char unit = 'U';
+  bool configured = false;
+  bool excited_in_emergency = false;
   bool error_stop() const { return emergency || overflow_error || scale_error || disconnection_error; }
 
   // --- sensors --------------------------------------------------------------------------------------------------
@@ -57,6 +66,7 @@ class Axis {
   // --- motion: each starts now, from an idle axis -----------------------------------------------------------------
   void move(std::int64_t amount, TimePoint now);
   void follow(std::int64_t amount, const MotionProfile& path, TimePoint now);  // its part of a straight line
+  void follow(const Curve& curve, const MotionProfile& path, TimePoint now);   // its part of an arc
   void jog(int direction, TimePoint now);
   void return_to_origin(TimePoint now);
   void wait(std::optional<TimePoint> until);
@@ -71,6 +81,8 @@ class Axis {
   void rest();
 
   Phase phase() const { return phase_; }
+  Mileage mileage(TimePoint now) const;  // since start_mileage(), which is called at rest
+  void start_mileage() { mileage_ = {}; }
   bool stepped() const { return stepped_; }  // whether the last motion had any path to cover
   std::optional<TimePoint> next_event() const { return event_; }
 
@@ -81,11 +93,15 @@ class Axis {
     TimePoint start{};
     Speed slope;
     double begun = 0;  // how much of its first pulse the leg before it has made
+    std::optional<Curve> curve;
 
     double pulses_per_unit() const;  // of the path
   };
 
   std::int64_t place_at(TimePoint now) const;
+  void stand_at(std::int64_t place, TimePoint now);  // a leg ends there
+  double fraction_at(TimePoint now) const;           // of the leg's path
+  void watch_limits(TimePoint now);                  // of a leg along a curve
   std::int64_t in_pulses(std::int64_t setup_pulses) const;
   std::int64_t room(int direction) const;  // pulses left up to the limit sensor
   void start_leg(MotionProfile path, std::int64_t amount, const Speed& slope, TimePoint now);
@@ -96,11 +112,13 @@ class Axis {
   std::int64_t place_ = 0;            // of the stage at the leg's start, from where it stood when it was built
   std::int64_t zero_ = 0;             // the place that reads 0
   std::int64_t mechanical_zero_ = 0;  // the same without R:
+  Mileage mileage_;                   // up to the leg's start
   bool forced_plus_ = false, forced_minus_ = false;
 
   Phase phase_ = Phase::idle;
   Leg leg_;
   bool leg_meets_limit_ = false;
+  std::int64_t curve_limit_ = 0;          // and where, seen from the start of a curve
   std::optional<std::int64_t> creep_to_;  // the last leg of an origin return
   bool stepped_ = false;
   std::optional<TimePoint> event_;

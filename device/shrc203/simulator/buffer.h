@@ -12,7 +12,18 @@
 
 namespace axisgate::shrc203::simulator {
 
-enum class Kind { relative, absolute, line, arc, jog, wait_time, wait_input, origin_return, logical_return };
+enum class Kind {
+  relative,
+  absolute,
+  line,
+  arc,
+  jog,
+  wait_time,
+  wait_input,
+  origin_return,
+  logical_return,
+  saved_position,
+};
 
 // E:0 to E:5 (manual 71) to 76)). Points in pulses, in the order of the command.
 struct Arc {

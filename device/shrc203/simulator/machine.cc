@@ -5,6 +5,9 @@
 #include <cctype>
 #include <utility>
 
+#include "device/shrc203/simulator/memory_switch_commands.h"
+#include "device/shrc203/simulator/program_commands.h"
+#include "device/shrc203/simulator/program_run.h"
 #include "device/shrc203/simulator/questions.h"
 
 namespace axisgate::shrc203::simulator {
@@ -72,14 +75,14 @@ void Machine::advance(TimePoint now) {
 
 // What happens by itself until then.
 void Machine::run_to(TimePoint now) {
-  rig_.motions.process(now);
+  run_until(rig_, now);
   rig_.now = std::max(rig_.now, now);
   send_completions();
   if (boots_until_ && rig_.now >= *boots_until_) boots_until_.reset();
 }
 
 std::optional<TimePoint> Machine::next_event() const {
-  std::optional<TimePoint> next = rig_.motions.next_event();
+  std::optional<TimePoint> next = next_due(rig_);
   const auto consider = [&next](TimePoint time) { next = next ? std::min(*next, time) : time; };
   if (stuck_until_ > rig_.now) consider(stuck_until_);
   if (!waiting_.empty()) consider(std::max(waiting_.front().due, stuck_until_));
@@ -93,8 +96,8 @@ void Machine::reboot(TimePoint now) {
 
 void Machine::restart() {
   rig_.power_on();
-  rig_.mode = boot_.mode;
-  rig_.hit_format = boot_.format == "HIT";
+  if (boot_.mode != "HOST") rig_.mode = boot_.mode;
+  if (boot_.format == "HIT") rig_.hit_format = true;
   cutter_.clear();
   waiting_.clear();
   stuck_until_ = rig_.now;
@@ -123,6 +126,9 @@ void Machine::handle(const LineCutter::Line& line) {
 }
 
 bool Machine::knows(std::string_view command) const {
+  if (rig_.mode == kMemorySwitchMode) return works_in_memory_switch_mode(command);
+  const bool in_program = in_program_mode(rig_) && !rig_.hit_format;
+  if (in_program && works_in_program_mode(rig_, command)) return true;
   if (rig_.mode != "HOST") return works_in_every_mode(command);
   if (!rig_.hit_format) return true;
   return works_in_hit_format(command) || answer_in_hit_format(rig_, command).has_value();
@@ -145,7 +151,7 @@ void Machine::respond(const std::string& command, const std::string& as_sent) {
   }
   if (accepted || rig_.options.is("previous_command_counts_refused", "yes")) rig_.previous_line = as_sent;
   // What a command brings about at once, such as the end of a move of no length, may be told before its reply.
-  rig_.motions.process(rig_.now);
+  run_until(rig_, rig_.now);
   const bool completion_first = rig_.options.is("late_go_order", "completion_first");
   if (completion_first) send_completions();
   reply(text ? std::string_view(*text) : text_of(done));
@@ -156,6 +162,7 @@ void Machine::respond(const std::string& command, const std::string& as_sent) {
 void Machine::send_completions() {
   if (rig_.now < stuck_until_) return;
   for (const int axis : rig_.motions.take_completions()) send(std::to_string(axis));
+  for (const std::string& notice : take_notices(rig_)) send(notice);
 }
 
 void Machine::reply(std::string_view text) {

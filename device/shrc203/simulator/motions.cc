@@ -4,6 +4,8 @@
 #include <cmath>
 #include <utility>
 
+#include "device/shrc203/simulator/arcs.h"
+
 namespace axisgate::shrc203::simulator {
 
 void Motions::power_on() {
@@ -161,7 +163,7 @@ bool Motions::can_start(const Axes& axes) const {
   for (const Buffer* buffer : {&execution_, &prebuffer_}) {
     for (const Setting& setting : buffer->settings()) {
       if (!setting.axes.touches(axes)) continue;
-      if (setting.kind == Kind::arc || (setting.indivisible() && !setting.axes.within(axes))) return false;
+      if (setting.indivisible() && !setting.axes.within(axes)) return false;
       any = true;
     }
   }
@@ -200,12 +202,17 @@ bool Motions::go(const Axes& axes, TimePoint now) {
 }
 
 void Motions::start_return(Kind kind, const Axes& axes, bool reports, TimePoint now) {
-  for (const int number : axes.list()) {
-    Setting setting;
-    setting.kind = kind;
-    setting.axes = {number};
-    runs_.push_back({setting, reports, setting.axes, {}});
-    start_axis(setting, number, now);
+  Setting setting;
+  setting.kind = kind;
+  setting.axes = axes;
+  start_each(setting, reports, now);
+}
+
+void Motions::start_each(const Setting& setting, bool reports, TimePoint now) {
+  for (const int number : setting.axes.list()) {
+    const Setting part = setting.only(number);
+    runs_.push_back({part, reports, part.axes, {}});
+    start_axis(part, number, now);
   }
 }
 
@@ -243,6 +250,10 @@ void Motions::start(const Setting& setting, TimePoint now) {
     start_line(setting, now);
     return;
   }
+  if (setting.kind == Kind::arc) {
+    start_arc(setting, now);
+    return;
+  }
   for (const int number : setting.axes.list()) start_axis(setting, number, now);
 }
 
@@ -260,6 +271,7 @@ void Motions::start_axis(const Setting& setting, int number, TimePoint now) {
       moved.move(value, now);
       break;
     case Kind::absolute:
+    case Kind::saved_position:
       moved.move(value - moved.coordinate(now), now);
       break;
     case Kind::logical_return:
@@ -308,6 +320,25 @@ void Motions::start_line(const Setting& setting, TimePoint now) {
     forget_limit(number);
     axis(number).follow(amount, path, now);
     if (amount != 0) ++starts_[index_of(number)];
+  }
+}
+
+// Manual 71), 77): as the line, and the circle first in the order of its axes.
+void Motions::start_arc(const Setting& setting, TimePoint now) {
+  const ArcPath arc = path_of(*setting.arc);
+  const auto speed = static_cast<double>(axis(setting.axes.lowest()).speed.minimum);
+  const MotionProfile path = MotionProfile::constant(arc.length, speed);
+  const auto numbers = setting.axes.list();
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    Axis& moved = axis(numbers[i]);
+    forget_limit(numbers[i]);
+    const bool in_plane = i < arc.plane.size();
+    if (in_plane) {
+      moved.follow(arc.plane[i], path, now);
+    } else {
+      moved.follow(arc.linear, path, now);
+    }
+    if (in_plane ? arc.plane[i].radius > 0 : arc.linear != 0) ++starts_[index_of(numbers[i])];
   }
 }
 

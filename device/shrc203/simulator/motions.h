@@ -39,6 +39,9 @@ class Motions {
 
   // Manual 85), 86). False when nothing of these axes can start.
   bool go(const Axes& axes, TimePoint now);
+  void start_each(const Setting& setting, bool reports, TimePoint now);  // at once, each axis on its own
+  // Past both buffers.
+  void start_at_once(const Setting& setting, TimePoint now) { start(setting, now); }
   void start_return(Kind kind, const Axes& axes, bool reports, TimePoint now);
 
   // Manual 93) JD:. Whether J: drives each of these axes, and none is being stopped; pulses/s from now on.
@@ -88,6 +91,7 @@ class Motions {
   void start_axis(const Setting& setting, int axis, TimePoint now);
   void forget_limit(int axis);
   void start_line(const Setting& setting, TimePoint now);
+  void start_arc(const Setting& setting, TimePoint now);
   void start_migrated(TimePoint now);
   void migrate();
 

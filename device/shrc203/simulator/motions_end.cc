@@ -36,7 +36,7 @@ void Motions::pulses_ended(int number, TimePoint now) {
   Run* run = run_of(number);
   if (run != nullptr && end == Axis::LegEnd::limit) {
     Axes stopped{number};
-    if (run->setting.kind == Kind::line) stopped = run->setting.axes;
+    if (run->setting.indivisible()) stopped = run->setting.axes;
     apply_stop_to_prebuffer(stopped);
     run->stopped.add(number);
     for (const int other : stopped.list()) {
@@ -81,7 +81,7 @@ void Motions::leave_jog(const Run& run, int number) {
 void Motions::complete(const Run& run, int number, bool done) {
   if (!run.reports) return;
   if (run.stopped.has(number) && is("completion_after_stop", "none")) return;
-  if (run.setting.kind != Kind::line) {
+  if (!run.setting.indivisible()) {
     completions_.push_back(number);
   } else if (done && is("interpolation_completion", "lowest_axis")) {
     completions_.push_back(run.setting.axes.lowest());
@@ -91,7 +91,7 @@ void Motions::complete(const Run& run, int number, bool done) {
 }
 
 void Motions::stop_run(Run& run, const Axes& axes, bool slowly, TimePoint now) {
-  const Axes stopping = run.setting.kind == Kind::line ? run.setting.axes : axes;
+  const Axes stopping = run.setting.indivisible() ? run.setting.axes : axes;
   for (const int number : stopping.list()) {
     if (!run.setting.axes.has(number)) continue;
     Axis& stopped = axis(number);
@@ -150,7 +150,7 @@ void Motions::emergency_stop(TimePoint now) {
     if (stopped.phase() == Axis::Phase::moving) stopped.halt(now);
     stopped.rest();
     stopped.emergency = true;
-    if (is("emergency_excitation", "off")) stopped.excited = false;
+    if (!stopped.excited_in_emergency) stopped.excited = false;
   }
   for (const Run& run : runs_) {
     for (const int number : run.unfinished.list()) leave_jog(run, number);

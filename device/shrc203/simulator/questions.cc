@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 
+#include "device/shrc203/simulator/memory_switch_commands.h"
+#include "device/shrc203/simulator/program_commands.h"
+
 namespace axisgate::shrc203::simulator {
 namespace {
 
@@ -24,7 +27,7 @@ constexpr std::array kPlain = {
     PlainQuestion{"V", [](const Rig& rig) { return rig.options.firmware; }},
     PlainQuestion{"N", [](const Rig&) { return std::string("SHRC-203"); }},
     PlainQuestion{"SN", [](const Rig& rig) { return rig.serial_number; }},
-    PlainQuestion{"AXIS", [](const Rig& rig) { return std::to_string(rig.options.axis_setting); }},
+    PlainQuestion{"AXIS", [](const Rig& rig) { return std::to_string(rig.axis_setting); }},
     PlainQuestion{"MODE", [](const Rig& rig) { return rig.mode; }},
     PlainQuestion{"FMT", [](const Rig& rig) { return std::string(rig.hit_format ? "HIT" : "SHOT_FC"); }},
     // Nothing was sent since power-on: NS, as the other ?: have it.
@@ -34,6 +37,8 @@ constexpr std::array kPlain = {
     PlainQuestion{"SLEEP", [](const Rig& rig) { return digit(rig.sleeping); }},
     PlainQuestion{"BO", [](const Rig& rig) { return digit(rig.lights); }},
     PlainQuestion{"BEEP", [](const Rig& rig) { return digit(rig.beep); }},
+    PlainQuestion{"L", program_status},
+    PlainQuestion{"T", [](const Rig& rig) { return rig.triggers.describe(); }},
 };
 
 // One field for each axis named.
@@ -47,11 +52,11 @@ constexpr std::array kByAxis = {
     AxisQuestion{"R", [](const Rig& r, int axis) { return from_pulses(1, 'N', r.axis(axis).pitch()); }},
     AxisQuestion{"P", [](const Rig& r, int axis) { return from_pulses(1, 'N', r.axis(axis).pitch()); }},
     AxisQuestion{"S", [](const Rig& r, int axis) { return std::to_string(r.axis(axis).divide()); }},
-    AxisQuestion{"AN", [](const Rig&, int axis) { return std::to_string(axis); }},
+    AxisQuestion{"AN", [](const Rig& r, int axis) { return std::string(1, r.axis(axis).name); }},
     AxisQuestion{"D", [](const Rig& r, int axis) { return speed_text(r.axis(axis).speed); }},
     AxisQuestion{"DR", [](const Rig& r, int axis) { return std::to_string(r.axis(axis).speed.ramp_ms); }},
     AxisQuestion{"B", [](const Rig& r, int axis) { return speed_text(r.axis(axis).origin_speed); }},
-    AxisQuestion{"ACS", [](const Rig&, int) { return std::string("0"); }},
+    AxisQuestion{"ACS", [](const Rig& r, int axis) { return digit(r.axis(axis).configured); }},
     AxisQuestion{"C", [](const Rig& r, int axis) { return digit(r.axis(axis).excited); }},
     AxisQuestion{"F", [](const Rig& r, int axis) { return digit(r.axis(axis).open_loop); }},
 };
@@ -101,7 +106,8 @@ std::optional<std::string> answer_setting(const Rig& rig, std::string_view body)
 
 bool is_question(std::string_view line) {
   return line.starts_with('?') || line.starts_with('!') || line.starts_with("Q:") || line.starts_with("SRQ:") ||
-         line == "*IDN?" || line == "I:" || line == "BEEP?";
+         line == "*IDN?" || line == "I:" || line == "BEEP?" || line.starts_with("PIT:GET") ||
+         line.starts_with("PAV:GET") || is_memory_switch_question(line) || asks_for_program_line(line);
 }
 
 std::optional<std::string> answer(const Rig& rig, std::string_view line) {
@@ -109,10 +115,13 @@ std::optional<std::string> answer(const Rig& rig, std::string_view line) {
     return fmt::format("SIGMAKOKI,SHRC-203,{},{}", rig.serial_number, rig.options.firmware);
   }
   if (line == "I:") return std::to_string(rig.inputs);
+  if (line.starts_with("PIT:") || line.starts_with("PAV:")) return answer_saved_position(rig, line);
   // Manual 31), 32), 39) write these three differently in one place.
   if (line == "BEEP?") return answer_setting(rig, "BEEP");
   if (line.starts_with("?J:")) return answer_setting(rig, fmt::format("J{}", line.substr(3)));
   if (line.starts_with("?ACS")) return answer_setting(rig, line.substr(1));
+  if (is_memory_switch_question(line)) return answer_memory_switch(rig, line);
+  if (asks_for_program_line(line)) return answer_program_line(rig, line);
   if (line.starts_with("?:")) return answer_setting(rig, line.substr(2));
   return answer_status(rig, line);
 }

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/shrc203/simulator/memory_switch_commands.h"
+
 namespace axisgate::shrc203::simulator {
 
 Rig::Rig(Options chosen)
     : options(std::move(chosen)),
-      controllable(axes_of_setting(options.axis_setting)),
+      memory(options),
       axes{Axis(options.axes[0]), Axis(options.axes[1]), Axis(options.axes[2])},
       motions(options, axes),
       serial_number(options.serial_number) {
@@ -37,13 +39,17 @@ std::optional<std::int64_t> Rig::to_pulses(Number number, char unit, int axis_nu
 }
 
 void Rig::power_on() {
+  triggers.disarm(now);
+  saved.places = {};
   motions.power_on();
+  program.power_on();
   for (Axis& each : axes) each.power_on(now);
   mode = "HOST";
   hit_format = sleeping = command_error = false;
   lights = beep = true;
   outputs = 0;
   previous_line.clear();
+  apply_memory_switches(*this);
 }
 
 }  // namespace axisgate::shrc203::simulator

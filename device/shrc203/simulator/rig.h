@@ -7,8 +7,12 @@
 #include "device/core/time.h"
 #include "device/shrc203/simulator/axis.h"
 #include "device/shrc203/simulator/axis_set.h"
+#include "device/shrc203/simulator/memory_switches.h"
 #include "device/shrc203/simulator/motions.h"
 #include "device/shrc203/simulator/options.h"
+#include "device/shrc203/simulator/program.h"
+#include "device/shrc203/simulator/saved_positions.h"
+#include "device/shrc203/simulator/triggers.h"
 
 namespace axisgate::shrc203::simulator {
 
@@ -31,9 +35,14 @@ struct Rig {
   void power_on();
 
   const Options options;
-  const Axes controllable;
+  MemorySwitches memory;
+  int axis_setting = 6;  // manual 44)
+  Axes controllable;     // what it means
   std::array<Axis, kAxes> axes;
   Motions motions;
+  Triggers triggers{axes};
+  SavedPositions saved;
+  ProgramMode program;
   TimePoint now{};
   std::string serial_number;
   std::string mode;

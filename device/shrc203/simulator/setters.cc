@@ -17,7 +17,7 @@ constexpr std::array kDivisions = {1,  2,   3,   4,   5,   6,   8,   10,  12,  2
 
 constexpr std::array<std::string_view, 7> kModes = {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"};
 
-bool all_free(const Rig& rig) { return !rig.motions.busy(rig.controllable); }
+bool all_free(const Rig& rig) { return !rig.motions.busy(rig.controllable) && !rig.program.run.active(); }
 
 // A command that switches one thing of the whole controller between 0 and 1, not while anything is BUSY.
 Answer switch_flag(Rig& rig, Reader reader, bool Rig::*flag) {
@@ -121,8 +121,7 @@ Answer divide(Rig& rig, Reader reader) {
   const auto values = take_each<std::int64_t>(reader, *axes, [&](int) { return reader.take_integer(1, 8000); });
   if (!values) return Answer::ng;
   for (const int axis : axes->list()) {
-    const auto division = static_cast<int>((*values)[index_of(axis)]);
-    if (std::find(kDivisions.begin(), kDivisions.end(), division) == kDivisions.end()) return Answer::ng;
+    if (!is_division((*values)[index_of(axis)]) || rig.axis(axis).configured) return Answer::ng;
   }
   for (const int axis : axes->list()) rig.axis(axis).set_divide((*values)[index_of(axis)]);
   return Answer::ok;
@@ -214,6 +213,10 @@ constexpr std::array kCommands = {
 
 }  // namespace
 
+bool is_division(std::int64_t division) {
+  return std::find(kDivisions.begin(), kDivisions.end(), division) != kDivisions.end();
+}
+
 std::optional<Speed> take_speed(const Rig& rig, Reader& reader, char unit, int axis) {
   const auto take_part = [&](char letter) -> std::optional<std::int64_t> {
     const auto number = reader.take(letter) ? reader.take_number() : std::nullopt;
@@ -238,7 +241,8 @@ Answer execute(Rig& rig, std::string_view line) {
   const auto colon = line.find(':');
   const std::string_view verb = colon == std::string_view::npos ? line : line.substr(0, colon + 1);
   const Reader arguments(colon == std::string_view::npos ? std::string_view{} : line.substr(colon + 1));
-  for (const auto find : {find_controller_command, find_motion_command, find_buffer_command}) {
+  for (const auto find : {find_controller_command, find_motion_command, find_buffer_command, find_trigger_command,
+                          find_saved_position_command, find_memory_switch_command, find_program_command}) {
     if (const Command* command = find(verb)) return command->run(rig, arguments);
   }
   return Answer::ng;

@@ -22,8 +22,14 @@ struct Command {
 const Command* find_controller_command(std::string_view verb);  // settings of the controller and of its axes
 const Command* find_motion_command(std::string_view verb);      // starts, stops and the returns
 const Command* find_buffer_command(std::string_view verb);      // the two buffers
+const Command* find_trigger_command(std::string_view verb);
+const Command* find_saved_position_command(std::string_view verb);
+const Command* find_memory_switch_command(std::string_view verb);
+const Command* find_program_command(std::string_view verb);  // P:, all of them but P:GET
 
 inline Answer answer_if(bool accepted) { return accepted ? Answer::ok : Answer::ng; }
+
+bool is_division(std::int64_t division);  // manual 55) S:
 
 // S, F and R behind each other, `unit` per second; nothing unless each is in range and S <= F (manual 68), 89)).
 std::optional<Speed> take_speed(const Rig& rig, Reader& reader, char unit, int axis);

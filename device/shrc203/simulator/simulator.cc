@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "device/shrc203/simulator/machine.h"
+#include "device/shrc203/simulator/program_run.h"
 
 namespace axisgate::shrc203::simulator {
 
@@ -12,7 +13,7 @@ class Simulator::Device : public Machine {
 
   // Something happened beside the line: what follows from it at once is told now.
   void settle_consequences() {
-    rig().motions.process(rig().now);
+    run_until(rig(), rig().now);
     send_completions();
   }
 };
@@ -118,6 +119,7 @@ void Simulator::be_stuck(Duration time, TimePoint now) {
 
 void Simulator::set_serial_number(std::string number) { device_->rig().serial_number = std::move(number); }
 
+std::int64_t Simulator::trigger_pulses() const { return device_->rig().triggers.emitted(device_->rig().now); }
 int Simulator::starts(int axis) const { return device_->rig().motions.starts(axis); }
 const std::vector<std::string>& Simulator::received() const { return device_->received(); }
 bool Simulator::answering() const { return device_->answering(); }

@@ -60,6 +60,7 @@ class Simulator : public LineMachine {
   // For tests: how often an axis was set in motion since construction (each segment of a chain counts), and the lines
   // received, oldest first: the last 100,000 at least.
   int starts(int axis) const;
+  std::int64_t trigger_pulses() const;  // on the trigger output (manual 97) to 101)) since construction
   const std::vector<std::string>& received() const;
   bool answering() const;  // while it writes: whether this answers a line (and is no completion)
 

@@ -82,16 +82,17 @@ std::string fixed_coordinate(const Rig& rig, int axis) {
   return fmt::format("{}{:>9}", value < 0 ? '-' : '+', std::min(std::abs(value), kCounterMax));
 }
 
-std::string unit_coordinate(const Rig& rig, int number, char unit) {
+std::string unit_coordinate(const Rig& rig, int number, char named_unit) {
   const Axis& axis = rig.axis(number);
+  const char unit = named_unit == '\0' ? axis.unit : named_unit;
   const std::int64_t value = axis.coordinate(rig.now);
   if (rig.options.is("q_s_sign", "bare")) return unit + from_pulses_by_resolution(value, unit, axis.pitch());
   return fmt::format("{}{}{}", unit, value < 0 ? "" : "+", from_pulses(value, unit, axis.pitch()));
 }
 
-// Without a unit, the memory switch STAGE UNIT decides; micrometres here. Both counters agree on a simulated stage.
+// Without a unit, the memory switch STAGE UNIT decides. Both counters agree on a simulated stage.
 std::optional<std::string> answer_coordinates(const Rig& rig, Reader reader) {
-  char unit = 'U';
+  char unit = '\0';
   for (const char candidate : {'N', 'U', 'M', 'D', 'P'}) {
     if (reader.take(candidate)) {
       unit = candidate;

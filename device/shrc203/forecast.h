@@ -1,0 +1,50 @@
+// Where a caller's own lines would bring the axes, and how fast, held against his travel envelope before any is sent.
+#pragma once
+
+#include <map>
+#include <vector>
+
+#include "device/shrc203/codec.h"
+#include "device/shrc203/envelope.h"
+#include "device/shrc203/plan.h"
+#include "device/shrc203/reply.h"
+
+namespace axisgate::shrc203 {
+
+class Forecast {
+ public:
+  // From where the axes are and how fast they are set, by axis.
+  Forecast(const Envelope& envelope, const Positions& at, std::map<int, SpeedSetting> speeds, AxisSet controllable)
+      : envelope_(envelope), at_(at), speeds_(std::move(speeds)), controllable_(controllable) {}
+
+  // The next line. What the envelope refuses; invalid_request where nobody can tell where it would lead.
+  Result<void> add(const Command& command);
+  // Where the axes are then; nothing where that is not known.
+  const Positions& at() const { return at_; }
+
+ private:
+  struct Pending {
+    Register reg = Register::none;
+    bool relative = false;
+    bool lasting = false;  // GC: does not delete it
+    std::int64_t amount = 0;
+  };
+  Result<void> add_speeds(const Command& command);
+  Result<void> add_motion(const Command& command);
+  Result<void> add_setting(const Command& command);
+  Result<void> add_origin_return(const Command& command);
+  Result<void> add_program();
+  Result<void> start(int axis);
+
+  Envelope envelope_;
+  Positions at_;
+  std::map<int, SpeedSetting> speeds_;
+  AxisSet controllable_;
+  std::map<int, std::vector<Pending>> pending_;  // by axis, what a G would start
+  AxisSet started_;
+};
+
+// Whether that line of WT: or WI: ends a wait, which starts what is in the prebuffer (manual 2. 3)).
+bool cancels_wait(const Command& command);
+
+}  // namespace axisgate::shrc203

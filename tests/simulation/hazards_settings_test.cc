@@ -1,0 +1,185 @@
+// Hazards of settings that outlive their user. Numbers as in the table of what can go wrong on a shared line.
+#include <gtest/gtest.h>
+
+#include <optional>
+
+#include "server/access/leases.h"
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using server::Lease;
+using server::LeaseToken;
+using std::chrono::seconds;
+
+constexpr AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2);
+
+Setup with(Permission& permission) {
+  auto setup = quiet();
+  setup.permission = &permission;
+  return setup;
+}
+
+class HazardOfSettings : public testing::Test {
+ protected:
+  HazardOfSettings() { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
+
+  LeaseToken lease(const std::string& holder, AxisSet axes) {
+    LeaseToken token = 0;
+    leases.acquire({.axes = axes}, holder, false, world.now(), world.now(),
+                   [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+    EXPECT_NE(token, 0u);
+    return token;
+  }
+  RequestContext context(const std::string& who, LeaseToken token) {
+    RequestContext asked = world.context(who);
+    asked.lease = token;
+    return asked;
+  }
+  void set_speeds(const std::string& line, const std::string& who, LeaseToken token) {
+    world.controller().execute({{line}, context(who, token)}, world.now(), [](const ExecuteEvent&) {});
+    world.run_for(seconds(2));
+  }
+  // At a speed of its own, for some seconds.
+  void move_slowly(int axis, const std::string& who, LeaseToken token) {
+    MoveRequest request = move_of(world, {{axis, 5000}}, true);
+    request.moves[0].profile = SpeedProfile{pulses(200), pulses(2000), 30};
+    request.context = context(who, token);
+    world.controller().move(request, world.now(), [](const Result<Motion>&) {});
+  }
+
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  World world{with(leases)};
+};
+
+// D: of a lease's holder, and what the next one finds.
+TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLease) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  ASSERT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+  std::optional<std::int64_t> found;
+  leases.acquire({.axes = kOne}, "bert", true, world.now() + seconds(60), world.now(),
+                 [&](const Result<Lease>& got) { found = got ? world.device().maximum_speed(1) : 0; });
+  world.run_for(seconds(20));
+  EXPECT_EQ(found, 50'000) << world.replay();
+  EXPECT_EQ(written(world, "D:1S1000F50000R100"), 1) << world.replay();
+  EXPECT_EQ(world.controller().state().axis(1).maximum_speed, 50'000);
+}
+
+TEST_F(HazardOfSettings, H28_SpeedsSetWithoutALeaseStay) {
+  execute(world, {"D:1S500F7000R300"});
+  world.run_for(seconds(30));
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+}
+
+// The line is pulled while the lease expires: the axis is nobody's until its speeds could be put back.
+TEST_F(HazardOfSettings, H28_SpeedsEndWithTheLeaseWhenTheLineComesBack) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  world.wire().set_script([](LineKind, const std::string&) -> Scripted { return {true, {}, {}}; });
+  world.run_for(seconds(20));
+  world.wire().set_script({});
+  EXPECT_FALSE(leases.held().empty());
+  ASSERT_TRUE(world.run_until([&] { return leases.held().empty(); }, seconds(60))) << world.replay();
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+// Whatever the lease ends by, and the daemon's end is one of them.
+TEST_F(HazardOfSettings, H52_SpeedsEndWithTheDaemon) {
+  const LeaseToken anna = lease("anna", kOne);
+  world.controller().execute({{"D:1S500F7000R300"}, context("anna", anna)}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(2));
+  bool ended = false;
+  world.controller().wind_down(world.now(), [&](const WindDownReport&) { ended = true; });
+  ASSERT_TRUE(world.run_until([&] { return ended; }, seconds(5))) << world.replay();
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+// Users' seed 29876: a D: alone went out while a path moved its axis, and took the path's speed for what was before.
+TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  auto setup = with(leases);
+  setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+  for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  LeaseToken token = 0;
+  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+                 [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+  PathRequest path;
+  path.context = world.context("anna");
+  path.context.lease = token;
+  for (int i = 0; i < 4; ++i) path.segments.push_back({{{1, pulses(2000), {}}}, true, pulses(4000), {}});
+  world.controller().run_path(path, world.now(), [](const Result<Motion>&) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "MP:") == 3; }, seconds(5))) << world.replay();
+  world.controller().execute({{"D:1S500F7000R300"}, path.context}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+  world.run_for(seconds(20));
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  auto setup = with(leases);
+  setup.profile.speeds_at_lease_end = AtLeaseEnd::kept;
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  LeaseToken token = 0;
+  leases.acquire({.axes = kOne}, "anna", false, world.now(), world.now(),
+                 [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+  RequestContext asked = world.context("anna");
+  asked.lease = token;
+  world.controller().execute({{"D:1S500F7000R300"}, asked}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(30));
+  EXPECT_TRUE(leases.held().empty());
+  EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+}
+
+// The line is lost under a motion at a speed of its own: older than what is owed is what was there before the lease.
+TEST_F(HazardOfSettings, H28_SpeedsBeforeTheLeaseAreOlderThanThoseOwed) {
+  const LeaseToken anna = lease("anna", kOne);
+  set_speeds("D:1S500F7000R300", "anna", anna);
+  move_slowly(1, "anna", anna);
+  world.run_for(seconds(1));
+  world.wire().cut(world.now(), seconds(1));
+  world.run_for(seconds(30));
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+  moved(world, {{1, 100}});
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+}
+
+// The lease ends while another's motion keeps its restoring waiting, and the line is lost meanwhile.
+TEST_F(HazardOfSettings, H28_ALossOfTheLineWhileItWaitsItsTurn) {
+  const LeaseToken anna = lease("anna", kOne);
+  set_speeds("D:1S500F7000R300", "anna", anna);
+  move_by(world, {{2, 700'000}});  // 14 s
+  world.run_for(seconds(10));
+  ASSERT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
+  world.wire().cut(world.now(), seconds(1));
+  world.run_for(seconds(30));
+  EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
+  EXPECT_TRUE(leases.held().empty());
+}
+
+// What somebody sets himself takes the place of what was owed.
+TEST_F(HazardOfSettings, H28_ASettingOfOnesOwnIsNotOverwritten) {
+  move_slowly(2, "anna", 0);
+  world.run_for(seconds(1));
+  world.wire().cut(world.now(), seconds(1));
+  world.run_for(seconds(10));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  set_speeds("D:2S500F7000R300", "bert", 0);
+  moved(world, {{2, 100}});
+  EXPECT_EQ(world.device().maximum_speed(2), 7000) << world.replay();
+}
+
+}  // namespace
+}  // namespace axisgate::simulation
