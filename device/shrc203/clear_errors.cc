@@ -10,6 +10,10 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
     done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
     co_return;
   }
+  if (away_) {
+    done(tl::unexpected(away_problem()));
+    co_return;
+  }
   if (const auto allowed = may_use(context, named); !allowed) {
     done(tl::unexpected(allowed.error()));
     co_return;

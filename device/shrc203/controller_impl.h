@@ -237,6 +237,9 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> wait_for_program(LiveMotionPtr live);
   Task<void> come_back(LiveMotionPtr live, bool all, bool switches);
   Task<void> come_back_in_handshake();
+  Task<bool> step_to_host(Lane lane, std::string caller, bool in_handshake);
+  Task<bool> program_stands(std::string caller);
+  Task<bool> wait_for_rest_of_program(LiveMotionPtr live);
 
   // clear_errors.cc
   Task<void> clear_errors(AxisSet axes, RequestContext context, OnDone done);

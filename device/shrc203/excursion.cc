@@ -2,6 +2,7 @@
 // what it has changed is read anew.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <vector>
 
@@ -13,14 +14,10 @@ namespace {
 
 constexpr Duration kProgramPoll = std::chrono::milliseconds(100);
 constexpr int kReturnTries = 5;
+constexpr Duration kReturnLimit = std::chrono::seconds(15);
 
-std::string_view way_back(Mode mode) {
-  if (mode == Mode::memory_switches) return "MS:OFF";
-  return mode == Mode::program_edit ? "P:OFF" : "P:H";
-}
-
-// By the second field of ?:L (manual 41)): it runs, pauses, or runs one line.
-bool runs(std::string_view status) { return status == "1" || status == "2" || status == "3"; }
+// By the second field of ?:L (manual 41)): it runs, or runs one line. Where it pauses it waits for somebody.
+bool runs(std::string_view status) { return status == "1" || status == "3"; }
 
 Result<void> program_outcome(const std::vector<std::string>& told) {
   static constexpr std::array<std::string_view, 5> kWhy = {
@@ -32,8 +29,6 @@ Result<void> program_outcome(const std::vector<std::string>& told) {
               fmt::format("program {} stopped at line {}: {}", told[0], told[2], kWhy[std::size_t(status - 4)]),
               "mend the line (P:SET), or what it met; see `axisctl status`");
 }
-
-Mode after(std::string_view line) { return line == "P:OFF" ? Mode::program : Mode::host; }
 
 }  // namespace
 
@@ -53,7 +48,9 @@ void Controller::Impl::leave_host(MotionId motion) {
   away_ = Mode::host;
   if (!guarded(Guard::away_alone)) return;
   line_.withdraw(
-      [motion](const ExchangeRequest& request) { return request.lane != Lane::stop && request.motion != motion; },
+      [motion](const ExchangeRequest& request) {
+        return request.lane != Lane::stop && !request.handshake && request.motion != motion;
+      },
       away_problem());
 }
 
@@ -65,7 +62,13 @@ Task<Result<void>> Controller::Impl::wait_for_program(LiveMotionPtr live) {
     const auto told = co_await ask("?:L", Lane::motion, live->context.who);
     if (live->line_lost) break;
     const bool known = told.reply && !told.problem && told.reply->fields.size() > 2;
-    if (known && !runs(told.reply->fields[1])) co_return program_outcome(told.reply->fields);
+    if (known && !runs(told.reply->fields[1])) {
+      const auto outcome = program_outcome(told.reply->fields);
+      const bool stands = co_await wait_for_rest_of_program(live);
+      if (live->stop_requested) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
+      if (outcome && !stands) break;
+      co_return outcome;
+    }
     failures = known ? 0 : failures + 1;
     if (told.problem) problem = *told.problem;
     auto pause = tick_.wait_until(now_ + kProgramPoll);
@@ -77,51 +80,81 @@ Task<Result<void>> Controller::Impl::wait_for_program(LiveMotionPtr live) {
   co_return tl::unexpected(std::move(problem));
 }
 
-// Whatever became of its lines. What is set may be something else now, and with memory switches whatever is read at
-// connecting.
-Task<void> Controller::Impl::come_back(LiveMotionPtr live, bool all, bool switches) {
-  for (int attempt = 0; attempt < kReturnTries && away_ && *away_ != Mode::host && !live->line_lost; ++attempt) {
-    const auto back = way_back(*away_);
-    const auto result = co_await ask(back, Lane::motion, live->context.who);
-    if (result.accepted()) away_ = after(back);
-    if (result.accepted()) continue;
+// Whether no program runs, as far as can be told.
+Task<bool> Controller::Impl::program_stands(std::string caller) {
+  const auto told = co_await ask("?:L", Lane::motion, std::move(caller));
+  const bool known = told.reply && !told.problem && told.reply->fields.size() > 2;
+  co_return known && !runs(told.reply->fields[1]);
+}
+
+// P:E, too, lets the axes slow down.
+Task<bool> Controller::Impl::wait_for_rest_of_program(LiveMotionPtr live) {
+  for (const TimePoint limit = now_ + kReturnLimit; now_ < limit && !live->line_lost;) {
+    const auto read = co_await read_positions(Lane::motion, live->context.who);
+    const bool busy = std::ranges::any_of(state_.controllable().list(),
+                                          [this](int axis) { return state_.axis(axis).busy.value_or(true); });
+    if (read && !busy) co_return true;
     auto pause = tick_.wait_until(now_ + kProgramPoll);
     co_await pause;
   }
-  const bool lost = live->line_lost;
+  co_return false;
+}
+
+// One step on the way back, by what ?:MODE tells; an answer that was lost may have left it elsewhere than expected.
+// True when it is in HOST.
+Task<bool> Controller::Impl::step_to_host(Lane lane, std::string caller, bool in_handshake) {
+  const auto mode = co_await ask("?:MODE", lane, caller, in_handshake);
+  const bool known = mode.reply && !mode.problem && mode.reply->kind == Reply::Kind::data;
+  if (!known) co_return false;
+  state_.mode = mode.reply->text;
+  if (state_.mode == "HOST") co_return true;
+  if (state_.mode == "HOST,MS") {
+    (void)co_await ask("MS:OFF", lane, caller, in_handshake);
+  } else if (state_.mode == "HOST,PROGRAM") {
+    const bool left = (co_await ask("P:H", lane, caller, in_handshake)).accepted();
+    if (!left) (void)co_await ask("P:OFF", lane, caller, in_handshake);
+  }
+  co_return false;
+}
+
+// Whatever became of its lines. What is set may be something else now, and with memory switches whatever is read at
+// connecting; a program may have set coordinates anew.
+Task<void> Controller::Impl::come_back(LiveMotionPtr live, bool all, bool switches) {
+  const bool program = !live->motion.axes.empty();
   bool known = false;
-  if (!lost && away_ == Mode::host) {
+  for (const TimePoint limit = now_ + kReturnLimit; now_ < limit && !live->line_lost && !known;) {
+    known = co_await step_to_host(Lane::motion, live->context.who, false);
+    if (known) break;
+    auto pause = tick_.wait_until(now_ + kProgramPoll);
+    co_await pause;
+  }
+  if (known) {
     away_.reset();
     known = co_await read_settings(connection_);
   }
+  registers_.forget();
+  if (program) frame_shifted(AxisSet::all());
   for (auto& result : live->motion.results) result.target_pulses = state_.axis(result.axis).position_pulses;
-  if (lost || !known) {
-    const bool moved = !live->motion.axes.empty();
-    end_motion(live, moved ? MotionState::unknown : MotionState::failed,
+  if (known) {
+    std::optional<Problem> stopped;
+    if (live->stop_requested) stopped = Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}};
+    const MotionState outcome = all ? MotionState::succeeded : MotionState::failed;
+    end_motion(live, stopped ? MotionState::stopped : outcome, stopped);
+  } else {
+    end_motion(live, program ? MotionState::unknown : MotionState::failed,
                Problem{Reason::outcome_unknown,
                        "the line was lost while the controller was out of HOST: " + live->line_problem,
                        "look at the positions and settings before moving on",
                        {},
                        {},
                        {}});
-  } else {
-    end_motion(live,
-               live->stop_requested ? MotionState::stopped
-               : all                ? MotionState::succeeded
-                                    : MotionState::failed,
-               {});
   }
-  if (!lost && (switches || !known)) line_.give_up("it was out of HOST, and is looked at anew", now_);
+  if (!live->line_lost && (switches || !known)) line_.give_up("it was out of HOST, and is looked at anew", now_);
 }
 
 // Somebody was cut off there: the handshake takes back what the gateway itself has begun.
 Task<void> Controller::Impl::come_back_in_handshake() {
-  const bool ours = away_ && (state_.mode == "HOST,MS" || state_.mode == "HOST,PROGRAM");
-  if (!ours) co_return;
-  const Mode there = state_.mode == "HOST,MS" ? Mode::memory_switches : *away_;
-  const auto back = way_back(there == Mode::host ? Mode::program : there);
-  const auto result = co_await ask(back, Lane::question, "the gateway", true);
-  if (result.accepted()) away_ = after(back);
+  if (away_) (void)co_await step_to_host(Lane::question, "the gateway", true);
 }
 
 }  // namespace axisgate::shrc203

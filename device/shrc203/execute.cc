@@ -42,6 +42,7 @@ class Transaction {
   LiveMotionPtr live_;
   bool started_ = false;
   bool start_in_doubt_ = false;
+  bool switches_ = false;  // memory switches may have been changed
 };
 
 void Transaction::end(std::optional<Problem> problem) {
@@ -72,7 +73,11 @@ Task<Result<void>> Transaction::begin() {
   }
   if (!sped.empty()) {
     const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
-    if (!learned) co_return learned;
+    // D: by itself is how impossible ones are mended.
+    if (!learned && !live_->motion.axes.empty()) co_return learned;
+  }
+  if (leaves_host(commands_) && !impl_.line_works()) {
+    co_return fail(Reason::link_down, "the device is not up: " + impl_.state_.link_problem, "try again when it is up");
   }
   if (live_->motion.axes.empty()) co_return check_envelope();
   Register reg = Register::none;
@@ -90,6 +95,7 @@ ExchangeRequest Transaction::request_for(const Command& command) {
   request.lane = live_ ? Lane::motion : command.row->effect == Effect::question ? Lane::question : Lane::motion;
   request.caller = request_.context.who;
   request.not_after = request_.context.not_after;
+  if (impl_.away_) request.not_after = std::max(request.not_after, impl_.now_ + kStepLimit);  // it must come back
   request.motion = live_ ? live_->motion.id : 0;
   const bool waits = command.row->reg != Register::none;  // its end tells no number of its own that is documented
   if (command.row->moves() && !waits && completes(commands_)) request.completes = live_->motion.axes;
@@ -162,16 +168,19 @@ Task<bool> Transaction::send(std::size_t index) {
   impl_.forget_speeds(sped);
   // Also where the answer was lost: it may have been taken.
   if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
+  if (command.row->enters && (result.accepted() || result.in_doubt())) {
+    impl_.away_ = *command.row->enters;
+    switches_ = switches_ || impl_.away_ == Mode::memory_switches;
+  }
+  if (command.row->reg == Register::wi && !result.refused()) {
+    for (const int axis : command.axes(impl_.state_.controllable()).list()) {
+      impl_.state_.axis(axis).armed = waits_of(command).set;
+    }
+    impl_.publish_state();
+  }
   if (result.problem) {
     end(result.problem);
     co_return false;
-  }
-  if (command.row->enters && result.accepted()) impl_.away_ = *command.row->enters;
-  if (command.row->reg == Register::wi && result.accepted()) {
-    for (const int axis : command.axes(impl_.state_.controllable()).list()) {
-      impl_.state_.axis(axis).armed = !cancels_wait(command);
-    }
-    impl_.publish_state();
   }
   event.wire_reply = result.reply->text;
   event.answer = picked(command, *result.reply, impl_.state_.controllable());
@@ -230,10 +239,8 @@ Task<void> Transaction::run() {
     if (all) end({});
     co_return;
   }
-  if (leaves_host(commands_)) {
-    const bool switches = std::ranges::any_of(
-        commands_, [](const Command& command) { return command.row->enters == Mode::memory_switches; });
-    co_await impl_.come_back(live_, all, switches);
+  if (impl_.away_) {
+    co_await impl_.come_back(live_, all, switches_);
     if (all) end({});
     live_->on_completion = {};
     co_return;
@@ -279,8 +286,10 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
   if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
   if (away_ && !needs_gate(commands)) return refuse(away_problem());
-  const bool arms = std::ranges::any_of(
-      commands, [](const Command& one) { return one.row->reg == Register::wi && !cancels_wait(one); });
+  const bool arms = std::ranges::any_of(commands, [](const Command& one) {
+    const bool step = one.row->name == "P:SET" && one.arguments.first("p").value_or("").starts_with("INPUT");
+    return step || (one.row->reg == Register::wi && waits_of(one).set);
+  });
   if (arms && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
     return refuse({Reason::not_allowed,
                    "WI: lets an input pin start a motion, whoever may stand beside the stage",

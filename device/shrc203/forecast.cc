@@ -19,10 +19,14 @@ bool is_origin_return(const Command& command) {
 
 }  // namespace
 
-bool cancels_wait(const Command& command) {
-  return is_wait(command) && std::ranges::any_of(command.arguments.values(), [](const auto& argument) {
-           return (argument.first == "w" && argument.second == "0") || argument.second == "C";
-         });
+Waits waits_of(const Command& command) {
+  Waits waits;
+  if (!is_wait(command)) return waits;
+  for (const auto& [letter, value] : command.arguments.values()) {
+    if (letter == "w") (value == "0" ? waits.cancelled : waits.set) = true;
+    if (letter == "i") (value == "C" ? waits.cancelled : waits.set) = true;
+  }
+  return waits;
 }
 
 Result<void> Forecast::add(const Command& command) {
@@ -55,7 +59,7 @@ Result<void> Forecast::add_motion(const Command& command) {
   if (is_origin_return(command)) return add_origin_return(command);
   if (command.row->needs.mode == Mode::program) return add_program();
   // A sleeper comes back to its place (manual 47)), and a wait moves nothing before it ends.
-  if (command.row->name == "SLEEP:" || (is_wait(command) && !cancels_wait(command))) return {};
+  if (command.row->name == "SLEEP:" || (is_wait(command) && !waits_of(command).cancelled)) return {};
   for (const int axis : axes.list()) {
     if (const auto good = start(axis); !good) return good;
   }
@@ -97,6 +101,10 @@ Result<void> Forecast::start(int axis) {
   started_.add(axis);
   auto& at = at_[static_cast<std::size_t>(axis - 1)];
   for (const auto& pending : std::exchange(pending_[axis], {})) {
+    if (pending.relative && !at) {
+      return fail_on(axis, Reason::position_unknown,
+                     fmt::format("where {} would be is not known", envelope_.label(axis)), "send the motion by itself");
+    }
     at = pending.relative ? *at + pending.amount : pending.amount;
     if (const auto good = envelope_.check_target(axis, *at); !good) return good;
   }

@@ -44,7 +44,10 @@ class Forecast {
   AxisSet started_;
 };
 
-// Whether that line of WT: or WI: ends a wait, which starts what is in the prebuffer (manual 2. 3)).
-bool cancels_wait(const Command& command);
+// What a line of WT: or WI: does; the end of a wait starts what is in the prebuffer (manual 2. 3)).
+struct Waits {
+  bool set = false, cancelled = false;  // on some axis
+};
+Waits waits_of(const Command& command);
 
 }  // namespace axisgate::shrc203

@@ -190,6 +190,7 @@ Task<void> Controller::Impl::poll() {
 // A refused Q: means that somebody has changed the mode or the dialect at the front panel (hazard: the front panel
 // leaves HOST).
 Task<void> Controller::Impl::follow_mode() {
+  if (away_) co_return;
   const std::uint64_t connection = connection_;
   const auto mode = co_await ask("?:MODE", Lane::question, kGateway, true);
   if (!is_data(mode) || connection != connection_) co_return;

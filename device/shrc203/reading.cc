@@ -160,6 +160,7 @@ Task<Result<void>> Controller::Impl::read_excitation(std::string caller) {
 Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, std::string caller) {
   Problem problem{
       Reason::device_refused, "the controller refused the command (NG)", "look at `axisctl status`", {}, sent, "NG"};
+  if (away_ && *away_ != Mode::host) co_return problem;  // no Q: is answered there
   const auto read = co_await read_positions(Lane::motion, caller);
   if (!read) co_return problem;
   for (const int number : axes.list()) {

@@ -122,7 +122,10 @@ std::optional<Range> parse_range(std::string_view spec) {
   return Range{spec.substr(0, colon), {minimum, take_number(numbers)}};
 }
 
-bool is_number(std::string_view field) { return all_digits(field) && field.size() <= 9; }
+bool is_number(std::string_view field) {
+  if (field.starts_with('-')) field.remove_prefix(1);
+  return all_digits(field) && field.size() <= 9;
+}
 
 bool field_matches(std::string_view spec, std::string_view field) {
   if (const auto range = parse_range(spec)) {

@@ -21,7 +21,7 @@ constexpr Parameter kItem{"k",
                           0,
                           8};
 constexpr Parameter kSwitch{"n", "number of the switch in its item", Kind::integer, {}, 0, 999};
-constexpr Parameter kValue{"s", "its setting", Kind::integer, {}, 0, 999'999'999};
+constexpr Parameter kValue{"s", "its setting, a number", Kind::text};
 constexpr Parameter kValues{"s", "all settings of the item: 6,0,1,1,0,1,0,0,0", Kind::text};
 
 constexpr std::array kModeOnly{kMode};
@@ -61,6 +61,11 @@ constexpr CommandRow question_of_switches(std::string_view name, std::string_vie
   return in_mode(Mode::memory_switches, row);
 }
 
+constexpr CommandRow ready(CommandRow row) {
+  row.needs.ready = true;
+  return row;
+}
+
 constexpr CommandRow kRows[] = {
     any_mode(whole_controller(
         command("MODE:", "MODE:<m>", "change the operation mode", 49, kModeOnly, Effect::setting, kReady))),
@@ -81,13 +86,14 @@ constexpr CommandRow kRows[] = {
     in_mode(Mode::program_edit, question("P:GET", "P:GET,<n>", "read a line", 115, kLineOnly, "step")),
     saves(of_edit("P:INIT", "P:INIT", "delete all lines", 116, kNone)),
     enters(Mode::memory_switches,
-           in_mode(Mode::host, of_switches("MS:ON", "MS:ON", "to memory switch edit mode", 117, kNone))),
+           ready(in_mode(Mode::host, of_switches("MS:ON", "MS:ON", "to memory switch edit mode", 117, kNone)))),
     enters(Mode::host, saves(of_switches("MS:OFF", "MS:OFF", "save, and back to HOST", 118, kNone))),
     of_switches("MS:SET", "MS:SET,<k>,<n>,<s>", "set a memory switch", 119, kItemSwitchValue),
-    question_of_switches("MS:GET", "MS:GET,<k>,<n>", "a memory switch", 120, kItemAndSwitch, "number:0:999999999"),
+    question_of_switches("MS:GET", "MS:GET,<k>,<n>", "a memory switch", 120, kItemAndSwitch,
+                         "number:-999999999:999999999"),
     of_switches("MS:DEF", "MS:DEF,<k>,<n>", "set a memory switch to its initial value", 121, kItemAndSwitch),
     question_of_switches("MS:DEFR", "MS:DEFR,<k>,<n>", "the initial value of a memory switch", 122, kItemAndSwitch,
-                         "number:0:999999999"),
+                         "number:-999999999:999999999"),
     of_switches("MS:SETK", "MS:SETK,<k>,<s>", "set all memory switches of an item", 123, kItemAndValues),
     question_of_switches("MS:GETK", "MS:GETK,<k>", "all memory switches of an item", 124, kItemOnly, "numbers"),
     of_switches("MS:DEFK", "MS:DEFK,<k>", "set all of an item to their initial values", 125, kItemOnly),

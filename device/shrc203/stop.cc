@@ -70,10 +70,11 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
   settled_ = false;
 }
 
-// In memory switch edit mode nothing moves and no stop is taken (manual 117)); a program is stopped by P:E (manual
+// In the edit modes nothing moves and no stop is taken (manual 111), 117)); a program is stopped by P:E (manual
 // 107)).
 bool Controller::Impl::stop_has_no_use(StopJob& job) const {
-  if (away_ != Mode::memory_switches || !guarded(Guard::stop_off_host)) return false;
+  const bool edits = away_ == Mode::memory_switches || away_ == Mode::program_edit;
+  if (!edits || anything_moves() || !guarded(Guard::stop_off_host)) return false;
   job.report.problem = away_problem();
   job.report.problem->hint = "nothing moves in it; use the wired emergency stop if something does";
   return true;
@@ -83,9 +84,9 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   if (!stop_has_no_use(*job)) co_await write_stop(job);
   job->answered = true;
   const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
-  const bool line_works =
-      written && away_ != Mode::memory_switches && (state_.link == LinkState::up || state_.link == LinkState::doubtful);
-  if (written && !line_works) {
+  const bool edits = away_ == Mode::memory_switches || away_ == Mode::program_edit;
+  const bool works = written && !edits && line_works();
+  if (written && !works) {
     // Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
     const bool off_host = !state_.mode.empty() && state_.mode != "HOST" && guarded(Guard::stop_off_host);
     job->report.problem =
@@ -97,8 +98,8 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
                 {},
                 {}};
   }
-  if (line_works && guarded(Guard::stop_seen_to_stand)) co_await wait_for_standstill(job);
-  if (line_works && job->emergency) {
+  if (works && guarded(Guard::stop_seen_to_stand)) co_await wait_for_standstill(job);
+  if (works && job->emergency) {
     // Whether the motors stay excited depends on a memory switch (manual 66)).
     const auto excitation = co_await read_excitation(job->context.who);
     if (!excitation) settled_ = false;
@@ -178,6 +179,7 @@ Task<void> Controller::Impl::wait_for_standstill(StopJobPtr job) {
       axis.position_pulses = state_.axis(axis.axis).position_pulses;
       ready = ready && *axis.ready;
     }
+    if (ready && away_ == Mode::program) ready = co_await program_stands(job->context.who);
     const bool runs_on = !ready && now_ >= again_at && guarded(Guard::stop_again);
     if (ready || (runs_on && once_more)) {
       const bool empty = !runs_on && co_await prebuffer_is_empty(job);

@@ -29,8 +29,17 @@ std::string_view name_of(Mode mode) {
 // Out of HOST nobody else is answered, so who goes there comes back in the same lines.
 Result<void> check_modes(const std::vector<Command>& commands) {
   Mode mode = Mode::host;
+  const bool leaves = leaves_host(commands);
   for (const Command& command : commands) {
     const CommandRow& row = *command.row;
+    const bool moves = row.moves() || row.effect == Effect::motion_setting;
+    if (leaves && moves && row.needs.mode == Mode::host) {
+      return fail(Reason::invalid_request, fmt::format("{} moves, in lines that lead out of HOST", row.name),
+                  "send the motion by itself, before or after them");
+    }
+    if ((row.name == "FMT:" || row.name == "MODE:") && &command != &commands.back()) {
+      return fail(Reason::invalid_request, fmt::format("nothing can follow {}", command.line), "make it the last line");
+    }
     const bool question = row.effect == Effect::question && (row.name.starts_with("?:") || row.name == "*IDN?");
     const bool works = row.needs.mode == mode || (question && mode != Mode::program_edit);
     if (!works) {
@@ -38,6 +47,9 @@ Result<void> check_modes(const std::vector<Command>& commands) {
                   fmt::format("{} works in {}, and the lines before it lead to {}", row.name, name_of(row.needs.mode),
                               name_of(mode)),
                   "give the whole way in one: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+    }
+    if (command.line == "P:U1") {
+      return fail(Reason::invalid_request, "P:U1 lets a program go on that nobody here has begun", "run it by P:S");
     }
     if (row.name == "P:C" || row.name == "P:T") {
       if (command.arguments.values().front().second == "1") {
@@ -71,8 +83,12 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
       return fail(Reason::invalid_request, fmt::format("{} is for a jog, which runs until somebody stops it", row.name),
                   "use `axisctl jog` or the method Jog, under which an axis stops when its caller falls silent");
     }
-    const bool waits = row.reg == Register::wt || row.reg == Register::wi;
-    if (row.effect == Effect::motion_setting || (waits && !cancels_wait(command))) set = true;
+    const Waits waits = waits_of(command);
+    if (waits.set && waits.cancelled) {
+      return fail(Reason::invalid_request, fmt::format("{} both sets and cancels waits", command.line),
+                  "give each a line of its own");
+    }
+    if (row.effect == Effect::motion_setting || waits.set) set = true;
     const bool is_start = row.name == "G" || row.name == "G:";
     if (row.effect == Effect::stop && commands.size() > 1) {
       return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",

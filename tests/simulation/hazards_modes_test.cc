@@ -64,6 +64,18 @@ TEST(Hazard, H16_InputsStartNothing) {
   EXPECT_EQ(written(world, "WI:"), 0) << world.replay();
 }
 
+// C is an axes letter, too; and a line that cancels one wait may set another.
+TEST(Hazard, H16_NoWayRound) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_THAT(execute(world, {"MP:C+P100+P100", "G:C", "WI:C,5,5"}), ElementsAre("NOT_ALLOWED"));
+  EXPECT_THAT(execute(world, {"WI:A,C,5"}), ElementsAre("INVALID_REQUEST"));
+  EXPECT_THAT(execute(world, {"WT:A,0,50"}), ElementsAre("INVALID_REQUEST"));
+  EXPECT_THAT(execute(world, {"WT:C,5,5"}), ElementsAre("INCOMPLETE_TRANSACTION"));
+  EXPECT_THAT(execute(world, {"P:R", "P:ON", "P:SET,1,INPUT,1", "P:OFF", "P:H"}), ElementsAre("NOT_ALLOWED"));
+  EXPECT_EQ(written(world, "W") + written(world, "P:"), 0) << world.replay();
+}
+
 TEST(Hazard, H16_ArmedIsTold) {
   auto setup = quiet();
   setup.profile.wait_for_inputs = true;
@@ -147,7 +159,18 @@ using Lines = std::vector<std::string>;
 INSTANTIATE_TEST_SUITE_P(H24H25, HazardOfTheWayBack,
                          testing::Values(Lines{"MS:ON"}, Lines{"MS:OFF"}, Lines{"MS:GET,0,1"}, Lines{"P:R"},
                                          Lines{"P:R", "P:ON", "P:H"}, Lines{"P:R", "P:ON", "P:OFF"},
-                                         Lines{"MS:ON", "M:1+P100", "G:1", "MS:OFF"}, Lines{"P:S"}));
+                                         Lines{"MS:ON", "MS:OFF", "P:S"}, Lines{"P:S"}));
+
+TEST(Hazard, H25_NoMotionOnTheWay) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  for (const Lines& lines :
+       {Lines{"MS:ON", "M:1+P100", "G:1", "MS:OFF"}, Lines{"P:R", "P:H", "MP:1+P900", "G:1"},
+        Lines{"MP:1+P900", "G:1", "MS:ON", "MS:OFF"}, Lines{"MODE:MANUAL", "?:D"}, Lines{"P:R", "P:U1", "P:H"}}) {
+    EXPECT_THAT(execute(world, lines), ElementsAre("INVALID_REQUEST")) << lines.front();
+  }
+  EXPECT_EQ(written(world, "M") + written(world, "P:"), 0) << world.replay();
+}
 
 // The line is lost out there: what the gateway has begun it takes back.
 TEST(Hazard, H24_TheWayBackAfterALossOfTheLine) {
@@ -189,7 +212,10 @@ TEST(Hazard, H25_AProgramRunsAlone) {
 TEST(Hazard, H25_AStopEndsTheProgram) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  world.controller().execute({kProgram, world.context("admin")}, world.now(), [](const ExecuteEvent&) {});
+  Reason told = Reason::unspecified;
+  world.controller().execute({kProgram, world.context("admin")}, world.now(), [&](const ExecuteEvent& event) {
+    if (event.problem) told = event.problem->reason;
+  });
   ASSERT_TRUE(world.run_until([&] { return world.device().busy(1); }, seconds(10))) << world.replay();
   world.run_for(seconds(1));
   EXPECT_FALSE(stopped(world).problem) << world.replay();
@@ -197,9 +223,34 @@ TEST(Hazard, H25_AStopEndsTheProgram) {
   EXPECT_LT(world.device().position(1), 500'000);
   EXPECT_EQ(written(world, "P:E"), 1) << world.replay();
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+  EXPECT_EQ(told, Reason::stopped);
   EXPECT_EQ(world.controller().state().mode, "HOST");
   moved(world, {{1, 100}});
 }
+
+// Whose answer is lost, which the controller has taken all the same: the way back goes by what ?:MODE tells.
+class HazardOfLostAnswers : public testing::TestWithParam<const char*> {};
+
+TEST_P(HazardOfLostAnswers, TheWayBackIsFound) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.wire().set_script(drop_first(world, LineKind::reply, GetParam()));
+  const bool switches = std::string_view(GetParam()).starts_with("MS");
+  const Lines lines =
+      switches ? Lines{"MS:ON", "MS:GETK,0", "MS:OFF"} : Lines{"P:R", "P:ON", "P:GET,1", "P:OFF", "P:H"};
+  bool ended = false;
+  world.controller().execute({lines, world.context("admin")}, world.now(), [&](const ExecuteEvent& event) {
+    ended = ended || event.kind == ExecuteEvent::Kind::ended;
+  });
+  ASSERT_TRUE(world.run_until([&] { return ended; }, seconds(60))) << world.replay();
+  world.run_for(seconds(5));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_EQ(world.controller().state().mode, "HOST") << world.replay();
+  moved(world, {{1, 100}});
+}
+
+INSTANTIATE_TEST_SUITE_P(H24H25, HazardOfLostAnswers,
+                         testing::Values("P:R", "P:ON", "P:GET", "P:OFF", "P:H", "MS:ON", "MS:GETK", "MS:OFF"));
 
 TEST(Hazard, H25_NoLinesThatNobodyAskedFor) {
   World world(quiet());
