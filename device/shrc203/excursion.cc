@@ -152,9 +152,11 @@ Task<void> Controller::Impl::come_back(LiveMotionPtr live, bool all, bool switch
   if (!live->line_lost && (switches || !known)) line_.give_up("it was out of HOST, and is looked at anew", now_);
 }
 
-// Somebody was cut off there: the handshake takes back what the gateway itself has begun.
+// Somebody was cut off there: the handshake takes back what the gateway itself has begun, and ends his program.
 Task<void> Controller::Impl::come_back_in_handshake() {
-  if (away_) (void)co_await step_to_host(Lane::question, "the gateway", true);
+  if (!away_) co_return;
+  if (state_.mode == "HOST,PROGRAM") (void)co_await ask("P:E", Lane::question, "the gateway", true);
+  (void)co_await step_to_host(Lane::question, "the gateway", true);
 }
 
 }  // namespace axisgate::shrc203

@@ -166,6 +166,10 @@ Task<bool> Transaction::send(std::size_t index) {
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
   impl_.forget_speeds(sped);
+  // A setting of somebody's own takes the place of what was owed there.
+  for (const int axis : sped.list()) {
+    if (result.accepted() || result.in_doubt()) impl_.speeds_owed_.erase(axis);
+  }
   // Also where the answer was lost: it may have been taken.
   if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
   if (command.row->enters && (result.accepted() || result.in_doubt())) {

@@ -167,7 +167,9 @@ bool Line::write_waiting_stops() {
 void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
   std::string bytes(line);
   bytes += "\r\n";
-  continuity_.wrote(line, pace_.time_of(bytes.size() + Pace::kReplyBytesMax), now_);
+  // What is saved may take long, and that is no sign of a restart.
+  const Duration saving = cause ? cause->command.row->reply_limit : Duration::zero();
+  continuity_.wrote(line, pace_.time_of(bytes.size() + Pace::kReplyBytesMax) + saving, now_);
   link_.write(bytes);
   BytesWritten written;
   written.bytes = std::move(bytes);

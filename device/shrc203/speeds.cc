@@ -113,16 +113,13 @@ Task<void> Controller::Impl::pay_speeds(AxisSet axes, std::string caller) {
   if (!paid) speeds_owed_.merge(owed);
 }
 
-// Before a D: of somebody's own goes out: it takes the place of what was owed there, and what a lease's holder sets is
-// set back one day.
+// Before a D: of a lease's holder goes out: it is set back one day, to what is owed there or else is set by now.
 void Controller::Impl::remember_speeds(const RequestContext& context, AxisSet axes) {
-  Speeds owed;
-  for (const int axis : axes.list()) {
-    if (auto one = speeds_owed_.extract(axis)) owed.insert(std::move(one));
-  }
   if (context.lease == 0 || profile_.speeds_at_lease_end == AtLeaseEnd::kept) return;
   auto& before = speeds_before_[context.lease];
-  before.merge(owed);
+  for (const auto& [axis, speed] : speeds_owed_) {
+    if (axes.has(axis)) before.try_emplace(axis, speed);
+  }
   for (const auto& [axis, speed] : known_speeds(axes)) before.try_emplace(axis, speed);
   permission_.settings_changed(context.lease);
 }

@@ -252,6 +252,36 @@ TEST_P(HazardOfLostAnswers, TheWayBackIsFound) {
 INSTANTIATE_TEST_SUITE_P(H24H25, HazardOfLostAnswers,
                          testing::Values("P:R", "P:ON", "P:GET", "P:OFF", "P:H", "MS:ON", "MS:GETK", "MS:OFF"));
 
+TEST(Hazard, H25_AProgramWhoseLineWasLostIsEnded) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.controller().execute({kProgram, world.context("admin")}, world.now(), [](const ExecuteEvent&) {});
+  ASSERT_TRUE(world.run_until([&] { return world.device().busy(1); }, seconds(10))) << world.replay();
+  world.wire().cut(world.now(), seconds(1));
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::unknown) << world.replay();
+  world.run_for(seconds(3));
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_FALSE(world.device().busy(1)) << world.replay();
+  EXPECT_LT(world.device().position(1), 500'000);
+  EXPECT_EQ(world.controller().state().mode, "HOST");
+}
+
+// Saving takes long, and is no restart.
+TEST(Hazard, H25_SavingTakesLong) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const auto epoch = world.controller().state().device_epoch;
+  world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {
+    const std::string& line = world.wire().commands().back();
+    const bool saves = kind == LineKind::reply && (line == "P:INIT" || line == "P:OFF");
+    return {.drop = false, .delay = milliseconds(saves ? 3000 : 0), .instead = {}};
+  });
+  EXPECT_THAT(execute(world, {"P:R", "P:ON", "P:INIT", "P:OFF", "P:H"}), testing::Each("OK"));
+  world.run_for(seconds(5));
+  EXPECT_EQ(world.controller().state().link, LinkState::up) << world.replay();
+  EXPECT_EQ(world.controller().state().device_epoch, epoch) << world.replay();
+}
+
 TEST(Hazard, H25_NoLinesThatNobodyAskedFor) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
