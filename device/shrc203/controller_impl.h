@@ -232,6 +232,7 @@ class Controller::Impl : public LineListener {
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
 
   // excursion.cc
+  bool edits() const { return away_ == Mode::memory_switches || away_ == Mode::program_edit; }
   Problem away_problem() const;
   void leave_host(MotionId motion);
   Task<Result<void>> wait_for_program(LiveMotionPtr live);

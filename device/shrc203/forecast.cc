@@ -10,24 +10,12 @@
 namespace axisgate::shrc203 {
 namespace {
 
-bool is_wait(const Command& command) { return command.row->reg == Register::wt || command.row->reg == Register::wi; }
-
 bool is_origin_return(const Command& command) {
   const auto& name = command.row->name;
   return name == "H:" || name == "HRT:" || name == "Z:" || name == "ZRT:";
 }
 
 }  // namespace
-
-Waits waits_of(const Command& command) {
-  Waits waits;
-  if (!is_wait(command)) return waits;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter == "w") (value == "0" ? waits.cancelled : waits.set) = true;
-    if (letter == "i") (value == "C" ? waits.cancelled : waits.set) = true;
-  }
-  return waits;
-}
 
 Result<void> Forecast::add(const Command& command) {
   if (auto good = add_speeds(command); !good) return good;
@@ -59,7 +47,7 @@ Result<void> Forecast::add_motion(const Command& command) {
   if (is_origin_return(command)) return add_origin_return(command);
   if (command.row->needs.mode == Mode::program) return add_program();
   // A sleeper comes back to its place (manual 47)), and a wait moves nothing before it ends.
-  if (command.row->name == "SLEEP:" || (is_wait(command) && !waits_of(command).cancelled)) return {};
+  if (command.row->name == "SLEEP:" || waits_of(command).set) return {};
   for (const int axis : axes.list()) {
     if (const auto good = start(axis); !good) return good;
   }

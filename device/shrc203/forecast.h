@@ -44,10 +44,4 @@ class Forecast {
   AxisSet started_;
 };
 
-// What a line of WT: or WI: does; the end of a wait starts what is in the prebuffer (manual 2. 3)).
-struct Waits {
-  bool set = false, cancelled = false;  // on some axis
-};
-Waits waits_of(const Command& command);
-
 }  // namespace axisgate::shrc203

@@ -1,4 +1,5 @@
-// Manual 49), 50), 102) to 126): what leaves HOST or the dialect, and what works where it leads.
+// Rows of the command table that leave HOST or the dialect, and those that work where they lead: manual 49), 50), 102)
+// to 126).
 #include "device/shrc203/rows.h"
 
 namespace axisgate::shrc203::rows {

@@ -1,4 +1,4 @@
-// Manual 47), 57) to 88).
+// Rows of the command table that set axes moving, make them ready to, or stop them: manual 47), 57) to 88).
 #include "device/shrc203/rows.h"
 
 namespace axisgate::shrc203::rows {

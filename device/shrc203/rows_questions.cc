@@ -1,4 +1,4 @@
-// Manual 1) to 44), 95).
+// Rows of the command table that change nothing: manual 1) to 44), 95).
 #include "device/shrc203/rows.h"
 
 namespace axisgate::shrc203::rows {

@@ -1,4 +1,4 @@
-// Manual 45) to 64), 89) to 93).
+// Rows of the command table that set something, and nothing moves: manual 45), 52), 53), 63), 64), 89), 93).
 #include "device/shrc203/rows.h"
 
 namespace axisgate::shrc203::rows {

@@ -73,8 +73,7 @@ void Controller::Impl::flush_motions(AxisSet axes, const RequestContext& context
 // In the edit modes nothing moves and no stop is taken (manual 111), 117)); a program is stopped by P:E (manual
 // 107)).
 bool Controller::Impl::stop_has_no_use(StopJob& job) const {
-  const bool edits = away_ == Mode::memory_switches || away_ == Mode::program_edit;
-  if (!edits || anything_moves() || !guarded(Guard::stop_off_host)) return false;
+  if (!edits() || anything_moves() || !guarded(Guard::stop_off_host)) return false;
   job.report.problem = away_problem();
   job.report.problem->hint = "nothing moves in it; use the wired emergency stop if something does";
   return true;
@@ -84,8 +83,7 @@ Task<void> Controller::Impl::run_stop(StopJobPtr job) {
   if (!stop_has_no_use(*job)) co_await write_stop(job);
   job->answered = true;
   const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
-  const bool edits = away_ == Mode::memory_switches || away_ == Mode::program_edit;
-  const bool works = written && !edits && line_works();
+  const bool works = written && !edits() && line_works();
   if (written && !works) {
     // Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
     const bool off_host = !state_.mode.empty() && state_.mode != "HOST" && guarded(Guard::stop_off_host);

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "device/core/guard.h"
-#include "device/shrc203/forecast.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -139,6 +138,17 @@ bool needs_gate(const std::vector<Command>& commands) {
     return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
            command.row->name != "BEC:";
   });
+}
+
+Waits waits_of(const Command& command) {
+  Waits waits;
+  const Register reg = command.row->reg;
+  if (reg != Register::wt && reg != Register::wi) return waits;
+  for (const auto& [letter, value] : command.arguments.values()) {
+    if (letter == "w") (value == "0" ? waits.cancelled : waits.set) = true;
+    if (letter == "i") (value == "C" ? waits.cancelled : waits.set) = true;
+  }
+  return waits;
 }
 
 bool leaves_host(const std::vector<Command>& commands) {

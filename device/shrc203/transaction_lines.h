@@ -46,4 +46,10 @@ Command as_sent(const Command& command);
 // The fields of the answer to as_sent(asked) that were asked for.
 std::string picked(const Command& asked, const Reply& reply, AxisSet controllable);
 
+// What a line of WT: or WI: does; the end of a wait starts what is in the prebuffer (manual 2. 3)).
+struct Waits {
+  bool set = false, cancelled = false;  // on some axis
+};
+Waits waits_of(const Command& command);
+
 }  // namespace axisgate::shrc203
