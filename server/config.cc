@@ -202,8 +202,8 @@ class ConfigReader {
     profile.prebuffer_scope = table.choice<Scope>("prebuffer_scope", kScopes).value_or(profile.prebuffer_scope);
     profile.at_exit = table.choice<AtExit>("at_exit", kAtExit).value_or(profile.at_exit);
     profile.wait_for_inputs = table.flag("wait_for_inputs").value_or(profile.wait_for_inputs);
-    profile.speeds_at_lease_end =
-        table.choice<AtLeaseEnd>("speeds_at_lease_end", kAtLeaseEnd).value_or(profile.speeds_at_lease_end);
+    profile.settings_at_lease_end =
+        table.choice<AtLeaseEnd>("settings_at_lease_end", kAtLeaseEnd).value_or(profile.settings_at_lease_end);
     read_milliseconds(table, "reply_limit_ms", 50, 60'000, profile.reply_limit);
     read_milliseconds(table, "idle_poll_ms", 10, 60'000, profile.idle_poll);
     read_milliseconds(table, "moving_poll_ms", 10, 10'000, profile.moving_poll);

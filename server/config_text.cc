@@ -139,7 +139,7 @@ void write(TomlWriter& out, const DeviceConfig& device) {
   out.key("prebuffer_scope", word(kScopes, profile.prebuffer_scope));
   out.key("at_exit", word(kAtExit, profile.at_exit));
   out.key("wait_for_inputs", profile.wait_for_inputs ? "true" : "false");
-  out.key("speeds_at_lease_end", word(kAtLeaseEnd, profile.speeds_at_lease_end));
+  out.key("settings_at_lease_end", word(kAtLeaseEnd, profile.settings_at_lease_end));
   out.milliseconds("reply_limit_ms", profile.reply_limit);
   out.milliseconds("idle_poll_ms", profile.idle_poll);
   out.milliseconds("moving_poll_ms", profile.moving_poll);

@@ -141,7 +141,7 @@ enum class Guard {
   runaways_stopped,
   inputs_start_nothing,
   away_alone,
-  speeds_restored,
+  settings_restored,
   speeds_owed,
 
   // Every queue is bounded, every wait has a limit

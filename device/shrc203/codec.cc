@@ -26,8 +26,9 @@ Result<void> check_characters(std::string_view text) {
 
 AxisSet Command::axes(AxisSet controllable) const {
   const auto letter = arguments.first("a");
-  if (row->scope == CommandScope::controller && !letter) return controllable;
-  if (!letter) return controllable;
+  const auto parameter = std::ranges::find(row->parameters, "a", &Parameter::letter);
+  const bool time = letter && parameter->kind != Parameter::Kind::choice;  // of T:T (manual 97))
+  if (!letter || time) return controllable;
   return from_command_letter(letter->front(), controllable).value_or(controllable);
 }
 

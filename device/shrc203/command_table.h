@@ -75,8 +75,9 @@ struct CommandRow {
   Separation separation = Separation::grammar;
   Needs needs = {};
   Register reg = Register::none;
-  bool shifts_frame = false;  // makes another coordinate of the place where the axis stands
-  bool completes = false;     // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
+  bool shifts_frame = false;   // makes another coordinate of the place where the axis stands
+  bool beside_motion = false;  // nothing to motion, so that it waits for none
+  bool completes = false;      // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
   std::optional<Mode> enters = {};  // the mode that follows, where it is another
   Duration reply_limit = {};        // zero: the profile's
 

@@ -176,7 +176,7 @@ void Controller::Impl::carry_out_orders() {
     const RequestContext gateway{.who = "the gateway on behalf of " + order.who, .request_id = {}, .not_after = {}};
     stop(order.axes, false, gateway, [this, id = order.id](const StopReport&) { permission_.stopped(id, now_); });
   }
-  for (const EndedLease& lease : orders.restoring) executor_.spawn(restore_speeds_of(lease));
+  for (const EndedLease& lease : orders.restoring) executor_.spawn(restore_settings_of(lease));
 }
 
 Controller::Controller(Profile profile, ByteLink& link, EventSink& events)

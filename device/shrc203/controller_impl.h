@@ -6,7 +6,8 @@
 //   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
 //   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
 //   excursion.cc  out of HOST and back
-//   clear_errors.cc  BEC:                               speeds.cc   what D: has set, for a motion or a lease
+//   clear_errors.cc  BEC:                               speeds.cc   what D: has set, for a motion
+//   lease_settings.cc  what a lease's holder has set
 #pragma once
 
 #include <deque>
@@ -126,6 +127,8 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
   Task<Result<void>> read_excitation(std::string caller);
+  Task<Result<void>> read_outputs(std::string caller);
+  Task<Result<void>> read_trigger(std::string caller);
   Task<Problem> explain_refusal(std::string sent, AxisSet axes, std::string caller);
   Task<void> refresh(Duration max_age, RequestContext context, OnState done);
   AxisSet moving_silently();
@@ -173,9 +176,22 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> learn_speeds(AxisSet axes, std::string caller);
   Task<void> pay_speeds(AxisSet axes, std::string caller);
   Task<bool> set_back(Speeds before, ExchangeRequest request);
-  void remember_speeds(const RequestContext& context, AxisSet axes);
-  Task<void> restore_speeds_of(EndedLease lease);
-  Task<void> restore_all_speeds();
+
+  // lease_settings.cc
+  struct Settings {
+    Speeds speeds;
+    std::optional<int> outputs;
+    std::optional<Trigger> trigger;
+  };
+  Task<Result<void>> learn_settings(const std::vector<Command>& commands, std::string caller);
+  void remember_settings(const RequestContext& context, const Command& command);
+  void note_setting(const Command& command, const ExchangeResult& result);
+  Task<bool> set_line_back(Command command, std::string caller);
+  Task<bool> set_outputs_back(std::optional<int> before, std::string caller);
+  Task<bool> set_trigger_back(std::optional<Trigger> before, std::string caller);
+  Task<bool> set_back_in_turn(EndedLease lease, Settings before);
+  Task<void> restore_settings_of(EndedLease lease);
+  Task<void> restore_all_settings();
 
   // move.cc, home.cc
   void move(MoveRequest request, OnStarted started);
@@ -279,9 +295,9 @@ class Controller::Impl : public LineListener {
   bool restart_possible_ = false;  // look_for_restart() runs
   Registers registers_;
   MotionGate gate_;
-  std::map<MotionId, LiveMotionPtr> live_;         // without an outcome yet
-  std::map<std::uint64_t, Speeds> speeds_before_;  // the lease of this token has set others
-  Speeds speeds_owed_;                             // by axis; a motion that ended has set others
+  std::map<MotionId, LiveMotionPtr> live_;             // without an outcome yet
+  std::map<std::uint64_t, Settings> settings_before_;  // the lease of this token has set others
+  Speeds speeds_owed_;                                 // by axis; a motion that ended has set others
   std::deque<Motion> ended_;
   MotionId last_motion_ = 0;
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one
@@ -300,5 +316,6 @@ inline constexpr Duration kMotionLimit = std::chrono::seconds(5);
 inline constexpr Duration kQuestionLimit = std::chrono::seconds(20);
 // Inside a transaction an exchange waits for a barrier at most.
 inline constexpr Duration kStepLimit = std::chrono::seconds(30);
+inline constexpr Duration kEndStepLimit = std::chrono::seconds(1);  // at the gateway's end
 
 }  // namespace axisgate::shrc203

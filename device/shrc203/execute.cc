@@ -67,10 +67,10 @@ Result<void> Transaction::check_envelope() {
 Task<Result<void>> Transaction::begin() {
   auto ready = co_await impl_.enter_gate(live_, completes(commands_));
   if (!ready) co_return ready;
-  AxisSet sped;  // whose speeds have to be known, to be set back
-  for (const Command& command : commands_) {
-    if (!speeds_of(command, AxisSet::all()).empty()) sped = sped | command.axes(impl_.state_.controllable());
-  }
+  ready = co_await impl_.learn_settings(commands_, request_.context.who);
+  if (!ready) co_return ready;
+  // Their speeds have to be known, to be set back.
+  const AxisSet sped = axes_sped(commands_, impl_.state_.controllable());
   if (!sped.empty()) {
     const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
     // D: by itself is how impossible ones are mended.
@@ -156,15 +156,15 @@ Task<bool> Transaction::send(std::size_t index) {
   event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
   if (command.row->enters && !impl_.away_) impl_.leave_host(live_->motion.id);
-  const AxisSet sped =
-      speeds_of(command, AxisSet::all()).empty() ? AxisSet() : command.axes(impl_.state_.controllable());
-  if (!sped.empty()) impl_.remember_speeds(request_.context, sped);
+  impl_.remember_settings(request_.context, command);
   const auto result = co_await exchange(command);
+  impl_.note_setting(command, result);
   if (command.row->moves()) {
     started_ = started_ || result.accepted();
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
+  const AxisSet sped = axes_sped({command}, impl_.state_.controllable());
   impl_.forget_speeds(sped);
   // A setting of somebody's own takes the place of what was owed there.
   for (const int axis : sped.list()) {
@@ -237,6 +237,9 @@ Task<void> Transaction::run() {
       event.axis = axis;
       tell_(event);
     };
+  } else if (const auto learned = co_await impl_.learn_settings(commands_, request_.context.who); !learned) {
+    end(learned.error());
+    co_return;
   }
   const bool all = co_await send_all();
   if (!live_) {

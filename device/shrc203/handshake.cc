@@ -125,13 +125,14 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
 
 Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
   // The axes are asked for twice: everything else hangs on that one digit, and a line can turn a 6 into a 2.
-  ExchangeResult axes, axes_again, serial, scale, speeds, excitation;
+  ExchangeResult axes, axes_again, serial, scale, speeds, excitation, outputs, trigger;
   struct Step {
     std::string_view question;
     ExchangeResult* answer;
   };
-  for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial},
-                          Step{"?:P", &scale}, Step{"?:D", &speeds}, Step{"?:C", &excitation}}) {
+  for (const Step step :
+       {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial}, Step{"?:P", &scale},
+        Step{"?:D", &speeds}, Step{"?:C", &excitation}, Step{"?:O", &outputs}, Step{"?:T", &trigger}}) {
     for (int attempt = 0; attempt < kTries && !is_data(*step.answer); ++attempt) {
       if (connection != connection_) co_return false;
       *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
@@ -139,6 +140,8 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     if (!is_data(*step.answer)) co_return false;
   }
   scale_told_ = scale.reply->text;
+  state_.outputs = static_cast<int>(*parse_integer(outputs.reply->text));
+  state_.trigger = parse_trigger(trigger.reply->text);
   const auto controllable = from_axis_setting(axes.reply->text);
   const bool twice = axes_again.reply->text == axes.reply->text || !guarded(Guard::axes_twice);
   if (!controllable || !twice) co_return false;

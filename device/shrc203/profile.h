@@ -37,8 +37,8 @@ enum class Scope { axis, controller };
 // What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
 enum class AtExit { stop, finish };
 
-// Speeds that a lease's holder has set by D: for good (manual 89)): what they were before is set again when his lease
-// has ended, or they stay.
+// What a lease's holder has set for good (manual 89) D:, 96) O:, 97) to 101) T:): what it was before is set again when
+// his lease has ended, or it stays.
 enum class AtLeaseEnd { restored, kept };
 
 // What the refills of a running path are to its line. `reserved`: they go before everything but a stop, and the line is
@@ -58,7 +58,7 @@ struct Profile {
   Duration moving_poll = std::chrono::milliseconds(100);
   AtExit at_exit = AtExit::stop;
   bool wait_for_inputs = false;  // WI: is taken, by which an input pin starts a motion
-  AtLeaseEnd speeds_at_lease_end = AtLeaseEnd::restored;
+  AtLeaseEnd settings_at_lease_end = AtLeaseEnd::restored;
   Refills refills = Refills::reserved;
 };
 

@@ -157,6 +157,24 @@ Task<Result<void>> Controller::Impl::read_excitation(std::string caller) {
   co_return Result<void>();
 }
 
+Task<Result<void>> Controller::Impl::read_outputs(std::string caller) {
+  const auto result = co_await ask("?:O", Lane::motion, std::move(caller));
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:O", result));
+  state_.outputs = static_cast<int>(*parse_integer(result.reply->text));
+  publish_state();
+  co_return Result<void>();
+}
+
+Task<Result<void>> Controller::Impl::read_trigger(std::string caller) {
+  const auto result = co_await ask("?:T", Lane::motion, std::move(caller));
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:T", result));
+  state_.trigger = parse_trigger(result.reply->text);
+  publish_state();
+  co_return Result<void>();
+}
+
 Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, std::string caller) {
   Problem problem{
       Reason::device_refused, "the controller refused the command (NG)", "look at `axisctl status`", {}, sent, "NG"};

@@ -49,11 +49,12 @@ What what_of(RecordedRemark::Kind kind) {
   }
 }
 
-// What the line asks for itself, and a stop, depend on what was before them, and so does what ?:CMD tells after an
-// exchange that was not accepted.
+// What the line asks for itself, and a stop, depend on what was before them, and so does what ?:CMD tells, whoever
+// asks, and after an exchange that was not accepted.
 bool depends_on_nothing(const std::vector<Moment>& moments, std::size_t index) {
   const Moment& moment = moments[index];
   if (!moment.begins || moment.begins->who.empty() || moment.begins_in(Lane::stop)) return false;
+  if (moment.text.starts_with("?:CMD")) return false;
   const auto ended = std::find_if(moments.begin() + static_cast<std::ptrdiff_t>(index), moments.end(),
                                   [](const Moment& one) { return one.what == What::ended; });
   return ended != moments.end() && (ended->text == "ok" || ended->text == "ok_d" || ended->text == "data");

@@ -5,6 +5,7 @@
 #include <charconv>
 
 #include "device/core/guard.h"
+#include "device/shrc203/trigger.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -163,6 +164,7 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   if (spec == "line") return is_line_setting(line);
   if (spec == "arc") return is_arc_setting(line);
   if (spec == "step") return is_step(line);
+  if (spec == "trigger") return parse_trigger(line).has_value();
   return {};
 }
 

@@ -123,6 +123,11 @@ constexpr CommandRow shifts_frame(CommandRow row) {
   return row;
 }
 
+constexpr CommandRow beside_motion(CommandRow row) {
+  row.beside_motion = true;
+  return row;
+}
+
 constexpr CommandRow completes(CommandRow row) {
   row.completes = true;
   return row;

@@ -39,6 +39,7 @@ constexpr CommandRow kRows[] = {
     number_question("?:BEEP", "beep", 39, "number:0:1"),
     any_mode(question("?:CMD", "?:CMD", "the command received before this one", 40, kNone, "echo")),
     question("?:L", "?:L", "program, its status, line and loops left", 41, kNone, "numbers"),
+    question("?:T", "?:T", "trigger output: kind, axis, interval", 42, kNone, "trigger"),
     question("?:SN", "?:SN", "serial number", 43, kNone, "serial"),
     number_question("?:AXIS", "controllable axes", 44, "number:0:6"),
     closed(number_question("I:", "general-purpose inputs", 95, "number:0:63")),

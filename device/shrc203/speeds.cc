@@ -9,8 +9,6 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kSetBackTries = 3, kSpeedReadings = 3;
-constexpr Duration kRestoreLimit = std::chrono::seconds(10), kRestorePause = std::chrono::milliseconds(100);
-constexpr Duration kEndLimit = std::chrono::seconds(1);  // at the gateway's end
 
 }  // namespace
 
@@ -83,7 +81,7 @@ Task<bool> Controller::Impl::set_back(Speeds before, ExchangeRequest request) {
     arguments.speeds(before[axis].minimum, before[axis].maximum, before[axis].acceleration_ms);
   }
   request.command = make_command("D:", arguments);
-  request.not_after = now_ + (ending_ ? kEndLimit : kStepLimit);
+  request.not_after = now_ + (ending_ ? kEndStepLimit : kStepLimit);
   const std::string caller = request.caller;
   auto pending = line_.exchange(std::move(request), now_);
   const auto result = co_await pending;
@@ -111,61 +109,6 @@ Task<void> Controller::Impl::pay_speeds(AxisSet axes, std::string caller) {
     paid = co_await set_back(owed, std::move(request));
   }
   if (!paid) speeds_owed_.merge(owed);
-}
-
-// Before a D: of a lease's holder goes out: it is set back one day, to what is owed there or else is set by now.
-void Controller::Impl::remember_speeds(const RequestContext& context, AxisSet axes) {
-  if (context.lease == 0 || profile_.speeds_at_lease_end == AtLeaseEnd::kept) return;
-  auto& before = speeds_before_[context.lease];
-  for (const auto& [axis, speed] : speeds_owed_) {
-    if (axes.has(axis)) before.try_emplace(axis, speed);
-  }
-  for (const auto& [axis, speed] : known_speeds(axes)) before.try_emplace(axis, speed);
-  permission_.settings_changed(context.lease);
-}
-
-// The lease has ended and its axes are nobody's yet. A line that is down is waited for. D: is refused while the axes
-// move (manual 89)), which somebody at the front panel may make them do; others have their turns meanwhile.
-Task<void> Controller::Impl::restore_speeds_of(EndedLease lease) {
-  std::optional<TimePoint> give_up_at;
-  while (!ending_ && guarded(Guard::speeds_restored)) {
-    if (line_works()) {
-      Speeds before = speeds_before_[lease.token];
-      AxisSet axes;
-      for (const auto& [axis, speed] : before) axes.add(axis);
-      // Fencing tokens are far above any motion's id.
-      auto turn = gate_.enter(lease.token, axes, lease.who, TimePoint::max());
-      const auto entered = co_await turn;
-      bool back = false;
-      if (entered) {
-        for (const int axis : axes.list()) speeds_owed_.erase(axis);  // older is what was there before the lease
-        ExchangeRequest request;
-        request.lane = Lane::motion;
-        request.caller = "the gateway on behalf of " + lease.who;
-        back = co_await set_back(std::move(before), std::move(request));
-        gate_.leave(lease.token);
-        if (!give_up_at) give_up_at = now_ + kRestoreLimit;
-      }
-      if (back || (give_up_at && now_ >= *give_up_at)) break;
-    } else {
-      give_up_at.reset();
-    }
-    auto pause = tick_.wait_until(now_ + kRestorePause);
-    co_await pause;
-  }
-  if (!ending_) speeds_before_.erase(lease.token);  // the end restores by itself
-  permission_.settings_restored(lease.token, now_);
-}
-
-// At the gateway's end, when nothing moves any more: no lease outlives it.
-Task<void> Controller::Impl::restore_all_speeds() {
-  const std::string caller = "the gateway, which is ending";
-  co_await pay_speeds(AxisSet::all(), caller);
-  speeds_owed_.clear();
-  for (const auto& [token, before] : std::exchange(speeds_before_, {})) {
-    speeds_owed_ = before;
-    co_await pay_speeds(AxisSet::all(), caller);
-  }
 }
 
 // The speeds of those axes, asked for where they are not known: line_fault.

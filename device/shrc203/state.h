@@ -9,6 +9,7 @@
 #include "device/core/quantity.h"
 #include "device/core/time.h"
 #include "device/shrc203/axes.h"
+#include "device/shrc203/trigger.h"
 
 namespace axisgate::shrc203 {
 
@@ -54,8 +55,10 @@ struct State {
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
   std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set anew: R: RC: PSET:
   std::array<AxisState, kAxisCount> axes;
-  bool moving_unknown = false;  // the line was lost while something moved and nothing was read since
-  TimePoint read{};             // when the positions were last read
+  std::optional<int> outputs;      // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
+  std::optional<Trigger> trigger;  // as last read or set
+  bool moving_unknown = false;     // the line was lost while something moved and nothing was read since
+  TimePoint read{};                // when the positions were last read
   AxisSet controllable() const;
   AxisState& axis(int number) { return axes[static_cast<std::size_t>(number - 1)]; }
   const AxisState& axis(int number) const { return axes[static_cast<std::size_t>(number - 1)]; }

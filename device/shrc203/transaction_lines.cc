@@ -136,7 +136,7 @@ Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) 
 bool needs_gate(const std::vector<Command>& commands) {
   return std::ranges::any_of(commands, [](const Command& command) {
     return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
-           command.row->name != "BEC:";
+           !command.row->beside_motion;
   });
 }
 
@@ -202,6 +202,14 @@ std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable) 
     if (letter == "spdf" && !speeds.empty()) speeds.back().maximum.value = *parse_decimal(value);
   }
   return speeds;
+}
+
+AxisSet axes_sped(const std::vector<Command>& commands, AxisSet controllable) {
+  AxisSet axes;
+  for (const Command& command : commands) {
+    if (!speeds_of(command, AxisSet::all()).empty()) axes = axes | command.axes(controllable);
+  }
+  return axes;
 }
 
 AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable) {

@@ -40,6 +40,9 @@ struct AxisSpeeds {
 // The speeds that a line sets: of each axis, or of a straight line's lower one (manual 68), 84), 89)).
 std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable);
 
+// The axes that get speeds of their own.
+AxisSet axes_sped(const std::vector<Command>& commands, AxisSet controllable);
+
 // The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
 Command as_sent(const Command& command);
 

@@ -40,7 +40,7 @@ Task<void> Controller::Impl::wind_down(OnWoundDown done) {
                        {},
                        {}});
   }
-  co_await restore_all_speeds();
+  co_await restore_all_settings();
   line_.seal(*ending_);
   while (line_.exchanging()) {
     auto pause = tick_.wait_until(now_ + kLook);

@@ -77,6 +77,15 @@ void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::A
   if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
 }
 
+void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto) {
+  using Target = shrc203::Trigger::Target;
+  static_assert(static_cast<int>(Target::none) + 1 == api::Trigger::TARGET_NONE);
+  static_assert(static_cast<int>(Target::scale_minus) + 1 == api::Trigger::TARGET_SCALE_MINUS);
+  proto.set_target(static_cast<api::Trigger::Target>(static_cast<int>(trigger.target) + 1));
+  proto.set_axis(trigger.axis);
+  proto.set_interval(trigger.interval);
+}
+
 void fill_age(TimePoint read, api::Device& device) {
   if (read == TimePoint{}) return;
   const Duration age = std::max(Duration::zero(), monotonic_now() - read);
@@ -144,6 +153,8 @@ api::Device to_proto(const server::Device& device, const shrc203::State& state) 
     fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number),
               *proto.add_axes());
   }
+  if (state.outputs) proto.set_outputs(*state.outputs);
+  if (state.trigger) fill_trigger(*state.trigger, *proto.mutable_trigger());
   proto.set_moving_unknown(state.moving_unknown);
   fill_age(state.read, proto);
   return proto;

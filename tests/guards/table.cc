@@ -240,7 +240,7 @@ constexpr Row kTable[] = {
              "no input pin starts a motion unless the configuration allows it", "Hazard.H16_InputsStartNothing"),
     by_tests(Guard::away_alone, "away-alone", "out of HOST nobody else is on the line",
              "Hazard.H24_MemorySwitchesAreReachedAlone"),
-    by_tests(Guard::speeds_restored, "speeds-restored", "speeds that a lease's holder has set end with his lease",
+    by_tests(Guard::settings_restored, "settings-restored", "what a lease's holder has set ends with his lease",
              "HazardOfSettings.H28_SpeedsEndWithTheLease"),
     by_tests(Guard::speeds_owed, "speeds-owed", "... and those of a motion with it, also where the line was lost",
              "Hazard.H28_SpeedsOfAMotionWhoseLineWasLost"),

@@ -1,4 +1,5 @@
 // Hazards of settings that outlive their user. Numbers as in the table of what can go wrong on a shared line.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <optional>
@@ -41,6 +42,15 @@ class HazardOfSettings : public testing::Test {
   void set_speeds(const std::string& line, const std::string& who, LeaseToken token) {
     world.controller().execute({{line}, context(who, token)}, world.now(), [](const ExecuteEvent&) {});
     world.run_for(seconds(2));
+  }
+  // Of somebody with the whole controller; the answer tells what became of it.
+  std::optional<Problem> set(const std::vector<std::string>& lines, const std::string& who, LeaseToken token) {
+    std::optional<Problem> problem;
+    world.controller().execute({lines, context(who, token)}, world.now(), [&](const ExecuteEvent& event) {
+      if (event.kind == ExecuteEvent::Kind::ended) problem = event.problem;
+    });
+    world.run_for(seconds(2));
+    return problem;
   }
   // At a speed of its own, for some seconds.
   void move_slowly(int axis, const std::string& who, LeaseToken token) {
@@ -129,7 +139,7 @@ TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
   auto setup = with(leases);
-  setup.profile.speeds_at_lease_end = AtLeaseEnd::kept;
+  setup.profile.settings_at_lease_end = AtLeaseEnd::kept;
   World world(setup);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   LeaseToken token = 0;
@@ -167,6 +177,65 @@ TEST_F(HazardOfSettings, H28_ALossOfTheLineWhileItWaitsItsTurn) {
   world.run_for(seconds(30));
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
   EXPECT_TRUE(leases.held().empty());
+}
+
+// Outputs and the trigger are the controller's, so they need the right to all of it; the next one finds the old ones.
+TEST_F(HazardOfSettings, H52_OutputsAndTriggerEndWithTheLease) {
+  EXPECT_EQ(set({"O:9", "T:P2P500"}, "boss", 0), std::nullopt) << world.replay();
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  EXPECT_EQ(set({"O:32", "T:E1P+2"}, "anna", anna), std::nullopt) << world.replay();
+  EXPECT_EQ(set({"O:1", "T:T100"}, "anna", anna), std::nullopt) << world.replay();
+  EXPECT_EQ(world.controller().state().outputs, 1);
+  EXPECT_EQ(world.controller().state().trigger, (Trigger{Trigger::Target::timer, 0, 100}));
+  std::optional<std::string> found;
+  leases.acquire({.axes = kOne}, "bert", true, world.now() + seconds(60), world.now(), [&](const Result<Lease>& got) {
+    found = got ? fmt::format("{} {}", world.device().outputs(), world.device().trigger()) : "refused";
+  });
+  world.run_for(seconds(20));
+  EXPECT_EQ(found, "9 0,2,500") << world.replay();
+  EXPECT_EQ(world.controller().state().outputs, 9);
+  EXPECT_EQ(world.controller().state().trigger, (Trigger{Trigger::Target::drive_pulses, 2, 500}));
+}
+
+// What is armed by nobody's lease is nobody's to put back; and what was none is none again.
+TEST_F(HazardOfSettings, H52_ATriggerEndsWithTheDaemon) {
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  EXPECT_EQ(set({"O:5", "T:P1P100"}, "anna", anna), std::nullopt) << world.replay();
+  bool ended = false;
+  world.controller().wind_down(world.now(), [&](const WindDownReport&) { ended = true; });
+  ASSERT_TRUE(world.run_until([&] { return ended; }, seconds(5))) << world.replay();
+  EXPECT_EQ(world.device().outputs(), 0) << world.replay();
+  EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
+}
+
+// The answer to O: is lost: it was taken all the same, so it is asked for and set back.
+TEST_F(HazardOfSettings, H52_OutputsWhoseAnswerWasLost) {
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  bool dropped = false;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (dropped || kind != LineKind::reply || line != "OK") return {};
+    dropped = true;
+    return {true, {}, {}};
+  });
+  EXPECT_NE(set({"O:32"}, "anna", anna), std::nullopt);
+  ASSERT_TRUE(dropped);
+  EXPECT_EQ(world.device().outputs(), 32) << world.replay();
+  EXPECT_EQ(set({"O:3"}, "anna", anna), std::nullopt) << world.replay();
+  world.run_for(seconds(30));
+  EXPECT_EQ(world.device().outputs(), 0) << world.replay();
+}
+
+// Outputs are nothing to motion, so that a shutter opens while the stage moves (manual 96) names no condition).
+TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  MoveRequest request = move_of(world, {{1, 500'000}}, true);
+  request.context = context("anna", anna);
+  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
+  world.run_for(seconds(1));
+  ASSERT_TRUE(world.device().busy(1)) << world.replay();
+  EXPECT_EQ(set({"O:32"}, "anna", anna), std::nullopt) << world.replay();
+  EXPECT_EQ(world.device().outputs(), 32) << world.replay();
+  EXPECT_TRUE(world.device().busy(1)) << world.replay();
 }
 
 // What somebody sets himself takes the place of what was owed.

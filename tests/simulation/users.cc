@@ -12,7 +12,6 @@ using server::AtLoss;
 using server::Lease;
 using server::LeaseTerms;
 using server::LeaseToken;
-using simulator::AxisSetup;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
@@ -26,15 +25,6 @@ Setup setup_of(std::uint64_t seed, const Faults& faults, Permission& permission)
     axis.travel_maximum = pulses(Users::kTravel);
   }
   return setup;
-}
-
-bool moves_something(const std::string& line) { return sets_motion(line) || starts_motion(line); }
-
-// Of a motion's line: the letter behind the colon.
-AxisSet axes_of(const std::string& line) {
-  const auto colon = line.find(':');
-  const auto axes = from_command_letter(line[colon + 1], AxisSet::all());
-  return axes.value_or(AxisSet());
 }
 
 AxisSet drawn_axes(Random& random) {
@@ -158,6 +148,7 @@ void Users::granted(User& user, const Lease& lease) {
                           {},
                           false,
                           false,
+                          false,
                           world_.controller().state().device_epoch};
   if (user.token != 0) user.stale.push_back(user.token);
   user.token = lease.token;
@@ -248,7 +239,7 @@ void Users::jog(User& user, LeaseToken token) {
   if (user.jog != 0) renewed_[user.jog] = world_.now();
 }
 
-// Speeds that outlive their user, under a lease only: what is set without one is meant to stay.
+// Settings that outlive their user, under a lease only: what is set without one is meant to stay.
 void Users::execute(User& user, LeaseToken token) {
   auto& random = world_.random();
   const bool leased = token != 0 && grants_.contains(token);
@@ -259,6 +250,9 @@ void Users::execute(User& user, LeaseToken token) {
     request.lines.push_back(fmt::format("A:{}+P{}", axis, random.between(0, 20'000)));
     request.lines.push_back(fmt::format("G:{}", axis));
   }
+  const bool whole = leased && grants_.at(token).axes == AxisSet::all();
+  if (whole && random.chance(0.5)) request.lines.push_back(fmt::format("O:{}", random.between(1, 63)));
+  if (whole && random.chance(0.5)) request.lines.push_back(fmt::format("T:P{}P{}", axis, random.between(2, 30'000)));
   if (request.lines.empty()) return;
   request.context = context(user, token);
   world_.controller().execute(std::move(request), world_.now(), [this](const ExecuteEvent& event) {
@@ -323,66 +317,6 @@ void Users::on_news(const Event& event) {
   if (const auto* written = std::get_if<BytesWritten>(&event)) check_bytes(*written);
   const auto* changed = std::get_if<MotionChanged>(&event);
   if (changed && changed->motion.state == MotionState::queued) leases_of_[changed->motion.id] = asking_;
-}
-
-// Every line that sets or starts a motion is its owner's, or nobody owns the axes; and nobody holds its author back.
-void Users::check_bytes(const BytesWritten& written) {
-  check_speeds(written);
-  if (written.exchange == 0 || !moves_something(written.bytes)) return;
-  for (const int axis : axes_of(written.bytes).list()) {
-    const Grant* owner = owner_of(axis);
-    if (owner && owner->who != written.who) {
-      world_.violation(fmt::format("{} of {} went out for axis {}, which {} owns", written.bytes.substr(0, 6),
-                                   written.who, axis, owner->who));
-    }
-    const bool latched = owner && owner->latched.has(axis);
-    const auto held_back = held_back_.find(written.who);
-    if (latched || (held_back != held_back_.end() && held_back->second.has(axis))) {
-      world_.violation(fmt::format("{} of {} went out for axis {}, which was stopped and not rearmed",
-                                   written.bytes.substr(0, 6), written.who, axis));
-    }
-  }
-}
-
-// Whoever moves at the controller's own speeds finds those that were there before, unless he has set others; a wrong
-// bit of a line may have, or of what was read.
-void Users::check_speeds(const BytesWritten& written) {
-  if (world_.wire().damaged_since(TimePoint{})) return;
-  const bool sets_speed = written.bytes.find("F4000R50") != std::string::npos;
-  const bool at_given_speed = written.bytes.starts_with("J:") || written.bytes.find(",S") != std::string::npos;
-  if (!sets_speed && (!sets_motion(written.bytes) || at_given_speed)) return;
-  for (const int axis : axes_of(written.bytes).list()) {
-    bool sped = false;
-    for (auto& [token, grant] : grants_) {
-      if (grant.who != written.who || !grant.axes.has(axis)) continue;
-      grant.sped = grant.sped || sets_speed;
-      sped = sped || grant.sped;
-    }
-    if (sped || world_.device().maximum_speed(axis) == AxisSetup().maximum_speed) continue;
-    world_.violation(fmt::format("{} moves axis {} at {} pulses/s, which another has set", written.who, axis,
-                                 world_.device().maximum_speed(axis)));
-  }
-}
-
-// Whoever falls silent has been stopped: within the silence, but for the step in which time passes here.
-void Users::check_jogs() {
-  for (const Motion& motion : world_.controller().motions()) {
-    const auto renewed = renewed_.find(motion.id);
-    if (renewed == renewed_.end() || motion.state != MotionState::running) continue;
-    if (world_.now() <= renewed->second + Controller::kJogSilence) continue;
-    world_.violation(fmt::format("jog {} of {} runs on after {} ms of silence", motion.id, motion.who,
-                                 (world_.now() - renewed->second) / milliseconds(1)));
-  }
-}
-
-// A bit that is wrong may send an axis anywhere.
-void Users::check_travel() {
-  if (world_.wire().commands_damaged() > 0) return;
-  for (int axis = 1; axis <= kAxisCount; ++axis) {
-    if (std::abs(world_.device().position(axis)) > kTravel) {
-      world_.violation(fmt::format("axis {} is at {}, outside its travel", axis, world_.device().position(axis)));
-    }
-  }
 }
 
 }  // namespace axisgate::simulation

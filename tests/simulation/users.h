@@ -44,8 +44,9 @@ class Users {
     TimePoint valid_until{};
     server::AtLoss at_loss = server::AtLoss::stop;
     shrc203::AxisSet latched;
-    bool sped = false;  // it has set speeds of its own
-    bool over = false;  // released, handed over or taken over
+    bool sped = false;   // it has set speeds of its own
+    bool wired = false;  // ... outputs or a trigger
+    bool over = false;   // released, handed over or taken over
     std::uint64_t epoch = 0;
   };
 
@@ -70,6 +71,7 @@ class Users {
   void check_bytes(const shrc203::BytesWritten& written);
   void check_travel();
   void check_speeds(const shrc203::BytesWritten& written);
+  void check_outputs(const shrc203::BytesWritten& written);
   void check_jogs();
   bool owned(const Grant& grant);
   const Grant* owner_of(int axis);

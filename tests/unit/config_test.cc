@@ -56,7 +56,7 @@ serial_number = "2106001001"
 busy_scope = "axis"
 prebuffer_scope = "axis"
 at_exit = "finish"
-speeds_at_lease_end = "kept"
+settings_at_lease_end = "kept"
 reply_limit_ms = 750
 idle_poll_ms = 2000
 moving_poll_ms = 50
@@ -79,7 +79,7 @@ maximum_speed = "2mm/s"
   EXPECT_EQ(profile.busy_scope, shrc203::Scope::axis);
   EXPECT_EQ(profile.prebuffer_scope, shrc203::Scope::axis);
   EXPECT_EQ(profile.at_exit, shrc203::AtExit::finish);
-  EXPECT_EQ(profile.speeds_at_lease_end, shrc203::AtLeaseEnd::kept);
+  EXPECT_EQ(profile.settings_at_lease_end, shrc203::AtLeaseEnd::kept);
   EXPECT_EQ(profile.baud, 9600);
   EXPECT_EQ(profile.reply_limit, std::chrono::milliseconds(750));
   EXPECT_EQ(profile.idle_poll, std::chrono::seconds(2));

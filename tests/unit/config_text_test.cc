@@ -74,7 +74,7 @@ TEST(ConfigText, IsReadAsTheSameConfiguration) {
                            "prebuffer_scope = \"controller\"",
                            "at_exit = \"finish\"",
                            "wait_for_inputs = false",
-                           "speeds_at_lease_end = \"restored\"",
+                           "settings_at_lease_end = \"restored\"",
                            "reply_limit_ms = 750",
                            "idle_poll_ms = 1000",
                            "name = \"y\"\nunit = \"deg\"\ntravel_minimum = \"-5.25deg\"\nmaximum_speed = \"2deg/s\"",

@@ -40,6 +40,10 @@ std::int64_t Simulator::position(int axis) const { return device_->rig().axis(ax
 
 std::int64_t Simulator::maximum_speed(int axis) const { return device_->rig().axis(axis).speed.maximum; }
 
+int Simulator::outputs() const { return device_->rig().outputs; }
+
+std::string Simulator::trigger() const { return device_->rig().triggers.describe(); }
+
 bool Simulator::busy(int axis) const { return device_->rig().motions.busy(axis); }
 
 void Simulator::set_excitation(int axis, bool on, TimePoint now) {

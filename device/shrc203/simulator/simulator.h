@@ -38,6 +38,8 @@ class Simulator : public LineMachine {
   std::int64_t position(int axis) const;       // pulses, at the time of the last call
   std::int64_t maximum_speed(int axis) const;  // F, pulses/s, as D: or a prebuffer setting has left it
   bool busy(int axis) const;
+  int outputs() const;          // OUT1..OUT6, 0..63
+  std::string trigger() const;  // as ?:T tells
   void set_excitation(int axis, bool on, TimePoint now);
   void press_emergency(TimePoint now);
   void set_mode(std::string_view mode, TimePoint now);      // "HOST", "MANUAL", ...; what moves goes on

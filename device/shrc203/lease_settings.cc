@@ -1,0 +1,148 @@
+// What a lease's holder sets for good, speeds (manual 89) D:), outputs (96) O:) and the trigger (97) to 101) T:): known
+// before, and put back when his lease has ended.
+#include <string>
+#include <utility>
+
+#include "device/core/guard.h"
+#include "device/shrc203/controller_impl.h"
+#include "device/shrc203/transaction_lines.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr int kReadings = 3, kTriesAtTheEnd = 3;
+constexpr Duration kRestoreLimit = std::chrono::seconds(10), kRestorePause = std::chrono::milliseconds(100);
+
+std::optional<int> outputs_of(const Command& command) {
+  if (command.row->name != "O:") return {};
+  return static_cast<int>(*parse_integer(*command.arguments.first("s")));
+}
+
+}  // namespace
+
+// What the lines set has to be known before, to be set back. Outputs and the trigger only: speeds are those of axes.
+Task<Result<void>> Controller::Impl::learn_settings(const std::vector<Command>& commands, std::string caller) {
+  Result<void> read;
+  for (const Command& command : commands) {
+    const bool outputs = outputs_of(command) && !state_.outputs, trigger = trigger_of(command) && !state_.trigger;
+    for (int attempt = 0; attempt < kReadings && (outputs || trigger); ++attempt) {
+      auto reading = outputs ? read_outputs(caller) : read_trigger(caller);
+      read = co_await std::move(reading);
+      if (read) break;
+    }
+    if (!read) break;
+  }
+  co_return read;
+}
+
+// Before it goes out. What is owed to an axis was there before what is set by now.
+void Controller::Impl::remember_settings(const RequestContext& context, const Command& command) {
+  if (context.lease == 0 || profile_.settings_at_lease_end == AtLeaseEnd::kept) return;
+  const AxisSet axes = axes_sped({command}, state_.controllable());
+  const bool outputs = outputs_of(command).has_value(), trigger = trigger_of(command).has_value();
+  if (axes.empty() && !outputs && !trigger) return;
+  Settings& before = settings_before_[context.lease];
+  for (const auto& [axis, speed] : speeds_owed_) {
+    if (axes.has(axis)) before.speeds.try_emplace(axis, speed);
+  }
+  for (const auto& [axis, speed] : known_speeds(axes)) before.speeds.try_emplace(axis, speed);
+  if (outputs && !before.outputs) before.outputs = state_.outputs;
+  if (trigger && !before.trigger) before.trigger = state_.trigger;
+  permission_.settings_changed(context.lease);
+}
+
+// After its answer; where that was lost it may have been taken.
+void Controller::Impl::note_setting(const Command& command, const ExchangeResult& result) {
+  if (!result.accepted() && !result.in_doubt()) return;
+  const auto outputs = outputs_of(command);
+  const auto trigger = trigger_of(command);
+  if (outputs) state_.outputs = result.accepted() ? outputs : std::nullopt;
+  if (trigger) state_.trigger = result.accepted() ? trigger : std::nullopt;
+  if (outputs || trigger) publish_state();
+}
+
+Task<bool> Controller::Impl::set_line_back(Command command, std::string caller) {
+  ExchangeRequest request;
+  request.command = command;
+  request.lane = Lane::motion;
+  request.caller = std::move(caller);
+  request.not_after = now_ + (ending_ ? kEndStepLimit : kStepLimit);
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto result = co_await pending;
+  note_setting(command, result);
+  co_return result.accepted();
+}
+
+Task<bool> Controller::Impl::set_outputs_back(std::optional<int> before, std::string caller) {
+  if (!before || state_.outputs == before) co_return true;
+  const bool back =
+      co_await set_line_back(make_command("O:", Arguments().add("s", std::to_string(*before))), std::move(caller));
+  co_return back;
+}
+
+Task<bool> Controller::Impl::set_trigger_back(std::optional<Trigger> before, std::string caller) {
+  if (!before || state_.trigger == before) co_return true;
+  const bool back = co_await set_line_back(trigger_command(*before), std::move(caller));
+  co_return back;
+}
+
+// D: and T: are refused while axes move (manual 89), 97)), which somebody at the front panel may make them do; others
+// have their turns meanwhile.
+Task<bool> Controller::Impl::set_back_in_turn(EndedLease lease, Settings before) {
+  AxisSet axes;
+  for (const auto& [axis, speed] : before.speeds) axes.add(axis);
+  if (before.trigger) axes = AxisSet::all();
+  if (axes.empty()) co_return true;
+  // Fencing tokens are far above any motion's id.
+  auto turn = gate_.enter(lease.token, axes, lease.who, TimePoint::max());
+  const auto entered = co_await turn;
+  if (!entered) co_return false;
+  for (const auto& [axis, speed] : before.speeds) speeds_owed_.erase(axis);  // older is what was there before the lease
+  ExchangeRequest request;
+  request.lane = Lane::motion;
+  request.caller = "the gateway on behalf of " + lease.who;
+  const std::string caller = request.caller;
+  const bool speeds = co_await set_back(std::move(before.speeds), std::move(request));
+  const bool trigger = co_await set_trigger_back(before.trigger, caller);
+  gate_.leave(lease.token);
+  co_return speeds&& trigger;
+}
+
+// The lease has ended and its axes are nobody's yet. A line that is down is waited for.
+Task<void> Controller::Impl::restore_settings_of(EndedLease lease) {
+  std::optional<TimePoint> give_up_at;
+  while (!ending_ && guarded(Guard::settings_restored)) {
+    if (line_works()) {
+      const Settings before = settings_before_[lease.token];
+      const bool outputs = co_await set_outputs_back(before.outputs, "the gateway on behalf of " + lease.who);
+      const bool rest = co_await set_back_in_turn(lease, before);
+      if (!give_up_at) give_up_at = now_ + kRestoreLimit;
+      if ((outputs && rest) || now_ >= *give_up_at) break;
+    } else {
+      give_up_at.reset();
+    }
+    auto pause = tick_.wait_until(now_ + kRestorePause);
+    co_await pause;
+  }
+  if (!ending_) settings_before_.erase(lease.token);  // the end restores by itself
+  permission_.settings_restored(lease.token, now_);
+}
+
+// At the gateway's end, when nothing moves any more: no lease outlives it.
+Task<void> Controller::Impl::restore_all_settings() {
+  const std::string caller = "the gateway, which is ending";
+  co_await pay_speeds(AxisSet::all(), caller);
+  speeds_owed_.clear();
+  for (const auto& [token, before] : std::exchange(settings_before_, {})) {
+    speeds_owed_ = before.speeds;
+    co_await pay_speeds(AxisSet::all(), caller);
+    bool back = false;
+    for (int attempt = 0; attempt < kTriesAtTheEnd && !back; ++attempt) {
+      const bool outputs = co_await set_outputs_back(before.outputs, caller);
+      const bool trigger = co_await set_trigger_back(before.trigger, caller);
+      back = outputs && trigger;
+    }
+  }
+}
+
+}  // namespace axisgate::shrc203

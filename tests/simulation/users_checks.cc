@@ -1,0 +1,104 @@
+// What must hold whatever the users do, looked at with every line that goes out.
+#include <fmt/format.h>
+
+#include <cstdlib>
+
+#include "tests/simulation/users.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using simulator::AxisSetup;
+using std::chrono::milliseconds;
+
+bool moves_something(const std::string& line) { return sets_motion(line) || starts_motion(line); }
+
+// Of a motion's line: the letter behind the colon.
+AxisSet axes_of(const std::string& line) {
+  const auto colon = line.find(':');
+  const auto axes = from_command_letter(line[colon + 1], AxisSet::all());
+  return axes.value_or(AxisSet());
+}
+
+}  // namespace
+
+// Every line that sets or starts a motion is its owner's, or nobody owns the axes; and nobody holds its author back.
+void Users::check_bytes(const BytesWritten& written) {
+  check_speeds(written);
+  check_outputs(written);
+  if (written.exchange == 0 || !moves_something(written.bytes)) return;
+  for (const int axis : axes_of(written.bytes).list()) {
+    const Grant* owner = owner_of(axis);
+    if (owner && owner->who != written.who) {
+      world_.violation(fmt::format("{} of {} went out for axis {}, which {} owns", written.bytes.substr(0, 6),
+                                   written.who, axis, owner->who));
+    }
+    const bool latched = owner && owner->latched.has(axis);
+    const auto held_back = held_back_.find(written.who);
+    if (latched || (held_back != held_back_.end() && held_back->second.has(axis))) {
+      world_.violation(fmt::format("{} of {} went out for axis {}, which was stopped and not rearmed",
+                                   written.bytes.substr(0, 6), written.who, axis));
+    }
+  }
+}
+
+// Whoever moves at the controller's own speeds finds those that were there before, unless he has set others; a wrong
+// bit of a line may have, or of what was read.
+void Users::check_speeds(const BytesWritten& written) {
+  if (world_.wire().damaged_since(TimePoint{})) return;
+  const bool sets_speed = written.bytes.find("F4000R50") != std::string::npos;
+  const bool at_given_speed = written.bytes.starts_with("J:") || written.bytes.find(",S") != std::string::npos;
+  if (!sets_speed && (!sets_motion(written.bytes) || at_given_speed)) return;
+  for (const int axis : axes_of(written.bytes).list()) {
+    bool sped = false;
+    for (auto& [token, grant] : grants_) {
+      if (grant.who != written.who || !grant.axes.has(axis)) continue;
+      grant.sped = grant.sped || sets_speed;
+      sped = sped || grant.sped;
+    }
+    if (sped || world_.device().maximum_speed(axis) == AxisSetup().maximum_speed) continue;
+    world_.violation(fmt::format("{} moves axis {} at {} pulses/s, which another has set", written.who, axis,
+                                 world_.device().maximum_speed(axis)));
+  }
+}
+
+// The same of outputs and the trigger, which only who has the whole controller sets here.
+void Users::check_outputs(const BytesWritten& written) {
+  if (world_.wire().damaged_since(TimePoint{})) return;
+  const bool sets = written.bytes.starts_with("O:") || written.bytes.starts_with("T:");
+  if (!sets && !moves_something(written.bytes)) return;
+  bool wired = false;
+  for (auto& [token, grant] : grants_) {
+    if (grant.who != written.who || grant.axes != AxisSet::all()) continue;
+    grant.wired = grant.wired || sets;
+    wired = wired || grant.wired;
+  }
+  const bool untouched = world_.device().outputs() == 0 && world_.device().trigger() == "NS";
+  if (wired || untouched || written.who.starts_with("the gateway")) return;
+  world_.violation(fmt::format("{} meets outputs {} and trigger {}, which another has set", written.who,
+                               world_.device().outputs(), world_.device().trigger()));
+}
+
+// Whoever falls silent has been stopped: within the silence, but for the step in which time passes here.
+void Users::check_jogs() {
+  for (const Motion& motion : world_.controller().motions()) {
+    const auto renewed = renewed_.find(motion.id);
+    if (renewed == renewed_.end() || motion.state != MotionState::running) continue;
+    if (world_.now() <= renewed->second + Controller::kJogSilence) continue;
+    world_.violation(fmt::format("jog {} of {} runs on after {} ms of silence", motion.id, motion.who,
+                                 (world_.now() - renewed->second) / milliseconds(1)));
+  }
+}
+
+// A bit that is wrong may send an axis anywhere.
+void Users::check_travel() {
+  if (world_.wire().commands_damaged() > 0) return;
+  for (int axis = 1; axis <= kAxisCount; ++axis) {
+    if (std::abs(world_.device().position(axis)) > kTravel) {
+      world_.violation(fmt::format("axis {} is at {}, outside its travel", axis, world_.device().position(axis)));
+    }
+  }
+}
+
+}  // namespace axisgate::simulation
