@@ -52,7 +52,10 @@ class Client:
             ready, _, _ = select.select([self.fd], [], [], max(0.0, limit - time.monotonic()))
             if not ready:
                 raise AssertionError(f"no line came, only {self.unread!r}")
-            got = os.read(self.fd, 4096)
+            try:
+                got = os.read(self.fd, 4096)
+            except BlockingIOError:  # a flush has come between
+                continue
             if not got:
                 raise AssertionError("the simulator has ended")
             self.unread += got

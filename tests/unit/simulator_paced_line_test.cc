@@ -112,5 +112,27 @@ TEST(PacedLine, WhatWasWrittenBeforeTheLineClosedStillArrives) {
   EXPECT_EQ(host.simulator->position(1), 1000);
 }
 
+// What is done to the device beside its line knows the device's time, and what follows goes over the line.
+TEST(PacedLine, TheDeviceIsTouchedInItsOwnTime) {
+  Host host({10000, 0ms, 10});
+  host.run_to(0s);
+  TimePoint told{};
+  host.line.touch(at(1s), [&](TimePoint device_now) {
+    told = device_now;
+    host.simulator->be_stuck(5s, device_now);
+  });
+  EXPECT_EQ(told, at(10s));
+  host.line.receive("!:\r\n", at(1s));
+  host.run_to(1499ms);
+  EXPECT_EQ(host.text(), "");
+  host.line.touch(at(1499ms), [&](TimePoint device_now) {
+    host.simulator->be_stuck(0s, device_now);
+    host.simulator->advance(device_now);
+  });
+  host.run_to(1502ms);
+  EXPECT_EQ(host.text(), "R\r\n");
+  EXPECT_EQ(host.heard[0].second, at(1500ms)) << "a byte takes a millisecond";
+}
+
 }  // namespace
 }  // namespace axisgate::shrc203::simulator

@@ -31,7 +31,8 @@ void Axis::power_on(TimePoint now) {
   origin_speed = {setup_.origin_minimum_speed, setup_.origin_maximum_speed, setup_.origin_acceleration_ms};
   excited = true;
   open_loop = true;
-  emergency = limit_error = overflow_error = false;
+  emergency = limit_error = false;
+  errors.set(AxisError::overflow, false);
 }
 
 void Axis::preset(std::int64_t coordinate) { zero_ = mechanical_zero_ = place_ - coordinate; }

@@ -6,6 +6,7 @@
 
 #include "device/core/time.h"
 #include "device/shrc203/simulator/curve.h"
+#include "device/shrc203/simulator/faults.h"
 #include "device/shrc203/simulator/mileage.h"
 #include "device/shrc203/simulator/motion_profile.h"
 #include "device/shrc203/simulator/options.h"
@@ -43,19 +44,18 @@ class Axis {
   Speed speed;         // manual 89) D:
   Speed origin_speed;  // manual 94) B:
   bool excited = true;
-  bool open_loop = true;        // manual 51) F:
-  bool emergency = false;       // bit 6 of the status
-  bool limit_error = false;     // bit 8
-  bool overflow_error = false;  // bit 5
-  // These last as long as their cause, whatever is sent (manual 53) BEC: does not name them).
-  bool scale_error = false;          // bit 3
-  bool disconnection_error = false;  // bit 4
+  bool open_loop = true;     // manual 51) F:
+  bool emergency = false;    // bit 6 of the status
+  bool limit_error = false;  // bit 8
+  // These last as long as their cause, whatever is sent; but for an overflow error, which BEC: cancels (manual 53)).
+  StatusBits errors;  // AxisError
+  StatusBits flags;   // AxisFlag
   // As the memory switches had it at power-on (manual 5), 12), 32), 66)).
   char name = '1';
   char unit = 'U';
   bool configured = false;
   bool excited_in_emergency = false;
-  bool error_stop() const { return emergency || overflow_error || scale_error || disconnection_error; }
+  bool error_stop() const { return emergency || errors.any(); }
 
   // --- sensors --------------------------------------------------------------------------------------------------
   bool limit_sensor(int direction, TimePoint now) const;

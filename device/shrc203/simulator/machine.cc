@@ -47,6 +47,7 @@ bool works_in_hit_format(std::string_view command) {
 
 void Machine::receive(std::string_view bytes, TimePoint now) {
   advance(now);
+  if (rig_.now < unplugged_until_) return;
   for (const char byte : bytes) {
     if (boots_until_) return;
     if (auto line = cutter_.push(byte)) take(std::move(*line));
@@ -171,6 +172,8 @@ void Machine::reply(std::string_view text) {
   answering_ = false;
 }
 
-void Machine::send(std::string_view text) { line_.write(std::string(text) + "\r\n"); }
+void Machine::send(std::string_view text) {
+  if (rig_.now >= unplugged_until_) line_.write(std::string(text) + "\r\n");
+}
 
 }  // namespace axisgate::shrc203::simulator

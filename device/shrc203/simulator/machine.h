@@ -32,6 +32,8 @@ class Machine {
   void set_boot(Boot boot) { boot_ = std::move(boot); }
   // Every line is carried out and answered so much after it came, or after its predecessor was.
   void set_answer_delay(Duration delay) { answer_delay_ = delay; }
+  // Until then what comes and what is written is lost; the device notices nothing.
+  void be_unplugged(TimePoint until) { unplugged_until_ = until; }
   // Until then lines are read but neither carried out nor answered, and no completion is sent.
   void be_stuck(TimePoint until) { stuck_until_ = until; }
   void send_completions();
@@ -68,6 +70,7 @@ class Machine {
   std::optional<TimePoint> boots_until_;
   Duration answer_delay_{};
   TimePoint stuck_until_{};
+  TimePoint unplugged_until_{};
   bool answering_ = false;
 };
 

@@ -87,6 +87,12 @@ void PacedLine::receive(std::string_view bytes, TimePoint now) {
   advance(now);
 }
 
+void PacedLine::touch(TimePoint now, const std::function<void(TimePoint device_now)>& act) {
+  advance(now);
+  act(device_now_);
+  advance(now);
+}
+
 void PacedLine::from_device(std::string_view bytes) {
   outward_.send(bytes, shell_now_ + pacing_.reply_delay, byte_time());
 }

@@ -13,6 +13,11 @@ namespace {
 
 std::string digit(bool on) { return on ? "1" : "0"; }
 
+// Manual 32): off, read, or not readable.
+std::string config_status(const Axis& axis) {
+  return axis.configured && axis.flags.has(AxisFlag::config) ? "E" : digit(axis.configured);
+}
+
 std::string speed_text(const Speed& speed) {
   return fmt::format("S{}F{}R{}", speed.minimum, speed.maximum, speed.ramp_ms);
 }
@@ -56,7 +61,7 @@ constexpr std::array kByAxis = {
     AxisQuestion{"D", [](const Rig& r, int axis) { return speed_text(r.axis(axis).speed); }},
     AxisQuestion{"DR", [](const Rig& r, int axis) { return std::to_string(r.axis(axis).speed.ramp_ms); }},
     AxisQuestion{"B", [](const Rig& r, int axis) { return speed_text(r.axis(axis).origin_speed); }},
-    AxisQuestion{"ACS", [](const Rig& r, int axis) { return digit(r.axis(axis).configured); }},
+    AxisQuestion{"ACS", [](const Rig& r, int axis) { return config_status(r.axis(axis)); }},
     AxisQuestion{"C", [](const Rig& r, int axis) { return digit(r.axis(axis).excited); }},
     AxisQuestion{"F", [](const Rig& r, int axis) { return digit(r.axis(axis).open_loop); }},
 };

@@ -80,7 +80,8 @@ Answer clear_errors(Rig& rig, Reader reader) {
   if (!axes || !reader.done()) return Answer::ng;
   for (const int number : axes->list()) {
     Axis& axis = rig.axis(number);
-    axis.emergency = axis.limit_error = axis.overflow_error = false;
+    axis.emergency = axis.limit_error = false;
+    axis.errors.set(AxisError::overflow, false);
   }
   rig.motions.release(*axes, rig.now);
   return Answer::ok;

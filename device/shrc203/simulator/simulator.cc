@@ -95,19 +95,16 @@ void Simulator::set_limit(int axis, int direction, bool on, TimePoint now) {
 
 void Simulator::set_error(int axis, AxisError error, bool on, TimePoint now) {
   device_->advance(now);
-  Axis& struck = device_->rig().axis(axis);
-  switch (error) {
-    case AxisError::scale:
-      struck.scale_error = on;
-      break;
-    case AxisError::disconnection:
-      struck.disconnection_error = on;
-      break;
-    case AxisError::overflow:
-      struck.overflow_error = on;
-      break;
-  }
+  device_->rig().axis(axis).errors.set(error, on);
   if (on) device_->rig().motions.error_stop(axis, now);
+  device_->settle_consequences();
+}
+
+void Simulator::set_flag(int axis, AxisFlag flag, bool on, TimePoint now) {
+  device_->advance(now);
+  device_->rig().axis(axis).flags.set(flag, on);
+  const bool stops = flag == AxisFlag::cw_software_limit || flag == AxisFlag::ccw_software_limit;
+  if (on && stops) device_->rig().motions.error_stop(axis, now);
   device_->settle_consequences();
 }
 
@@ -119,6 +116,11 @@ void Simulator::set_answer_delay(Duration delay, TimePoint now) {
 void Simulator::be_stuck(Duration time, TimePoint now) {
   device_->advance(now);
   device_->be_stuck(now + time);
+}
+
+void Simulator::be_unplugged(Duration time, TimePoint now) {
+  device_->advance(now);
+  device_->be_unplugged(now + time);
 }
 
 void Simulator::set_serial_number(std::string number) { device_->rig().serial_number = std::move(number); }

@@ -13,12 +13,10 @@
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
 #include "device/shrc203/simulator/boot.h"
+#include "device/shrc203/simulator/faults.h"
 #include "device/shrc203/simulator/options.h"
 
 namespace axisgate::shrc203::simulator {
-
-// What stops an axis beside a limit and the emergency stop (manual 5) Q:S: S1, S2, S4).
-enum class AxisError { scale, disconnection, overflow };
 
 // The simulated device. Bytes go in by receive(); it answers through the ByteLink. Time runs only by the `now` given;
 // events that became due before it happen in their order, each at its own time. Not thread safe.
@@ -51,11 +49,14 @@ class Simulator : public LineMachine {
   void set_limit(int axis, int direction, bool on, TimePoint now);  // a limit sensor; direction +1 is CW
   // Stops the axis. An overflow error ends by BEC: or a reboot too, the others only by on = false.
   void set_error(int axis, AxisError error, bool on, TimePoint now);
+  void set_flag(int axis, AxisFlag flag, bool on, TimePoint now);  // a software limit's stops the axis, once
 
   // Faults of its electronics. Slow: a line is carried out and answered `delay` after it came, or after its predecessor
   // was. Stuck: for `time`, lines are read and nothing is written; then all of it comes, in order.
   void set_answer_delay(Duration delay, TimePoint now);
   void be_stuck(Duration time, TimePoint now);
+  // The cable: for `time`, what is sent either way is lost. It goes on, and notices nothing.
+  void be_unplugged(Duration time, TimePoint now);
   // Another unit stands in its place: what *IDN? and ?:SN say. Its settings are another matter: power_cycle().
   void set_serial_number(std::string number);
 

@@ -13,18 +13,19 @@ namespace {
 enum StatusBit {
   kNormal = 1,
   kCommandError = 2,
-  kScaleError = 3,
-  kDisconnectionError = 4,
-  kOverflowError = 5,
   kEmergency = 6,
   kLimitError = 8,
   kCounterOverflow = 9,
+  kOutOfPositionWhenReady = 16,
+  kOutOfPositionWhenBusy = 17,
   kLogicalReturn = 18,
   kOriginReturn = 19,
   kPlusLimit = 20,
   kMinusLimit = 21,
   kOriginSensor = 25,
 };
+
+constexpr std::uint32_t kAllBits = 0x1FFFFFF;
 
 // Nine digits and a sign.
 constexpr std::int64_t kCounterMax = 999'999'999;
@@ -33,18 +34,21 @@ bool counter_overflows(const Rig& rig, int axis) { return std::abs(rig.axis(axis
 
 std::uint32_t status_of(const Rig& rig, int number) {
   const Axis& axis = rig.axis(number);
-  std::uint32_t status = 0;
-  const auto raise = [&status](StatusBit bit, bool on) { status |= on ? 1u << (bit - 1) : 0u; };
+  std::uint32_t status = (axis.errors.raw() | axis.flags.raw()) & kAllBits;
+  const auto raise = [&status](StatusBit bit, bool on) {
+    const std::uint32_t mask = 1u << (bit - 1);
+    status = on ? status | mask : status & ~mask;
+  };
   const bool hidden = rig.command_error && rig.options.is("command_error_status", "normal_clears");
   const bool overflows = counter_overflows(rig, number);
   raise(kNormal, !axis.error_stop() && !axis.limit_error && !overflows && !hidden);
   raise(kCommandError, rig.command_error);
-  raise(kScaleError, axis.scale_error);
-  raise(kDisconnectionError, axis.disconnection_error);
-  raise(kOverflowError, axis.overflow_error);
   raise(kEmergency, axis.emergency);
   raise(kLimitError, axis.limit_error);
   raise(kCounterOverflow, overflows);
+  const bool out_of_position = axis.flags.has(AxisFlag::out_of_position), busy = rig.motions.busy(number);
+  raise(kOutOfPositionWhenReady, out_of_position && !busy);
+  raise(kOutOfPositionWhenBusy, out_of_position && busy);
   raise(kLogicalReturn, rig.motions.returning(number, Kind::logical_return));
   raise(kOriginReturn, rig.motions.returning(number, Kind::origin_return));
   raise(kPlusLimit, axis.limit_sensor(1, rig.now));

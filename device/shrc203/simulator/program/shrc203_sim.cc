@@ -6,13 +6,17 @@
 #include <csignal>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "device/link/pty_line.h"
+#include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/paced_line.h"
+#include "device/shrc203/simulator/program/control_server.h"
+#include "device/shrc203/simulator/program/socket_file.h"
 #include "device/shrc203/simulator/simulator.h"
 
 namespace axisgate {
@@ -25,6 +29,7 @@ constexpr int kExitUsage = 2;
 
 struct Arguments {
   std::string pty;
+  std::string control;
   double speed = 1;
   int baud = 0;
   int reply_delay_ms = 0;
@@ -52,6 +57,8 @@ void describe(CLI::App& program, Arguments& arguments) {
       ->capture_default_str();
   program.add_option("--serial-number", arguments.serial_number, "What *IDN? and ?:SN say: another unit")
       ->capture_default_str();
+  program.add_option("--control", arguments.control,
+                     "Unix socket to make, for what a person at the device does; `help` on it tells what that is");
   program.add_option("--option", arguments.options, "NAME=VALUE: a reading of the manual; may be repeated")
       ->allow_extra_args(false);
   program.add_flag("--list-options", arguments.list_options, "Print every option and its values, and end")
@@ -88,25 +95,73 @@ Result<std::shared_ptr<PtyLine>> open_line(const Strand& strand, const std::stri
   return std::make_shared<PtyLine>(strand, std::move(*pty), std::move(*watch));
 }
 
+Result<std::optional<simulator::SocketFile>> open_control(const std::string& path) {
+  if (path.empty()) return std::nullopt;
+  return simulator::SocketFile::open(path);
+}
+
+// The simulated device with its line, and the people at it.
+class Device {
+ public:
+  Device(const simulator::Pacing& pacing, const simulator::Options& options, std::shared_ptr<PtyLine> line)
+      : line_(std::move(line)), paced_(pacing, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+          auto made = std::make_unique<simulator::Simulator>(options, inside);
+          simulator_ = made.get();
+          return made;
+        }) {
+    line_->attach(paced_);
+    line_->start();
+  }
+
+  void take_commands(Descriptor listener) {
+    server_ = std::make_shared<simulator::ControlServer>(
+        line_->strand(), std::move(listener),
+        [this](const std::string& command, simulator::ControlServer::Reply reply) {
+          line_->post([this, command, reply = std::move(reply)](TimePoint now) { reply(carry_out(command, now)); });
+        });
+    server_->start();
+  }
+
+  void shutdown() {
+    if (server_) server_->shutdown();
+    line_->shutdown();
+  }
+
+ private:
+  std::string carry_out(const std::string& command, TimePoint now) {
+    std::string reply;
+    paced_.touch(now, [&](TimePoint device_now) {
+      reply = simulator::control_reply(simulator::control(*simulator_, command, device_now));
+    });
+    return reply;
+  }
+
+  std::shared_ptr<PtyLine> line_;
+  simulator::Simulator* simulator_ = nullptr;  // of paced_
+  simulator::PacedLine paced_;
+  std::shared_ptr<simulator::ControlServer> server_;
+};
+
 int run(const Arguments& arguments, const simulator::Options& options) {
   boost::asio::io_context context(1);
   // Before the link exists, so that whoever sees it can end this program in good order.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
+  // Before the link is made: it may be that of a program that still runs.
+  auto control = open_control(arguments.control);
+  if (!control) return complain(kExitFailed, control.error());
   auto opened = open_line(boost::asio::make_strand(context), arguments.pty);
   if (!opened) return complain(kExitFailed, opened.error());
-  PtyLine& line = **opened;
+  const PtyLine& line = **opened;
 
   const simulator::Pacing pacing{arguments.baud, std::chrono::milliseconds(arguments.reply_delay_ms), arguments.speed};
-  simulator::PacedLine device(pacing, line, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
-    return std::make_unique<simulator::Simulator>(options, inside);
-  });
-  line.attach(device);
-  line.start();
-  signals.async_wait([&](const boost::system::error_code&, int) { line.shutdown(); });
+  Device device(pacing, options, *opened);
+  if (*control) device.take_commands((*control)->take_socket());
+  signals.async_wait([&](const boost::system::error_code&, int) { device.shutdown(); });
 
   const std::string pace = arguments.baud == 0 ? "bytes not paced" : fmt::format("{} baud", arguments.baud);
-  fmt::print("SHRC-203 simulator on {} ({}), {}, speed {}, reply delay {} ms\n", arguments.pty, line.pty().device(),
-             pace, arguments.speed, arguments.reply_delay_ms);
+  const std::string where = arguments.control.empty() ? "" : fmt::format(", control socket {}", arguments.control);
+  fmt::print("SHRC-203 simulator on {} ({}), {}, speed {}, reply delay {} ms{}\n", arguments.pty, line.pty().device(),
+             pace, arguments.speed, arguments.reply_delay_ms, where);
   std::fflush(stdout);
   context.run();
   return 0;

@@ -1,0 +1,213 @@
+#include "device/shrc203/simulator/control.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <iterator>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "device/core/escape.h"
+#include "device/shrc203/simulator/control_usage.h"
+
+namespace axisgate::shrc203::simulator {
+namespace {
+
+using Done = Result<std::string>;
+
+struct Call {
+  Simulator& device;
+  TimePoint now;
+  std::vector<Argument> arguments;
+
+  std::string_view word(std::size_t place) const { return arguments[place].word; }
+  int number(std::size_t place) const { return static_cast<int>(arguments[place].number); }
+  std::size_t choice(std::size_t place) const { return static_cast<std::size_t>(arguments[place].number); }
+  bool is_on(std::size_t place) const { return word(place) == "on"; }
+  Duration seconds(std::size_t place) const { return Duration(std::llround(arguments[place].number * 1e9)); }
+};
+
+struct Command {
+  std::string_view usage;  // control_usage.h
+  std::string_view meaning;
+  Done (*carry_out)(const Call& call);
+};
+
+std::span<const Command> commands();
+
+const Command* command_called(std::string_view name) {
+  for (const Command& command : commands()) {
+    if (same_word(words_of(command.usage).front(), name)) return &command;
+  }
+  return nullptr;
+}
+
+// What `part` makes of each command, one after the other.
+template <class Part>
+std::string list(std::string_view separator, Part part) {
+  std::string text;
+  for (const Command& command : commands())
+    fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : separator, part(command));
+  return text;
+}
+
+tl::unexpected<Problem> refuse(std::string what) {
+  const std::string names = list(", ", [](const Command& command) { return words_of(command.usage).front(); });
+  return fail(Reason::invalid_request, std::move(what), "say one of: " + names);
+}
+
+Done help(const Call& call) {
+  if (call.arguments.empty()) return list("; ", [](const Command& command) { return command.usage; });
+  const Command* command = command_called(call.word(0));
+  if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(call.word(0))));
+  return fmt::format("{}: {}", with_ranges(command->usage), command->meaning);
+}
+
+Done excitation(const Call& call) {
+  call.device.set_excitation(call.number(0), call.is_on(1), call.now);
+  return {};
+}
+
+Done limit(const Call& call) {
+  call.device.set_limit(call.number(0), call.word(1) == "cw" ? 1 : -1, call.is_on(2), call.now);
+  return {};
+}
+
+// In the order of the usage.
+constexpr std::array kErrors = {AxisError::scale,  AxisError::disconnection, AxisError::overflow, AxisError::hunting,
+                                AxisError::system, AxisError::overheat,      AxisError::s9};
+constexpr std::array kFlags = {
+    AxisFlag::config,          AxisFlag::io_overload,       AxisFlag::power_overload,     AxisFlag::heat,
+    AxisFlag::out_of_position, AxisFlag::cw_software_limit, AxisFlag::ccw_software_limit, AxisFlag::near_sensor};
+
+Done error(const Call& call) {
+  call.device.set_error(call.number(0), kErrors.at(call.choice(1)), call.is_on(2), call.now);
+  return {};
+}
+
+Done flag(const Call& call) {
+  call.device.set_flag(call.number(0), kFlags.at(call.choice(1)), call.is_on(2), call.now);
+  return {};
+}
+
+Done inputs(const Call& call) {
+  call.device.advance(call.now);
+  call.device.set_inputs(call.number(0));
+  return {};
+}
+
+Done outputs(const Call& call) {
+  call.device.advance(call.now);
+  return std::to_string(call.device.outputs());
+}
+
+Done triggers(const Call& call) {
+  call.device.advance(call.now);
+  return std::to_string(call.device.trigger_pulses());
+}
+
+Done sleep(const Call& call) {
+  if (call.device.set_sleep(call.is_on(0), call.now)) return {};
+  return fail(Reason::axis_busy, "an axis is BUSY, and only at rest does it fall asleep or wake",
+              "wait until `busy` says no, or stop it");
+}
+
+Done be_stuck(const Call& call) {
+  call.device.be_stuck(call.seconds(0), call.now);
+  call.device.advance(call.now);  // at 0, what was held back comes now
+  return {};
+}
+
+// One field for the axis named, or for each of the three.
+template <class Field>
+Done each_axis(const Call& call, Field field) {
+  call.device.advance(call.now);
+  if (!call.arguments.empty()) return field(call.number(0));
+  return fmt::format("{} {} {}", field(1), field(2), field(3));
+}
+
+Done position(const Call& call) {
+  return each_axis(call, [&](int axis) { return std::to_string(call.device.position(axis)); });
+}
+
+Done busy(const Call& call) {
+  return each_axis(call, [&](int axis) { return std::string(call.device.busy(axis) ? "yes" : "no"); });
+}
+
+constexpr std::array kCommands = {
+    Command{"help [COMMAND]", "all commands, or what one does", help},
+    Command{"mode HOST|MANUAL|REMOTE|TEACHING|EDIT|TEST", "the mode, as chosen at the panel (manual 37) ?:MODE)",
+            [](const Call& call) -> Done {
+              call.device.set_mode(call.word(0), call.now);
+              return {};
+            }},
+    Command{"dialect SHOT_FC|HIT", "the command format, as chosen at the panel (manual 38) ?:FMT)",
+            [](const Call& call) -> Done {
+              call.device.set_format(call.word(0), call.now);
+              return {};
+            }},
+    Command{"emergency", "presses the button: as L:E (manual 66)); BEC: and excitation bring it back",
+            [](const Call& call) -> Done {
+              call.device.press_emergency(call.now);
+              return {};
+            }},
+    Command{"excitation AXIS on|off", "the motor's current (manual 33) ?:C); off stops the axis", excitation},
+    Command{"limit AXIS cw|ccw on|off", "a limit sensor (manual 5), bits 20, 21); on stops what moves into it", limit},
+    Command{"error AXIS scale|disconnection|overflow|hunting|system|overheat|s9 on|off",
+            "stops the axis: S1, S2, S4, S3, S7, S10 (manual 5), bits 3, 4, 5, 7, 13, 15), and S9, which has no bit",
+            error},
+    Command{
+        "flag AXIS config|io_overload|power_overload|heat|out_of_position|cw_software_limit|ccw_software_limit|near "
+        "on|off",
+        "the other bits of manual 5): 10, 11, 12, 14, 16 (17 while BUSY), 22, 23, 24; 22 and 23 stop the axis once",
+        flag},
+    Command{"inputs NUMBER", "what IN1 to IN6 are given, as I: tells it (manual 95))", inputs},
+    Command{"outputs", "what OUT1 to OUT6 give, as ?:O tells it (manual 26))", outputs},
+    Command{"triggers", "how many pulses the trigger output has given so far (manual 97) to 101))", triggers},
+    Command{"sleep on|off", "as SLEEP: (manual 47)); only at rest", sleep},
+    Command{"power cycle", "off and on: as RESET: (manual 46)); the stages stay where they are",
+            [](const Call& call) -> Done {
+              call.device.power_cycle(call.now);
+              return {};
+            }},
+    Command{"unplug SECONDS", "the cable: what is sent either way is lost for so long; 0 plugs it in again",
+            [](const Call& call) -> Done {
+              call.device.be_unplugged(call.seconds(0), call.now);
+              return {};
+            }},
+    Command{"delay MILLISECONDS", "from now on each line is carried out and answered so much later",
+            [](const Call& call) -> Done {
+              call.device.set_answer_delay(std::chrono::milliseconds(call.number(0)), call.now);
+              return {};
+            }},
+    Command{"stuck SECONDS", "reads and writes nothing for so long, then all of it comes; 0 ends it", be_stuck},
+    Command{"position [AXIS]", "the command counter, in pulses", position},
+    Command{"busy [AXIS]", "whether it moves, settles or waits: yes or no", busy},
+};
+
+std::span<const Command> commands() { return kCommands; }
+
+}  // namespace
+
+Result<std::string> control(Simulator& device, std::string_view line, TimePoint now) {
+  if (line.size() > kControlLineMax) {
+    return refuse(fmt::format("the line is longer than {} characters", kControlLineMax));
+  }
+  const auto words = words_of(line);
+  if (words.empty()) return refuse("the line is empty");
+  const Command* command = command_called(words.front());
+  if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(words.front())));
+  auto arguments = read_arguments(words, command->usage);
+  if (!arguments) return tl::unexpected(std::move(arguments.error()));
+  return command->carry_out({device, now, std::move(*arguments)});
+}
+
+std::string control_reply(const Result<std::string>& done) {
+  if (!done) return fmt::format("error: {}; {}", done.error().message, done.error().hint);
+  return done->empty() ? "ok" : "ok " + *done;
+}
+
+}  // namespace axisgate::shrc203::simulator

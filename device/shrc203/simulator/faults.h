@@ -1,0 +1,45 @@
+// What can be raised on one axis, beside a limit and the emergency stop: each numbered as its bit of the status.
+#pragma once
+
+#include <cstdint>
+
+namespace axisgate::shrc203::simulator {
+
+// Each stops the axis and clears "normal" (manual 5) Q:S: S1, S2, S4, S3, S7, S10). S9 is an error stop as well (manual
+// 4) Q:), of which no bit tells.
+enum class AxisError { scale = 3, disconnection = 4, overflow = 5, hunting = 7, system = 13, overheat = 15, s9 = 26 };
+
+// The others of manual 5), none of which clears "normal". Only the stops by a software limit stop anything.
+enum class AxisFlag {
+  config = 10,           // auto config error; ?:ACS tells it as well (manual 32))
+  io_overload = 11,      // W1
+  power_overload = 12,   // W2: the 24 V terminal block
+  heat = 14,             // W3: motor driver
+  out_of_position = 16,  // 17 while BUSY
+  cw_software_limit = 22,
+  ccw_software_limit = 23,
+  near_sensor = 24,
+};
+
+class StatusBits {
+ public:
+  template <class Fault>
+  void set(Fault fault, bool on) {
+    bits_ = on ? bits_ | bit(fault) : bits_ & ~bit(fault);
+  }
+  template <class Fault>
+  bool has(Fault fault) const {
+    return (bits_ & bit(fault)) != 0;
+  }
+  bool any() const { return bits_ != 0; }
+  std::uint32_t raw() const { return bits_; }
+
+ private:
+  template <class Fault>
+  static std::uint32_t bit(Fault fault) {
+    return 1u << (static_cast<int>(fault) - 1);
+  }
+  std::uint32_t bits_ = 0;
+};
+
+}  // namespace axisgate::shrc203::simulator
