@@ -11,7 +11,8 @@ namespace axisgate::shrc203 {
 std::span<const CommandRow> command_table() {
   static const std::vector<CommandRow> all = [] {
     std::vector<CommandRow> table;
-    for (const auto part : {rows::questions(), rows::motion(), rows::settings(), rows::other_modes()}) {
+    for (const auto part : {rows::questions(), rows::motion(), rows::arcs(), rows::settings(), rows::other_modes(),
+                            rows::saved_positions()}) {
       table.insert(table.end(), part.begin(), part.end());
     }
     return table;

@@ -18,6 +18,7 @@ struct Parameter {
     choice,   // one of the words of `choices`, separated by blanks
     integer,  // minimum to maximum
     decimal,  // digits with an optional point; minimum to maximum apply to whole pulses only, by the unit before it
+    angle,    // degrees, digits with an optional point; more than 0, up to maximum
     text,     // the rest of the line
   };
   std::string_view letter;   // as the manual writes it: a, m, u, y, spds ...
@@ -52,6 +53,10 @@ struct Needs {
 // Which of the settings that a G may start (manual 85)) the command writes.
 enum class Register { none, m, a, k, e, j, mp, ap, kp, ep, wt, wi };
 
+// Which speeds a command may set for good: those of D: (manual 89)), also by a prebuffer setting that has some of its
+// own (68)), or those of the mechanical origin return (94) B:).
+enum class SetsSpeeds { no, of_motion, of_origin_return };
+
 enum class Effect {
   question,        // changes nothing
   setting,         // changes a setting; nothing moves
@@ -76,8 +81,12 @@ struct CommandRow {
   Needs needs = {};
   Register reg = Register::none;
   bool shifts_frame = false;   // makes another coordinate of the place where the axis stands
+  bool third_axis = false;     // moves axis 3 beside the axes that it names
   bool beside_motion = false;  // nothing to motion, so that it waits for none
-  bool completes = false;      // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
+  bool rescales = false;       // a pulse is another way afterwards
+  bool restarts = false;       // the controller boots, and is silent meanwhile
+  SetsSpeeds sets_speeds = SetsSpeeds::no;
+  bool completes = false;  // axis numbers follow once it has ended; for G and G: after a prebuffer setting only
   std::optional<Mode> enters = {};  // the mode that follows, where it is another
   Duration reply_limit = {};        // zero: the profile's
 

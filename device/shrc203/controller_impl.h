@@ -126,6 +126,7 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
+  Task<Result<void>> read_origin_speeds(std::string caller);
   Task<Result<void>> read_excitation(std::string caller);
   Task<Result<void>> read_outputs(std::string caller);
   Task<Result<void>> read_trigger(std::string caller);
@@ -165,6 +166,7 @@ class Controller::Impl : public LineListener {
   using Speeds = std::map<int, SpeedSetting>;  // by axis
   void note_speeds(const Speeds& speeds);
   Speeds known_speeds(AxisSet axes) const;
+  Speeds known_origin_speeds(AxisSet axes) const;
   bool speeds_known() const {
     return known_speeds(state_.controllable()).size() == std::size_t(state_.controllable().count());
   }
@@ -179,7 +181,7 @@ class Controller::Impl : public LineListener {
 
   // lease_settings.cc
   struct Settings {
-    Speeds speeds;
+    Speeds speeds, origin_speeds;
     std::optional<int> outputs;
     std::optional<Trigger> trigger;
   };
@@ -187,6 +189,7 @@ class Controller::Impl : public LineListener {
   void remember_settings(const RequestContext& context, const Command& command);
   void note_setting(const Command& command, const ExchangeResult& result);
   Task<bool> set_line_back(Command command, std::string caller);
+  Task<bool> set_origin_speeds_back(Speeds before, std::string caller);
   Task<bool> set_outputs_back(std::optional<int> before, std::string caller);
   Task<bool> set_trigger_back(std::optional<Trigger> before, std::string caller);
   Task<bool> set_back_in_turn(EndedLease lease, Settings before);

@@ -112,7 +112,8 @@ Task<bool> Controller::Impl::step_to_host(Lane lane, std::string caller, bool in
     (void)co_await ask("MS:OFF", lane, caller, in_handshake);
   } else if (state_.mode == "HOST,PROGRAM") {
     const bool left = (co_await ask("P:H", lane, caller, in_handshake)).accepted();
-    if (!left) (void)co_await ask("P:OFF", lane, caller, in_handshake);
+    const bool edited = !left && (co_await ask("P:OFF", lane, caller, in_handshake)).accepted();
+    if (!left && !edited) (void)co_await ask("P:E", lane, caller, in_handshake);  // a program pauses
   }
   co_return false;
 }

@@ -28,9 +28,11 @@ class Transaction {
  private:
   Task<Result<void>> begin();
   Task<bool> send_all();
+  Task<Result<void>> read_what_is_set();
   Task<bool> send(std::size_t index);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
+  Task<Result<void>> ask_for_destination();
   Result<void> check_envelope();
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
@@ -42,7 +44,9 @@ class Transaction {
   LiveMotionPtr live_;
   bool started_ = false;
   bool start_in_doubt_ = false;
-  bool switches_ = false;  // memory switches may have been changed
+  bool switches_ = false;    // memory switches may have been changed
+  Positions destination_{};  // a saved position, where it goes to one
+  bool rescaled_ = false, restarted_ = false;
 };
 
 void Transaction::end(std::optional<Problem> problem) {
@@ -56,12 +60,29 @@ Result<void> Transaction::check_envelope() {
   Forecast forecast(impl_.envelope(request_.context), positions_of(impl_.state_),
                     impl_.known_speeds(live_->motion.axes), impl_.state_.controllable());
   for (const Command& command : commands_) {
-    if (const auto good = forecast.add(command); !good) return good;
+    const auto good = destination_question(command) ? forecast.go_to(destination_) : forecast.add(command);
+    if (!good) return good;
   }
   for (auto& result : live_->motion.results) {
     result.target_pulses = forecast.at()[static_cast<std::size_t>(result.axis - 1)];
   }
   return {};
+}
+
+Task<Result<void>> Transaction::ask_for_destination() {
+  const auto question = destination_question(commands_.front());
+  if (!question) co_return Result<void>();
+  const auto result = co_await exchange(*question);
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  const auto coordinates = by_axis(*result.reply, impl_.state_.controllable());
+  if (result.refused() || coordinates.empty()) {
+    co_return fail(Reason::not_found, fmt::format("nothing is saved under number {}", *question->arguments.first("n")),
+                   "save a position there first; a restart of the controller forgets places (PIT:)");
+  }
+  for (const auto& [axis, pulses] : coordinates) {
+    destination_[static_cast<std::size_t>(axis - 1)] = parse_integer(pulses);
+  }
+  co_return Result<void>();
 }
 
 Task<Result<void>> Transaction::begin() {
@@ -70,7 +91,7 @@ Task<Result<void>> Transaction::begin() {
   ready = co_await impl_.learn_settings(commands_, request_.context.who);
   if (!ready) co_return ready;
   // Their speeds have to be known, to be set back.
-  const AxisSet sped = axes_sped(commands_, impl_.state_.controllable());
+  const AxisSet sped = axes_sped(commands_, SetsSpeeds::of_motion, impl_.state_.controllable());
   if (!sped.empty()) {
     const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
     // D: by itself is how impossible ones are mended.
@@ -85,6 +106,7 @@ Task<Result<void>> Transaction::begin() {
     if (command.row->reg != Register::none) reg = command.row->reg;
   }
   ready = co_await impl_.prepare(live_, reg);
+  if (ready) ready = co_await ask_for_destination();
   if (!ready) co_return ready;
   co_return check_envelope();
 }
@@ -164,7 +186,7 @@ Task<bool> Transaction::send(std::size_t index) {
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
   }
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
-  const AxisSet sped = axes_sped({command}, impl_.state_.controllable());
+  const AxisSet sped = axes_sped({command}, SetsSpeeds::of_motion, impl_.state_.controllable());
   impl_.forget_speeds(sped);
   // A setting of somebody's own takes the place of what was owed there.
   for (const int axis : sped.list()) {
@@ -176,6 +198,8 @@ Task<bool> Transaction::send(std::size_t index) {
     impl_.away_ = *command.row->enters;
     switches_ = switches_ || impl_.away_ == Mode::memory_switches;
   }
+  if (command.row->rescales && !result.refused()) rescaled_ = true;
+  if (command.row->restarts && (result.accepted() || result.in_doubt())) restarted_ = true;
   if (command.row->reg == Register::wi && !result.refused()) {
     for (const int axis : command.axes(impl_.state_.controllable()).list()) {
       impl_.state_.axis(axis).armed = waits_of(command).set;
@@ -219,6 +243,18 @@ Task<bool> Transaction::send_all() {
   co_return true;
 }
 
+// What its lines may have left otherwise than it is known. A pulse is another way after S: (manual 55)).
+Task<Result<void>> Transaction::read_what_is_set() {
+  if (rescaled_) {
+    const bool read = co_await impl_.read_settings(impl_.connection_);
+    if (!read) impl_.line_.give_up("its scale was changed, and could not be read", impl_.now_);
+  }
+  const AxisSet all = impl_.state_.controllable();
+  if (impl_.known_origin_speeds(all).size() == static_cast<std::size_t>(all.count())) co_return Result<void>();
+  auto read = co_await impl_.read_origin_speeds(request_.context.who);
+  co_return read;
+}
+
 Task<void> Transaction::run() {
   if (needs_gate(commands_)) {
     const AxisSet axes = axes_moved(commands_, impl_.state_.controllable());
@@ -252,6 +288,13 @@ Task<void> Transaction::run() {
     live_->on_completion = {};
     co_return;
   }
+  if (restarted_) {
+    impl_.line_.give_up("it was reset, and is looked at anew", impl_.now_);
+    impl_.end_motion(live_, MotionState::succeeded, {});
+    if (all) end({});
+    live_->on_completion = {};
+    co_return;
+  }
   const bool wait = all && completes(commands_);
   if (all && !wait) {
     end({});
@@ -262,7 +305,8 @@ Task<void> Transaction::run() {
     co_await impl_.watch(live_, start_in_doubt_);
     if (!impl_.speeds_known()) co_await impl_.read_speeds(request_.context.who);
   } else {
-    auto reread = co_await impl_.read_speeds(request_.context.who);
+    auto reread = co_await read_what_is_set();
+    if (reread) reread = co_await impl_.read_speeds(request_.context.who);
     if (reread) reread = co_await impl_.read_excitation(request_.context.who);
     if (reread) reread = co_await impl_.read_positions(Lane::motion, request_.context.who);
     impl_.end_motion(live_, all && reread ? MotionState::succeeded : MotionState::failed, {});

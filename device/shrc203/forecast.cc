@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <utility>
 
+#include "device/shrc203/arc_lines.h"
 #include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
@@ -25,13 +28,13 @@ Result<void> Forecast::add(const Command& command) {
 Result<void> Forecast::add_speeds(const Command& command) {
   for (const auto& [axis, minimum, maximum] : speeds_of(command, controllable_)) {
     if (const auto good = envelope_.check_axis(axis); !good) return good;
-    const auto lowest = envelope_.speed(axis, minimum);
-    if (!lowest) return tl::unexpected(lowest.error());
     // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
-    const auto highest = envelope_.speed(axis, maximum);
-    if (!highest) return tl::unexpected(highest.error());
-    speeds_[axis].minimum = *lowest;
-    speeds_[axis].maximum = *highest;
+    for (const auto& [asked, set] : {std::pair{minimum, &SpeedSetting::minimum}, {maximum, &SpeedSetting::maximum}}) {
+      if (!asked) continue;
+      const auto speed = envelope_.speed(axis, *asked);
+      if (!speed) return tl::unexpected(speed.error());
+      if (command.row->sets_speeds == SetsSpeeds::of_motion) speeds_[axis].*set = *speed;
+    }
   }
   return {};
 }
@@ -70,6 +73,21 @@ Result<void> Forecast::add_origin_return(const Command& command) {
   return {};
 }
 
+Result<void> Forecast::go_to(const Positions& place) {
+  for (const int axis : controllable_.list()) {
+    const auto target = place[static_cast<std::size_t>(axis - 1)];
+    if (!target) continue;
+    Result<void> good = envelope_.check_axis(axis);
+    if (good) good = envelope_.check_homed(axis);
+    if (good) good = envelope_.check_target(axis, *target);
+    if (good) good = envelope_.check_speed(axis, speeds_[axis].maximum);
+    if (!good) return good;
+    at_[static_cast<std::size_t>(axis - 1)] = *target;
+    started_.add(axis);
+  }
+  return {};
+}
+
 // Where a stored program leads is not known.
 Result<void> Forecast::add_program() {
   for (const int axis : controllable_.list()) {
@@ -93,6 +111,10 @@ Result<void> Forecast::start(int axis) {
       return fail_on(axis, Reason::position_unknown,
                      fmt::format("where {} would be is not known", envelope_.label(axis)), "send the motion by itself");
     }
+    for (const auto reached : {pending.extent.lowest, pending.extent.highest}) {
+      if (reached == 0) continue;
+      if (const auto good = envelope_.check_target(axis, *at + reached); !good) return good;
+    }
     at = pending.relative ? *at + pending.amount : pending.amount;
     if (const auto good = envelope_.check_target(axis, *at); !good) return good;
   }
@@ -101,6 +123,7 @@ Result<void> Forecast::start(int axis) {
 
 Result<void> Forecast::add_setting(const Command& command) {
   const Register reg = command.row->reg;
+  if (reg == Register::e || reg == Register::ep) return add_arc(command);
   const bool relative = reg != Register::a && reg != Register::ap;
   const bool line = reg == Register::k || reg == Register::kp;
   const auto moves = moves_of(command, controllable_);
@@ -114,18 +137,50 @@ Result<void> Forecast::add_setting(const Command& command) {
     }
     const SpeedSetting& speed = speeds_[line ? plan->axes.front().axis : one.axis];
     if (const auto good = envelope_.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
-    auto& pending = pending_[one.axis];
     const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
-    // The one before may have chained, or not: where this one would start from is not certain.
-    const bool chains = started_.has(one.axis) && std::ranges::any_of(pending, &Pending::lasting);
-    if (lasting && chains) {
-      return fail_on(one.axis, Reason::invalid_request,
-                     fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(one.axis)),
-                     "start each with G:, or run a path");
-    }
-    std::erase_if(pending, [reg](const auto& before) { return before.reg == reg; });
-    pending.push_back({reg, relative, lasting, one.amount});
+    if (const auto good = add_pending(one.axis, {reg, relative, lasting, one.amount}); !good) return good;
   }
+  return {};
+}
+
+// The whole curve, and the speed S of its lower axis in every direction (manual 71) to 82)).
+Result<void> Forecast::add_arc(const Command& command) {
+  const auto line = arc_of(command, envelope_);
+  if (!line) return tl::unexpected(line.error());
+  AxisSet axes;
+  for (const int axis : line->axes) {
+    if (axis != 0) axes.add(axis);
+  }
+  if (const auto good = check_scales(axes, envelope_.state()); !good) return good;
+  const ArcEnd end = end_of(line->arc);
+  const std::int64_t speed = speeds_[line->axes[0]].minimum;
+  const double slope = std::abs(line->arc.rise) / std::max(1.0, length_of(line->arc));
+  const std::pair<std::int64_t, Extent> ways[] = {
+      {end.first, line->extent.first}, {end.second, line->extent.second}, {end.third, line->extent.third}};
+  const bool lasting = command.row->reg == Register::ep;
+  for (std::size_t i = 0; i < std::size(ways); ++i) {
+    const int axis = line->axes[i];
+    if (axis == 0) continue;
+    if (auto good = envelope_.check_homed(axis); !good) return good;
+    const auto part = i < 2 ? speed : std::llround(slope * static_cast<double>(speed));
+    if (auto good = envelope_.check_speed(axis, part); !good) return good;
+    const Pending one{command.row->reg, true, lasting, ways[i].first, ways[i].second};
+    if (auto good = add_pending(axis, one); !good) return good;
+  }
+  return {};
+}
+
+Result<void> Forecast::add_pending(int axis, const Pending& one) {
+  auto& pending = pending_[axis];
+  // The one before may have chained, or not: where this one would start from is not certain.
+  const bool chains = started_.has(axis) && std::ranges::any_of(pending, &Pending::lasting);
+  if (one.lasting && chains) {
+    return fail_on(axis, Reason::invalid_request,
+                   fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(axis)),
+                   "start each with G:, or run a path");
+  }
+  std::erase_if(pending, [&one](const auto& before) { return before.reg == one.reg; });
+  pending.push_back(one);
   return {};
 }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "device/shrc203/arc.h"
 #include "device/shrc203/codec.h"
 #include "device/shrc203/envelope.h"
 #include "device/shrc203/plan.h"
@@ -19,6 +20,8 @@ class Forecast {
 
   // The next line. What the envelope refuses; invalid_request where nobody can tell where it would lead.
   Result<void> add(const Command& command);
+  // To a saved position, each controllable axis by itself at its own speed. What the envelope refuses.
+  Result<void> go_to(const Positions& place);
   // Where the axes are then; nothing where that is not known.
   const Positions& at() const { return at_; }
 
@@ -28,10 +31,13 @@ class Forecast {
     bool relative = false;
     bool lasting = false;  // GC: does not delete it
     std::int64_t amount = 0;
+    Extent extent = {};  // what a curve leads through meanwhile, from where it begins
   };
   Result<void> add_speeds(const Command& command);
   Result<void> add_motion(const Command& command);
   Result<void> add_setting(const Command& command);
+  Result<void> add_arc(const Command& command);
+  Result<void> add_pending(int axis, const Pending& pending);
   Result<void> add_origin_return(const Command& command);
   Result<void> add_program();
   Result<void> start(int axis);

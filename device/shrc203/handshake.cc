@@ -125,14 +125,14 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
 
 Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
   // The axes are asked for twice: everything else hangs on that one digit, and a line can turn a 6 into a 2.
-  ExchangeResult axes, axes_again, serial, scale, speeds, excitation, outputs, trigger;
+  ExchangeResult axes, axes_again, serial, scale, speeds, excitation, outputs, trigger, origin_speeds;
   struct Step {
     std::string_view question;
     ExchangeResult* answer;
   };
-  for (const Step step :
-       {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial}, Step{"?:P", &scale},
-        Step{"?:D", &speeds}, Step{"?:C", &excitation}, Step{"?:O", &outputs}, Step{"?:T", &trigger}}) {
+  for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial},
+                          Step{"?:P", &scale}, Step{"?:D", &speeds}, Step{"?:C", &excitation}, Step{"?:O", &outputs},
+                          Step{"?:T", &trigger}, Step{"?:B", &origin_speeds}}) {
     for (int attempt = 0; attempt < kTries && !is_data(*step.answer); ++attempt) {
       if (connection != connection_) co_return false;
       *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
@@ -147,26 +147,21 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
   if (!controllable || !twice) co_return false;
   if (serial.reply->text != state_.serial_number && guarded(Guard::serial_number_twice)) co_return false;
   for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
-  const auto count = static_cast<std::size_t>(controllable->count());
-  const auto field = [&](const ExchangeResult& answer, int number) -> std::string {
-    const auto& fields = answer.reply->fields;
-    if (fields.size() == kAxisCount) return fields[static_cast<std::size_t>(number - 1)];
-    if (fields.size() != count) return {};
-    std::size_t place = 0;
-    for (const int other : controllable->list()) {
-      if (other == number) break;
-      ++place;
-    }
-    return fields[place];
-  };
+  const auto scales = by_axis(*scale.reply, *controllable), set_speeds = by_axis(*speeds.reply, *controllable),
+             origins = by_axis(*origin_speeds.reply, *controllable),
+             excited = by_axis(*excitation.reply, *controllable);
+  for (const auto* fields : {&scales, &set_speeds, &origins, &excited}) {
+    if (fields->size() != static_cast<std::size_t>(controllable->count())) co_return false;
+  }
   for (const int number : controllable->list()) {
     auto& axis = state_.axis(number);
-    const auto per_pulse = parse_decimal(field(scale, number));
-    const auto speed = parse_speed_setting(field(speeds, number));
+    const auto per_pulse = parse_decimal(scales.at(number));
+    const auto speed = parse_speed_setting(set_speeds.at(number));
     if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
     axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
     note_speeds({{number, *speed}});
-    axis.excited = field(excitation, number) == "1";
+    axis.origin_speeds = parse_speed_setting(origins.at(number));
+    axis.excited = excited.at(number) == "1";
     axis.armed = false;
   }
   const auto positions = co_await read_positions(Lane::question, kGateway, true);

@@ -1,5 +1,5 @@
-// What a lease's holder sets for good, speeds (manual 89) D:), outputs (96) O:) and the trigger (97) to 101) T:): known
-// before, and put back when his lease has ended.
+// What a lease's holder sets for good, speeds (manual 89) D: to 92), 94) B:), outputs (96) O:) and the
+// trigger (97) to 101) T:): known before, and put back when his lease has ended.
 #include <string>
 #include <utility>
 
@@ -20,15 +20,21 @@ std::optional<int> outputs_of(const Command& command) {
 
 }  // namespace
 
-// What the lines set has to be known before, to be set back. Outputs and the trigger only: speeds are those of axes.
+// What the lines set has to be known before, to be set back. Not D:, which learn_speeds() is for.
 Task<Result<void>> Controller::Impl::learn_settings(const std::vector<Command>& commands, std::string caller) {
   Result<void> read;
   for (const Command& command : commands) {
-    const bool outputs = outputs_of(command) && !state_.outputs, trigger = trigger_of(command) && !state_.trigger;
-    for (int attempt = 0; attempt < kReadings && (outputs || trigger); ++attempt) {
-      auto reading = outputs ? read_outputs(caller) : read_trigger(caller);
-      read = co_await std::move(reading);
-      if (read) break;
+    const AxisSet origin = axes_sped({command}, SetsSpeeds::of_origin_return, state_.controllable());
+    for (int attempt = 0; attempt < kReadings; ++attempt) {
+      if (outputs_of(command) && !state_.outputs) {
+        read = co_await read_outputs(caller);
+      } else if (trigger_of(command) && !state_.trigger) {
+        read = co_await read_trigger(caller);
+      } else if (known_origin_speeds(origin).size() != static_cast<std::size_t>(origin.count())) {
+        read = co_await read_origin_speeds(caller);
+      } else {
+        break;
+      }
     }
     if (!read) break;
   }
@@ -38,14 +44,16 @@ Task<Result<void>> Controller::Impl::learn_settings(const std::vector<Command>& 
 // Before it goes out. What is owed to an axis was there before what is set by now.
 void Controller::Impl::remember_settings(const RequestContext& context, const Command& command) {
   if (context.lease == 0 || profile_.settings_at_lease_end == AtLeaseEnd::kept) return;
-  const AxisSet axes = axes_sped({command}, state_.controllable());
+  const AxisSet axes = axes_sped({command}, SetsSpeeds::of_motion, state_.controllable()),
+                origin = axes_sped({command}, SetsSpeeds::of_origin_return, state_.controllable());
   const bool outputs = outputs_of(command).has_value(), trigger = trigger_of(command).has_value();
-  if (axes.empty() && !outputs && !trigger) return;
+  if (axes.empty() && origin.empty() && !outputs && !trigger) return;
   Settings& before = settings_before_[context.lease];
   for (const auto& [axis, speed] : speeds_owed_) {
     if (axes.has(axis)) before.speeds.try_emplace(axis, speed);
   }
   for (const auto& [axis, speed] : known_speeds(axes)) before.speeds.try_emplace(axis, speed);
+  for (const auto& [axis, speed] : known_origin_speeds(origin)) before.origin_speeds.try_emplace(axis, speed);
   if (outputs && !before.outputs) before.outputs = state_.outputs;
   if (trigger && !before.trigger) before.trigger = state_.trigger;
   permission_.settings_changed(context.lease);
@@ -58,6 +66,8 @@ void Controller::Impl::note_setting(const Command& command, const ExchangeResult
   const auto trigger = trigger_of(command);
   if (outputs) state_.outputs = result.accepted() ? outputs : std::nullopt;
   if (trigger) state_.trigger = result.accepted() ? trigger : std::nullopt;
+  const AxisSet origin = axes_sped({command}, SetsSpeeds::of_origin_return, state_.controllable());
+  for (const int axis : origin.list()) state_.axis(axis).origin_speeds.reset();
   if (outputs || trigger) publish_state();
 }
 
@@ -71,6 +81,24 @@ Task<bool> Controller::Impl::set_line_back(Command command, std::string caller) 
   const auto result = co_await pending;
   note_setting(command, result);
   co_return result.accepted();
+}
+
+Task<bool> Controller::Impl::set_origin_speeds_back(Speeds before, std::string caller) {
+  AxisSet changed;
+  for (const auto& [axis, speed] : before) {
+    if (state_.controllable().has(axis) && state_.axis(axis).origin_speeds != speed) changed.add(axis);
+  }
+  if (changed.empty()) co_return true;
+  Arguments arguments;
+  arguments.axes(changed);
+  for (const int axis : changed.list()) {
+    arguments.speeds(before[axis].minimum, before[axis].maximum, before[axis].acceleration_ms);
+  }
+  const bool back = co_await set_line_back(make_command("B:", arguments), std::move(caller));
+  for (const int axis : changed.list()) {
+    if (back) state_.axis(axis).origin_speeds = before[axis];
+  }
+  co_return back;
 }
 
 Task<bool> Controller::Impl::set_outputs_back(std::optional<int> before, std::string caller) {
@@ -91,6 +119,7 @@ Task<bool> Controller::Impl::set_trigger_back(std::optional<Trigger> before, std
 Task<bool> Controller::Impl::set_back_in_turn(EndedLease lease, Settings before) {
   AxisSet axes;
   for (const auto& [axis, speed] : before.speeds) axes.add(axis);
+  for (const auto& [axis, speed] : before.origin_speeds) axes.add(axis);
   if (before.trigger) axes = AxisSet::all();
   if (axes.empty()) co_return true;
   // Fencing tokens are far above any motion's id.
@@ -103,9 +132,11 @@ Task<bool> Controller::Impl::set_back_in_turn(EndedLease lease, Settings before)
   request.caller = "the gateway on behalf of " + lease.who;
   const std::string caller = request.caller;
   const bool speeds = co_await set_back(std::move(before.speeds), std::move(request));
+  const bool origin = co_await set_origin_speeds_back(std::move(before.origin_speeds), caller);
   const bool trigger = co_await set_trigger_back(before.trigger, caller);
   gate_.leave(lease.token);
-  co_return speeds&& trigger;
+  const bool back = speeds && origin && trigger;
+  co_return back;
 }
 
 // The lease has ended and its axes are nobody's yet. A line that is down is waited for.
@@ -138,9 +169,10 @@ Task<void> Controller::Impl::restore_all_settings() {
     co_await pay_speeds(AxisSet::all(), caller);
     bool back = false;
     for (int attempt = 0; attempt < kTriesAtTheEnd && !back; ++attempt) {
+      const bool origin = co_await set_origin_speeds_back(before.origin_speeds, caller);
       const bool outputs = co_await set_outputs_back(before.outputs, caller);
       const bool trigger = co_await set_trigger_back(before.trigger, caller);
-      back = outputs && trigger;
+      back = origin && outputs && trigger;
     }
   }
 }

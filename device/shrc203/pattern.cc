@@ -68,13 +68,24 @@ std::string_view first_letter(std::string_view format) {
 }
 
 tl::unexpected<Problem> out_of_range(const CommandRow& row, const Parameter& parameter, std::string_view value) {
-  const std::string allowed = parameter.kind == Parameter::Kind::choice
-                                  ? fmt::format("one of {}", parameter.choices)
-                                  : fmt::format("{} to {} {}", parameter.minimum, parameter.maximum, parameter.unit);
+  std::string allowed = fmt::format("{} to {} {}", parameter.minimum, parameter.maximum, parameter.unit);
+  if (parameter.kind == Parameter::Kind::choice) allowed = fmt::format("one of {}", parameter.choices);
+  if (parameter.kind == Parameter::Kind::angle)
+    allowed = fmt::format("more than 0, up to {} degrees", parameter.maximum);
   return fail(
       Reason::out_of_range,
       fmt::format("{} takes {} as {} ({}), not \"{}\"", row.name, allowed, parameter.letter, parameter.meaning, value),
       "see `axisctl commands`");
+}
+
+// Exactly, whatever the number of their places.
+bool exceeds(Decimal one, Decimal other) {
+  const auto scaled = [places = std::max(one.decimals, other.decimals)](Decimal decimal) {
+    Wide digits = decimal.digits;
+    for (int i = decimal.decimals; i < places; ++i) digits *= 10;
+    return digits;
+  };
+  return scaled(one) > scaled(other);
 }
 
 Result<void> check_value(const CommandRow& row, const Parameter& parameter, std::string_view value) {
@@ -93,6 +104,12 @@ Result<void> check_value(const CommandRow& row, const Parameter& parameter, std:
     case Parameter::Kind::decimal: {
       const auto number = value.size() <= kDecimalDigitsMax ? parse_decimal(value) : fail(Reason::out_of_range, "");
       if (!number || value.front() == '-' || value.front() == '+') return out_of_range(row, parameter, value);
+      return {};
+    }
+    case Parameter::Kind::angle: {
+      const auto degrees = value.size() <= kDecimalDigitsMax ? parse_decimal(value) : fail(Reason::out_of_range, "");
+      const Decimal most{parameter.maximum, 0};
+      if (!degrees || degrees->digits <= 0 || exceeds(*degrees, most)) return out_of_range(row, parameter, value);
       return {};
     }
     case Parameter::Kind::text:
@@ -121,14 +138,7 @@ Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
     }
     if (letter == "spds") minimum_speed = value;
     if (letter != "spdf" || minimum_speed.empty()) continue;
-    const Decimal lower = *parse_decimal(minimum_speed), upper = *parse_decimal(value);
-    const int decimals = std::max(lower.decimals, upper.decimals);
-    auto scaled = [&](Decimal d) {
-      Wide digits = d.digits;
-      for (int i = d.decimals; i < decimals; ++i) digits *= 10;
-      return digits;
-    };
-    if (scaled(lower) > scaled(upper)) {
+    if (exceeds(*parse_decimal(minimum_speed), *parse_decimal(value))) {
       return fail(
           Reason::out_of_range,
           fmt::format("{}: the minimum speed S {} exceeds the maximum speed F {}", row.name, minimum_speed, value),
@@ -214,22 +224,22 @@ class Decoder {
   Decoder(const CommandRow& row, std::string_view text) : row_(row), text_(text) {}
 
   std::optional<Arguments> run() {
-    if (!read(row_.format, false) || !text_.empty()) return {};
+    if (!read(row_.format) || !text_.empty()) return {};
     return std::move(arguments_);
   }
 
  private:
-  bool read(std::string_view format, bool repeated) {
+  bool read(std::string_view format) {
     while (!format.empty()) {
       if (format.front() == '<') {
         const auto letter = first_letter(format);
-        if (!read_value(*find_parameter(row_, letter), repeated)) return false;
+        if (!read_value(*find_parameter(row_, letter))) return false;
         format.remove_prefix(letter.size() + 2);
       } else if (format.front() == '[') {
         const auto [inner, rest] = split_group(format, '[', ']');
         const auto saved_text = text_;
         const auto saved_arguments = arguments_;
-        if (!read(inner, repeated)) {
+        if (!read(inner)) {
           text_ = saved_text;
           arguments_ = saved_arguments;
         }
@@ -255,13 +265,13 @@ class Decoder {
         if (!text_.starts_with(part.separator)) break;
         text_.remove_prefix(part.separator.size());
       }
-      if (!read(part.once, true)) return false;
+      if (!read(part.once)) return false;
       ++count;
     }
     return count > 0 && (expected == 0 || count == expected);
   }
 
-  bool read_value(const Parameter& parameter, bool repeated) {
+  bool read_value(const Parameter& parameter) {
     std::string_view taken;
     if (parameter.kind == Parameter::Kind::choice) {
       taken = text_.substr(0, choice_length(parameter.choices, text_));
@@ -269,9 +279,8 @@ class Decoder {
         text_.remove_prefix(taken.size());
       } else if (parameter.choices == "+ -") {
         taken = "+";  // "If there is no sign, it will be +" (manual 83), 88)); clients omit it elsewhere too
-      } else if (parameter.letter == "u" && repeated && !text_.empty() && text_.front() >= '0' &&
-                 text_.front() <= '9') {
-        taken = "P";
+      } else if (parameter.letter == "u" && !text_.empty() && text_.front() >= '0' && text_.front() <= '9') {
+        taken = parameter.choices.substr(0, 1);  // pulses: P of a way, F of a speed
       } else {
         return false;
       }
@@ -281,7 +290,7 @@ class Decoder {
     } else {
       std::size_t end = 0;
       while (end < text_.size() && ((text_[end] >= '0' && text_[end] <= '9') ||
-                                    (text_[end] == '.' && parameter.kind == Parameter::Kind::decimal))) {
+                                    (text_[end] == '.' && parameter.kind != Parameter::Kind::integer))) {
         ++end;
       }
       if (end == 0) return false;

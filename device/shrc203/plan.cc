@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/shrc203/arc_lines.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
@@ -123,13 +125,7 @@ Result<void> check_segment(const Segment& segment, const MovePlan& move, AxisSet
     return fail(Reason::invalid_request, "a straight line is relative: the controller knows no absolute one (KP:)",
                 "give the way instead of the target");
   }
-  const auto& first = *state.axis(axes.lowest()).scale;
-  const bool one_scale = std::ranges::all_of(axes.list(), [&](int axis) { return *state.axis(axis).scale == first; });
-  if (!one_scale) {
-    return fail(Reason::invalid_request, "a straight line needs axes whose pulses are equally long (manual 84) KP:)",
-                "move these axes one after the other");
-  }
-  return {};
+  return check_scales(axes, state);
 }
 
 }  // namespace

@@ -131,13 +131,18 @@ Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
   const auto result = co_await ask("?:D", Lane::motion, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:D", result));
-  const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
-  std::size_t place = 0;
-  for (const int number : named.list()) {
-    if (place >= result.reply->fields.size()) break;
-    const auto speed = parse_speed_setting(result.reply->fields[place++]);
-    if (!speed || !state_.controllable().has(number)) continue;
-    note_speeds({{number, *speed}});
+  for (const auto& [axis, field] : by_axis(*result.reply, state_.controllable())) {
+    if (const auto speed = parse_speed_setting(field)) note_speeds({{axis, *speed}});
+  }
+  co_return Result<void>();
+}
+
+Task<Result<void>> Controller::Impl::read_origin_speeds(std::string caller) {
+  const auto result = co_await ask("?:B", Lane::motion, std::move(caller));
+  if (result.problem) co_return tl::unexpected(*result.problem);
+  if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:B", result));
+  for (const auto& [axis, field] : by_axis(*result.reply, state_.controllable())) {
+    state_.axis(axis).origin_speeds = parse_speed_setting(field);
   }
   co_return Result<void>();
 }
@@ -147,11 +152,8 @@ Task<Result<void>> Controller::Impl::read_excitation(std::string caller) {
   const auto result = co_await ask("?:C", Lane::motion, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:C", result));
-  const auto named = result.reply->fields.size() == kAxisCount ? AxisSet::all() : state_.controllable();
-  std::size_t place = 0;
-  for (const int number : named.list()) {
-    if (place >= result.reply->fields.size()) break;
-    state_.axis(number).excited = result.reply->fields[place++] == "1";
+  for (const auto& [axis, field] : by_axis(*result.reply, state_.controllable())) {
+    state_.axis(axis).excited = field == "1";
   }
   publish_state();
   co_return Result<void>();

@@ -36,6 +36,8 @@ std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet contro
 AxisSet interpolation_axes(const Reply& reply, Register reg) {
   const std::size_t place = reg == Register::e || reg == Register::ep ? 1 : 0;
   if (reply.fields.size() <= place || reply.fields[place].size() != 1) return AxisSet::all();
+  // A helix takes axis 3 along (manual 74)).
+  if (place == 1 && reply.fields[0] >= "3") return AxisSet::all();
   return from_command_letter(reply.fields[place][0], AxisSet::all()).value_or(AxisSet::all());
 }
 

@@ -88,7 +88,7 @@ bool is_model(std::string_view line) {
 }
 
 bool is_mode(std::string_view line) {
-  return is_one_of(line, {"HOST", "HOST,PROGRAM", "HOST,MS", "MANUAL", "REMOTE", "TEACHING", "EDIT", "TEST"});
+  return is_one_of(line, {"HOST", "HOST,PROGRAM", "HOST,MS", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
 }
 
 bool is_echo(std::string_view line) {
@@ -143,6 +143,9 @@ bool field_matches(std::string_view spec, std::string_view field) {
   if (spec == "setting") return field == "NS" || is_decimal(without_sign(field));
   if (spec == "decimal") return is_decimal(field);
   if (spec == "speed") return is_speed(field);
+  if (spec == "axis_name") {
+    return field.size() == 1 && ((field[0] >= '1' && field[0] <= '9') || (field[0] >= 'A' && field[0] <= 'Z'));
+  }
   if (spec == "direction") return is_one_of(field, {"+", "-", "NS"});
   if (spec == "config") return is_one_of(field, {"0", "1", "E", "D"});
   if (spec == "hex") {
@@ -227,6 +230,7 @@ std::optional<NumberRange> bare_number_range(const CommandRow& row) {
   if (row.reply.starts_with("decimal")) return NumberRange{0, 999'999'999};
   if (row.reply.starts_with("setting")) return NumberRange{-999'999'999, 999'999'999};
   if (row.reply.starts_with("config")) return NumberRange{0, 1};
+  if (row.reply.starts_with("axis_name")) return NumberRange{1, 9};
   std::string_view spec = row.reply;
   if (spec.ends_with('*')) spec.remove_suffix(1);
   const auto range = parse_range(spec);
@@ -239,6 +243,16 @@ std::optional<Identity> parse_identity(std::string_view line) {
   if (fields.size() != 4 || !std::ranges::none_of(fields, &std::string::empty)) return {};
   if (fields[0].size() < 2 || !all_digits(fields[2]) || !is_version(fields[3])) return {};
   return Identity{fields[0], fields[1], fields[2], fields[3]};
+}
+
+std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable) {
+  const auto named = reply.fields.size() == kAxisCount ? AxisSet::all().list() : controllable.list();
+  std::map<int, std::string> fields;
+  if (named.size() != reply.fields.size()) return fields;
+  for (std::size_t i = 0; i < named.size(); ++i) {
+    if (controllable.has(named[i])) fields[named[i]] = reply.fields[i];
+  }
+  return fields;
 }
 
 std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -38,6 +39,10 @@ struct Identity {
 };
 std::optional<Identity> parse_identity(std::string_view line);  // four fields (manual 1))
 
+// The fields of an answer to a question for all axes, by axis: of the controllable ones, also where the others stay as
+// 0 and D (manual 5)). Nothing where there are as many as neither.
+std::map<int, std::string> by_axis(const Reply& reply, AxisSet controllable);
+
 struct AxisReading {
   bool valid = false;  // the axis is controllable
   std::int64_t pulses = 0;
@@ -48,12 +53,6 @@ struct AxisReading {
 // that leaves invalid axes out.
 std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable);
 
-struct SpeedSetting {
-  std::int64_t minimum, maximum;
-  int acceleration_ms;
-
-  friend bool operator==(const SpeedSetting&, const SpeedSetting&) = default;
-};
 // S100F1000R50. Nothing outside the ranges of manual 89) D:, which only a disturbed line tells.
 std::optional<SpeedSetting> parse_speed_setting(std::string_view field);
 

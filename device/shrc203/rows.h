@@ -8,9 +8,11 @@
 
 namespace axisgate::shrc203::rows {
 
-std::span<const CommandRow> questions();    // what changes nothing
-std::span<const CommandRow> motion();       // what sets axes moving, makes them ready to, or stops them
-std::span<const CommandRow> settings();     // of the controller and its axes
+std::span<const CommandRow> questions();  // what changes nothing
+std::span<const CommandRow> motion();     // what sets axes moving, makes them ready to, or stops them
+std::span<const CommandRow> arcs();       // ... along a curve
+std::span<const CommandRow> settings();   // of the controller and its axes
+std::span<const CommandRow> saved_positions();
 std::span<const CommandRow> other_modes();  // out of HOST and back: modes, dialect, programs, memory switches
 
 using Kind = Parameter::Kind;
@@ -51,6 +53,8 @@ inline constexpr std::array kLineAmountsAndSpeed{kLineAxes,     kSign,         k
 inline constexpr std::array kSpeeds{kAxes, kMinimumSpeed, kMaximumSpeed, kAcceleration};
 inline constexpr std::array kDirections{kAxes, kSign};
 inline constexpr std::array kSpeedsWithUnit{kAxes, kSpeedUnit, kSpeed};
+inline constexpr std::array kAxesAndSpeedUnit{kAxes, kSpeedUnit};
+inline constexpr std::array kAxesAndTime{kAxes, kAcceleration};
 inline constexpr std::array kAxesAndExcitation{kAxes, kExcitation};
 
 constexpr CommandRow question(std::string_view name, std::string_view format, std::string_view description, int section,
@@ -111,10 +115,16 @@ constexpr CommandRow setter(std::string_view name, std::string_view format, std:
   return row;
 }
 
+constexpr CommandRow sets_speeds(SetsSpeeds which, CommandRow row) {
+  row.sets_speeds = which;
+  return row;
+}
+
 // A prebuffer setter may also answer OK_D, is accepted while the stage moves, and lets completions follow the G.
 constexpr CommandRow prebuffer(CommandRow row) {
   row.reply = "OK|OK_D";
   row.completes = true;
+  row.sets_speeds = SetsSpeeds::of_motion;
   return row;
 }
 

@@ -36,6 +36,14 @@ Controller::Impl::Speeds Controller::Impl::known_speeds(AxisSet axes) const {
   return speeds;
 }
 
+Controller::Impl::Speeds Controller::Impl::known_origin_speeds(AxisSet axes) const {
+  Speeds speeds;
+  for (const int number : axes.list()) {
+    if (const auto& known = state_.axis(number).origin_speeds) speeds[number] = *known;
+  }
+  return speeds;
+}
+
 void Controller::Impl::forget_speeds(AxisSet axes) {
   for (const int axis : axes.list()) state_.axis(axis).minimum_speed = state_.axis(axis).maximum_speed = std::nullopt;
 }

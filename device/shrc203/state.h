@@ -33,6 +33,14 @@ struct AxisStatusBits {
   bool ccw_limit() const { return bit(21); }
 };
 
+// S and F in pulses/s, 1 to 1,000,000, and R in ms, 1 to 1,000 (manual 89), 94)).
+struct SpeedSetting {
+  std::int64_t minimum, maximum;
+  int acceleration_ms;
+
+  friend bool operator==(const SpeedSetting&, const SpeedSetting&) = default;
+};
+
 struct AxisState {
   bool controllable = false;
   std::optional<std::int64_t> position_pulses;  // command counter, as last read
@@ -45,6 +53,7 @@ struct AxisState {
   std::optional<Scale> scale;
   std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses per second, as last read or set
   std::optional<int> acceleration_ms;                        // R
+  std::optional<SpeedSetting> origin_speeds;                 // of the mechanical origin return, likewise
 };
 
 struct State {

@@ -36,7 +36,7 @@ Result<void> check_modes(const std::vector<Command>& commands) {
       return fail(Reason::invalid_request, fmt::format("{} moves, in lines that lead out of HOST", row.name),
                   "send the motion by itself, before or after them");
     }
-    if ((row.name == "FMT:" || row.name == "MODE:") && &command != &commands.back()) {
+    if ((row.name == "FMT:" || row.name == "MODE:" || row.restarts) && &command != &commands.back()) {
       return fail(Reason::invalid_request, fmt::format("nothing can follow {}", command.line), "make it the last line");
     }
     const bool question = row.effect == Effect::question && (row.name.starts_with("?:") || row.name == "*IDN?");
@@ -75,6 +75,10 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
                 "send R:, RC: or PSET: by itself, and the motion after it");
   }
   if (const auto good = check_modes(commands); !good) return good;
+  if (commands.size() > 1 && any([](const Command& c) { return destination_question(c).has_value(); })) {
+    return fail(Reason::invalid_request,
+                "a motion to a saved position stands alone, since the lines before may change it", "send it by itself");
+  }
   bool set = false;
   for (const Command& command : commands) {
     const auto& row = *command.row;
@@ -108,6 +112,8 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
   return {};
 }
 
+}  // namespace
+
 Unit unit_of(std::string_view letter) {
   if (letter == "N") return Unit::nanometers;
   if (letter == "U") return Unit::micrometers;
@@ -115,8 +121,6 @@ Unit unit_of(std::string_view letter) {
   if (letter == "D") return Unit::degrees;
   return Unit::pulses;
 }
-
-}  // namespace
 
 Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) {
   std::vector<Command> commands;
@@ -166,11 +170,14 @@ AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable) {
 }
 
 bool completes(const std::vector<Command>& commands) {
-  return std::ranges::any_of(commands, [](const Command& command) {
-    return command.row->completes &&
-           (command.row->effect == Effect::motion_setting || command.row->scope == CommandScope::axes) &&
-           !command.row->name.starts_with("G");
-  });
+  return std::ranges::any_of(
+      commands, [](const Command& command) { return command.row->completes && !command.row->name.starts_with("G"); });
+}
+
+std::optional<Command> destination_question(const Command& command) {
+  const bool place = command.row->name.starts_with("PIT:G"), coordinates = command.row->name.starts_with("PAV:G");
+  if (!command.row->moves() || (!place && !coordinates)) return {};
+  return make_command(place ? "PIT:GET" : "PAV:GET", Arguments().add("n", *command.arguments.first("n")));
 }
 
 std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
@@ -195,19 +202,23 @@ std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable) 
   const auto axes = command.axes(controllable).list();
   for (const auto& [letter, value] : command.arguments.values()) {
     if (letter == "u") units.push_back(unit_of(value));
-    if (letter == "spds" && speeds.size() < axes.size()) {
-      const Unit unit = speeds.size() < units.size() ? units[speeds.size()] : Unit::pulses;
-      speeds.push_back({axes[speeds.size()], {*parse_decimal(value), unit}, {{}, unit}});
-    }
-    if (letter == "spdf" && !speeds.empty()) speeds.back().maximum.value = *parse_decimal(value);
+    const bool first = letter == "spds" || letter == "spd";
+    if (first && speeds.size() < axes.size()) speeds.push_back({axes[speeds.size()], {}, {}});
+    if (speeds.empty() || (!first && letter != "spdf")) continue;
+    const std::size_t place = speeds.size() - 1;
+    const Quantity speed{*parse_decimal(value), place < units.size() ? units[place] : Unit::pulses};
+    const bool maximum = letter == "spdf" || (letter == "spd" && command.row->name == "DF:");
+    (maximum ? speeds.back().maximum : speeds.back().minimum) = speed;
   }
   return speeds;
 }
 
-AxisSet axes_sped(const std::vector<Command>& commands, AxisSet controllable) {
+AxisSet axes_sped(const std::vector<Command>& commands, SetsSpeeds which, AxisSet controllable) {
   AxisSet axes;
   for (const Command& command : commands) {
-    if (!speeds_of(command, AxisSet::all()).empty()) axes = axes | command.axes(controllable);
+    if (command.row->sets_speeds != which) continue;
+    const bool setting = command.row->effect == Effect::setting;
+    if (setting || command.arguments.first("spds")) axes = axes | command.axes(controllable);
   }
   return axes;
 }

@@ -1,6 +1,7 @@
 // What the lines of a caller's transaction come to, before and after they are sent.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -30,18 +31,24 @@ AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable);
 // Whether axis numbers follow.
 bool completes(const std::vector<Command>& commands);
 
+// Of a letter u.
+Unit unit_of(std::string_view letter);
+
+// The question where a line leads that goes to a saved position (manual 130), 131), 135), 136)); nothing for any other.
+std::optional<Command> destination_question(const Command& command);
+
 // The ways or targets that a setter names, as a request of ours, for the same checks of travel.
 std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable);
 
 struct AxisSpeeds {
   int axis = 0;
-  Quantity minimum, maximum;  // S and F, per second
+  std::optional<Quantity> minimum, maximum;  // S and F, per second
 };
-// The speeds that a line sets: of each axis, or of a straight line's lower one (manual 68), 84), 89)).
+// The speeds that a line names: of each axis, or of a straight line's lower one (manual 68), 84), 89) to 91), 94)).
 std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable);
 
-// The axes that get speeds of their own.
-AxisSet axes_sped(const std::vector<Command>& commands, AxisSet controllable);
+// The axes whose speeds of that kind they set for good.
+AxisSet axes_sped(const std::vector<Command>& commands, SetsSpeeds which, AxisSet controllable);
 
 // The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
 Command as_sent(const Command& command);

@@ -159,5 +159,33 @@ TEST(Codec, ArgumentsThatDoNotFit) {
   EXPECT_EQ(reason(command_row("K:"), Arguments().axes(AxisSet::of(1)).pulses(1)), Reason::out_of_range);
 }
 
+// As the manual's own cells have them (manual 71), 77), 78), 90)): without a sign, or a unit.
+TEST(Codec, LooseFormsOfArcsAndSpeeds) {
+  EXPECT_EQ(parse_command("E:0A0M0.05-M0.05")->line, "E:0A0+M0.05-M0.05");
+  EXPECT_EQ(parse_command("EP:0A0M0.05-M0.05,S0.5F5R50")->line, "EP:0A0+M0.05-M0.05,S0.5F5R50");
+  EXPECT_EQ(parse_command("EP:1B0+P100-200D90,S100F1000R50")->line, "EP:1B0+P100-P200D90,S100F1000R50");
+  EXPECT_EQ(parse_command("E:0A0100-200")->line, "E:0A0+P100-P200");
+  EXPECT_EQ(parse_command("DS:A100 200").has_value(), false);
+  EXPECT_EQ(parse_command("DS:2100")->line, "DS:2F100");
+}
+
+// More than 0 and up to 360, with or without a fraction, whatever the units beside it (manual 72)).
+TEST(Codec, AnglesHaveTheirOwnRange) {
+  EXPECT_EQ(parse_command("E:1A0+P100-P200D22.5")->line, "E:1A0+P100-P200D22.5");
+  EXPECT_EQ(parse_command("E:1A0+M1-M2D360")->line, "E:1A0+M1-M2D360");
+  for (const char* line :
+       {"E:1A0+P100-P200D0", "E:1A0+M1-M2D0.0", "E:1A0+M1-M2D360.01", "E:1A0+P1-P2D361", "E:4A0+P1-P2D360000.5+P1"}) {
+    ASSERT_FALSE(parse_command(line)) << line;
+    EXPECT_EQ(parse_command(line).error().reason, Reason::out_of_range) << line;
+  }
+}
+
+// A helix takes axis 3 along (manual 74)), and the a of T:T is a time (97)).
+TEST(Codec, AxesThatALetterDoesNotName) {
+  EXPECT_EQ(parse_command("E:3A0N2+P1-P2+P3")->axes(AxisSet::all()), AxisSet::all());
+  EXPECT_EQ(parse_command("E:0A0+P1-P2")->axes(AxisSet::all()).count(), 2);
+  EXPECT_EQ(parse_command("T:T100")->axes(AxisSet::all()), AxisSet::all());
+}
+
 }  // namespace
 }  // namespace axisgate::shrc203
