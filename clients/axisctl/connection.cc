@@ -77,7 +77,8 @@ Connection::Connection(const Target& target)
       commands(v1::CommandService::NewStub(channel_)),
       diagnostics(v1::DiagnosticsService::NewStub(channel_)),
       control(v1::ControlService::NewStub(channel_)),
-      access(v1::AccessService::NewStub(channel_)) {}
+      access(v1::AccessService::NewStub(channel_)),
+      settings(v1::SettingService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;

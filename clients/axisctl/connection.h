@@ -13,6 +13,7 @@
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
+#include "axisgate/v1/settings.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "clients/axisctl/options.h"
 
@@ -59,6 +60,7 @@ class Connection {
   const std::unique_ptr<v1::DiagnosticsService::Stub> diagnostics;
   const std::unique_ptr<v1::ControlService::Stub> control;
   const std::unique_ptr<v1::AccessService::Stub> access;
+  const std::unique_ptr<v1::SettingService::Stub> settings;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

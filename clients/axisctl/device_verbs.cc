@@ -12,8 +12,6 @@
 namespace axisgate::axisctl {
 namespace {
 
-constexpr int kOutputs = 6;  // OUT1 to OUT6 (manual 96))
-
 v1::Device read_now(const Session& session, const std::string& name) {
   v1::GetDeviceRequest request;
   request.set_name(name);
@@ -45,34 +43,6 @@ std::string axis_text(const v1::Axis& axis) {
                      speed_text(axis));
 }
 
-std::string outputs_text(const v1::Device& device) {
-  if (!device.has_outputs()) return "?";
-  std::string on;
-  for (int output = 1; output <= kOutputs; ++output) {
-    if (((device.outputs() >> (output - 1)) & 1) != 0) on += fmt::format("{}OUT{}", on.empty() ? "" : " ", output);
-  }
-  return on.empty() ? "none" : on;
-}
-
-std::string trigger_text(const v1::Device& device) {
-  if (!device.has_trigger()) return "?";
-  const v1::Trigger& trigger = device.trigger();
-  switch (trigger.target()) {
-    case v1::Trigger::TARGET_NONE:
-      return "none";
-    case v1::Trigger::TARGET_TIMER:
-      return fmt::format("every {:.2f} s", static_cast<double>(trigger.interval()) / 100);
-    case v1::Trigger::TARGET_DRIVE_PULSES:
-      return fmt::format("every {} drive pulses of axis {}", trigger.interval(), trigger.axis());
-    case v1::Trigger::TARGET_SCALE_PLUS:
-      return fmt::format("every {} scale pulses of axis {} in direction +", trigger.interval(), trigger.axis());
-    case v1::Trigger::TARGET_SCALE_MINUS:
-      return fmt::format("every {} scale pulses of axis {} in direction -", trigger.interval(), trigger.axis());
-    default:
-      return "?";
-  }
-}
-
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
   if (device.device_epoch() == 0) {
@@ -83,7 +53,8 @@ void print_status(const v1::Device& device) {
                          device.model(), device.firmware(), device.serial_number(), device.mode(), device.format(),
                          device.device_epoch()));
   for (const v1::Axis& axis : device.axes()) print_line(axis_text(axis));
-  print_line(fmt::format("outputs {}  trigger {}", outputs_text(device), trigger_text(device)));
+  print_line(fmt::format("outputs {}  trigger {}", device.has_outputs() ? pins_text(device.outputs(), "OUT") : "?",
+                         device.has_trigger() ? trigger_text(device.trigger()) : "?"));
   for (const v1::Axis& axis : device.axes()) {
     if (axis.armed()) print_line(fmt::format("ARMED: the inputs may start axis {}", axis.number()));
     if (axis.foreign_motion())

@@ -49,7 +49,9 @@ v1::Lease acquire(const Session& session, const v1::Device& device, const v1::Le
   try {
     return ask(kQuestionLimit);
   } catch (const Failure& held) {
-    if (held.reason != "LEASE_HELD" || !session.options.wait_s) throw;
+    // Nobody may hold them, and something that was started without a lease moves yet.
+    const bool later = held.reason == "LEASE_HELD" || held.reason == "DEADLINE_PASSED";
+    if (!later || !session.options.wait_s) throw;
     print_note(held.message + "; waiting");
   }
   const std::chrono::seconds wait{*session.options.wait_s};

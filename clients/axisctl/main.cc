@@ -1,4 +1,7 @@
 // axisctl: the command line of axisgated.
+#include <cstddef>
+#include <iterator>
+
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/options.h"
 #include "clients/axisctl/print.h"
@@ -7,59 +10,72 @@
 namespace axisgate::axisctl {
 namespace {
 
+struct Row {
+  Verb verb;
+  int (*run)(const Session&);
+  bool waits = false;  // --wait
+};
+
+constexpr Row kRows[] = {
+    {Verb::devices, devices},
+    {Verb::status, status},
+    {Verb::position, position},
+    {Verb::home, home, true},
+    {Verb::move, move, true},
+    {Verb::path, path, true},
+    {Verb::jog, jog, true},
+    {Verb::stop, stop},
+    {Verb::estop, emergency_stop},
+    {Verb::clear, clear},
+    {Verb::exec, execute},
+    {Verb::watch, watch},
+    {Verb::commands, commands},
+    {Verb::record, record},
+    {Verb::replay, replay},
+    {Verb::support, support},
+    {Verb::lease_run, lease_run},
+    {Verb::lease_list, lease_list},
+    {Verb::lease_hand_over, lease_hand_over},
+    {Verb::rearm, rearm},
+    {Verb::who_am_i, who_am_i},
+    {Verb::token_create, token_create},
+    {Verb::token_list, token_list},
+    {Verb::token_revoke, token_revoke},
+    {Verb::settings, show_settings},
+    {Verb::speed, speeds},
+    {Verb::motor, switch_motor, true},
+    {Verb::loop, change_loop, true},
+    {Verb::divisions, change_divisions, true},
+    {Verb::settle, change_settling, true},
+    {Verb::sleep, sleep_controller, true},
+    {Verb::wake, wake_controller, true},
+    {Verb::display, switch_display, true},
+    {Verb::beep, switch_beep, true},
+    {Verb::mode, change_mode, true},
+    {Verb::dialect, change_dialect, true},
+    {Verb::reset, reset_controller},
+    {Verb::zero, set_origin, true},
+    {Verb::unzero, unset_origin, true},
+    {Verb::preset, preset_coordinates, true},
+    {Verb::outputs, outputs},
+    {Verb::inputs, inputs},
+    {Verb::trigger_every, trigger_every},
+    {Verb::trigger_off, trigger_off},
+    {Verb::trigger_fire, trigger_fire, true},
+};
+
+constexpr bool in_order() {
+  for (std::size_t index = 0; index < std::size(kRows); ++index) {
+    if (kRows[index].verb != static_cast<Verb>(index)) return false;
+  }
+  return true;
+}
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::trigger_fire) + 1);
+
 int run(const Options& options) {
   const Session session{options, Connection(options.target)};
-  switch (options.verb) {
-    case Verb::devices:
-      return devices(session);
-    case Verb::status:
-      return status(session);
-    case Verb::position:
-      return position(session);
-    case Verb::home:
-      return with_lease(session, home);
-    case Verb::move:
-      return with_lease(session, move);
-    case Verb::path:
-      return with_lease(session, path);
-    case Verb::jog:
-      return with_lease(session, jog);
-    case Verb::stop:
-      return stop(session);
-    case Verb::estop:
-      return emergency_stop(session);
-    case Verb::clear:
-      return clear(session);
-    case Verb::exec:
-      return execute(session);
-    case Verb::watch:
-      return watch(session);
-    case Verb::commands:
-      return commands(session);
-    case Verb::record:
-      return record(session);
-    case Verb::replay:
-      return replay(session);
-    case Verb::support:
-      return support(session);
-    case Verb::lease_run:
-      return lease_run(session);
-    case Verb::lease_list:
-      return lease_list(session);
-    case Verb::lease_hand_over:
-      return lease_hand_over(session);
-    case Verb::rearm:
-      return rearm(session);
-    case Verb::who_am_i:
-      return who_am_i(session);
-    case Verb::token_create:
-      return token_create(session);
-    case Verb::token_list:
-      return token_list(session);
-    case Verb::token_revoke:
-      return token_revoke(session);
-  }
-  return kUsage;
+  const Row& row = kRows[static_cast<std::size_t>(options.verb)];
+  return row.waits ? with_lease(session, row.run) : row.run(session);
 }
 
 }  // namespace

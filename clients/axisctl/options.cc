@@ -6,22 +6,14 @@
 #include <utility>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/help_topics.h"
 #include "clients/axisctl/print.h"
 #include "server/default_socket.h"
 
 namespace axisgate::axisctl {
 namespace {
 
-constexpr const char* kFooter = R"(
-Amounts have a unit: pulse, nm, um, mm, deg; without one they are in the axis's own. AXIS is a number or the
-axis's configured name. Examples:
-  axisctl move 1=+5mm 2=-200um --relative
-  axisctl path square.txt              one segment a line: 1=1mm 2=-500um speed=2mm/s   # comment
-  axisctl jog 1=+ --speed 1mm/s        until Ctrl-C
-  axisctl exec 'M:1+P1000' 'G:1'       one transaction
-  axisctl --json watch --from 1
-  axisctl lease run --purpose 'scan of sample 12' -- python3 scan.py
-  axisctl record --output stage.recording      then: axisctl replay stage.recording
+constexpr const char* kExitCodes = R"(
 
 Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; a replay differs; 2 wrong usage; 3 refused (bad
 request or the device's state); 4 unavailable (no daemon, or the line is down); 5 deadline passed.
@@ -53,6 +45,7 @@ void add_axes(CLI::App& verb, Options& options) {
 CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
   CLI::App* added = app.add_subcommand(name, description);
   added->fallthrough();
+  added->footer(help_text(name));
   added->callback([&options, verb] { options.verb = verb; });
   return added;
 }
@@ -134,6 +127,7 @@ void add_lease_verbs(CLI::App& app, Options& options) {
   CLI::App* lease = app.add_subcommand("lease", "who may move what: run, list, hand-over");
   lease->require_subcommand(1);
   lease->fallthrough();
+  lease->footer(help_text("lease"));
   CLI::App* run = add_verb(*lease, options, Verb::lease_run, "run",
                            "run a command, a shell for instance, that alone may move the axes");
   run->add_option("--axes", options.axes, "numbers or names; none: the whole device")
@@ -161,6 +155,7 @@ void add_access_verbs(CLI::App& app, Options& options) {
   CLI::App* token = app.add_subcommand("token", "for administrators: create, list, revoke");
   token->require_subcommand(1);
   token->fallthrough();
+  token->footer(help_text("token"));
   CLI::App* create = add_verb(*token, options, Verb::token_create, "create",
                               "make a token and print it; its caller puts it into AXISGATE_TOKEN");
   create->add_option("NAME", options.name, "shown as who calls, as 'token night-scan'")->required()->type_name("");
@@ -174,6 +169,102 @@ void add_access_verbs(CLI::App& app, Options& options) {
   add_verb(*token, options, Verb::token_list, "list", "the tokens, with role and expiry");
   CLI::App* revoke = add_verb(*token, options, Verb::token_revoke, "revoke", "no call with it is taken any more");
   revoke->add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
+}
+
+void add_several_axes(CLI::App& verb, Options& options) {
+  verb.add_option("AXES", options.axes, "numbers or names, as 1,2")
+      ->required()
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("");
+}
+
+// One word of these, in either case.
+void add_value(CLI::App& verb, Options& options, const char* name, std::vector<std::string> values) {
+  verb.add_option(name, options.value)
+      ->required()
+      ->check(CLI::IsMember(std::move(values), CLI::ignore_case))
+      ->type_name("");
+}
+
+CLI::App* add_change(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
+  CLI::App* added = add_verb(app, options, verb, name, description);
+  add_wait(*added, options);
+  return added;
+}
+
+// What `speed`, `outputs` and `trigger` set ends with the lease under which it was set, so that they have no --wait.
+void add_axis_settings(CLI::App& app, Options& options) {
+  CLI::App* speed = add_verb(app, options, Verb::speed, "speed", "show or set the speeds of axes");
+  add_axes(*speed, options);
+  speed->add_option("--minimum", options.minimum, "at which a motion begins and ends, as 10um")->type_name("SPEED");
+  speed->add_option("--maximum", options.maximum, "as 1mm")->type_name("SPEED");
+  speed->add_option("--acceleration", options.acceleration_ms, "time from the lowest to the highest speed")
+      ->check(CLI::Range(1, 1000))
+      ->type_name("MS");
+  speed->add_flag("--origin-return", options.origin_return, "those of the mechanical origin return");
+
+  CLI::App* motor = add_change(app, options, Verb::motor, "motor", "switch the motors' current");
+  add_several_axes(*motor, options);
+  add_value(*motor, options, "SWITCH", {"on", "off"});
+  CLI::App* loop = add_change(app, options, Verb::loop, "loop", "closed or open: whether the scale holds the axes");
+  add_several_axes(*loop, options);
+  add_value(*loop, options, "LOOP", {"closed", "open"});
+  CLI::App* divisions = add_change(app, options, Verb::divisions, "divisions", "of the motor driver: what a pulse is");
+  divisions->add_option("AXIS", options.axes)->required()->expected(1)->allow_extra_args(false)->type_name("");
+  divisions->add_option("NUMBER", options.divisions, "1 to 8000, as 200")->required()->type_name("");
+  add_axes(*add_change(app, options, Verb::zero, "zero", "call the place where axes stand 0"), options);
+  add_axes(*add_change(app, options, Verb::unzero, "unzero", "take `zero` back"), options);
+  add_change(app, options, Verb::preset, "preset", "give the place where axes stand a coordinate")
+      ->add_option("AXIS=AMOUNT", options.places, "as 1=5mm")
+      ->required()
+      ->type_name("");
+}
+
+void add_controller_settings(CLI::App& app, Options& options) {
+  add_verb(app, options, Verb::settings, "settings", "everything that is set");
+  add_change(app, options, Verb::settle, "settle", "wait between the end of a motion and READY")
+      ->add_option("SECONDS", options.value, "0 to 255, in steps of 0.1")
+      ->required()
+      ->type_name("");
+  add_change(app, options, Verb::sleep, "sleep", "motors off, until `wake`");
+  add_change(app, options, Verb::wake, "wake", "motors on again: stages go back to their places");
+  add_value(*add_change(app, options, Verb::display, "display", "the lights of the display"), options, "SWITCH",
+            {"on", "off"});
+  add_value(*add_change(app, options, Verb::beep, "beep", "the controller's beep"), options, "SWITCH", {"on", "off"});
+  add_value(*add_change(app, options, Verb::mode, "mode", "for administrators: change the operation mode"), options,
+            "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
+  add_value(*add_change(app, options, Verb::dialect, "dialect", "for administrators: the controller's language"),
+            options, "DIALECT", {"SHOT_FC", "HIT"});
+  add_verb(app, options, Verb::reset, "reset", "for administrators: restart the controller");
+}
+
+void add_signals(CLI::App& app, Options& options) {
+  CLI::App* outputs = add_verb(app, options, Verb::outputs, "outputs", "show or switch OUT1 to OUT6");
+  outputs->add_option("SWITCH", options.value, "none: all off")
+      ->check(CLI::IsMember({"on", "off", "none"}))
+      ->type_name("");
+  outputs->add_option("OUT", options.outputs, "1 to 6; others stay")
+      ->delimiter(',')
+      ->check(CLI::Range(1, 6))
+      ->type_name("");
+  add_verb(app, options, Verb::inputs, "inputs", "show IN1 to IN6");
+  CLI::App* trigger = app.add_subcommand("trigger", "the trigger output: every, off, fire");
+  trigger->require_subcommand(1);
+  trigger->fallthrough();
+  trigger->footer(help_text("trigger"));
+  CLI::App* every =
+      add_verb(*trigger, options, Verb::trigger_every, "every", "a pulse every so many pulses, or so often");
+  every->add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, as 1000; or a time, as 0.2s")
+      ->required()
+      ->type_name("");
+  CLI::Option* axis = every->add_option("--axis", options.axis, "whose pulses are counted")->type_name("AXIS");
+  every->add_option("--scale", options.scale, "pulses of its scale in this direction, instead of drive pulses")
+      ->check(CLI::IsMember({"+", "-"}))
+      ->needs(axis)
+      ->type_name("+|-");
+  add_verb(*trigger, options, Verb::trigger_off, "off", "no more pulses");
+  add_change(*trigger, options, Verb::trigger_fire, "fire", "one pulse now");
 }
 
 void add_target(CLI::App& app, Target& target) {
@@ -207,19 +298,29 @@ std::string resource(const std::string& device) {
   return device.empty() || device.rfind(prefix, 0) == 0 ? device : std::string(prefix) + device;
 }
 
-int show_help(CLI::App& app, const std::string& verb) {
+int list_examples() {
+  for (const HelpTopic& topic : help_topics()) print_line(topic.examples);
+  return kDone;
+}
+
+int show_help(CLI::App& app, const std::string& topic) {
   app.clear();  // or CLI11 would show the help of the verb `help`
-  if (verb.empty()) {
+  if (topic.empty()) {
     print_line(app.help());
     return kDone;
   }
   try {
-    print_line(app.get_subcommand(verb)->help("axisctl"));
+    print_line(app.get_subcommand(topic)->help("axisctl"));
     return kDone;
   } catch (const CLI::OptionNotFound&) {
-    print_failure(usage("there is no verb \"" + verb + '"', "axisctl help lists them"));
-    return kUsage;
   }
+  const std::string text = help_text(topic);
+  if (!text.empty()) {
+    print_line(text);
+    return kDone;
+  }
+  print_failure(usage("there is no verb and no topic \"" + topic + '"', "axisctl help lists them"));
+  return kUsage;
 }
 
 int refuse(const CLI::App& app, const CLI::ParseError& error) {
@@ -236,7 +337,8 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
 
 std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   Options options;
-  std::string help_verb;
+  std::string help_topic;
+  bool examples = false;
   CLI::App app{"Moves stages and watches them through axisgated.", "axisctl"};
   app.require_subcommand(1);
   add_target(app, options.target);
@@ -251,9 +353,13 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_lease_verbs(app, options);
   add_access_verbs(app, options);
   add_recording_verbs(app, options);
-  CLI::App* help = app.add_subcommand("help", "this, or about one verb");
-  help->add_option("VERB", help_verb)->type_name("");
-  app.footer(kFooter);  // last, or every verb's help would repeat it
+  add_controller_settings(app, options);
+  add_axis_settings(app, options);
+  add_signals(app, options);
+  CLI::App* help = app.add_subcommand("help", "this, or about one verb, or: units, leases, settings, triggers");
+  help->add_option("TOPIC", help_topic)->type_name("");
+  help->add_flag("--list-examples", examples)->group("");
+  app.footer(help_text("") + kExitCodes);  // last, or every verb's help would repeat it
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp& call) {
@@ -261,7 +367,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return refuse(app, error);
   }
-  if (help->parsed()) return show_help(app, help_verb);
+  if (help->parsed()) return examples ? list_examples() : show_help(app, help_topic);
   if (options.json && writes_text_only(options.verb)) {
     print_failure(usage("this verb writes a text that has no other form", "leave out --json"));
     return kUsage;

@@ -33,7 +33,28 @@ enum class Verb {
   who_am_i,
   token_create,
   token_list,
-  token_revoke
+  token_revoke,
+  settings,
+  speed,
+  motor,
+  loop,
+  divisions,
+  settle,
+  sleep,
+  wake,
+  display,
+  beep,
+  mode,
+  dialect,
+  reset,
+  zero,
+  unzero,
+  preset,
+  outputs,
+  inputs,
+  trigger_every,
+  trigger_off,
+  trigger_fire
 };
 
 // The way to the daemon.
@@ -51,21 +72,28 @@ struct Options {
   bool json = false;
   Verb verb = Verb::devices;
 
-  std::vector<std::string> axes;               // home, stop, clear: numbers or names
-  std::vector<std::string> places;             // move: "1=+5mm"; jog: "1=+"
-  std::vector<std::string> lines;              // exec; lease run: the command and its arguments
-  std::string file;                            // path, replay; "-" is the standard input
-  std::string output;                          // record, support: a file; empty: as the verb does by itself
-  std::string command;                         // commands: one row only
-  std::string speed;                           // move, path, jog; empty: as the axis is set, jog: its lowest
-  int acceleration_ms = 0;                     // move, path; 0: as the axis is set
-  bool relative = false;                       // move
-  bool absolute = false;                       // path
-  bool logical = false;                        // home
-  bool no_wait = false;                        // home, move, path
-  bool no_follow = false;                      // record
-  bool only_new = false;                       // record
-  std::optional<int> seconds;                  // record, jog
+  std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names
+  std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
+  std::vector<std::string> lines;   // exec; lease run: the command and its arguments
+  std::string file;                 // path, replay; "-" is the standard input
+  std::string output;               // record, support: a file; empty: as the verb does by itself
+  std::string command;              // commands: one row only
+  std::string speed;                // move, path, jog; empty: as the axis is set, jog: its lowest
+  int acceleration_ms = 0;          // move, path, speed; 0: as the axis is set
+  std::string minimum, maximum;     // speed; empty: as the axis is set
+  bool origin_return = false;       // speed: those of the origin return
+  std::string value;                // motor, loop, settle, display, beep, mode, dialect, outputs: the new one
+  int divisions = 0;                // divisions
+  std::vector<int> outputs;         // outputs: those to be switched
+  std::string interval;             // trigger every
+  std::string axis, scale;          // trigger every: whose pulses, and the scale's in direction "+" or "-"
+  bool relative = false;            // move
+  bool absolute = false;            // path
+  bool logical = false;             // home
+  bool no_wait = false;             // home, move, path
+  bool no_follow = false;           // record
+  bool only_new = false;            // record
+  std::optional<int> seconds;       // record, jog
   std::optional<std::uint64_t> from_revision;  // watch
   std::optional<int> wait_s;                   // home, move, path, jog, lease run: for a lease that another holds
   bool take_over = false;                      // lease run

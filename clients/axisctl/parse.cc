@@ -160,6 +160,14 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
   return jog;
 }
 
+std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std::int64_t most) {
+  const Result<Decimal> value = parse_decimal(text);
+  if (!value || value->decimals > decimals || value->digits < 0) return std::nullopt;
+  std::int64_t steps = value->digits;
+  for (int decimal = value->decimals; decimal < decimals && steps <= most; ++decimal) steps *= 10;
+  return steps <= most ? std::optional(steps) : std::nullopt;
+}
+
 std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions& options, std::istream& input,
                                     const std::string& file_name) {
   std::vector<v1::Segment> segments;

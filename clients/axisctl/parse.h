@@ -2,7 +2,9 @@
 // there.
 #pragma once
 
+#include <cstdint>
 #include <istream>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -32,6 +34,9 @@ v1::AxisDistance parse_place(const v1::Device& device, std::string_view text);
 
 // "1=+", "1=-": a way to run, without a speed.
 v1::AxisJog parse_direction(const v1::Device& device, std::string_view text);
+
+// "0.2" with one decimal: 2 steps of 0.1. Nothing where it is no whole number of them, or not from 0 to `most`.
+std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std::int64_t most);
 
 struct PathOptions {
   std::string speed;  // for the lines that name none; empty: as the axes are set

@@ -132,6 +132,50 @@ std::string position_text(const v1::Axis& axis, std::int64_t pulses) {
   return fmt::format("{} pulse", pulses);
 }
 
+std::string speed_text(const v1::Speed& speed) {
+  switch (speed.amount_case()) {
+    case v1::Speed::kPulsesPerS:
+      return fmt::format("{} pulse/s", speed.pulses_per_s());
+    case v1::Speed::kNmPerS:
+      return speed.nm_per_s() + " nm/s";
+    case v1::Speed::kUmPerS:
+      return speed.um_per_s() + " um/s";
+    case v1::Speed::kMmPerS:
+      return speed.mm_per_s() + " mm/s";
+    case v1::Speed::kDegreesPerS:
+      return speed.degrees_per_s() + " deg/s";
+    case v1::Speed::AMOUNT_NOT_SET:
+      break;
+  }
+  return "?";
+}
+
+std::string pins_text(int bits, std::string_view name) {
+  constexpr int pins = 6;  // manual 95), 96)
+  std::string on;
+  for (int pin = 1; pin <= pins; ++pin) {
+    if (((bits >> (pin - 1)) & 1) != 0) on += fmt::format("{}{}{}", on.empty() ? "" : " ", name, pin);
+  }
+  return on.empty() ? "none" : on;
+}
+
+std::string trigger_text(const v1::Trigger& trigger) {
+  switch (trigger.target()) {
+    case v1::Trigger::TARGET_NONE:
+      return "none";
+    case v1::Trigger::TARGET_TIMER:
+      return fmt::format("every {} s", to_string(Decimal{trigger.interval(), 2}));
+    case v1::Trigger::TARGET_DRIVE_PULSES:
+      return fmt::format("every {} drive pulses of axis {}", trigger.interval(), trigger.axis());
+    case v1::Trigger::TARGET_SCALE_PLUS:
+      return fmt::format("every {} scale pulses of axis {} in direction +", trigger.interval(), trigger.axis());
+    case v1::Trigger::TARGET_SCALE_MINUS:
+      return fmt::format("every {} scale pulses of axis {} in direction -", trigger.interval(), trigger.axis());
+    default:
+      return "?";
+  }
+}
+
 std::string positions_text(const v1::Device& device) {
   std::vector<std::string> parts;
   for (const v1::Axis& axis : device.axes()) {

@@ -36,6 +36,15 @@ Unit core_unit(v1::Unit unit);
 std::string position_text(const v1::Axis& axis);
 std::string position_text(const v1::Axis& axis, std::int64_t pulses);
 
+// "50000 pulse/s"; "?" where it is not known.
+std::string speed_text(const v1::Speed& speed);
+
+// "OUT1 OUT3" of 5 and "OUT", as the controller numbers its six outputs and inputs; "none" of 0.
+std::string pins_text(int bits, std::string_view name);
+
+// "every 500 drive pulses of axis 2".
+std::string trigger_text(const v1::Trigger& trigger);
+
 // "x 2.5 mm, y 0 mm", the controllable axes.
 std::string positions_text(const v1::Device& device);
 

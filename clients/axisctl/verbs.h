@@ -29,6 +29,27 @@ int who_am_i(const Session& session);
 int token_create(const Session& session);
 int token_list(const Session& session);
 int token_revoke(const Session& session);
+int show_settings(const Session& session);
+int speeds(const Session& session);
+int switch_motor(const Session& session);
+int change_loop(const Session& session);
+int change_divisions(const Session& session);
+int change_settling(const Session& session);
+int sleep_controller(const Session& session);
+int wake_controller(const Session& session);
+int switch_display(const Session& session);
+int switch_beep(const Session& session);
+int change_mode(const Session& session);
+int change_dialect(const Session& session);
+int reset_controller(const Session& session);
+int set_origin(const Session& session);
+int unset_origin(const Session& session);
+int preset_coordinates(const Session& session);
+int outputs(const Session& session);
+int inputs(const Session& session);
+int trigger_every(const Session& session);
+int trigger_off(const Session& session);
+int trigger_fire(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

@@ -69,15 +69,7 @@ Result<void> check_role(const api::ExecuteRequest& request, const grpc::Callback
   if (special == request.lines().end()) return {};
   const Result<server::Caller> caller = caller_with_role(call, access);
   if (!caller) return tl::unexpected(caller.error());
-  if (caller->role == server::Role::admin) return {};
-  Problem problem{
-      Reason::not_allowed,
-      fmt::format("only an administrator may send this command, and {} is {}", caller->who, name(caller->role)),
-      "ask one, or leave it out of `admin_commands` in the configuration",
-      {},
-      *special,
-      {}};
-  return tl::unexpected(std::move(problem));
+  return check_command_role(*special, *caller, access);
 }
 
 Result<Duration> timeout_of(const api::ExecuteRequest& request) {

@@ -65,5 +65,7 @@ Result<std::string> role_of(const grpc::CallbackServerContext& call, const serve
 
 // With the role; of a call that was let in. unauthenticated, where its token was revoked since.
 Result<server::Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access);
+// not_allowed where the line is one that the configuration keeps for administrators.
+Result<void> check_command_role(const std::string& line, const server::Caller& caller, const server::Access& access);
 
 }  // namespace axisgate::rpc

@@ -15,7 +15,7 @@ constexpr std::string_view kApi = "/axisgate.v1.";
 constexpr std::array<std::string_view, 2> kReadOnlyServices = {"/grpc.health.v1.Health/",
                                                                "/grpc.reflection.v1alpha.ServerReflection/"};
 
-constexpr std::array<std::pair<std::string_view, Role>, 28> kRoles = {{
+constexpr std::array<std::pair<std::string_view, Role>, 33> kRoles = {{
     {"AccessService/GetCaller", Role::observer},
     {"CommandService/ListCommands", Role::observer},
     {"CommandService/Execute", Role::operator_},
@@ -32,6 +32,11 @@ constexpr std::array<std::pair<std::string_view, Role>, 28> kRoles = {{
     {"DiagnosticsService/Record", Role::observer},
     {"DiagnosticsService/GetSupportReport", Role::observer},
     {"EventService/Watch", Role::observer},
+    {"SettingService/GetSettings", Role::observer},
+    {"SettingService/ChangeSettings", Role::operator_},
+    {"SettingService/SetCoordinates", Role::operator_},
+    {"SettingService/FireTrigger", Role::operator_},
+    {"SettingService/ResetDevice", Role::operator_},
     {"StageService/Move", Role::operator_},
     {"StageService/Home", Role::operator_},
     {"StageService/ReturnToOrigin", Role::operator_},
@@ -47,9 +52,10 @@ constexpr std::array<std::pair<std::string_view, Role>, 28> kRoles = {{
 }};
 
 // Methods that are nothing but one of the things that the configuration may keep for administrators.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 2> kSpecial = {{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kSpecial = {{
     {"DeviceService/ClearErrors", "BEC:"},
     {"ControlService/TakeOverLease", "take-over"},
+    {"SettingService/ResetDevice", "RESET:"},
 }};
 
 }  // namespace

@@ -77,15 +77,6 @@ void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::A
   if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
 }
 
-void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto) {
-  using Target = shrc203::Trigger::Target;
-  static_assert(static_cast<int>(Target::none) + 1 == api::Trigger::TARGET_NONE);
-  static_assert(static_cast<int>(Target::scale_minus) + 1 == api::Trigger::TARGET_SCALE_MINUS);
-  proto.set_target(static_cast<api::Trigger::Target>(static_cast<int>(trigger.target) + 1));
-  proto.set_axis(trigger.axis);
-  proto.set_interval(trigger.interval);
-}
-
 void fill_age(TimePoint read, api::Device& device) {
   if (read == TimePoint{}) return;
   const Duration age = std::max(Duration::zero(), monotonic_now() - read);
@@ -125,6 +116,15 @@ struct EventFiller {
 };
 
 }  // namespace
+
+void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto) {
+  using Target = shrc203::Trigger::Target;
+  static_assert(static_cast<int>(Target::none) + 1 == api::Trigger::TARGET_NONE);
+  static_assert(static_cast<int>(Target::scale_minus) + 1 == api::Trigger::TARGET_SCALE_MINUS);
+  proto.set_target(static_cast<api::Trigger::Target>(static_cast<int>(trigger.target) + 1));
+  proto.set_axis(trigger.axis);
+  proto.set_interval(trigger.interval);
+}
 
 google::protobuf::Timestamp to_proto(server::WallTime time) {
   const auto since_epoch = time.time_since_epoch();

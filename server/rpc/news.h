@@ -21,6 +21,8 @@ namespace api = axisgate::v1;
 google::protobuf::Timestamp to_proto(server::WallTime time);
 
 // With the state's age as of now.
+void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto);
+
 api::Device to_proto(const server::Device& device, const shrc203::State& state);
 
 // `revision` is that of the newest fact about the motion, 0 when not known.

@@ -46,6 +46,7 @@ Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr
       stage_(gateway, access, streams_),
       events_(gateway, streams_),
       commands_(gateway, access, streams_),
+      settings_(gateway, access),
       diagnostics_(gateway, streams_),
       control_(gateway, streams_),
       known_callers_(access),
@@ -83,7 +84,7 @@ void Server::build_ordinary() {
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{
-           &devices_, &stage_, &events_, &commands_, &diagnostics_, &control_, &known_callers_, &health_}) {
+           &devices_, &stage_, &events_, &commands_, &settings_, &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   build(builder, ordinary_);

@@ -24,6 +24,7 @@
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
 #include "server/rpc/rpc_metrics.h"
+#include "server/rpc/setting_service.h"
 #include "server/rpc/stage_service.h"
 #include "server/rpc/stop_only.h"
 #include "server/rpc/stream_limit.h"
@@ -70,6 +71,7 @@ class Server {
   StageService stage_;
   EventService events_;
   CommandService commands_;
+  SettingService settings_;
   DiagnosticsService diagnostics_;
   ControlService control_;
   AccessService known_callers_;

@@ -8,13 +8,14 @@
 #include "server/rpc/amounts.h"
 
 namespace axisgate::rpc {
-namespace {
 
 Problem on_axis(int axis, Problem problem) {
   problem.message = fmt::format("axis {}: {}", axis, problem.message);
   problem.axis = axis;
   return problem;
 }
+
+namespace {
 
 tl::unexpected<Problem> profile_needs(std::string_view what) {
   return fail(Reason::invalid_request, fmt::format("the axis's present {} is not known yet", what),
@@ -29,6 +30,8 @@ Result<Quantity> minimum_under(const Quantity& maximum, const shrc203::AxisState
   if (!highest) return tl::unexpected(highest.error());
   return pulses(std::min(*axis.minimum_speed, *highest));
 }
+
+}  // namespace
 
 Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis) {
   shrc203::SpeedProfile speeds;
@@ -48,6 +51,8 @@ Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc
   speeds.acceleration_ms = profile.acceleration_ms() != 0 ? profile.acceleration_ms() : *axis.acceleration_ms;
   return speeds;
 }
+
+namespace {
 
 Result<shrc203::AxisMove> to_axis_move(int number, const api::Distance& distance) {
   const Result<int> axis = to_axis(number);

@@ -13,7 +13,13 @@ namespace api = axisgate::v1;
 Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc203::State& state,
                                      shrc203::RequestContext context);
 
+// Likewise. invalid_request where something is left open that is not known of the axis.
+Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis);
+
 Result<shrc203::Segment> to_segment(const api::Segment& segment);
+
+// "axis 1: ..."
+Problem on_axis(int axis, Problem problem);
 
 // The axes meant: all controllable ones where none is named; unknown_axis where one is not controllable; link_down
 // where it is not known which are.

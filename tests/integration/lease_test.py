@@ -97,6 +97,12 @@ class Leases(unittest.TestCase):
         self.assertEqual(waiting.end(), 0)
         self.assertRegex(waiting.errors, "has held axis 1 .*; waiting")
 
+    def test_waiting_while_something_moves_that_nobody_holds(self):
+        self.assertEqual(self.daemon.run("move", "1=0.5mm", "--no-wait").returncode, 0)
+        moved = self.daemon.run("move", "1=0mm", "--wait", "60")
+        self.assertEqual(moved.returncode, 0, moved.stderr)
+        self.assertIn("; waiting", moved.stderr)
+
     def test_handing_over(self):
         script = f"echo held; until {BIN}/axisctl --target {self.daemon.socket} lease list | grep -q waits; " \
                  f"do sleep 0.05; done; {BIN}/axisctl --target {self.daemon.address()} lease hand-over \"$0\""

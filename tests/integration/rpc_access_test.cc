@@ -24,13 +24,17 @@ const std::set<std::string> kObserver = {"AccessService/GetCaller",    "CommandS
                                          "DiagnosticsService/Record",  "DiagnosticsService/GetSupportReport",
                                          "EventService/Watch",         "StageService/Stop",
                                          "StageService/EmergencyStop", "StageService/GetMotion",
-                                         "StageService/ListMotions",   "StageService/WatchMotion"};
+                                         "StageService/ListMotions",   "StageService/WatchMotion",
+                                         "SettingService/GetSettings"};
 const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "ControlService/AcquireLease",
                                          "ControlService/KeepLeaseAlive",
                                          "ControlService/ReleaseLease",
                                          "ControlService/HandOverLease",
                                          "ControlService/Rearm",
+                                         "SettingService/ChangeSettings",
+                                         "SettingService/SetCoordinates",
+                                         "SettingService/FireTrigger",
                                          "StageService/Move",
                                          "StageService/Home",
                                          "StageService/ReturnToOrigin",
@@ -39,7 +43,7 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "StageService/CancelMotion"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
                                       "AccessService/RevokeToken", "ControlService/TakeOverLease",
-                                      "DeviceService/ClearErrors"};
+                                      "DeviceService/ClearErrors", "SettingService/ResetDevice"};
 
 Role needed(const std::string& method) {
   return kObserver.contains(method) ? Role::observer : kOperator.contains(method) ? Role::operator_ : Role::admin;

@@ -1,0 +1,131 @@
+#include "clients/axisctl/help_topics.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace axisgate::axisctl {
+namespace {
+
+constexpr HelpTopic kTopics[] = {
+    {"devices", "", "axisctl devices"},
+    {"status", "A ? stands where nobody knows.", "axisctl status\naxisctl --json status"},
+    {"position", "", "axisctl position"},
+    {"commands", "", "axisctl commands M:"},
+    {"home", "", "axisctl home 1,2"},
+    {"move", "An amount is a position, with --relative a way. `axisctl help units` says how to write it.",
+     R"(axisctl move 1=+1mm 2=-200um --relative --speed 2mm/s
+axisctl move 1=0.5mm --wait 60)"},
+    {"path", "One segment a line, every segment with the same axes: 1=1mm 2=-500um speed=2mm/s   # comment",
+     R"(printf '1=1mm 2=-500um speed=2mm/s\n1=-1mm 2=500um\n' | axisctl path -)"},
+    {"jog", "", "axisctl jog 1=- --speed 200um/s --seconds 1"},
+    {"stop", "", "axisctl stop"},
+    {"rearm", "", "axisctl rearm"},
+    {"estop", "", "axisctl estop"},
+    {"clear", "After an emergency stop the motors may be off.", "axisctl clear\naxisctl motor 1,2,3 on"},
+    {"exec", "", "axisctl exec 'M:1+P1000' 'G:1'"},
+    {"watch", "", "axisctl watch --from 1   # until Ctrl-C"},
+    {"whoami", "", "axisctl whoami"},
+    {"lease", "`axisctl help leases` explains them.",
+     R"(axisctl lease run --axes 1 --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm
+axisctl lease list)"},
+    {"token", "", "axisctl token create night-scan --days 30\naxisctl token list\naxisctl token revoke night-scan"},
+    {"record", "", "axisctl record --seconds 1 --output stage.recording"},
+    {"replay", "", "axisctl replay stage.recording"},
+    {"support", "", "axisctl support --output report.txt"},
+    {"units",
+     R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the axis's own unit, which the
+configuration names. A speed is an amount a second; the /s may be left out. Nothing is ever rounded: what is not a whole
+number of pulses is refused, with the nearest amounts that are.)",
+     R"(axisctl move 1=0.5mm
+axisctl move 1=500um --speed 1mm/s
+axisctl move 1=-100pulse --relative)"},
+    {"leases",
+     R"(While somebody has a lease, nobody else moves or sets anything on its axes; anybody may stop them. `lease run` acquires
+one, runs a command, and gives it back; all that the command starts shares it. --wait waits for axes that another holds.
+Speeds, outputs and the trigger that were set under a lease are what they were before once it has ended; what was set
+without a lease stays. To hand the axes over to one who waits: axisctl lease hand-over 'unix bert'.)",
+     R"(axisctl lease run --axes 1 --wait 60 -- sh -c 'axisctl move 1=1mm && axisctl move 1=0mm'
+axisctl lease run -- sh -c 'axisctl outputs on 1 && axisctl move 1=0.1mm'
+axisctl lease list)"},
+    {"settings",
+     R"(Everything that is set, one item a line. Verbs that change some of it: speed, motor, loop, divisions, settle, sleep,
+wake, display, beep, mode, dialect, outputs, trigger; zero, unzero and preset set coordinates; reset restarts the
+controller. What is set stays until somebody sets it again or the controller restarts; speeds, outputs and the trigger end
+with the lease under which they were set.)",
+     "axisctl settings\naxisctl --json settings"},
+    {"speed",
+     R"(From MINIMUM an axis speeds up to MAXIMUM within the time of --acceleration; what is left out stays. Without options:
+what is set. With --origin-return: those of the mechanical origin return.)",
+     R"(axisctl speed 1,2
+axisctl speed 1 --minimum 10um --maximum 1mm --acceleration 50
+axisctl speed 1,2 --maximum 0.5mm/s --origin-return)"},
+    {"motor", "Without current an axis may be moved by hand, and its place is not certain.",
+     "axisctl motor 3 off\naxisctl motor 3 on"},
+    {"loop", "Whether the scale holds an axis in place.", "axisctl loop 1 closed\naxisctl loop 1,2 open"},
+    {"divisions", "A pulse is another way afterwards, so all positions are.",
+     "axisctl divisions 3 100\naxisctl divisions 3 200"},
+    {"settle", "How long a motion that has ended is still busy: 0 to 255 s in steps of 0.1 s.",
+     "axisctl settle 0.1\naxisctl settle 0"},
+    {"sleep", "Nothing moves until `axisctl wake`.", "axisctl sleep"},
+    {"wake", "The stage goes back to its place: axes may move.", "axisctl wake"},
+    {"display", "", "axisctl display off\naxisctl display on"},
+    {"beep", "", "axisctl beep off\naxisctl beep on"},
+    {"mode", "Off HOST the controller does not answer the daemon until the mode is put right at its front panel.",
+     "axisctl mode HOST"},
+    {"dialect",
+     "The daemon speaks SHOT_FC; in HIT the device is down until the dialect is put right at its front panel.",
+     "axisctl dialect SHOT_FC"},
+    {"outputs", "Those that are not named stay as they are. Without arguments: which are on.",
+     "axisctl outputs on 1 3\naxisctl outputs off 3\naxisctl outputs\naxisctl outputs none"},
+    {"inputs", "Which are on.", "axisctl inputs"},
+    {"trigger", "`axisctl help triggers` explains it.",
+     "axisctl trigger every 0.2s\naxisctl trigger off\naxisctl trigger fire"},
+    {"triggers",
+     R"(The controller has one trigger output. It gives a pulse every so many drive pulses of an axis (2 to 30000), in either
+direction; with --scale, of its scale in one direction, never twice at one place; or, without an axis, every so often
+(0.01s to 100s). `trigger fire` gives one now. Under a lease it ends with the lease.)",
+     R"(axisctl trigger every 1000 --axis 1
+axisctl trigger every 500 --axis 2 --scale +
+axisctl lease run -- sh -c 'axisctl trigger every 1000 --axis 1 && axisctl move 1=0.2mm'
+axisctl trigger off)"},
+    {"preset",
+     "Nothing moves: the place where the axis stands is called so. Travel limits count from the origin that `home` "
+     "finds.",
+     "axisctl preset 1=0.5mm 2=-20um"},
+    {"zero", "Nothing moves: the place where the axis stands is called 0.", "axisctl zero 1"},
+    {"unzero", "Takes `zero` back.", "axisctl unzero 1"},
+    {"reset",
+     R"(What is set goes back to what the memory switches say, and coordinates to 0: home the axes again. Leases end.)",
+     "axisctl reset"},
+    {"",
+     R"(Amounts have a unit: pulse, nm, um, mm, deg; without one they are in the axis's own. AXIS is a number or the
+axis's configured name. `axisctl help VERB` has examples of each verb; other topics are units, leases, settings, triggers.)",
+     R"(axisctl home
+axisctl move 1=+1mm 2=-200um --relative
+axisctl jog 1=+ --speed 200um/s   # until Ctrl-C
+axisctl exec 'M:1+P1000' 'G:1'
+axisctl --json watch --from 1   # until Ctrl-C
+axisctl lease run --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm)"},
+};
+
+}  // namespace
+
+std::span<const HelpTopic> help_topics() { return kTopics; }
+
+std::string help_text(std::string_view topic) {
+  const auto found = std::ranges::find(kTopics, topic, &HelpTopic::name);
+  if (found == std::end(kTopics)) return "";
+  std::string text(found->text);
+  if (!text.empty()) text += "\n\n";
+  text += found->examples.find('\n') == std::string_view::npos ? "Example:" : "Examples:";
+  std::string_view rest = found->examples;
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find('\n'), rest.size());
+    text += fmt::format("\n  {}", rest.substr(0, end));
+    rest.remove_prefix(std::min(end + 1, rest.size()));
+  }
+  return text;
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,144 @@
+#include "server/rpc/setting_service.h"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "server/rpc/call.h"
+#include "server/rpc/gatekeeper.h"
+#include "server/rpc/setting_lines.h"
+#include "server/rpc/unary_call.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using shrc203::Controller;
+using shrc203::ExecuteEvent;
+
+// What cannot be told while something moves is not waited for: what is known of it stands.
+constexpr Duration kAnswerLimit = std::chrono::seconds(2);
+
+bool untold(const Problem& problem) {
+  return problem.reason == Reason::completion_outstanding || problem.reason == Reason::deadline_passed;
+}
+
+// The answers, as they come; told when the last has.
+struct Asking {
+  UnaryCall<api::GetSettingsResponse>::Handle call;
+  api::Settings settings;
+  std::size_t open = 0;
+  std::optional<Problem> problem;
+};
+
+void take(const std::shared_ptr<Asking>& asking, std::string_view question, const ExecuteEvent& event,
+          const shrc203::State& state) {
+  if (event.kind == ExecuteEvent::Kind::reply) fill_setting(question, event.answer, state, asking->settings);
+  if (event.kind != ExecuteEvent::Kind::ended) return;
+  if (event.problem && !untold(*event.problem) && !asking->problem) asking->problem = event.problem;
+  if (--asking->open > 0) return;
+  if (asking->problem) {
+    asking->call->refuse(*asking->problem);
+  } else {
+    asking->call->answer(
+        [&](api::GetSettingsResponse& answer) { *answer.mutable_settings() = std::move(asking->settings); });
+  }
+}
+
+Result<void> check_role(const Lines& lines, const server::Caller& caller, const server::Access& access) {
+  if (caller.role == server::Role::admin) return {};
+  for (const std::string& line : lines) {
+    if (const auto allowed = check_command_role(line, caller, access); !allowed) return allowed;
+  }
+  return {};
+}
+
+}  // namespace
+
+grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContext* context,
+                                                      const api::GetSettingsRequest* request,
+                                                      api::GetSettingsResponse* response) {
+  const auto call = UnaryCall<api::GetSettingsResponse>::start(response);
+  const Result<server::Device*> device = find_device(gateway_, request->device());
+  if (!device) return call->refuse(device.error());
+  (*device)->post([call, asked = question_context(*context)](Controller& controller, TimePoint now) {
+    const auto asking = std::make_shared<Asking>();
+    asking->call = call;
+    asking->open = setting_questions().size();
+    fill_known(controller.state(), asking->settings);
+    auto limited = asked;
+    limited.not_after = std::min(limited.not_after, now + kAnswerLimit);
+    for (const std::string_view question : setting_questions()) {
+      controller.execute({{std::string(question)}, limited}, now,
+                         [asking, question, &controller](const ExecuteEvent& event) {
+                           take(asking, question, event, controller.state());
+                         });
+    }
+  });
+  return call.get();
+}
+
+// As one transaction of the lines that the request comes to.
+template <class Request, class Response, class ToLines>
+grpc::ServerUnaryReactor* SettingService::change(const grpc::CallbackServerContext& context, const Request& request,
+                                                 Response* response, ToLines to_lines) {
+  const auto call = UnaryCall<Response>::start(response);
+  const Result<server::Device*> device = find_device(gateway_, request.device());
+  if (!device) return call->refuse(device.error());
+  Result<shrc203::RequestContext> asked = mutation_context(context, request.context());
+  if (!asked) return call->refuse(asked.error());
+  const Result<server::Caller> caller = caller_with_role(context, access_);
+  if (!caller) return call->refuse(caller.error());
+  if (const auto role = role_of(context, access_); role) asked->role = *role;
+  (*device)->post([call, request, to_lines, asked = *asked, caller = *caller, &access = access_](Controller& controller,
+                                                                                                 TimePoint now) {
+    const Result<Lines> lines = to_lines(request, controller.state());
+    if (!lines) return static_cast<void>(call->refuse(lines.error()));
+    if (const auto allowed = check_role(*lines, caller, access); !allowed) {
+      return static_cast<void>(call->refuse(allowed.error()));
+    }
+    const shrc203::ExecuteRequest transaction{*lines, asked};
+    if (request.validate_only()) {
+      const Result<void> checked = Controller::check(transaction);
+      if (!checked) return static_cast<void>(call->refuse(checked.error()));
+      return call->answer([](Response&) {});
+    }
+    controller.execute(transaction, now, [call](const ExecuteEvent& event) {
+      if (event.kind != ExecuteEvent::Kind::ended) return;
+      event.problem ? static_cast<void>(call->refuse(*event.problem)) : call->answer([](Response&) {});
+    });
+  });
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerContext* context,
+                                                         const api::ChangeSettingsRequest* request,
+                                                         api::ChangeSettingsResponse* response) {
+  return change(*context, *request, response, [](const api::ChangeSettingsRequest& asked, const shrc203::State& state) {
+    return lines_of(asked, state);
+  });
+}
+
+grpc::ServerUnaryReactor* SettingService::SetCoordinates(grpc::CallbackServerContext* context,
+                                                         const api::SetCoordinatesRequest* request,
+                                                         api::SetCoordinatesResponse* response) {
+  return change(*context, *request, response, [](const api::SetCoordinatesRequest& asked, const shrc203::State& state) {
+    return lines_of(asked, state);
+  });
+}
+
+grpc::ServerUnaryReactor* SettingService::FireTrigger(grpc::CallbackServerContext* context,
+                                                      const api::FireTriggerRequest* request,
+                                                      api::FireTriggerResponse* response) {
+  return change(*context, *request, response,
+                [](const auto&, const shrc203::State&) { return Result<Lines>(Lines{"T:M"}); });
+}
+
+grpc::ServerUnaryReactor* SettingService::ResetDevice(grpc::CallbackServerContext* context,
+                                                      const api::ResetDeviceRequest* request,
+                                                      api::ResetDeviceResponse* response) {
+  return change(*context, *request, response,
+                [](const auto&, const shrc203::State&) { return Result<Lines>(Lines{"RESET:"}); });
+}
+
+}  // namespace axisgate::rpc
