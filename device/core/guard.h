@@ -141,6 +141,7 @@ enum class Guard {
   runaways_stopped,
   inputs_start_nothing,
   away_alone,
+  excitation_known,
   settings_restored,
   speeds_owed,
 

@@ -18,9 +18,9 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "DEADLINE_PASSED",   "QUEUE_FULL",      "STOPPED",           "TARGET_NOT_REACHED",
     "OUTCOME_UNKNOWN",   "COMPACTED",       "INTERNAL",          "LEASE_HELD",
     "LEASE_LOST",        "OUTSIDE_LEASE",   "STOPPED_BY",        "NOT_ALLOWED",
-    "UNAUTHENTICATED",   "EPOCH_PASSED",    "NOT_HOMED",
+    "UNAUTHENTICATED",   "EPOCH_PASSED",    "NOT_HOMED",         "UNEXPLAINED",
 });
-static_assert(kNames.size() == static_cast<std::size_t>(Reason::not_homed) + 1, "a name for each Reason");
+static_assert(kNames.size() == static_cast<std::size_t>(Reason::unexplained) + 1, "a name for each Reason");
 
 }  // namespace
 

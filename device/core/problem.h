@@ -59,6 +59,7 @@ enum class Reason {
   unauthenticated,
   epoch_passed,
   not_homed,
+  unexplained,
 };
 
 // "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.

@@ -130,12 +130,18 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_excitation(std::string caller);
   Task<Result<void>> read_outputs(std::string caller);
   Task<Result<void>> read_trigger(std::string caller);
-  Task<Problem> explain_refusal(std::string sent, AxisSet axes, std::string caller);
   Task<void> refresh(Duration max_age, RequestContext context, OnState done);
   AxisSet moving_silently();
   bool apply_positions(const Reply& reply);
   void tell_foreign_motion(AxisSet busy);
   void publish_state();
+
+  // explain.cc
+  Task<Problem> explain_refusal(Command command, AxisSet axes, std::string caller);
+  Task<std::optional<Problem>> wrong_mode(std::string caller);
+  Task<bool> sleeps(std::string caller);
+  Problem asleep_problem() const;
+  Task<Result<void>> check_excitation(AxisSet axes, std::string caller);
 
   // watch.cc
   LiveMotionPtr create_motion(MotionKind kind, AxisSet axes, RequestContext context, OnStarted started);
@@ -159,7 +165,6 @@ class Controller::Impl : public LineListener {
   void judge(LiveMotionPtr live, EndCheck& check);
   bool at_targets(const LiveMotion& live) const;
   Positions places_of(const LiveMotion& live) const;
-  std::optional<Problem> error_of(const LiveMotion& live) const;
   bool anything_moves() const;
 
   // speeds.cc

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "device/core/guard.h"
+#include "device/shrc203/closed_answers.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/forecast.h"
 #include "device/shrc203/transaction_lines.h"
@@ -134,8 +135,11 @@ bool Transaction::single_motion() const {
 
 Task<ExchangeResult> Transaction::exchange(const Command& command) {
   const bool closed = command.row->separation == Separation::closed && single_motion();
+  const auto note = [this](const std::vector<int>& completions) {
+    for (const int axis : completions) impl_.note_completion(axis, true, true, impl_.now_);
+  };
   std::optional<int> before;
-  std::vector<int> came;
+  ClosedAnswers answers;
   ExchangeResult result;
   for (int attempt = 0; attempt < kClosedTries; ++attempt) {
     auto request = request_for(command);
@@ -143,8 +147,12 @@ Task<ExchangeResult> Transaction::exchange(const Command& command) {
     auto pending = impl_.line_.exchange(std::move(request), impl_.now_);
     result = co_await pending;
     const auto& numbers = result.candidates;
-    if (numbers.empty() || !guarded(Guard::two_answers_agree)) co_return result;
-    came.insert(came.end(), numbers.begin(), numbers.end());
+    if (numbers.empty() || !guarded(Guard::two_answers_agree)) {
+      const auto certain = result.reply ? parse_integer(result.reply->text) : std::nullopt;
+      if (certain && !result.problem) note(answers.settle(static_cast<int>(*certain)));
+      co_return result;
+    }
+    note(answers.take(numbers));
     // Among numbers of several axes the answer may be any of them, and be missing.
     const bool alone = std::ranges::count(numbers, numbers.front()) == std::ssize(numbers);
     if (!alone && guarded(Guard::answers_come_alone)) {
@@ -155,11 +163,7 @@ Task<ExchangeResult> Transaction::exchange(const Command& command) {
     if (std::exchange(before, answer) != answer) continue;
     result.reply->text = std::to_string(answer);
     result.candidates.clear();
-    // What is left over is no answer, so it was a completion.
-    for (int answers = 0; answers <= attempt; ++answers) {
-      if (const auto one = std::ranges::find(came, answer); one != came.end()) came.erase(one);
-    }
-    for (const int axis : came) impl_.note_completion(axis, true, true, impl_.now_);
+    note(answers.settle(answer));
     co_return result;
   }
   result.problem = Problem{Reason::completion_outstanding,
@@ -223,8 +227,7 @@ Task<bool> Transaction::send(std::size_t index) {
     }
     co_return true;
   }
-  auto why =
-      co_await impl_.explain_refusal(command.line, command.axes(impl_.state_.controllable()), request_.context.who);
+  auto why = co_await impl_.explain_refusal(command, command.axes(impl_.state_.controllable()), request_.context.who);
   end(std::move(why));
   co_return false;
 }

@@ -88,7 +88,8 @@ Task<void> Controller::Impl::start_home(LiveMotionPtr live) {
   bool in_doubt = result.in_doubt();
   if (result.refused() && guarded(Guard::refused_start_looked_at)) in_doubt = co_await moves_all_the_same(live);
   if (result.refused() && !in_doubt) {
-    const auto why = co_await explain_refusal(mechanical ? "HRT:" : "ZRT:", live->motion.axes, live->context.who);
+    const auto why = co_await explain_refusal(make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes),
+                                              live->motion.axes, live->context.who);
     end_motion(live, MotionState::failed, why);
     co_return;
   }

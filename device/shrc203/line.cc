@@ -117,8 +117,8 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     queue_.for_each([&](const WaitingPtr& waiting) {
       const auto& other = waiting->request;
       const bool same_line = other.command.line == request.command.line || !guarded(Guard::shared_questions);
-      if (same_line && other.lane == request.lane && other.handshake == request.handshake &&
-          other.closed == request.closed) {
+      if (same_line && other.lane == request.lane && other.handshake == request.handshake && !other.closed &&
+          !request.closed) {
         same = waiting;
       }
     });

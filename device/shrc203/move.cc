@@ -189,7 +189,7 @@ Task<Result<Reply>> Controller::Impl::set_and_confirm(LiveMotionPtr live, Comman
     const auto result = co_await pending;
     if (result.accepted()) co_return *result.reply;
     if (result.refused()) {
-      auto why = co_await explain_refusal(setter.line, live->motion.axes, live->context.who);
+      auto why = co_await explain_refusal(setter, live->motion.axes, live->context.who);
       co_return tl::unexpected(std::move(why));
     }
     if (!result.in_doubt() || live->line_lost) co_return tl::unexpected(*result.problem);
@@ -239,7 +239,7 @@ Task<Result<Controller::Impl::Start>> Controller::Impl::go(LiveMotionPtr live, A
   if (result.refused()) {
     const bool moves = guarded(Guard::refused_start_looked_at) && co_await moves_all_the_same(live);
     if (moves) co_return Start::in_doubt;
-    auto why = co_await explain_refusal("G:", live->motion.axes, live->context.who);
+    auto why = co_await explain_refusal(make_command("G:", live->motion.axes), live->motion.axes, live->context.who);
     co_return tl::unexpected(std::move(why));
   }
   if (result.in_doubt()) co_return Start::in_doubt;

@@ -14,6 +14,7 @@
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/feeding.h"
+#include "device/shrc203/refusals.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -151,7 +152,7 @@ Task<bool> PathRun::refill(int number) {
     co_return false;
   }
   if (result.refused()) {
-    const auto why = co_await impl_.explain_refusal(setter(number).line, plan_.axes, live_->context.who);
+    const auto why = co_await impl_.explain_refusal(setter(number), plan_.axes, live_->context.who);
     const bool standing = co_await wait_for_ready();
     if (standing && !over()) give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, why);
   }
@@ -263,7 +264,7 @@ Task<void> PathRun::resume_from_ready() {
   co_await pause;
   const bool standing = co_await wait_for_ready();
   if (!standing || live_->stop_requested) co_return;
-  const auto error = impl_.error_of(*live_);
+  const auto error = error_shown(live_->motion.axes, impl_.state_);
   if (error) {
     give_up(MotionState::failed, *error);
     co_return;

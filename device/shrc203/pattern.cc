@@ -123,14 +123,16 @@ bool counts_pulses(std::string_view unit) { return unit == "P" || unit == "F"; }
 
 // Decimals have the range of their parameter only while they count pulses; S may not exceed F in any unit.
 Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
-  bool in_pulses = true;
-  for (const auto& [letter, value] : arguments.values())
-    in_pulses = in_pulses && (letter != "u" || counts_pulses(value));
+  bool in_pulses = true, all_in_pulses = true;
   std::string minimum_speed;
   for (const auto& [letter, value] : arguments.values()) {
     const Parameter* parameter = find_parameter(row, letter);
+    if (letter == "u") in_pulses = counts_pulses(value);
+    all_in_pulses = all_in_pulses && in_pulses;
     if (parameter->kind != Parameter::Kind::decimal) continue;
-    if (in_pulses) {
+    // S and F stand behind all ways, in the units of these.
+    const bool behind = letter == "spds" || letter == "spdf";
+    if (behind ? all_in_pulses : in_pulses) {
       const auto whole = to_pulses({*parse_decimal(value), Unit::pulses}, Scale{});
       if (!whole || *whole < parameter->minimum || *whole > parameter->maximum) {
         return out_of_range(row, *parameter, value);
@@ -261,11 +263,18 @@ class Decoder {
     const std::size_t expected = axes_named(arguments_);
     std::size_t count = 0;
     while (expected == 0 ? (count < kAxisCount && !text_.empty()) : count < expected) {
+      const auto saved_text = text_;
+      const auto saved_arguments = arguments_;
       if (count > 0) {
         if (!text_.starts_with(part.separator)) break;
         text_.remove_prefix(part.separator.size());
       }
-      if (!read(part.once)) return false;
+      if (!read(part.once)) {
+        if (expected != 0 || count == 0) return false;
+        text_ = saved_text;
+        arguments_ = saved_arguments;
+        break;
+      }
       ++count;
     }
     return count > 0 && (expected == 0 || count == expected);

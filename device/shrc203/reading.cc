@@ -177,45 +177,6 @@ Task<Result<void>> Controller::Impl::read_trigger(std::string caller) {
   co_return Result<void>();
 }
 
-Task<Problem> Controller::Impl::explain_refusal(std::string sent, AxisSet axes, std::string caller) {
-  Problem problem{
-      Reason::device_refused, "the controller refused the command (NG)", "look at `axisctl status`", {}, sent, "NG"};
-  if (away_ && *away_ != Mode::host) co_return problem;  // no Q: is answered there
-  const auto read = co_await read_positions(Lane::motion, caller);
-  if (!read) co_return problem;
-  for (const int number : axes.list()) {
-    const auto& axis = state_.axis(number);
-    const auto because = [&](Reason reason, std::string what, std::string hint) {
-      problem.reason = reason;
-      problem.axis = number;
-      problem.message = fmt::format("the controller refused the command (NG): axis {} {}", number, what);
-      problem.hint = std::move(hint);
-    };
-    if (axis.status.emergency()) {
-      because(Reason::emergency_stopped, "is in emergency stop", "clear it with `axisctl clear` once it is safe");
-      co_return problem;
-    }
-    if (axis.status.limit_error()) {
-      because(Reason::limit_detected, "has met its limit", "clear it with `axisctl clear`, then move away from it");
-      co_return problem;
-    }
-    if (axis.busy.value_or(false)) {
-      because(Reason::axis_busy, "is moving", "wait until it stands, or stop it");
-      co_return problem;
-    }
-  }
-  const auto excitation = co_await read_excitation(caller);
-  for (const int number : axes.list()) {
-    if (!excitation || state_.axis(number).excited.value_or(true)) continue;
-    problem.reason = Reason::not_excited;
-    problem.axis = number;
-    problem.message = fmt::format("the controller refused the command (NG): the motor of axis {} is off", number);
-    problem.hint = fmt::format("switch it on: axisctl exec C:{}1", number);
-    co_return problem;
-  }
-  co_return problem;
-}
-
 Task<void> Controller::Impl::refresh(Duration max_age, RequestContext context, OnState done) {
   if (away_) {
     done(tl::unexpected(away_problem()));

@@ -40,6 +40,11 @@ constexpr std::array kHelixByAngle{kHelixPlane, kRotation,    kSign,         kLi
 constexpr std::array kHelixThrough{kHelixPlane, kRotation, kSign, kLineUnit,     kPassing1,     kPassing2,
                                    kEnd1,       kEnd2,     kRise, kMinimumSpeed, kMaximumSpeed, kAcceleration};
 
+// E: has none: S, F and R are those of D: (manual 71)).
+constexpr std::span<const Parameter> without_speeds(std::span<const Parameter> parameters) {
+  return parameters.first(parameters.size() - 3);
+}
+
 // "The axis not set by the arc interpolation axis becomes the linear motion axis" (manual 74)).
 constexpr CommandRow third_axis(CommandRow row) {
   row.third_axis = true;
@@ -47,20 +52,20 @@ constexpr CommandRow third_axis(CommandRow row) {
 }
 
 constexpr CommandRow kRows[] = {
-    whole_controller(
-        setter("E:0", "E:0<a><d><m><u><c1><m><u><c2>", "set a circle", 71, kCircle, Register::e, kReadyExcitedNoLimit)),
-    whole_controller(setter("E:1", "E:1<a><d><m><u><c1><m><u><c2>D<ae>", "set an arc by its angle", 72, kArc,
+    whole_controller(setter("E:0", "E:0<a><d><m><u><c1><m><u><c2>", "set a circle", 71, without_speeds(kCircle),
                             Register::e, kReadyExcitedNoLimit)),
+    whole_controller(setter("E:1", "E:1<a><d><m><u><c1><m><u><c2>D<ae>", "set an arc by its angle", 72,
+                            without_speeds(kArc), Register::e, kReadyExcitedNoLimit)),
     whole_controller(setter("E:2", "E:2<a><d><m><u><p1><m><u><p2><m><u><e1><m><u><e2>", "set an arc through a point",
-                            73, kThrough, Register::e, kReadyExcitedNoLimit)),
+                            73, without_speeds(kThrough), Register::e, kReadyExcitedNoLimit)),
     third_axis(
         whole_controller(setter("E:3", "E:3<a><d>N<n><m><u><c1><m><u><c2><m><u><z>", "set a helix of whole rotations",
-                                74, kHelixOfTurns, Register::e, kReadyExcitedNoLimit))),
+                                74, without_speeds(kHelixOfTurns), Register::e, kReadyExcitedNoLimit))),
     third_axis(whole_controller(setter("E:4", "E:4<a><d><m><u><c1><m><u><c2>D<ae><m><u><z>", "set a helix by its angle",
-                                       75, kHelixByAngle, Register::e, kReadyExcitedNoLimit))),
-    third_axis(
-        whole_controller(setter("E:5", "E:5<a><d><m><u><p1><m><u><p2><m><u><e1><m><u><e2><m><u><z>",
-                                "set a helix through a point", 76, kHelixThrough, Register::e, kReadyExcitedNoLimit))),
+                                       75, without_speeds(kHelixByAngle), Register::e, kReadyExcitedNoLimit))),
+    third_axis(whole_controller(setter("E:5", "E:5<a><d><m><u><p1><m><u><p2><m><u><e1><m><u><e2><m><u><z>",
+                                       "set a helix through a point", 76, without_speeds(kHelixThrough), Register::e,
+                                       kReadyExcitedNoLimit))),
     whole_controller(prebuffer(setter("EP:0", "EP:0<a><d><m><u><c1><m><u><c2>[,S<spds>F<spdf>R<r>]",
                                       "set a circle, prebuffer", 77, kCircle, Register::ep, kExcitedNoLimit))),
     whole_controller(prebuffer(setter("EP:1", "EP:1<a><d><m><u><c1><m><u><c2>D<ae>[,S<spds>F<spdf>R<r>]",
@@ -71,12 +76,12 @@ constexpr CommandRow kRows[] = {
     third_axis(whole_controller(prebuffer(
         setter("EP:3", "EP:3<a><d>N<n><m><u><c1><m><u><c2><m><u><z>[,S<spds>F<spdf>R<r>]",
                "set a helix of whole rotations, prebuffer", 80, kHelixOfTurns, Register::ep, kExcitedNoLimit)))),
-    whole_controller(
+    third_axis(whole_controller(
         prebuffer(setter("EP:4", "EP:4<a><d><m><u><c1><m><u><c2>D<ae><m><u><z>[,S<spds>F<spdf>R<r>]",
-                         "set a helix by its angle, prebuffer", 81, kHelixByAngle, Register::ep, kExcitedNoLimit))),
-    whole_controller(
+                         "set a helix by its angle, prebuffer", 81, kHelixByAngle, Register::ep, kExcitedNoLimit)))),
+    third_axis(whole_controller(
         prebuffer(setter("EP:5", "EP:5<a><d><m><u><p1><m><u><p2><m><u><e1><m><u><e2><m><u><z>[,S<spds>F<spdf>R<r>]",
-                         "set a helix through a point, prebuffer", 82, kHelixThrough, Register::ep, kExcitedNoLimit))),
+                         "set a helix through a point, prebuffer", 82, kHelixThrough, Register::ep, kExcitedNoLimit)))),
 };
 
 }  // namespace

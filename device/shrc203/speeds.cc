@@ -146,7 +146,7 @@ Task<Result<void>> Controller::Impl::set_speeds(LiveMotionPtr live, MovePlan pla
   const auto result = co_await pending;
   if (result.accepted()) co_return Result<void>();
   if (result.problem) co_return tl::unexpected(*result.problem);
-  auto why = co_await explain_refusal("D:", axes, live->context.who);
+  auto why = co_await explain_refusal(make_command("D:", arguments), axes, live->context.who);
   co_return tl::unexpected(std::move(why));
 }
 

@@ -16,13 +16,6 @@ std::string_view name(LinkState state) {
   return "DOWN";
 }
 
-bool AxisStatusBits::any_error() const {
-  for (const int number : {3, 4, 5, 6, 7, 8, 9, 10, 13, 15}) {
-    if (bit(number)) return true;
-  }
-  return false;
-}
-
 AxisSet State::controllable() const {
   AxisSet set;
   for (int number = 1; number <= kAxisCount; ++number) {

@@ -26,9 +26,6 @@ struct AxisStatusBits {
   std::uint32_t raw = 0;
 
   bool bit(int number) const { return (raw >> (number - 1)) & 1u; }
-  bool emergency() const { return bit(6); }
-  bool limit_error() const { return bit(8); }
-  bool any_error() const;  // bits 3 to 10, 13 and 15: the motion did not end well
   bool cw_limit() const { return bit(20); }
   bool ccw_limit() const { return bit(21); }
 };

@@ -5,6 +5,7 @@
 
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/refusals.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -132,10 +133,11 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     const auto cleared = co_await clear_left_overs(live, reg);
     if (!cleared) co_return cleared;
   }
-  const auto problem = error_of(*live);
+  const auto problem = error_shown(live->motion.axes, state_);
   if (problem) co_return tl::unexpected(*problem);
-  const auto learned = co_await learn_speeds(axes, live->context.who);
-  if (!learned) co_return learned;
+  auto ready = co_await check_excitation(axes, live->context.who);
+  if (ready) ready = co_await learn_speeds(axes, live->context.who);
+  if (!ready) co_return ready;
   const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
   if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   co_return Result<void>();
@@ -191,29 +193,6 @@ bool Controller::Impl::at_targets(const LiveMotion& live) const {
   return !guarded(Guard::success_at_target) || std::ranges::all_of(live.motion.results, [&](const AxisResult& result) {
     return result.target_pulses && state_.axis(result.axis).position_pulses == result.target_pulses;
   });
-}
-
-std::optional<Problem> Controller::Impl::error_of(const LiveMotion& live) const {
-  for (const int number : live.motion.axes.list()) {
-    const auto& status = state_.axis(number).status;
-    if (!status.any_error()) continue;
-    Problem problem{Reason::device_error,
-                    fmt::format("axis {} reports an error (status {:X})", number, status.raw),
-                    "`axisctl clear` clears limit, overflow and emergency errors",
-                    number,
-                    {},
-                    {}};
-    if (status.limit_error()) {
-      problem.reason = Reason::limit_detected;
-      problem.message = fmt::format("axis {} has met its limit", number);
-    }
-    if (status.emergency()) {
-      problem.reason = Reason::emergency_stopped;
-      problem.message = fmt::format("axis {} is in emergency stop", number);
-    }
-    return problem;
-  }
-  return {};
 }
 
 bool Controller::Impl::anything_moves() const {
@@ -289,7 +268,7 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
     mark_running(live);
     return;
   }
-  const auto error = error_of(*live);
+  const auto error = error_shown(live->motion.axes, state_);
   // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
   const bool evident = live->motion.kind != MotionKind::home || stirred || !guarded(Guard::home_seen_to_run);
   // One flipped bit makes an R of a B; where no axis number bears a READY out, a second reading does.

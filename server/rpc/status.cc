@@ -15,7 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == api::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == api::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == api::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == api::REASON_INTERNAL);
-static_assert(static_cast<int>(Reason::not_homed) == api::REASON_NOT_HOMED);
+static_assert(static_cast<int>(Reason::unexplained) == api::REASON_UNEXPLAINED);
 
 void pack(const char* type, const google::protobuf::Message& detail, api::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -72,6 +72,7 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::stopped_by:
     case Reason::epoch_passed:
     case Reason::not_homed:
+    case Reason::unexplained:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::link_down:
     case Reason::not_sent:

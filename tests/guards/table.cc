@@ -240,6 +240,8 @@ constexpr Row kTable[] = {
              "no input pin starts a motion unless the configuration allows it", "Hazard.H16_InputsStartNothing"),
     by_tests(Guard::away_alone, "away-alone", "out of HOST nobody else is on the line",
              "Hazard.H24_MemorySwitchesAreReachedAlone"),
+    by_tests(Guard::excitation_known, "excitation-known", "where a motor is known to be off, nothing is sent",
+             "WhyNg.NothingIsSentWhereAMotorIsKnownToBeOff"),
     by_tests(Guard::settings_restored, "settings-restored", "what a lease's holder has set ends with his lease",
              "HazardOfSettings.H28_SpeedsEndWithTheLease"),
     by_tests(Guard::speeds_owed, "speeds-owed", "... and those of a motion with it, also where the line was lost",

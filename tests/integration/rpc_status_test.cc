@@ -52,6 +52,7 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::unauthenticated, grpc::UNAUTHENTICATED},
       {Reason::epoch_passed, grpc::FAILED_PRECONDITION},
       {Reason::not_homed, grpc::FAILED_PRECONDITION},
+      {Reason::unexplained, grpc::FAILED_PRECONDITION},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(api::Reason_ARRAYSIZE));

@@ -128,10 +128,10 @@ TEST(Reply, Positions) {
   EXPECT_EQ((*readings)[0].pulses, 100);
   EXPECT_EQ((*readings)[1].pulses, -2000);
   EXPECT_EQ((*readings)[2].pulses, 3000);
-  EXPECT_TRUE((*readings)[0].status.limit_error()) << "bit 8";
+  EXPECT_TRUE((*readings)[0].status.bit(8)) << "bit 8";
   EXPECT_FALSE((*readings)[0].busy);
   EXPECT_TRUE((*readings)[1].busy);
-  EXPECT_TRUE((*readings)[2].status.any_error()) << "bit 3";
+  EXPECT_TRUE((*readings)[2].status.bit(3)) << "bit 3";
 }
 
 // Manual 5): an invalid axis replies 0 and D.
