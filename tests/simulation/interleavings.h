@@ -41,8 +41,8 @@ struct Question {
   shrc203::AxisSet controllable, moving;
   Moment moment = Moment::moving;
   Duration after_ready{};
-  bool by_execute = false;         // the motion is a caller's own line, so that more motions may follow in it
-  bool shared = false;             // two callers ask at once while the line is taken, so that one exchange answers both
+  bool by_execute = false;  // the motion is a caller's own line, so that more motions may follow in it
+  bool shared = false;      // two callers ask at once while the line is taken, so that one exchange answers both
 
   std::vector<std::string> lines() const;  // of Execute
   std::string on_the_wire() const;
