@@ -36,6 +36,7 @@ class Device {
   const std::string& name() const { return profile_.name; }
   const shrc203::Profile& profile() const { return profile_; }
   const std::string& line_description() const { return line_->description(); }
+  Line& line() { return *line_; }
   Newest<shrc203::State>& newest_state() { return newest_state_; }
   Newest<LeaseBoard>& newest_leases() { return newest_leases_; }
   DeviceRecorder& recorder() { return recorder_; }

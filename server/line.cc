@@ -8,6 +8,7 @@
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "device/link/tcp_socket.h"
+#include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/paced_line.h"
 #include "device/shrc203/simulator/simulator.h"
@@ -50,8 +51,10 @@ class SimulatedLine final : public Line {
   SimulatedLine(simulator::Pacing pacing, simulator::Options options, Strand strand, std::string description)
       : description_(std::move(description)),
         runner_(std::move(strand)),
-        device_(pacing, runner_, [&options](ByteLink& inside) -> std::unique_ptr<LineMachine> {
-          return std::make_unique<simulator::Simulator>(std::move(options), inside);
+        device_(pacing, runner_, [this, &options](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+          auto simulated = std::make_unique<simulator::Simulator>(std::move(options), inside);
+          simulator_ = simulated.get();
+          return simulated;
         }) {
     runner_.attach(device_);
   }
@@ -61,9 +64,16 @@ class SimulatedLine final : public Line {
   void start() override { runner_.start(); }
   void shutdown() override { runner_.shutdown(); }
 
+  void operate(std::string command, OnOperated done) override {
+    runner_.post([this, command = std::move(command), done = std::move(done)](TimePoint now) {
+      device_.touch(now, [&](TimePoint device_now) { done(simulator::control(*simulator_, command, device_now)); });
+    });
+  }
+
  private:
   const std::string description_;
   Runner runner_;
+  simulator::Simulator* simulator_ = nullptr;  // inside device_
   simulator::PacedLine device_;
 };
 
@@ -78,6 +88,10 @@ std::unique_ptr<Line> make_simulated(const SimulatedConnection& connection, cons
 }
 
 }  // namespace
+
+void Line::operate(std::string, OnOperated done) {
+  done(fail(Reason::invalid_request, "the device is not simulated", "do it at the device itself"));
+}
 
 std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand) {
   if (const auto* serial = std::get_if<SerialSettings>(&config.connection)) {

@@ -2,6 +2,7 @@
 // socket pair.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -21,6 +22,12 @@ class Line {
 
   virtual void start() = 0;
   virtual void shutdown() = 0;
+
+  // What a person does at a simulated device, and what he sees (device/shrc203/simulator/control.h), from any thread;
+  // `done` is called on the simulator's strand, or at once where the device is not simulated: invalid_request. After
+  // shutdown() it is dropped.
+  using OnOperated = std::function<void(const Result<std::string>& answer)>;
+  virtual void operate(std::string command, OnOperated done);
 };
 
 // `strand` is the simulator's.

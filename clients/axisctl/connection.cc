@@ -78,7 +78,8 @@ Connection::Connection(const Target& target)
       diagnostics(v1::DiagnosticsService::NewStub(channel_)),
       control(v1::ControlService::NewStub(channel_)),
       access(v1::AccessService::NewStub(channel_)),
-      settings(v1::SettingService::NewStub(channel_)) {}
+      settings(v1::SettingService::NewStub(channel_)),
+      simulators(v1::SimulatorService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;

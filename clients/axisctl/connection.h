@@ -14,6 +14,7 @@
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/settings.grpc.pb.h"
+#include "axisgate/v1/simulator.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "clients/axisctl/options.h"
 
@@ -61,6 +62,7 @@ class Connection {
   const std::unique_ptr<v1::ControlService::Stub> control;
   const std::unique_ptr<v1::AccessService::Stub> access;
   const std::unique_ptr<v1::SettingService::Stub> settings;
+  const std::unique_ptr<v1::SimulatorService::Stub> simulators;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

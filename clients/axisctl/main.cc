@@ -32,6 +32,7 @@ constexpr Row kRows[] = {
     {Verb::commands, commands},
     {Verb::record, record},
     {Verb::replay, replay},
+    {Verb::sim, simulate},
     {Verb::support, support},
     {Verb::lease_run, lease_run},
     {Verb::lease_list, lease_list},

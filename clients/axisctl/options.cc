@@ -101,6 +101,11 @@ void add_other_verbs(CLI::App& app, Options& options) {
   commands->add_option("COMMAND", options.command, "one command with its parameters, as M:")->type_name("");
 }
 
+void add_simulator_verb(CLI::App& app, Options& options) {
+  CLI::App* sim = add_verb(app, options, Verb::sim, "sim", "what a person does at a device that is simulated");
+  sim->add_option("COMMAND", options.lines, "`help` lists them")->required()->type_name("");
+}
+
 void add_recording_verbs(CLI::App& app, Options& options) {
   CLI::App* record = add_verb(app, options, Verb::record, "record",
                               "what went over the line: the last minutes, then on and on until Ctrl-C");
@@ -352,6 +357,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_other_verbs(app, options);
   add_lease_verbs(app, options);
   add_access_verbs(app, options);
+  add_simulator_verb(app, options);
   add_recording_verbs(app, options);
   add_controller_settings(app, options);
   add_axis_settings(app, options);

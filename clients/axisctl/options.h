@@ -25,6 +25,7 @@ enum class Verb {
   commands,
   record,
   replay,
+  sim,
   support,
   lease_run,
   lease_list,
@@ -74,7 +75,7 @@ struct Options {
 
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
-  std::vector<std::string> lines;   // exec; lease run: the command and its arguments
+  std::vector<std::string> lines;   // exec; lease run, sim: the command and its words
   std::string file;                 // path, replay; "-" is the standard input
   std::string output;               // record, support: a file; empty: as the verb does by itself
   std::string command;              // commands: one row only

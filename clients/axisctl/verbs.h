@@ -20,6 +20,7 @@ int execute(const Session& session);
 int watch(const Session& session);
 int record(const Session& session);
 int replay(const Session& session);
+int simulate(const Session& session);
 int support(const Session& session);
 int lease_run(const Session& session);
 int lease_list(const Session& session);

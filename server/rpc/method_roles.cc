@@ -15,7 +15,7 @@ constexpr std::string_view kApi = "/axisgate.v1.";
 constexpr std::array<std::string_view, 2> kReadOnlyServices = {"/grpc.health.v1.Health/",
                                                                "/grpc.reflection.v1alpha.ServerReflection/"};
 
-constexpr std::array<std::pair<std::string_view, Role>, 33> kRoles = {{
+constexpr std::array<std::pair<std::string_view, Role>, 34> kRoles = {{
     {"AccessService/GetCaller", Role::observer},
     {"CommandService/ListCommands", Role::observer},
     {"CommandService/Execute", Role::operator_},
@@ -37,6 +37,7 @@ constexpr std::array<std::pair<std::string_view, Role>, 33> kRoles = {{
     {"SettingService/SetCoordinates", Role::operator_},
     {"SettingService/FireTrigger", Role::operator_},
     {"SettingService/ResetDevice", Role::operator_},
+    {"SimulatorService/Operate", Role::operator_},
     {"StageService/Move", Role::operator_},
     {"StageService/Home", Role::operator_},
     {"StageService/ReturnToOrigin", Role::operator_},

@@ -47,6 +47,7 @@ Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr
       events_(gateway, streams_),
       commands_(gateway, access, streams_),
       settings_(gateway, access),
+      simulators_(gateway),
       diagnostics_(gateway, streams_),
       control_(gateway, streams_),
       known_callers_(access),
@@ -83,8 +84,9 @@ void Server::build_ordinary() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
-  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
-           &devices_, &stage_, &events_, &commands_, &settings_, &diagnostics_, &control_, &known_callers_, &health_}) {
+  for (grpc::Service* service :
+       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &settings_, &simulators_,
+                                             &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   build(builder, ordinary_);

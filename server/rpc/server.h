@@ -25,6 +25,7 @@
 #include "server/rpc/health_service.h"
 #include "server/rpc/rpc_metrics.h"
 #include "server/rpc/setting_service.h"
+#include "server/rpc/simulator_service.h"
 #include "server/rpc/stage_service.h"
 #include "server/rpc/stop_only.h"
 #include "server/rpc/stream_limit.h"
@@ -72,6 +73,7 @@ class Server {
   EventService events_;
   CommandService commands_;
   SettingService settings_;
+  SimulatorService simulators_;
   DiagnosticsService diagnostics_;
   ControlService control_;
   AccessService known_callers_;

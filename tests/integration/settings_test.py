@@ -325,5 +325,36 @@ class UnderALease(OnAStage):
         self.assertEqual(self.controller("?:C"), "0,1,1")
 
 
+class AtTheDevice(OnAStage):
+    """What a person does at the simulated device, and what becomes of it here."""
+
+    def test_help_lists_what_he_can_do(self):
+        told = self.ok("sim", "help")
+        for command in ("mode", "emergency", "limit", "inputs", "unplug"):
+            self.assertRegex(told, rf"(^|; ){command}\b")
+
+    def test_inputs(self):
+        self.done("sim", "inputs", "5")
+        self.assertEqual(self.controller("I:"), "5")
+
+    def test_a_motor_that_is_switched_off(self):
+        self.done("sim", "excitation", "1", "off")
+        refused = self.refused(3, "NOT_EXCITED", "exec", "R:1")
+        self.assertIn("axisctl motor 1 on", refused.stderr)
+
+    def test_the_emergency_button(self):
+        self.done("sim", "emergency")
+        self.refused(3, "EMERGENCY_STOPPED", "move", "1=1mm")
+        self.ok("clear")
+        self.done("motor", "1,2,3", "on")
+        self.ok("move", "1=1mm")
+
+    def test_what_is_no_command(self):
+        refused = self.refused(3, "INVALID_REQUEST", "sim", "emergancy")
+        self.assertIn("help", refused.stderr)
+        self.refused(3, "INVALID_REQUEST", "sim", "inputs", "64")
+        self.assertEqual(self.controller("I:"), "0")
+
+
 if __name__ == "__main__":
     unittest.main(verbosity=2)
