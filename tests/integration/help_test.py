@@ -78,8 +78,9 @@ class Examples(unittest.TestCase):
         self.assertEqual(answer.returncode, 0, f"{line}: {answer.stdout}{answer.stderr}")
 
     def interrupt_one(self, line):
-        endless = Lines(["env", f"AXISGATE_TARGET={self.daemon.socket}", f"PATH={self.environment['PATH']}", "sh", "-c",
-                         "exec " + line])
+        # Where the tests run in the background of a shell, SIGINT is ignored by all that they start.
+        endless = Lines(["env", "--default-signal=INT", f"AXISGATE_TARGET={self.daemon.socket}",
+                         f"PATH={self.environment['PATH']}", "sh", "-c", "exec " + line])
         self.addCleanup(endless.process.kill)
         endless.next()
         endless.process.send_signal(signal.SIGINT)
