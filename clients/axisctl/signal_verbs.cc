@@ -104,7 +104,9 @@ int outputs(const Session& session) {
   v1::Settings wanted;
   wanted.set_outputs(0);
   if (options.value == "none") return change_settings(session, device, wanted);
-  const v1::Settings settings = settings_of(session, device);
+  // The daemon follows what is set, so that nothing has to be asked while something moves.
+  v1::Settings settings;
+  if (device.has_outputs()) settings.set_outputs(device.outputs());
   if (options.value.empty()) return show_outputs(session, settings);
   if (!settings.has_outputs()) {
     throw Failure{kRefused, "INVALID_REQUEST", "what the other outputs are is not known",

@@ -142,6 +142,7 @@ enum class Guard {
   inputs_start_nothing,
   away_alone,
   excitation_known,
+  circle_seen_to_run,
   settings_restored,
   speeds_owed,
 

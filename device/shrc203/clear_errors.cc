@@ -19,6 +19,8 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
     co_return;
   }
   request.command = make_command("BEC:", named);
+  request.lease = context.lease;
+  request.uses = named;
   request.lane = Lane::motion;
   request.caller = context.who;
   request.not_after = default_limit(context.not_after, kQuestionLimit);

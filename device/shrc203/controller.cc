@@ -52,6 +52,8 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   const bool news = state_.link != LinkState::down || state_.link_problem != why;
   state_.link = LinkState::down;
   state_.link_problem = why;
+  state_.outputs.reset();
+  state_.trigger.reset();
   for (auto& axis : state_.axes) {
     // It may be nobody's here that moves.
     state_.moving_unknown = state_.moving_unknown || (axis.busy.value_or(false) && guarded(Guard::moving_unknown));
@@ -163,9 +165,14 @@ std::optional<Problem> Controller::Impl::may_write(const ExchangeRequest& reques
   const auto found = live_.find(request.motion);
   // What was given up at the gateway's end sends nothing more.
   if (found == live_.end() && ending_) return ending_;
-  if (found == live_.end() || !guarded(Guard::lease_asked_as_bytes_go)) return {};
-  const LiveMotion& live = *found->second;
-  const auto allowed = permission_.may_use({live.context.who, live.context.lease, live.uses, live.motion.id}, now);
+  const bool alone = request.motion == 0 && !request.uses.empty();
+  if ((found == live_.end() && !alone) || !guarded(Guard::lease_asked_as_bytes_go)) return {};
+  Use use{request.caller, request.lease, request.uses, 0};
+  if (!alone) {
+    const LiveMotion& live = *found->second;
+    use = {live.context.who, live.context.lease, live.uses, live.motion.id};
+  }
+  const auto allowed = permission_.may_use(use, now);
   if (allowed) return {};
   return allowed.error();
 }

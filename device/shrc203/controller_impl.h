@@ -1,12 +1,12 @@
 // The inside of Controller: what its procedures share. Each procedure is a coroutine in a file of its own:
 //
-//   handshake.cc  who is there, after a connect         reading.cc  positions, registers, why NG
-//   move.cc       set, go, watch                        home.cc     origin returns
-//   path.cc       the double buffer's chain             stop.cc     L: and L:E
-//   execute.cc    a caller's own lines                  watch.cc    a running motion to its outcome
-//   wind_down.cc  the end                               jog.cc     axes that run until they are stopped
-//   excursion.cc  out of HOST and back
-//   clear_errors.cc  BEC:                               speeds.cc   what D: has set, for a motion
+//   handshake.cc  who is there, after a connect         reading.cc       positions, registers, settings
+//   move.cc       set, go, watch                        home.cc          origin returns
+//   path.cc       the double buffer's chain             stop.cc          L: and L:E
+//   execute.cc, execute_request.cc  a caller's lines    watch.cc         a running motion to its outcome
+//   wind_down.cc  the end                               jog.cc           axes that run until they are stopped
+//   excursion.cc  out of HOST and back                  explain.cc       why NG
+//   speeds.cc     what D: has set, for a motion         clear_errors.cc  BEC:
 //   lease_settings.cc  what a lease's holder has set
 #pragma once
 
@@ -61,7 +61,10 @@ struct LiveMotion {
   bool inside_gate = false;
   bool watched = false;     // watch() reads the positions
   bool keeps_gate = false;  // past its outcome, until the speeds it changed are the old ones again
-  bool wrote = false;       // a line of its own went out: the registers may hold something
+  bool needs_excitation = true;
+  bool ends_where_it_began = false;  // a whole circle: standing at its target tells nothing
+  bool seen_busy = false;
+  bool wrote = false;  // a line of its own went out: the registers may hold something
 
   struct Completion {
     int axis = 0;
@@ -127,6 +130,7 @@ class Controller::Impl : public LineListener {
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
   Task<Result<void>> read_origin_speeds(std::string caller);
+  Task<Result<void>> read_scales(std::string caller);
   Task<Result<void>> read_excitation(std::string caller);
   Task<Result<void>> read_outputs(std::string caller);
   Task<Result<void>> read_trigger(std::string caller);
@@ -172,6 +176,7 @@ class Controller::Impl : public LineListener {
   void note_speeds(const Speeds& speeds);
   Speeds known_speeds(AxisSet axes) const;
   Speeds known_origin_speeds(AxisSet axes) const;
+  void note_origin_speeds(int axis, const std::optional<SpeedSetting>& speed);
   bool speeds_known() const {
     return known_speeds(state_.controllable()).size() == std::size_t(state_.controllable().count());
   }
@@ -187,16 +192,17 @@ class Controller::Impl : public LineListener {
   // lease_settings.cc
   struct Settings {
     Speeds speeds, origin_speeds;
-    std::optional<int> outputs;
-    std::optional<Trigger> trigger;
+    std::optional<int> outputs, outputs_set;  // before, and by the lease at last
+    std::optional<Trigger> trigger, trigger_set;
+    std::uint64_t epoch = 0;  // of the device, when outputs or trigger were set
   };
   Task<Result<void>> learn_settings(const std::vector<Command>& commands, std::string caller);
   void remember_settings(const RequestContext& context, const Command& command);
   void note_setting(const Command& command, const ExchangeResult& result);
   Task<bool> set_line_back(Command command, std::string caller);
   Task<bool> set_origin_speeds_back(Speeds before, std::string caller);
-  Task<bool> set_outputs_back(std::optional<int> before, std::string caller);
-  Task<bool> set_trigger_back(std::optional<Trigger> before, std::string caller);
+  Task<bool> set_outputs_back(Settings before, std::string caller);
+  Task<bool> set_trigger_back(Settings before, std::string caller);
   Task<bool> set_back_in_turn(EndedLease lease, Settings before);
   Task<void> restore_settings_of(EndedLease lease);
   Task<void> restore_all_settings();

@@ -15,7 +15,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr int kClosedTries = 8;
+constexpr int kClosedTries = 8, kDestinationTries = 4;
 
 // One caller's transaction.
 class Transaction {
@@ -64,7 +64,13 @@ Result<void> Transaction::check_envelope() {
     const auto good = destination_question(command) ? forecast.go_to(destination_) : forecast.add(command);
     if (!good) return good;
   }
+  const Positions begin = positions_of(impl_.state_);
+  live_->ends_where_it_began = std::ranges::any_of(commands_, [](const Command& command) {
+    return command.row->reg == Register::e || command.row->reg == Register::ep;
+  });
   for (auto& result : live_->motion.results) {
+    const auto place = static_cast<std::size_t>(result.axis - 1);
+    if (forecast.at()[place] != begin[place]) live_->ends_where_it_began = false;
     result.target_pulses = forecast.at()[static_cast<std::size_t>(result.axis - 1)];
   }
   return {};
@@ -73,8 +79,17 @@ Result<void> Transaction::check_envelope() {
 Task<Result<void>> Transaction::ask_for_destination() {
   const auto question = destination_question(commands_.front());
   if (!question) co_return Result<void>();
-  const auto result = co_await exchange(*question);
-  if (result.problem) co_return tl::unexpected(*result.problem);
+  ExchangeResult result;
+  std::string before;
+  // One byte that the line lost would make another place of it.
+  for (int attempt = 0; attempt < kDestinationTries; ++attempt) {
+    result = co_await exchange(*question);
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (std::exchange(before, result.reply->text) == result.reply->text) break;
+    if (attempt + 1 == kDestinationTries) {
+      co_return fail(Reason::line_fault, "the saved position is told otherwise every time", "check the cable");
+    }
+  }
   const auto coordinates = by_axis(*result.reply, impl_.state_.controllable());
   if (result.refused() || coordinates.empty()) {
     co_return fail(Reason::not_found, fmt::format("nothing is saved under number {}", *question->arguments.first("n")),
@@ -93,6 +108,8 @@ Task<Result<void>> Transaction::begin() {
   if (!ready) co_return ready;
   // Their speeds have to be known, to be set back.
   const AxisSet sped = axes_sped(commands_, SetsSpeeds::of_motion, impl_.state_.controllable());
+  // DS: and the like set a part of what is owed.
+  if (live_->motion.axes.empty()) co_await impl_.pay_speeds(sped, request_.context.who);
   if (!sped.empty()) {
     const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
     // D: by itself is how impossible ones are mended.
@@ -120,6 +137,10 @@ ExchangeRequest Transaction::request_for(const Command& command) {
   request.not_after = request_.context.not_after;
   if (impl_.away_) request.not_after = std::max(request.not_after, impl_.now_ + kStepLimit);  // it must come back
   request.motion = live_ ? live_->motion.id : 0;
+  if (!live_) {
+    request.lease = request_.context.lease;
+    request.uses = axes_used({command}, impl_.state_.controllable());
+  }
   const bool waits = command.row->reg != Register::none;  // its end tells no number of its own that is documented
   if (command.row->moves() && !waits && completes(commands_)) request.completes = live_->motion.axes;
   return request;
@@ -248,9 +269,9 @@ Task<bool> Transaction::send_all() {
 
 // What its lines may have left otherwise than it is known. A pulse is another way after S: (manual 55)).
 Task<Result<void>> Transaction::read_what_is_set() {
-  if (rescaled_) {
-    const bool read = co_await impl_.read_settings(impl_.connection_);
-    if (!read) impl_.line_.give_up("its scale was changed, and could not be read", impl_.now_);
+  if (rescaled_ && !live_->line_lost) {
+    const auto read = co_await impl_.read_scales(request_.context.who);
+    if (!read && !live_->line_lost) impl_.line_.give_up("its scale was changed, and could not be read", impl_.now_);
   }
   const AxisSet all = impl_.state_.controllable();
   if (impl_.known_origin_speeds(all).size() == static_cast<std::size_t>(all.count())) co_return Result<void>();
@@ -263,6 +284,8 @@ Task<void> Transaction::run() {
     const AxisSet axes = axes_moved(commands_, impl_.state_.controllable());
     live_ = impl_.create_motion(MotionKind::execute, axes, request_.context, {});
     live_->uses = axes_used(commands_, impl_.state_.controllable());
+    live_->needs_excitation =
+        std::ranges::any_of(commands_, [](const Command& command) { return command.row->needs.excited; });
     const auto begun = co_await begin();
     if (!begun) {
       end(begun.error());
@@ -320,72 +343,9 @@ Task<void> Transaction::run() {
 
 }  // namespace
 
-void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
-  const auto refuse = [&event](Problem problem) {
-    ExecuteEvent ended;
-    ended.kind = ExecuteEvent::Kind::ended;
-    ended.problem = std::move(problem);
-    event(ended);
-  };
-  auto checked = check_lines(request.lines);
-  if (!checked) return refuse(checked.error());
-  std::vector<Command> commands = *std::move(checked);
-  if (ending_ && commands.front().row->effect != Effect::stop) return refuse(*ending_);
-  if (state_.controllable().empty() || state_.link == LinkState::down) {
-    if (commands.front().row->effect != Effect::stop) {
-      return refuse(
-          {Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up", {}, {}, {}});
-    }
-  }
-  request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
-  if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
-  if (away_ && !needs_gate(commands)) return refuse(away_problem());
-  const bool arms = std::ranges::any_of(commands, [](const Command& one) {
-    const bool step = one.row->name == "P:SET" && one.arguments.first("p").value_or("").starts_with("INPUT");
-    return step || (one.row->reg == Register::wi && waits_of(one).set);
-  });
-  if (arms && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
-    return refuse({Reason::not_allowed,
-                   "WI: lets an input pin start a motion, whoever may stand beside the stage",
-                   "an administrator may allow it for this device: wait_for_inputs = true",
-                   {},
-                   {},
-                   {}});
-  }
-  const auto allowed = may_use(request.context, axes_used(commands, state_.controllable()));
-  if (!allowed) return refuse(allowed.error());
-  executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
-}
-
-Result<void> Controller::check(const ExecuteRequest& request) {
-  const auto commands = check_lines(request.lines);
-  if (!commands) return tl::unexpected(commands.error());
-  return {};
-}
-
 Task<void> Controller::Impl::run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event) {
   Transaction transaction(*this, std::move(request), std::move(commands), std::move(event));
   co_await transaction.run();
-}
-
-void Controller::Impl::execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event) {
-  const bool emergency = command.row->name == "L:E";
-  const AxisSet axes = emergency ? AxisSet::all() : command.axes(state_.controllable());
-  permission_.stop_asked({request.context.who, request.context.lease, axes, 0}, now_);
-  stop(command.axes(state_.controllable()), emergency, request.context,
-       [event = std::move(event), line = command.line](const StopReport& report) {
-         ExecuteEvent reply;
-         reply.sent = line;
-         for (const auto& axis : report.axes) {
-           if (!axis.wire_reply.empty()) reply.wire_reply = axis.wire_reply;
-         }
-         reply.answer = reply.wire_reply;
-         if (!reply.answer.empty()) event(reply);
-         ExecuteEvent ended;
-         ended.kind = ExecuteEvent::Kind::ended;
-         ended.problem = report.problem;
-         event(ended);
-       });
 }
 
 }  // namespace axisgate::shrc203

@@ -1,6 +1,9 @@
 // What is asked of the controller after NG, until something tells why; and before a motion, where it is known already.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <map>
+
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/refusals.h"
@@ -23,9 +26,17 @@ Task<Problem> Controller::Impl::explain_refusal(Command command, AxisSet axes, s
   }
   (void)co_await read_excitation(caller);
   if (const auto shown = refusal_by(*command.row, axes, state_)) co_return explained(*shown);
+  // Whether other axes' motion counts is an open question (busy_scope).
+  if (command.row->needs.ready && profile_.busy_scope == Scope::controller) {
+    const auto other = refusal_by(command_row("W:"), state_.controllable(), state_);
+    if (other) co_return explained(*other);
+  }
   if (command.row->rescales) {
     const auto config = co_await ask("?:ACS", Lane::motion, caller);
-    if (config.reply && !config.problem && config.reply->text.find('1') != std::string::npos) {
+    const auto told =
+        config.reply && !config.problem ? by_axis(*config.reply, state_.controllable()) : std::map<int, std::string>();
+    const auto on = [&told](int axis) { return told.contains(axis) && told.at(axis) == "1"; };
+    if (std::ranges::any_of(axes.list(), on)) {
       co_return explained({Reason::device_refused,
                            "the axis is configured by its stage (memory switch AXIS-CONFIG), so S: is invalid",
                            "switch CONFIG off in the memory switches, if the divisions must be others",

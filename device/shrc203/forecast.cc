@@ -102,22 +102,24 @@ Result<void> Forecast::add_program() {
   return {};
 }
 
-// Whether both buffers of one axis run, or which, is an open question: each alone was checked, and both together.
+// Whether both buffers of one axis run, or which, is an open question: each alone was checked, and here both together;
+// where it is afterwards is not known then.
 Result<void> Forecast::start(int axis) {
   started_.add(axis);
   auto& at = at_[static_cast<std::size_t>(axis - 1)];
-  for (const auto& pending : std::exchange(pending_[axis], {})) {
-    if (pending.relative && !at) {
-      return fail_on(axis, Reason::position_unknown,
-                     fmt::format("where {} would be is not known", envelope_.label(axis)), "send the motion by itself");
+  const auto pending = std::exchange(pending_[axis], {});
+  for (const auto& one : pending) {
+    // S may have been set anew since.
+    const auto paced =
+        one.paced_by == 0 ? 0 : std::llround(one.share * static_cast<double>(speeds_[one.paced_by].minimum));
+    if (const auto good = envelope_.check_speed(axis, paced); !good) return good;
+    if (one.relative) {
+      if (const auto good = check_extent(axis, one.extent, one.amount); !good) return good;
     }
-    for (const auto reached : {pending.extent.lowest, pending.extent.highest}) {
-      if (reached == 0) continue;
-      if (const auto good = envelope_.check_target(axis, *at + reached); !good) return good;
-    }
-    at = pending.relative ? *at + pending.amount : pending.amount;
+    at = one.relative ? *at + one.amount : one.amount;
     if (const auto good = envelope_.check_target(axis, *at); !good) return good;
   }
+  if (pending.size() > 1 || uncertain_.has(axis)) at.reset();
   return {};
 }
 
@@ -138,7 +140,9 @@ Result<void> Forecast::add_setting(const Command& command) {
     const SpeedSetting& speed = speeds_[line ? plan->axes.front().axis : one.axis];
     if (const auto good = envelope_.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
     const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
-    if (const auto good = add_pending(one.axis, {reg, relative, lasting, one.amount}); !good) return good;
+    Pending pending{reg, relative, lasting, one.amount, {}};
+    if (line) pending.paced_by = plan->axes.front().axis;
+    if (const auto good = add_pending(one.axis, pending); !good) return good;
   }
   return {};
 }
@@ -164,8 +168,24 @@ Result<void> Forecast::add_arc(const Command& command) {
     if (auto good = envelope_.check_homed(axis); !good) return good;
     const auto part = i < 2 ? speed : std::llround(slope * static_cast<double>(speed));
     if (auto good = envelope_.check_speed(axis, part); !good) return good;
-    const Pending one{command.row->reg, true, lasting, ways[i].first, ways[i].second};
+    // A prebuffer setting may start by itself, and one setting may take another's place: each is checked alone, too.
+    if (auto good = check_extent(axis, ways[i].second, ways[i].first); !good) return good;
+    Pending one{command.row->reg, true, lasting, ways[i].first, ways[i].second};
+    one.paced_by = line->axes[0];
+    one.share = i < 2 ? 1 : slope;
     if (auto good = add_pending(axis, one); !good) return good;
+  }
+  return {};
+}
+
+Result<void> Forecast::check_extent(int axis, const Extent& extent, std::int64_t end) {
+  const auto& at = at_[static_cast<std::size_t>(axis - 1)];
+  if (!at) {
+    return fail_on(axis, Reason::position_unknown, fmt::format("where {} would be is not known", envelope_.label(axis)),
+                   "send the motion by itself");
+  }
+  for (const auto reached : {extent.lowest, extent.highest, end}) {
+    if (auto good = envelope_.check_target(axis, *at + reached); !good) return good;
   }
   return {};
 }
@@ -180,6 +200,13 @@ Result<void> Forecast::add_pending(int axis, const Pending& one) {
                    "start each with G:, or run a path");
   }
   std::erase_if(pending, [&one](const auto& before) { return before.reg == one.reg; });
+  // What belongs to several axes goes for all of them when one is set anew.
+  for (const auto& before : pending) {
+    if (before.paced_by == 0) continue;
+    for (const auto& [other, settings] : pending_) {
+      if (std::ranges::find(settings, before.reg, &Pending::reg) != settings.end()) uncertain_.add(other);
+    }
+  }
   pending.push_back(one);
   return {};
 }

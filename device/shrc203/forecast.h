@@ -32,12 +32,15 @@ class Forecast {
     bool lasting = false;  // GC: does not delete it
     std::int64_t amount = 0;
     Extent extent = {};  // what a curve leads through meanwhile, from where it begins
+    int paced_by = 0;    // of a line or curve: the axis whose S it runs at
+    double share = 1;    // of that speed, what this axis makes at most
   };
   Result<void> add_speeds(const Command& command);
   Result<void> add_motion(const Command& command);
   Result<void> add_setting(const Command& command);
   Result<void> add_arc(const Command& command);
   Result<void> add_pending(int axis, const Pending& pending);
+  Result<void> check_extent(int axis, const Extent& extent, std::int64_t end);
   Result<void> add_origin_return(const Command& command);
   Result<void> add_program();
   Result<void> start(int axis);
@@ -48,6 +51,7 @@ class Forecast {
   AxisSet controllable_;
   std::map<int, std::vector<Pending>> pending_;  // by axis, what a G would start
   AxisSet started_;
+  AxisSet uncertain_;  // what was set there may have been dropped
 };
 
 }  // namespace axisgate::shrc203

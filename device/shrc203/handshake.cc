@@ -131,28 +131,34 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     ExchangeResult* answer;
   };
   for (const Step step : {Step{"?:AXIS", &axes}, Step{"?:AXIS", &axes_again}, Step{"?:SN", &serial},
-                          Step{"?:P", &scale}, Step{"?:D", &speeds}, Step{"?:C", &excitation}, Step{"?:O", &outputs},
-                          Step{"?:T", &trigger}, Step{"?:B", &origin_speeds}}) {
+                          Step{"?:P", &scale}, Step{"?:D", &speeds}, Step{"?:C", &excitation}}) {
     for (int attempt = 0; attempt < kTries && !is_data(*step.answer); ++attempt) {
       if (connection != connection_) co_return false;
       *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
     }
     if (!is_data(*step.answer)) co_return false;
   }
+  // Whoever sets these asks for them then, if need be.
+  for (const Step step : {Step{"?:O", &outputs}, Step{"?:T", &trigger}, Step{"?:B", &origin_speeds}}) {
+    if (connection != connection_) co_return false;
+    *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
+  }
   scale_told_ = scale.reply->text;
-  state_.outputs = static_cast<int>(*parse_integer(outputs.reply->text));
-  state_.trigger = parse_trigger(trigger.reply->text);
+  state_.outputs.reset();
+  if (is_data(outputs)) state_.outputs = static_cast<int>(*parse_integer(outputs.reply->text));
+  state_.trigger = is_data(trigger) ? parse_trigger(trigger.reply->text) : std::nullopt;
   const auto controllable = from_axis_setting(axes.reply->text);
   const bool twice = axes_again.reply->text == axes.reply->text || !guarded(Guard::axes_twice);
   if (!controllable || !twice) co_return false;
   if (serial.reply->text != state_.serial_number && guarded(Guard::serial_number_twice)) co_return false;
   for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
   const auto scales = by_axis(*scale.reply, *controllable), set_speeds = by_axis(*speeds.reply, *controllable),
-             origins = by_axis(*origin_speeds.reply, *controllable),
              excited = by_axis(*excitation.reply, *controllable);
-  for (const auto* fields : {&scales, &set_speeds, &origins, &excited}) {
+  for (const auto* fields : {&scales, &set_speeds, &excited}) {
     if (fields->size() != static_cast<std::size_t>(controllable->count())) co_return false;
   }
+  const auto origins =
+      is_data(origin_speeds) ? by_axis(*origin_speeds.reply, *controllable) : std::map<int, std::string>();
   for (const int number : controllable->list()) {
     auto& axis = state_.axis(number);
     const auto per_pulse = parse_decimal(scales.at(number));
@@ -160,7 +166,7 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
     axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
     note_speeds({{number, *speed}});
-    axis.origin_speeds = parse_speed_setting(origins.at(number));
+    note_origin_speeds(number, origins.contains(number) ? parse_speed_setting(origins.at(number)) : std::nullopt);
     axis.excited = excited.at(number) == "1";
     axis.armed = false;
   }

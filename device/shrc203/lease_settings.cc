@@ -2,6 +2,7 @@
 // trigger (97) to 101) T:): known before, and put back when his lease has ended.
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
@@ -16,6 +17,19 @@ constexpr Duration kRestoreLimit = std::chrono::seconds(10), kRestorePause = std
 std::optional<int> outputs_of(const Command& command) {
   if (command.row->name != "O:") return {};
   return static_cast<int>(*parse_integer(*command.arguments.first("s")));
+}
+
+// The S, F and R that a B: names, by its axes in their order.
+std::vector<SpeedSetting> speed_settings_of(const Command& command) {
+  std::vector<SpeedSetting> speeds;
+  for (const auto& [letter, value] : command.arguments.values()) {
+    const auto number = parse_integer(value);
+    if (!number) continue;
+    if (letter == "spds") speeds.push_back({*number, 0, 0});
+    if (letter == "spdf" && !speeds.empty()) speeds.back().maximum = *number;
+    if (letter == "r" && !speeds.empty()) speeds.back().acceleration_ms = static_cast<int>(*number);
+  }
+  return speeds;
 }
 
 }  // namespace
@@ -37,6 +51,10 @@ Task<Result<void>> Controller::Impl::learn_settings(const std::vector<Command>& 
       }
     }
     if (!read) break;
+    if (known_origin_speeds(origin).size() != static_cast<std::size_t>(origin.count())) {
+      co_return fail(Reason::line_fault, "the speeds of the origin return were read as ones that no axis can have",
+                     "look at them: axisctl exec ?:B");
+    }
   }
   co_return read;
 }
@@ -56,6 +74,9 @@ void Controller::Impl::remember_settings(const RequestContext& context, const Co
   for (const auto& [axis, speed] : known_origin_speeds(origin)) before.origin_speeds.try_emplace(axis, speed);
   if (outputs && !before.outputs) before.outputs = state_.outputs;
   if (trigger && !before.trigger) before.trigger = state_.trigger;
+  if (outputs) before.outputs_set = outputs_of(command);
+  if (trigger) before.trigger_set = trigger_of(command);
+  before.epoch = state_.device_epoch;
   permission_.settings_changed(context.lease);
 }
 
@@ -67,7 +88,12 @@ void Controller::Impl::note_setting(const Command& command, const ExchangeResult
   if (outputs) state_.outputs = result.accepted() ? outputs : std::nullopt;
   if (trigger) state_.trigger = result.accepted() ? trigger : std::nullopt;
   const AxisSet origin = axes_sped({command}, SetsSpeeds::of_origin_return, state_.controllable());
-  for (const int axis : origin.list()) state_.axis(axis).origin_speeds.reset();
+  const auto speeds = result.accepted() ? speed_settings_of(command) : std::vector<SpeedSetting>();
+  std::size_t place = 0;
+  for (const int axis : origin.list()) {
+    note_origin_speeds(axis, place < speeds.size() ? std::optional(speeds[place]) : std::nullopt);
+    ++place;
+  }
   if (outputs || trigger) publish_state();
 }
 
@@ -101,16 +127,22 @@ Task<bool> Controller::Impl::set_origin_speeds_back(Speeds before, std::string c
   co_return back;
 }
 
-Task<bool> Controller::Impl::set_outputs_back(std::optional<int> before, std::string caller) {
-  if (!before || state_.outputs == before) co_return true;
-  const bool back =
-      co_await set_line_back(make_command("O:", Arguments().add("s", std::to_string(*before))), std::move(caller));
+// After what may have been a restart, outputs that are off and a trigger that is none are left as they are: nothing is
+// switched on in a controller that has just started.
+Task<bool> Controller::Impl::set_outputs_back(Settings before, std::string caller) {
+  if (!before.outputs || state_.outputs == before.outputs) co_return true;
+  const bool others = state_.outputs == 0 || state_.outputs != before.outputs_set;
+  if (before.epoch != state_.device_epoch && others) co_return true;
+  const bool back = co_await set_line_back(make_command("O:", Arguments().add("s", std::to_string(*before.outputs))),
+                                           std::move(caller));
   co_return back;
 }
 
-Task<bool> Controller::Impl::set_trigger_back(std::optional<Trigger> before, std::string caller) {
-  if (!before || state_.trigger == before) co_return true;
-  const bool back = co_await set_line_back(trigger_command(*before), std::move(caller));
+Task<bool> Controller::Impl::set_trigger_back(Settings before, std::string caller) {
+  if (!before.trigger || state_.trigger == before.trigger) co_return true;
+  const bool others = state_.trigger == Trigger{} || state_.trigger != before.trigger_set;
+  if (before.epoch != state_.device_epoch && others) co_return true;
+  const bool back = co_await set_line_back(trigger_command(*before.trigger), std::move(caller));
   co_return back;
 }
 
@@ -131,9 +163,9 @@ Task<bool> Controller::Impl::set_back_in_turn(EndedLease lease, Settings before)
   request.lane = Lane::motion;
   request.caller = "the gateway on behalf of " + lease.who;
   const std::string caller = request.caller;
-  const bool speeds = co_await set_back(std::move(before.speeds), std::move(request));
-  const bool origin = co_await set_origin_speeds_back(std::move(before.origin_speeds), caller);
-  const bool trigger = co_await set_trigger_back(before.trigger, caller);
+  const bool speeds = co_await set_back(before.speeds, std::move(request));
+  const bool origin = co_await set_origin_speeds_back(before.origin_speeds, caller);
+  const bool trigger = co_await set_trigger_back(before, caller);
   gate_.leave(lease.token);
   const bool back = speeds && origin && trigger;
   co_return back;
@@ -145,7 +177,7 @@ Task<void> Controller::Impl::restore_settings_of(EndedLease lease) {
   while (!ending_ && guarded(Guard::settings_restored)) {
     if (line_works()) {
       const Settings before = settings_before_[lease.token];
-      const bool outputs = co_await set_outputs_back(before.outputs, "the gateway on behalf of " + lease.who);
+      const bool outputs = co_await set_outputs_back(before, "the gateway on behalf of " + lease.who);
       const bool rest = co_await set_back_in_turn(lease, before);
       if (!give_up_at) give_up_at = now_ + kRestoreLimit;
       if ((outputs && rest) || now_ >= *give_up_at) break;
@@ -170,8 +202,8 @@ Task<void> Controller::Impl::restore_all_settings() {
     bool back = false;
     for (int attempt = 0; attempt < kTriesAtTheEnd && !back; ++attempt) {
       const bool origin = co_await set_origin_speeds_back(before.origin_speeds, caller);
-      const bool outputs = co_await set_outputs_back(before.outputs, caller);
-      const bool trigger = co_await set_trigger_back(before.trigger, caller);
+      const bool outputs = co_await set_outputs_back(before, caller);
+      const bool trigger = co_await set_trigger_back(before, caller);
       back = origin && outputs && trigger;
     }
   }

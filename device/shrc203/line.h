@@ -34,12 +34,14 @@ struct ExchangeRequest {
   Command command;
   Lane lane = Lane::question;
   std::string caller;
-  TimePoint not_after{};   // not written later than this
-  MotionId motion = 0;     // the motion it belongs to
-  bool tidies = false;     // it only undoes what the motion did: no right is needed for that
-  AxisSet completes;       // the axes whose numbers may come once it is written
-  bool handshake = false;  // may be sent before open()
-  bool closed = false;     // an !:S follows a number that could be a completion, so that all of them are in
+  TimePoint not_after{};    // not written later than this
+  MotionId motion = 0;      // the motion it belongs to
+  std::uint64_t lease = 0;  // of one that belongs to none: with which it was asked for,
+  AxisSet uses;             // and the axes that it needs the right to
+  bool tidies = false;      // it only undoes what the motion did: no right is needed for that
+  AxisSet completes;        // the axes whose numbers may come once it is written
+  bool handshake = false;   // may be sent before open()
+  bool closed = false;      // an !:S follows a number that could be a completion, so that all of them are in
 };
 
 struct ExchangeResult {

@@ -76,7 +76,7 @@ void Line::pump(TimePoint now) {
 Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
   while (auto next = queue_.take(may_go)) {
     const ExchangeRequest& request = (*next)->request;
-    const bool asks = request.motion != 0 && !request.tidies;
+    const bool asks = (request.motion != 0 || !request.uses.empty()) && !request.tidies;
     const auto refusal = asks ? listener_.may_write(request, now) : std::nullopt;
     if (!refusal) return *next;
     for (auto& answer : (*next)->answers) {

@@ -137,12 +137,31 @@ Task<Result<void>> Controller::Impl::read_speeds(std::string caller) {
   co_return Result<void>();
 }
 
+// After S: (manual 55)). Twice, since everything hangs on it.
+Task<Result<void>> Controller::Impl::read_scales(std::string caller) {
+  std::string before;
+  for (int attempt = 0; attempt < 4; ++attempt) {
+    const auto result = co_await ask("?:P", Lane::motion, caller);
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:P", result));
+    if (std::exchange(before, result.reply->text) != result.reply->text) continue;
+    for (const auto& [number, field] : by_axis(*result.reply, state_.controllable())) {
+      const auto per_pulse = parse_decimal(field);
+      auto& scale = state_.axis(number).scale;
+      if (per_pulse && per_pulse->digits != 0 && scale) scale->per_pulse = *per_pulse;
+    }
+    scale_told_ = result.reply->text;
+    co_return Result<void>();
+  }
+  co_return fail(Reason::line_fault, "what a pulse is, is told otherwise every time", "check the cable");
+}
+
 Task<Result<void>> Controller::Impl::read_origin_speeds(std::string caller) {
   const auto result = co_await ask("?:B", Lane::motion, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data) co_return tl::unexpected(unreadable("?:B", result));
   for (const auto& [axis, field] : by_axis(*result.reply, state_.controllable())) {
-    state_.axis(axis).origin_speeds = parse_speed_setting(field);
+    note_origin_speeds(axis, parse_speed_setting(field));
   }
   co_return Result<void>();
 }

@@ -26,6 +26,16 @@ void Controller::Impl::note_speeds(const Speeds& speeds) {
   }
 }
 
+// Likewise of the mechanical origin return.
+void Controller::Impl::note_origin_speeds(int axis, const std::optional<SpeedSetting>& speed) {
+  auto& known = state_.axis(axis).origin_speeds;
+  known.reset();
+  if (!speed) return;
+  Arguments setting;
+  setting.axes(AxisSet::of(axis)).speeds(speed->minimum, speed->maximum, speed->acceleration_ms);
+  if (encode(command_row("B:"), setting)) known = speed;
+}
+
 Controller::Impl::Speeds Controller::Impl::known_speeds(AxisSet axes) const {
   Speeds speeds;
   for (const int number : axes.list()) {

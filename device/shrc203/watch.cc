@@ -135,7 +135,7 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   }
   const auto problem = error_shown(live->motion.axes, state_);
   if (problem) co_return tl::unexpected(*problem);
-  auto ready = co_await check_excitation(axes, live->context.who);
+  auto ready = co_await check_excitation(live->needs_excitation ? axes : AxisSet(), live->context.who);
   if (ready) ready = co_await learn_speeds(axes, live->context.who);
   if (!ready) co_return ready;
   const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
@@ -263,6 +263,7 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   bool busy = false;
   for (const int axis : live->motion.axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
   const bool stirred = live->completed == live->motion.axes || live->motion.state != MotionState::queued;
+  live->seen_busy = live->seen_busy || busy;
   if (busy && (guarded(Guard::success_when_ready) || !at_targets(*live))) {
     check.ready = false;
     mark_running(live);
@@ -270,7 +271,11 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   }
   const auto error = error_shown(live->motion.axes, state_);
   // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
-  const bool evident = live->motion.kind != MotionKind::home || stirred || !guarded(Guard::home_seen_to_run);
+  const bool homed = live->motion.kind != MotionKind::home || stirred || !guarded(Guard::home_seen_to_run);
+  // A whole circle ends where it began, so it must have been seen to run, or had the time to show.
+  const bool ran = live->completed == live->motion.axes || live->seen_busy ||
+                   (live->motion.state != MotionState::queued && now_ - check.begun >= kStartDoubt);
+  const bool evident = homed && (ran || !live->ends_where_it_began || !guarded(Guard::circle_seen_to_run));
   // One flipped bit makes an R of a B; where no axis number bears a READY out, a second reading does.
   const Positions here = places_of(*live);
   const bool borne_out = !guarded(Guard::success_seen_twice) || live->completed == live->motion.axes ||

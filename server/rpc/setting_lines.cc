@@ -58,24 +58,74 @@ class Writer {
 
 Arguments of_axis(int axis) { return Arguments().axes(AxisSet::of(axis)); }
 
-// S, F and R in pulses; what is not given stays as it is in `present`.
-void add_speeds(std::string_view row, int number, const api::Profile& profile, const shrc203::AxisState& present,
-                Writer& writer) {
-  const auto speeds = to_profile(profile, present);
+Arguments speed_of(int axis, std::int64_t pulses) {
+  return of_axis(axis).add("u", "F").add("spd", std::to_string(pulses));
+}
+
+// Only what is given is sent: what is not may be a running motion's for now. S may not exceed F at any time (manual
+// 89)), so a lower F has S go before it, and a higher S goes behind its F.
+void add_speeds(int number, const api::Profile& profile, const shrc203::AxisState& present, Writer& writer) {
+  const auto pulses_of = [&](bool given, const api::Speed& speed) -> std::optional<std::int64_t> {
+    if (!given) return {};
+    const auto quantity = to_quantity(speed);
+    const auto pulses = quantity ? to_pulses(*quantity, *present.scale) : tl::unexpected(quantity.error());
+    if (!pulses) writer.refuse(on_axis(number, pulses.error()));
+    return pulses ? std::optional(*pulses) : std::nullopt;
+  };
+  auto minimum = pulses_of(profile.has_minimum(), profile.minimum());
+  const auto maximum = pulses_of(profile.has_maximum(), profile.maximum());
+  if (minimum && maximum && *minimum > *maximum) {
+    return writer.refuse(on_axis(
+        number, {Reason::out_of_range,
+                 fmt::format("the lowest speed S of {} pulses/s exceeds the highest, F of {}", *minimum, *maximum),
+                 "set F to S or higher",
+                 {},
+                 {},
+                 {}}));
+  }
+  if (maximum && !minimum && present.minimum_speed.value_or(0) > *maximum) minimum = maximum;
+  const bool first = minimum && (!maximum || *minimum <= present.maximum_speed.value_or(0));
+  if (first) writer.add("DS:", speed_of(number, *minimum));
+  if (maximum) writer.add("DF:", speed_of(number, *maximum));
+  if (minimum && !first) writer.add("DS:", speed_of(number, *minimum));
+  if (profile.acceleration_ms() != 0) {
+    writer.add("DR:", of_axis(number).add("r", std::to_string(profile.acceleration_ms())));
+  }
+}
+
+// B: has no parts: what is not given is sent as it is.
+void add_origin_speeds(int number, const api::Profile& profile, const shrc203::AxisState& present, Writer& writer) {
+  shrc203::AxisState origin = present;
+  origin.minimum_speed.reset();
+  origin.maximum_speed.reset();
+  origin.acceleration_ms.reset();
+  if (present.origin_speeds) {
+    origin.minimum_speed = present.origin_speeds->minimum;
+    origin.maximum_speed = present.origin_speeds->maximum;
+    origin.acceleration_ms = present.origin_speeds->acceleration_ms;
+  }
+  const auto speeds = to_profile(profile, origin);
   if (!speeds) return writer.refuse(on_axis(number, speeds.error()));
-  Arguments arguments = of_axis(number);
   const auto minimum = to_pulses(speeds->minimum, *present.scale), maximum = to_pulses(speeds->maximum, *present.scale);
   for (const auto& speed : {minimum, maximum}) {
     if (!speed) return writer.refuse(on_axis(number, speed.error()));
   }
-  writer.add(row, arguments.speeds(*minimum, *maximum, speeds->acceleration_ms));
+  writer.add("B:", of_axis(number).speeds(*minimum, *maximum, speeds->acceleration_ms));
+}
+
+// Which it is, and that amounts can be converted there.
+Result<int> usable_axis(int number, const shrc203::State& state) {
+  const auto axis = to_axis(number);
+  if (!axis) return axis;
+  if (const auto good = controllable_axes(AxisSet::of(*axis), state); !good) return tl::unexpected(good.error());
+  if (state.axis(*axis).scale) return axis;
+  return fail(Reason::link_down, fmt::format("what a pulse of axis {} is has not been read yet", *axis),
+              "try again when the device is up");
 }
 
 void add_axis(const api::AxisSettings& settings, const shrc203::State& state, Writer& writer) {
-  const auto axis = to_axis(settings.axis());
+  const auto axis = usable_axis(settings.axis(), state);
   if (!axis) return writer.refuse(axis.error());
-  const auto controllable = controllable_axes(AxisSet::of(*axis), state);
-  if (!controllable) return writer.refuse(controllable.error());
   if (!settings.name_on_device().empty() || !settings.scale_resolution().empty()) {
     return writer.refuse({Reason::invalid_request,
                           "name_on_device and scale_resolution cannot be changed here",
@@ -90,26 +140,18 @@ void add_axis(const api::AxisSettings& settings, const shrc203::State& state, Wr
   }
   if (settings.has_excited()) writer.add("C:", of_axis(*axis).add("c", std::string(on_off(settings.excited()))));
   if (settings.has_divisions()) writer.add("S:", of_axis(*axis).add("m", std::to_string(settings.divisions())));
-  if (settings.has_speeds()) add_speeds("D:", *axis, settings.speeds(), present, writer);
-  if (!settings.has_origin_speeds()) return;
-  shrc203::AxisState origin = present;
-  origin.minimum_speed.reset();
-  origin.maximum_speed.reset();
-  origin.acceleration_ms.reset();
-  if (present.origin_speeds) {
-    origin.minimum_speed = present.origin_speeds->minimum;
-    origin.maximum_speed = present.origin_speeds->maximum;
-    origin.acceleration_ms = present.origin_speeds->acceleration_ms;
-  }
-  add_speeds("B:", *axis, settings.origin_speeds(), origin, writer);
+  if (settings.has_speeds()) add_speeds(*axis, settings.speeds(), present, writer);
+  if (settings.has_origin_speeds()) add_origin_speeds(*axis, settings.origin_speeds(), present, writer);
 }
 
 void add_settling(const google::protobuf::Duration& settling, Writer& writer) {
-  if (settling.seconds() < 0 || settling.nanos() < 0 || settling.seconds() > kSecondsMax ||
-      settling.nanos() % kNanosOfStep != 0) {
-    return writer.refuse({Reason::not_representable,
-                          "settling is no multiple of 0.1 s from 0 to 255 s",
-                          "give it in steps of 0.1 s",
+  const bool valid = settling.seconds() >= 0 && settling.nanos() >= 0 && settling.nanos() < 1'000'000'000;
+  const bool in_range =
+      valid && settling.seconds() <= kSecondsMax && (settling.seconds() < kSecondsMax || settling.nanos() == 0);
+  if (!in_range || settling.nanos() % kNanosOfStep != 0) {
+    return writer.refuse({in_range ? Reason::not_representable : Reason::out_of_range,
+                          "settling is 0 to 255 s in steps of 0.1 s",
+                          "give a multiple of 0.1 s",
                           {},
                           {},
                           {}});
@@ -151,7 +193,16 @@ bool stands_alone(const std::string& line) {
 Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const shrc203::State& state) {
   const api::Settings& settings = request.settings();
   Writer writer;
-  for (const api::AxisSettings& axis : settings.axes()) add_axis(axis, state, writer);
+  AxisSet axes;
+  for (const api::AxisSettings& axis : settings.axes()) {
+    add_axis(axis, state, writer);
+    const auto number = to_axis(axis.axis());
+    if (number && axes.has(*number)) {
+      writer.refuse(
+          {Reason::invalid_request, fmt::format("axis {} is named twice", *number), "name it once", {}, {}, {}});
+    }
+    if (number) axes.add(*number);
+  }
   if (settings.has_display_lit()) writer.add("BO:", Arguments().add("l", std::string(on_off(settings.display_lit()))));
   if (settings.has_beep()) writer.add("BEEP:", Arguments().add("b", std::string(on_off(settings.beep()))));
   if (settings.has_settling()) add_settling(settings.settling(), writer);
@@ -179,9 +230,14 @@ Result<Lines> lines_of(const api::SetCoordinatesRequest& request, const shrc203:
   std::map<int, std::int64_t> positions;
   std::optional<api::AxisCoordinate::CoordinateCase> way;
   for (const api::AxisCoordinate& one : request.coordinates()) {
-    const auto axis = to_axis(one.axis());
+    const auto axis = usable_axis(one.axis(), state);
     if (!axis) return tl::unexpected(axis.error());
-    if (const auto good = controllable_axes(AxisSet::of(*axis), state); !good) return tl::unexpected(good.error());
+    const bool meant =
+        one.coordinate_case() == api::AxisCoordinate::kPosition || one.set_origin() || one.unset_origin();
+    if (!meant) {
+      return fail(Reason::invalid_request, fmt::format("axis {} has no coordinate", *axis),
+                  "give `position`, or `set_origin` or `unset_origin` as true");
+    }
     if (axes.has(*axis) || way.value_or(one.coordinate_case()) != one.coordinate_case()) {
       return fail(Reason::invalid_request, "each axis once, and all in the same way",
                   "ask for the others by a second call");

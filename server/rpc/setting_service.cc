@@ -1,5 +1,7 @@
 #include "server/rpc/setting_service.h"
 
+#include <fmt/format.h>
+
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,20 +25,36 @@ bool untold(const Problem& problem) {
   return problem.reason == Reason::completion_outstanding || problem.reason == Reason::deadline_passed;
 }
 
+Problem not_answered(std::string_view question, const std::string& reply) {
+  return {Reason::device_refused,
+          fmt::format("the controller refused {} ({})", question, reply),
+          "look at its mode: axisctl status",
+          {},
+          std::string(question),
+          reply};
+}
+
 // The answers, as they come; told when the last has.
 struct Asking {
   UnaryCall<api::GetSettingsResponse>::Handle call;
   api::Settings settings;
-  std::size_t open = 0;
-  std::optional<Problem> problem;
+  std::size_t open = 0, answered = 0;
+  std::optional<Problem> problem, last_untold;
 };
 
 void take(const std::shared_ptr<Asking>& asking, std::string_view question, const ExecuteEvent& event,
           const shrc203::State& state) {
-  if (event.kind == ExecuteEvent::Kind::reply) fill_setting(question, event.answer, state, asking->settings);
+  const bool refused = event.wire_reply.starts_with("NG");
+  if (event.kind == ExecuteEvent::Kind::reply && refused) asking->problem = not_answered(question, event.wire_reply);
+  if (event.kind == ExecuteEvent::Kind::reply && !refused) {
+    ++asking->answered;
+    fill_setting(question, event.answer, state, asking->settings);
+  }
   if (event.kind != ExecuteEvent::Kind::ended) return;
+  if (event.problem && untold(*event.problem)) asking->last_untold = event.problem;
   if (event.problem && !untold(*event.problem) && !asking->problem) asking->problem = event.problem;
   if (--asking->open > 0) return;
+  if (asking->answered == 0 && !asking->problem) asking->problem = asking->last_untold;
   if (asking->problem) {
     asking->call->refuse(*asking->problem);
   } else {
@@ -62,6 +80,16 @@ grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContex
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
   (*device)->post([call, asked = question_context(*context)](Controller& controller, TimePoint now) {
+    const shrc203::LinkState link = controller.state().link;
+    if (link != shrc203::LinkState::up && link != shrc203::LinkState::doubtful) {
+      call->refuse({Reason::link_down,
+                    "the device is not up: " + controller.state().link_problem,
+                    "try again when it is up",
+                    {},
+                    {},
+                    {}});
+      return;
+    }
     const auto asking = std::make_shared<Asking>();
     asking->call = call;
     asking->open = setting_questions().size();

@@ -242,6 +242,8 @@ constexpr Row kTable[] = {
              "Hazard.H24_MemorySwitchesAreReachedAlone"),
     by_tests(Guard::excitation_known, "excitation-known", "where a motor is known to be off, nothing is sent",
              "WhyNg.NothingIsSentWhereAMotorIsKnownToBeOff"),
+    by_tests(Guard::circle_seen_to_run, "circle-seen-to-run", "a whole circle counts once it was seen to run",
+             "CurvesAndTravelByHand.ACircleThatNeverRanIsUnknown"),
     by_tests(Guard::settings_restored, "settings-restored", "what a lease's holder has set ends with his lease",
              "HazardOfSettings.H28_SpeedsEndWithTheLease"),
     by_tests(Guard::speeds_owed, "speeds-owed", "... and those of a motion with it, also where the line was lost",

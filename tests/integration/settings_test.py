@@ -325,6 +325,34 @@ class UnderALease(OnAStage):
         self.assertEqual(self.controller("?:C"), "0,1,1")
 
 
+class InParts(OnAStage):
+    """What is not named stays, whoever moves at speeds of his own meanwhile."""
+
+    def test_a_running_motion_keeps_its_speeds_to_itself(self):
+        before = self.controller("?:D1")
+        self.ok("move", "1=2mm", "--speed", "1mm/s", "--no-wait")
+        self.done("speed", "1", "--minimum", "20um")
+        self.assertEqual(self.controller("?:D1"), re.sub(r"S\d+", "S2000", before))
+
+    def test_one_right_after_another(self):
+        self.done("speed", "2", "--maximum", "400um")
+        self.done("speed", "2", "--acceleration", "91")
+        self.done("speed", "2", "--maximum", "500um", "--origin-return")
+        self.done("speed", "2", "--acceleration", "33", "--origin-return")
+        self.assertRegex(self.controller("?:D2"), r"F40000R91\Z")
+        self.assertRegex(self.controller("?:B2"), r"F50000R33\Z")
+
+    def test_a_lower_maximum_takes_the_minimum_along(self):
+        self.done("speed", "2", "--maximum", "5um")
+        self.assertRegex(self.controller("?:D2"), r"\AS500F500R")
+
+    def test_off_host_nothing_is_told_wrongly(self):
+        self.done("outputs", "on", "1", "3")
+        self.done("sim", "mode", "MANUAL")
+        answer = self.daemon.run("settings")
+        self.assertNotEqual(answer.returncode, 0, answer.stdout)
+
+
 class AtTheDevice(OnAStage):
     """What a person does at the simulated device, and what becomes of it here."""
 

@@ -112,6 +112,47 @@ TEST(CurvesAndTravelByHand, ACircleIsMoreThanItsEnd) {
   EXPECT_EQ(execute(world, {"E:1A1+P100+P0D90", "G:A"}).front(), "OK") << world.replay();
 }
 
+// A chained curve starts by itself, and one setting may take another's place (manual 2. 2), 85)).
+TEST(CurvesAndTravelByHand, EachSettingKeepsWithinByItself) {
+  auto setup = quiet();
+  for (auto& axis : setup.profile.axes) {
+    axis.travel_minimum = pulses(-1000);
+    axis.travel_maximum = pulses(1000);
+  }
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up());
+  const std::vector<std::string> outside{"OUTSIDE_TRAVEL"};
+  EXPECT_EQ(execute(world, {"MP:A+P10+P10", "G:A", "EP:0A0+P500000+P0"}), outside) << world.replay();
+  EXPECT_EQ(execute(world, {"E:0A0+P0+P500000", "G:1"}), outside) << world.replay();
+  EXPECT_EQ(execute(world, {"M:1-P900", "E:0A0+P750+P0", "G:A"}), outside) << world.replay();
+  EXPECT_EQ(execute(world, {"A:1-P900", "M:1+P100", "G:1", "MP:1+P1500", "G:1"}),
+            std::vector<std::string>{"POSITION_UNKNOWN"})
+      << world.replay();
+  EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
+}
+
+// S is what a curve runs at, and may be set anew between the curve and its start.
+TEST(CurvesAndTravelByHand, TheSpeedCountsAtTheStart) {
+  auto setup = quiet();
+  setup.profile.axes[1].maximum_speed = pulses(1000);
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up());
+  EXPECT_EQ(execute(world, {"D:1S500F500R100", "E:0A0+P0+P10000", "D:1S100000F100000R100", "G:A"}),
+            std::vector<std::string>{"TOO_FAST"})
+      << world.replay();
+}
+
+// Its end is where it began, so that READY at its target tells nothing.
+TEST(CurvesAndTravelByHand, ACircleThatNeverRanIsUnknown) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  world.wire().set_script(drop_first(world, LineKind::command, "G:A"));
+  execute(world, {"E:0A0+P100+P0", "G:A"});
+  world.run_for(seconds(10));
+  ASSERT_FALSE(world.outcomes().empty()) << world.replay();
+  EXPECT_EQ(world.outcomes().back().state, MotionState::unknown) << world.replay();
+}
+
 // A saved place is where it was saved, whatever its coordinates are called by now (manual 129)).
 TEST(CurvesAndTravelByHand, ASavedPositionIsAskedForBeforeItIsGoneTo) {
   auto setup = quiet();

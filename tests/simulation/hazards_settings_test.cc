@@ -238,6 +238,57 @@ TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
   EXPECT_TRUE(world.device().busy(1)) << world.replay();
 }
 
+// A byte too many in the answer to ?:B makes speeds of it that no B: sets; they are asked for again.
+TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  World world(with(leases));
+  bool once = false;
+  world.wire().set_script([&once](LineKind kind, const std::string& line) -> Scripted {
+    if (once || kind != LineKind::reply || !line.starts_with("S5000F500000R100,")) return {};
+    once = true;
+    return {false, {}, "S5000F5000R100,S5000F500R100,S5000F500000R100\r\n"};
+  });
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  LeaseToken token = 0;
+  leases.acquire({.axes = AxisSet::of(2)}, "anna", false, world.now(), world.now(),
+                 [&](const Result<Lease>& got) { token = got ? got->token : 0; });
+  RequestContext asked = world.context("anna");
+  asked.lease = token;
+  world.controller().execute({{"B:2S100F1000R100"}, asked}, world.now(), [](const ExecuteEvent&) {});
+  world.run_for(seconds(30));
+  EXPECT_TRUE(once);
+  EXPECT_EQ(written(world, "B:2S5000F500000R100"), 1) << world.replay();
+}
+
+// Outputs go out under the lease with which they were asked for, or not at all.
+TEST_F(HazardOfSettings, H35_OutputsOfALeaseThatEndedAreNotSent) {
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  world.wire().hold_up(true, seconds(1));
+  world.controller().execute({{"?:V"}, world.context("bert")}, world.now(), [](const ExecuteEvent&) {});
+  std::optional<Problem> problem;
+  world.controller().execute({{"O:1"}, context("anna", anna)}, world.now(), [&](const ExecuteEvent& event) {
+    if (event.kind == ExecuteEvent::Kind::ended) problem = event.problem;
+  });
+  EXPECT_TRUE(leases.release(anna, world.now()));
+  world.run_for(seconds(30));
+  ASSERT_TRUE(problem) << world.replay();
+  EXPECT_EQ(written(world, "O:1"), 0) << world.replay();
+  EXPECT_EQ(world.device().outputs(), 0) << world.replay();
+}
+
+// A controller that has just started switches nothing on by itself.
+TEST_F(HazardOfSettings, H52_NothingIsSwitchedOnAfterARestart) {
+  EXPECT_EQ(set({"O:32", "T:T100"}, "boss", 0), std::nullopt) << world.replay();
+  const LeaseToken anna = lease("anna", AxisSet::all());
+  EXPECT_EQ(set({"O:0", "T:S"}, "anna", anna), std::nullopt) << world.replay();
+  world.power_cycle();
+  world.run_for(seconds(60));
+  EXPECT_EQ(world.device().outputs(), 0) << world.replay();
+  EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
+  EXPECT_TRUE(leases.held().empty());
+}
+
 // What somebody sets himself takes the place of what was owed.
 TEST_F(HazardOfSettings, H28_ASettingOfOnesOwnIsNotOverwritten) {
   move_slowly(2, "anna", 0);

@@ -1,0 +1,75 @@
+// What a caller's lines must pass before they become a transaction; a stop among them goes its own way.
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "device/core/guard.h"
+#include "device/shrc203/controller_impl.h"
+#include "device/shrc203/transaction_lines.h"
+
+namespace axisgate::shrc203 {
+
+void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
+  const auto refuse = [&event](Problem problem) {
+    ExecuteEvent ended;
+    ended.kind = ExecuteEvent::Kind::ended;
+    ended.problem = std::move(problem);
+    event(ended);
+  };
+  auto checked = check_lines(request.lines);
+  if (!checked) return refuse(checked.error());
+  std::vector<Command> commands = *std::move(checked);
+  if (ending_ && commands.front().row->effect != Effect::stop) return refuse(*ending_);
+  if (state_.controllable().empty() || state_.link == LinkState::down) {
+    if (commands.front().row->effect != Effect::stop) {
+      return refuse(
+          {Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up", {}, {}, {}});
+    }
+  }
+  request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
+  if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
+  if (away_ && !needs_gate(commands)) return refuse(away_problem());
+  const bool arms = std::ranges::any_of(commands, [](const Command& one) {
+    const bool step = one.row->name == "P:SET" && one.arguments.first("p").value_or("").starts_with("INPUT");
+    return step || (one.row->reg == Register::wi && waits_of(one).set);
+  });
+  if (arms && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
+    return refuse({Reason::not_allowed,
+                   "WI: lets an input pin start a motion, whoever may stand beside the stage",
+                   "an administrator may allow it for this device: wait_for_inputs = true",
+                   {},
+                   {},
+                   {}});
+  }
+  const auto allowed = may_use(request.context, axes_used(commands, state_.controllable()));
+  if (!allowed) return refuse(allowed.error());
+  executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
+}
+
+Result<void> Controller::check(const ExecuteRequest& request) {
+  const auto commands = check_lines(request.lines);
+  if (!commands) return tl::unexpected(commands.error());
+  return {};
+}
+
+void Controller::Impl::execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event) {
+  const bool emergency = command.row->name == "L:E";
+  const AxisSet axes = emergency ? AxisSet::all() : command.axes(state_.controllable());
+  permission_.stop_asked({request.context.who, request.context.lease, axes, 0}, now_);
+  stop(command.axes(state_.controllable()), emergency, request.context,
+       [event = std::move(event), line = command.line](const StopReport& report) {
+         ExecuteEvent reply;
+         reply.sent = line;
+         for (const auto& axis : report.axes) {
+           if (!axis.wire_reply.empty()) reply.wire_reply = axis.wire_reply;
+         }
+         reply.answer = reply.wire_reply;
+         if (!reply.answer.empty()) event(reply);
+         ExecuteEvent ended;
+         ended.kind = ExecuteEvent::Kind::ended;
+         ended.problem = report.problem;
+         event(ended);
+       });
+}
+
+}  // namespace axisgate::shrc203
