@@ -1,4 +1,4 @@
-#include "tests/simulation/interleavings.h"
+#include "tests/interleavings/interleaving.h"
 
 #include <fmt/format.h>
 

@@ -4,7 +4,7 @@
 
 #include "device/shrc203/codec.h"
 #include "device/shrc203/completions.h"
-#include "tests/simulation/interleavings.h"
+#include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {
 

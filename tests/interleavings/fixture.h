@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "device/shrc203/reply.h"
-#include "tests/simulation/interleavings.h"
+#include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {
 

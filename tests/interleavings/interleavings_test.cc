@@ -4,7 +4,7 @@
 // that means something. Nothing is drawn: each order is tried.
 #include <gtest/gtest.h>
 
-#include "tests/simulation/interleavings_fixture.h"
+#include "tests/interleavings/fixture.h"
 
 namespace axisgate::simulation {
 namespace {

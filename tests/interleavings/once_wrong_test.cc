@@ -2,7 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "device/shrc203/completions.h"
-#include "tests/simulation/interleavings_fixture.h"
+#include "tests/interleavings/fixture.h"
 
 namespace axisgate::simulation {
 namespace {
