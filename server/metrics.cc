@@ -134,7 +134,7 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
   // Made now, so that the first of a kind is an increase, too.
   using shrc203::MotionKind, shrc203::MotionState;
   for (const MotionKind kind : {MotionKind::move, MotionKind::home, MotionKind::return_to_origin, MotionKind::path,
-                                MotionKind::execute, MotionKind::jog}) {
+                                MotionKind::execute, MotionKind::jog, MotionKind::scan}) {
     for (const MotionState outcome :
          {MotionState::succeeded, MotionState::stopped, MotionState::failed, MotionState::unknown}) {
       motions(kind, outcome);

@@ -1,14 +1,18 @@
 // One SHRC-203 as callers see it: the public face of this folder.
 #pragma once
 
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
 #include "device/core/quantity.h"
+#include "device/shrc203/arc.h"
 #include "device/shrc203/event.h"
 #include "device/shrc203/motion.h"
 #include "device/shrc203/permission.h"
@@ -40,6 +44,7 @@ struct AxisMove {
   int axis = 0;
   Quantity distance;  // a target, or a way when the request is relative
   std::optional<SpeedProfile> profile;
+  std::optional<Quantity> approach{};  // the last way to the target, whatever side it is on; not 0
 };
 
 struct MoveRequest {
@@ -54,12 +59,53 @@ struct HomeRequest {
   RequestContext context;
 };
 
-// One stretch of a path. Several axes: a straight line, always relative on the wire. One axis: relative or absolute.
+// A circle, an arc or a helix (manual 71) to 82)). Amounts of two axes stand in the order of `axes`.
+struct Curve {
+  struct Around {
+    std::array<Quantity, 2> center;
+    Rotation rotation = Rotation::clockwise;
+    std::variant<int, Decimal> extent = 1;  // whole turns, or degrees
+  };
+  struct Through {
+    std::array<Quantity, 2> point, end;
+  };
+  std::array<int, 2> axes{};  // ascending
+  std::variant<Around, Through> course;
+  std::optional<Quantity> rise;  // what axis 3 goes in one turn, or in all of less than one turn
+};
+
+// One stretch of a path. Several axes: a straight line or a curve, always relative on the wire. One axis: relative or
+// absolute. The same axes in every segment.
 struct Segment {
-  std::vector<AxisMove> moves;  // the same axes in every segment
-  bool relative = true;
-  std::optional<Quantity> speed;  // path speed of a line (its lower axis's S), or one axis's maximum speed F
+  std::vector<AxisMove> moves;
+  std::optional<Curve> curve{};   // instead of moves
+  bool relative = true;           // ways from where the segment begins, instead of places
+  std::optional<Quantity> speed;  // path speed of a line or curve (its lower axis's S), or one axis's maximum speed F
   std::optional<int> acceleration_ms;
+  Duration rest{};            // at READY before it, 0 to kRestMax
+  std::optional<int> inputs;  // at READY before it, until I: shows them; 0 to 63
+
+  static constexpr Duration kRestMax = std::chrono::milliseconds(255'000);
+};
+
+// One axis over a range at constant speed, with a trigger pulse every `interval` pulses.
+struct ScanRequest {
+  int axis = 0;
+  Quantity from, to;              // places
+  std::optional<Quantity> speed;  // F; nothing: as set
+  std::optional<int> acceleration_ms;
+  bool by_scale = false;  // the interval is of scale pulses, in the direction of the scan
+  std::int64_t interval = 0;
+  RequestContext context;
+};
+
+// To a position that the controller keeps (manual 131) PIT:GRT, 136) PAV:GRT).
+struct GoToPositionRequest {
+  bool place = true;  // PIT:, else PAV:
+  int number = 0;     // 1 to 20
+  // What the controller must tell that it holds, by axis; anything else is refused with epoch_passed.
+  std::map<int, std::int64_t> expected;
+  RequestContext context;
 };
 
 struct PathRequest {
@@ -143,6 +189,8 @@ class Controller : public LineMachine {
   void home(HomeRequest request, TimePoint now, OnStarted started);
   void return_to_origin(HomeRequest request, TimePoint now, OnStarted started);
   void run_path(PathRequest request, TimePoint now, OnStarted started);
+  void scan(ScanRequest request, TimePoint now, OnStarted started);
+  void go_to_position(GoToPositionRequest request, TimePoint now, OnStarted started);
 
   // The axes run for as long as renew_jog() comes, at most kJogSilence apart: beyond that, at the end of the caller's
   // right to them, and before a travel limit they are stopped by L:. Answers as move() does; with the motion's number
@@ -158,6 +206,7 @@ class Controller : public LineMachine {
   // The same checks as above, and nothing is sent.
   Result<void> check(const MoveRequest& request) const;
   Result<void> check(const PathRequest& request) const;
+  Result<void> check(const ScanRequest& request) const;
   static Result<void> check(const ExecuteRequest& request);
 
   // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.

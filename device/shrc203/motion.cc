@@ -16,6 +16,8 @@ std::string_view name(MotionKind kind) {
       return "execute";
     case MotionKind::jog:
       return "jog";
+    case MotionKind::scan:
+      return "scan";
   }
   return "unspecified";
 }

@@ -14,7 +14,7 @@ namespace axisgate::shrc203 {
 
 using MotionId = std::uint64_t;  // 0 is none; counts from 1 as long as the daemon runs
 
-enum class MotionKind { move, home, return_to_origin, path, execute, jog };
+enum class MotionKind { move, home, return_to_origin, path, execute, jog, scan };
 
 // queued: accepted, its starting line not yet written. running: the controller accepted the start.
 // An outcome is one of the last four, and unknown is said when it is so.
@@ -27,6 +27,14 @@ struct AxisResult {
   std::optional<std::int64_t> target_pulses;   // in the frame of the start; nothing before it is known
   std::optional<std::int64_t> command_pulses;  // the command counter at the end
   bool completion_seen = false;                // the axis number came over the line
+};
+
+// What a scan came to, in drive pulses of the axis.
+struct ScanResult {
+  std::int64_t run_from = 0, run_to = 0;  // where it set out for its run, and where it came to rest
+  // Trigger pulses due in the whole run and in its range; of scale pulses nothing where the scale's are not known.
+  std::optional<std::int64_t> expected, expected_in_range;
+  std::optional<std::int64_t> observed;  // by the way that the counter was seen to go; nothing before the end
 };
 
 struct Motion {
@@ -42,9 +50,10 @@ struct Motion {
   int segments_total = 0;  // a path's
   int segments_done = 0;
   int underruns = 0;
+  std::optional<ScanResult> scan;
 };
 
-std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog"
+std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog", "scan"
 std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...
 
 }  // namespace axisgate::shrc203

@@ -29,7 +29,7 @@ api::LinkState to_link_state(LinkState state) {
 
 api::MotionKind to_motion_kind(MotionKind kind) {
   static_assert(static_cast<int>(MotionKind::move) + 1 == api::MOTION_KIND_MOVE);
-  static_assert(static_cast<int>(MotionKind::jog) + 1 == api::MOTION_KIND_JOG);
+  static_assert(static_cast<int>(MotionKind::scan) + 1 == api::MOTION_KIND_SCAN);
   return static_cast<api::MotionKind>(static_cast<int>(kind) + 1);
 }
 
