@@ -68,6 +68,22 @@ void DeviceEvents::tell(const shrc203::ForeignMotion& motion, TimePoint now) {
       device_, to_string(motion.axes));
 }
 
+void DeviceEvents::tell(const shrc203::SwitchesChanged& change, TimePoint now) {
+  publish(change, now);
+  for (const auto& one : change.changes) {
+    spdlog::warn("{}: memory switch {} of item {} is {} for good, and was {} (MS:, by {})", device_, one.number,
+                 one.item, escaped(one.after), escaped(one.before), escaped(change.who));
+  }
+  if (!change.unknown) return;
+  spdlog::warn("{}: memory switches may be others for good, and nobody can tell which (MS:, by {}): compare them",
+               device_, escaped(change.who));
+}
+
+void DeviceEvents::tell(const shrc203::ProgramNotice& notice, TimePoint now) {
+  publish(notice, now);
+  if (notice.kind == shrc203::ProgramNotice::Kind::ended) spdlog::info("{}: a program has ended (COMP)", device_);
+}
+
 void DeviceEvents::tell(const shrc203::PathProgress& progress, TimePoint now) {
   publish(progress, now);
   if (progress.step != shrc203::PathProgress::Step::underrun) return;

@@ -37,6 +37,8 @@ class DeviceEvents : public shrc203::EventSink {
   void tell(const shrc203::LinkChanged& change, TimePoint now);
   void tell(const shrc203::StopRequested& stop, TimePoint now);
   void tell(const shrc203::ForeignMotion& motion, TimePoint now);
+  void tell(const shrc203::SwitchesChanged& change, TimePoint now);
+  void tell(const shrc203::ProgramNotice& notice, TimePoint now);
   void tell(const shrc203::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
   void tell(const shrc203::PathProgress& progress, TimePoint now);
   void tell(const shrc203::BarrierEntered& barrier, TimePoint now);

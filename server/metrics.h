@@ -99,6 +99,8 @@ class DeviceMetrics {
   void count(const shrc203::PathProgress& progress);
   void count(const shrc203::StopRequested& stop);
   void count(const shrc203::ForeignMotion&) {}
+  void count(const shrc203::SwitchesChanged&) {}
+  void count(const shrc203::ProgramNotice&) {}
   void count(const shrc203::LinkChanged& change);
   void count(const shrc203::BarrierEntered&) { barriers_.Increment(); }
   void count(const shrc203::LineLearned&) {}

@@ -77,6 +77,22 @@ std::string describe_foreign(const v1::ForeignMotion& motion) {
                      fmt::join(motion.axes(), ", "));
 }
 
+std::string describe_switches(const v1::SwitchesChanged& change) {
+  std::vector<std::string> parts;
+  for (const v1::SwitchChange& one : change.changes()) {
+    parts.push_back(fmt::format("{},{} from {} to {}", one.item(), one.number(), one.before(), one.after()));
+  }
+  if (change.unknown()) parts.emplace_back("perhaps others, which nobody can tell");
+  return fmt::format("memory switches changed by {}: {}", change.who().empty() ? "somebody" : change.who(),
+                     fmt::join(parts, "; "));
+}
+
+std::string describe_notice(const v1::ProgramNotice& notice) {
+  const auto* what = notice.kind() == v1::ProgramNotice::KIND_ENDED ? "a program has ended (COMP)"
+                                                                    : "a program gave a trigger pulse (TRIG)";
+  return notice.count() > 1 ? fmt::format("{}, {} times", what, notice.count()) : what;
+}
+
 }  // namespace
 
 void print_line(std::string_view text) { write(stdout, text); }
@@ -198,6 +214,10 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_stop(event.stop_requested()));
     case v1::Event::kForeignMotion:
       return on_one_line(describe_foreign(event.foreign_motion()));
+    case v1::Event::kSwitchesChanged:
+      return on_one_line(describe_switches(event.switches_changed()));
+    case v1::Event::kProgramNotice:
+      return on_one_line(describe_notice(event.program_notice()));
     case v1::Event::FACT_NOT_SET:
       break;
   }

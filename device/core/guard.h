@@ -141,8 +141,13 @@ enum class Guard {
   runaways_stopped,
   inputs_start_nothing,
   away_alone,
+  switches_audited,
+  notices_told_apart,
+  notices_bounded,
   excitation_known,
   circle_seen_to_run,
+  inputs_told_twice,
+  scans_disarm,
   settings_restored,
   speeds_owed,
 

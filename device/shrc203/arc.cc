@@ -164,6 +164,13 @@ ArcEnd end_of(const Arc& arc) {
   return {std::llround(way.first), std::llround(way.second), std::llround(arc.rise)};
 }
 
+bool ends_on_whole_pulses(const Arc& arc) {
+  constexpr double kReckoning = 1e-6;  // pulses: far above what doubles lose here, far below a half
+  const Way way = way_after(arc, arc.sweep);
+  const auto whole = [](double place) { return std::abs(place - std::round(place)) < kReckoning; };
+  return whole(way.first) && whole(way.second) && whole(arc.rise);
+}
+
 ArcExtent extent_of(const Arc& arc) {
   const PlaneSpan plane = span_of(arc);
   Span third;

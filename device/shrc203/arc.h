@@ -64,6 +64,9 @@ struct ArcEnd {
 };
 ArcEnd end_of(const Arc& arc);
 
+// Whether it does so exactly, as far as can be reckoned.
+bool ends_on_whole_pulses(const Arc& arc);
+
 // Whole pulses from the start, both inclusive, rounded outwards: the controller's rounding is not known.
 struct Extent {
   std::int64_t lowest = 0;

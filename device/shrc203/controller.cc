@@ -127,7 +127,25 @@ void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, Ti
   owner->news.notify();
 }
 
-void Controller::Impl::line_event(const Event& event, TimePoint) { emit(event); }
+void Controller::Impl::line_event(const Event& event, TimePoint) {
+  const auto* notice = std::get_if<ProgramNotice>(&event);
+  if (!notice || !guarded(Guard::notices_bounded)) return emit(event);
+  NoticeCount& count = notices_[notice->kind];
+  ++count.untold;
+  if (std::exchange(count.telling, true)) return;
+  executor_.spawn(tell_notices(notice->kind));
+}
+
+// The first at once, and then those that came meanwhile as one.
+Task<void> Controller::Impl::tell_notices(ProgramNotice::Kind kind) {
+  NoticeCount& count = notices_[kind];
+  while (count.untold > 0) {
+    emit(ProgramNotice{kind, std::exchange(count.untold, 0)});
+    auto pause = tick_.wait_until(now_ + kNoticesApart);
+    co_await pause;
+  }
+  count.telling = false;
+}
 
 Result<void> Controller::Impl::check_epochs(const RequestContext& context) const {
   const auto passed = [](std::uint64_t meant, std::uint64_t present) { return meant != 0 && meant != present; };
@@ -231,6 +249,11 @@ void Controller::move(MoveRequest request, TimePoint now, OnStarted started) {
   impl_->at(now, [&] { impl_->move(std::move(request), std::move(started)); });
 }
 
+void Controller::scan(ScanRequest request, TimePoint now, OnStarted started) {
+  if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
+  impl_->at(now, [&] { impl_->scan(std::move(request), std::move(started)); });
+}
+
 void Controller::home(HomeRequest request, TimePoint now, OnStarted started) {
   if (impl_->ending_) return started(tl::unexpected(*impl_->ending_));
   impl_->at(now, [&] { impl_->home(MotionKind::home, std::move(request), std::move(started)); });
@@ -270,14 +293,19 @@ void Controller::end_jog(MotionId id, std::optional<Problem> why, TimePoint now)
 }
 
 Result<void> Controller::check(const MoveRequest& request) const {
-  const auto plan =
-      plan_move(request.moves, request.relative, positions_of(impl_->state_), impl_->envelope(request.context));
+  const auto plan = impl_->check_move(request);
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }
 
 Result<void> Controller::check(const PathRequest& request) const {
   const auto plan = impl_->plan_feasible_path(request);
+  if (!plan) return tl::unexpected(plan.error());
+  return {};
+}
+
+Result<void> Controller::check(const ScanRequest& request) const {
+  const auto plan = impl_->plan_scan(request, {});
   if (!plan) return tl::unexpected(plan.error());
   return {};
 }

@@ -78,12 +78,12 @@ struct Curve {
 // absolute. The same axes in every segment.
 struct Segment {
   std::vector<AxisMove> moves;
-  std::optional<Curve> curve{};   // instead of moves
   bool relative = true;           // ways from where the segment begins, instead of places
   std::optional<Quantity> speed;  // path speed of a line or curve (its lower axis's S), or one axis's maximum speed F
   std::optional<int> acceleration_ms;
-  Duration rest{};            // at READY before it, 0 to kRestMax
-  std::optional<int> inputs;  // at READY before it, until I: shows them; 0 to 63
+  std::optional<Curve> curve{};  // instead of moves
+  Duration rest{};               // at READY before it, 0 to kRestMax
+  std::optional<int> inputs{};   // at READY before it, until I: shows them; 0 to 63
 
   static constexpr Duration kRestMax = std::chrono::milliseconds(255'000);
 };

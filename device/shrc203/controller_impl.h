@@ -21,8 +21,10 @@
 #include "device/shrc203/controller.h"
 #include "device/shrc203/line.h"
 #include "device/shrc203/motion_gate.h"
+#include "device/shrc203/path_plan.h"
 #include "device/shrc203/plan.h"
 #include "device/shrc203/registers.h"
+#include "device/shrc203/scan_plan.h"
 
 namespace axisgate::shrc203 {
 
@@ -41,6 +43,13 @@ struct JogKeeping {
   bool ended = false;                   // the gateway stops it, or its caller
   bool stop_pending = false, speed_pending = false;
   std::optional<Problem> why;  // of that; nothing: its caller wanted it
+};
+
+// What a scan needs besides.
+struct ScanKeeping {
+  Trigger trigger;                       // that it runs with
+  Trigger before;                        // that there is to be again
+  std::optional<std::int64_t> armed_at;  // by the counter that the trigger counts
 };
 
 // A motion and what its procedure needs to know of it.
@@ -64,7 +73,9 @@ struct LiveMotion {
   bool needs_excitation = true;
   bool ends_where_it_began = false;  // a whole circle: standing at its target tells nothing
   bool seen_busy = false;
-  bool wrote = false;  // a line of its own went out: the registers may hold something
+  std::int64_t slack = 0;  // pulses by which its end may lie beside its targets (manual 72))
+  bool cut_short = false;  // not all of its segments were started: standing at its target is no success
+  bool wrote = false;      // a line of its own went out: the registers may hold something
 
   struct Completion {
     int axis = 0;
@@ -76,6 +87,7 @@ struct LiveMotion {
   std::function<void(int axis)> on_completion;
   std::function<void()> on_success;  // before the outcome is told
   std::optional<JogKeeping> jog;
+  std::optional<ScanKeeping> scan;
 };
 using LiveMotionPtr = std::shared_ptr<LiveMotion>;
 
@@ -113,6 +125,7 @@ class Controller::Impl : public LineListener {
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
   std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) override;
+  Task<void> tell_notices(ProgramNotice::Kind kind);
   void note_completion(int axis, bool doubtful, bool deduced, TimePoint now);
 
   // handshake.cc
@@ -209,6 +222,7 @@ class Controller::Impl : public LineListener {
 
   // move.cc, home.cc
   void move(MoveRequest request, OnStarted started);
+  Result<MovePlan> check_move(const MoveRequest& request) const;
   Task<void> run_move(LiveMotionPtr live, MoveRequest request);
   Task<void> set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuffer);
   Task<bool> start_never_came(LiveMotionPtr live, Command setter);
@@ -225,8 +239,25 @@ class Controller::Impl : public LineListener {
   // path.cc
   void run_path(PathRequest request, OnStarted started);
   Task<void> run_path_motion(LiveMotionPtr live, PathRequest request, Register reg);
+  Task<void> follow_path(LiveMotionPtr live, PathPlan plan);
   // As plan_path, and: the line can feed it.
   Result<PathPlan> plan_feasible_path(const PathRequest& request) const;
+
+  // scan.cc
+  void scan(ScanRequest request, OnStarted started);
+  Task<void> run_scan(LiveMotionPtr live, ScanRequest request);
+  Result<ScanPlan> plan_scan(const ScanRequest& request, std::optional<Decimal> scale_pulse) const;
+  Task<std::optional<Decimal>> read_scale_pulse(int axis, std::string caller);
+  Task<std::optional<std::int64_t>> read_counter(int axis, bool of_scale, std::string caller);
+  Task<void> count_triggers(LiveMotionPtr live);
+  Task<void> disarm(LiveMotionPtr live);
+  Task<void> pay_trigger(std::string caller);
+
+  // approach.cc
+  static bool approaches(const MoveRequest& request);
+  // Both moves of it, held against the envelope.
+  Result<PathPlan> plan_approach(const MoveRequest& request) const;
+  Task<void> run_approach(LiveMotionPtr live, MoveRequest request);
 
   // jog.cc
   MotionId jog(JogRequest request, OnStarted started);
@@ -311,11 +342,20 @@ class Controller::Impl : public LineListener {
   MotionGate gate_;
   std::map<MotionId, LiveMotionPtr> live_;             // without an outcome yet
   std::map<std::uint64_t, Settings> settings_before_;  // the lease of this token has set others
-  Speeds speeds_owed_;                                 // by axis; a motion that ended has set others
+  struct OwedTrigger {
+    Trigger before, armed;
+  };
+  std::optional<OwedTrigger> trigger_owed_;  // a scan that ended has armed it
+  Speeds speeds_owed_;                       // by axis; a motion that ended has set others
   std::deque<Motion> ended_;
   MotionId last_motion_ = 0;
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one
   std::vector<StopJobPtr> stops_;
+  struct NoticeCount {
+    std::int64_t untold = 0;
+    bool telling = false;
+  };
+  std::map<ProgramNotice::Kind, NoticeCount> notices_;
   std::optional<Mode> away_;  // a transaction leads out of HOST; where it is by now
   Signal wake_poll_;
   Signal tick_;                    // never notified: to wait for a time
@@ -330,6 +370,7 @@ inline constexpr Duration kMotionLimit = std::chrono::seconds(5);
 inline constexpr Duration kQuestionLimit = std::chrono::seconds(20);
 // Inside a transaction an exchange waits for a barrier at most.
 inline constexpr Duration kStepLimit = std::chrono::seconds(30);
-inline constexpr Duration kEndStepLimit = std::chrono::seconds(1);  // at the gateway's end
+inline constexpr Duration kNoticesApart = std::chrono::milliseconds(100);  // what a program tells unasked
+inline constexpr Duration kEndStepLimit = std::chrono::seconds(1);         // at the gateway's end
 
 }  // namespace axisgate::shrc203

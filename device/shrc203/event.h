@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "device/core/lane.h"
 #include "device/shrc203/motion.h"
@@ -47,6 +48,24 @@ struct StopRequested {
 // Axes move that the gateway did not set going: the front panel did, or a gateway before this one.
 struct ForeignMotion {
   AxisSet axes;
+};
+
+// Memory switches say another thing than before the way through their edit mode (manual 117) MS:ON): for good.
+struct SwitchesChanged {
+  struct Change {
+    int item = 0, number = 0;  // 0 to 8 (manual 119)); from 0
+    std::string before, after;
+  };
+  std::string who;
+  std::vector<Change> changes;  // by item and number
+  bool unknown = false;         // some may be others, too: the line was lost, or the controller did not tell
+};
+
+// The controller's program told something unasked (manual 109) P:C, 110) P:T).
+struct ProgramNotice {
+  enum class Kind { ended, trigger };
+  Kind kind = Kind::ended;
+  std::int64_t count = 1;  // how often it was told since the last of these
 };
 
 // A line was written, its CR LF included. For the recorder and metrics, as are the other news of the line itself.
@@ -112,8 +131,8 @@ struct UnexpectedLine {
 struct StateChanged {};
 
 using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
-                           BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned,
-                           UnexpectedLine, StateChanged>;
+                           SwitchesChanged, ProgramNotice, BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded,
+                           BarrierEntered, LineLearned, UnexpectedLine, StateChanged>;
 
 class EventSink {
  public:

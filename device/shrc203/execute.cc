@@ -10,12 +10,17 @@
 #include "device/shrc203/closed_answers.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/forecast.h"
+#include "device/shrc203/switch_audit.h"
 #include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr int kClosedTries = 8, kDestinationTries = 4;
+constexpr int kClosedTries = 8, kTellingTries = 4;
+
+std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
+  return reply.kind == Reply::Kind::data ? std::optional(reply.fields) : std::nullopt;
+}
 
 // One caller's transaction.
 class Transaction {
@@ -33,7 +38,10 @@ class Transaction {
   Task<bool> send(std::size_t index);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
+  Task<Result<Reply>> ask_twice(Command question);
   Task<Result<void>> ask_for_destination();
+  Task<Result<void>> read_switches_before(const Command& command);
+  Task<void> read_switches_left();
   Result<void> check_envelope();
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
@@ -45,7 +53,8 @@ class Transaction {
   LiveMotionPtr live_;
   bool started_ = false;
   bool start_in_doubt_ = false;
-  bool switches_ = false;    // memory switches may have been changed
+  bool switches_ = false;  // memory switches may have been changed
+  SwitchAudit audit_;
   Positions destination_{};  // a saved position, where it goes to one
   bool rescaled_ = false, restarted_ = false;
 };
@@ -76,22 +85,43 @@ Result<void> Transaction::check_envelope() {
   return {};
 }
 
+// What counts must be told twice: one byte that the line lost would make another answer of it.
+Task<Result<Reply>> Transaction::ask_twice(Command question) {
+  std::string before;
+  for (int attempt = 0; attempt < kTellingTries; ++attempt) {
+    const auto result = co_await exchange(question);
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (std::exchange(before, result.reply->text) == result.reply->text) co_return *result.reply;
+  }
+  co_return fail(Reason::line_fault, fmt::format("{} is answered otherwise every time", question.line),
+                 "check the cable");
+}
+
+// For the audit: what the line's item says before any of it is set.
+Task<Result<void>> Transaction::read_switches_before(const Command& command) {
+  const auto item = SwitchAudit::item_set_by(command);
+  if (!item || audit_.knows(*item) || !guarded(Guard::switches_audited)) co_return Result<void>();
+  const auto told = co_await ask_twice(SwitchAudit::question_of(*item));
+  if (!told) co_return tl::unexpected(told.error());
+  audit_.before(*item, values_of(*told));
+  co_return Result<void>();
+}
+
+Task<void> Transaction::read_switches_left() {
+  for (const int item : audit_.items()) {
+    if (impl_.away_ != Mode::memory_switches || live_->line_lost) co_return;
+    const auto told = co_await ask_twice(SwitchAudit::question_of(item));
+    if (told) audit_.after(item, values_of(*told));
+  }
+}
+
 Task<Result<void>> Transaction::ask_for_destination() {
   const auto question = destination_question(commands_.front());
   if (!question) co_return Result<void>();
-  ExchangeResult result;
-  std::string before;
-  // One byte that the line lost would make another place of it.
-  for (int attempt = 0; attempt < kDestinationTries; ++attempt) {
-    result = co_await exchange(*question);
-    if (result.problem) co_return tl::unexpected(*result.problem);
-    if (std::exchange(before, result.reply->text) == result.reply->text) break;
-    if (attempt + 1 == kDestinationTries) {
-      co_return fail(Reason::line_fault, "the saved position is told otherwise every time", "check the cable");
-    }
-  }
-  const auto coordinates = by_axis(*result.reply, impl_.state_.controllable());
-  if (result.refused() || coordinates.empty()) {
+  const auto told = co_await ask_twice(*question);
+  if (!told) co_return tl::unexpected(told.error());
+  const auto coordinates = by_axis(*told, impl_.state_.controllable());
+  if (coordinates.empty()) {
     co_return fail(Reason::not_found, fmt::format("nothing is saved under number {}", *question->arguments.first("n")),
                    "save a position there first; a restart of the controller forgets places (PIT:)");
   }
@@ -203,6 +233,11 @@ Task<bool> Transaction::send(std::size_t index) {
   event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
   if (command.row->enters && !impl_.away_) impl_.leave_host(live_->motion.id);
+  if (const auto known = co_await read_switches_before(command); !known) {
+    end(known.error());
+    co_return false;
+  }
+  if (command.row->enters == Mode::host) co_await read_switches_left();
   impl_.remember_settings(request_.context, command);
   const auto result = co_await exchange(command);
   impl_.note_setting(command, result);
@@ -309,7 +344,9 @@ Task<void> Transaction::run() {
     co_return;
   }
   if (impl_.away_) {
+    co_await read_switches_left();
     co_await impl_.come_back(live_, all, switches_);
+    if (const auto changed = audit_.result(request_.context.who)) impl_.emit(*changed);
     if (all) end({});
     live_->on_completion = {};
     co_return;

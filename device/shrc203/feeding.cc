@@ -25,14 +25,18 @@ std::string in_milliseconds(Duration duration) {
 }  // namespace
 
 Command segment_setter(const PathPlan& plan, int number) {
-  const MovePlan& move = plan.segments[static_cast<std::size_t>(number - 1)].move;
+  const SegmentPlan& segment = plan.segments[static_cast<std::size_t>(number - 1)];
   Arguments arguments;
-  arguments.axes(move.set());
-  for (const auto& axis : move.axes) arguments.pulses(axis.amount);
-  if (const auto& speed = move.axes.front().speed) {
-    arguments.speeds(speed->minimum, speed->maximum, speed->acceleration_ms);
+  if (segment.curve) {
+    arguments = segment.curve->arguments;
+  } else {
+    arguments.axes(segment.move.set());
+    for (const auto& axis : segment.move.axes) arguments.pulses(axis.amount);
   }
-  return make_command(name(plan.reg()), arguments);
+  for (const auto& axis : segment.move.axes) {
+    if (axis.speed) arguments.speeds(axis.speed->minimum, axis.speed->maximum, axis.speed->acceleration_ms);
+  }
+  return make_command(segment.curve ? segment.curve->command : name(segment.reg()), arguments);
 }
 
 Duration shortest_feasible(const PathPlan& plan, int number, const Pace& pace) {
@@ -46,6 +50,7 @@ Result<void> check_feeding(const PathPlan& plan, const Pace& pace) {
   int too_short = 0;
   Duration longest_needed{};
   for (int number = 1; number < count; ++number) {
+    if (plan.segments[static_cast<std::size_t>(number)].waits()) continue;  // the next one is set at READY
     const Duration needed = shortest_feasible(plan, number, pace);
     longest_needed = std::max(longest_needed, needed);
     const Duration lasts = plan.segments[static_cast<std::size_t>(number - 1)].shortest;

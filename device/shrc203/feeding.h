@@ -4,7 +4,7 @@
 
 #include "device/shrc203/codec.h"
 #include "device/shrc203/pace.h"
-#include "device/shrc203/plan.h"
+#include "device/shrc203/path_plan.h"
 
 namespace axisgate::shrc203 {
 

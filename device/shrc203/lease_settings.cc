@@ -196,6 +196,7 @@ Task<void> Controller::Impl::restore_all_settings() {
   const std::string caller = "the gateway, which is ending";
   co_await pay_speeds(AxisSet::all(), caller);
   speeds_owed_.clear();
+  co_await pay_trigger(caller);
   for (const auto& [token, before] : std::exchange(settings_before_, {})) {
     speeds_owed_ = before.speeds;
     co_await pay_speeds(AxisSet::all(), caller);

@@ -32,6 +32,13 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   return ExchangeEnded::Outcome::data;
 }
 
+// Comes unasked, and is the answer to nothing (manual 109), 110)).
+std::optional<ProgramNotice::Kind> program_notice(std::string_view text) {
+  if (text == "COMP") return ProgramNotice::Kind::ended;
+  if (text == "TRIG") return ProgramNotice::Kind::trigger;
+  return {};
+}
+
 Guard guard_of(ExchangeEnded::Outcome doubt) {
   if (doubt == ExchangeEnded::Outcome::timed_out) return Guard::barrier_after_time_limit;
   return doubt == ExchangeEnded::Outcome::ng_i ? Guard::barrier_after_line_fault : Guard::barrier_after_garbage;
@@ -56,6 +63,9 @@ void Line::receive(std::string_view bytes, TimePoint now) {
 
 void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   const bool overlong = line.overlong && guarded(Guard::overlong_lines);
+  if (const auto told = program_notice(line.text); told && guarded(Guard::notices_told_apart)) {
+    return listener_.line_event(ProgramNotice{*told}, now);
+  }
   if (!overlong && on_axis_number(line.text, now)) return;
   if (barrier_) return in_barrier(line.text, now);
   if (!in_flight_) {

@@ -42,28 +42,20 @@ Command execution_setter(const MovePlan& plan) {
   return make_command(plan.relative ? "M:" : "A:", arguments);
 }
 
-std::string_view question_of(Register reg) {
-  switch (reg) {
-    case Register::mp:
-      return "?:MP";
-    case Register::ap:
-      return "?:AP";
-    case Register::kp:
-      return "?:KP";
-    case Register::m:
-      return "?:M";
-    case Register::j:
-      return "?:J";
-    default:
-      return "?:A";
-  }
-}
-
 }  // namespace
 
+// Where something moves, places are known at the motion's turn.
+Result<MovePlan> Controller::Impl::check_move(const MoveRequest& request) const {
+  const bool standing = !anything_moves();
+  if (approaches(request) && standing) {
+    if (const auto both = plan_approach(request); !both) return tl::unexpected(both.error());
+  }
+  return plan_move(request.moves, request.relative, standing ? positions_of(state_) : Positions{},
+                   envelope(request.context));
+}
+
 void Controller::Impl::move(MoveRequest request, OnStarted started) {
-  const auto plan = plan_move(request.moves, request.relative, anything_moves() ? Positions{} : positions_of(state_),
-                              envelope(request.context));
+  const auto plan = check_move(request);
   if (!plan) {
     started(tl::unexpected(plan.error()));
     return;
@@ -73,6 +65,7 @@ void Controller::Impl::move(MoveRequest request, OnStarted started) {
     return;
   }
   auto live = create_motion(MotionKind::move, plan->set(), request.context, std::move(started));
+  if (approaches(request)) return executor_.spawn(run_approach(live, std::move(request)));
   executor_.spawn(run_move(live, std::move(request)));
 }
 

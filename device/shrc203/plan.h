@@ -1,4 +1,4 @@
-// What a request comes to in pulses, checked against units, travel and speed limits before anything is sent.
+// What a move comes to in pulses, checked against units, travel and speed limits before anything is sent.
 #pragma once
 
 #include <array>
@@ -30,6 +30,10 @@ struct MovePlan {
 // The speeds to be sent with it, by axis.
 std::map<int, SpeedSetting> speeds_of(const MovePlan& plan);
 
+inline constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s (manual 89) D:)
+// out_of_range outside 1 to 1000 ms.
+Result<void> check_acceleration(int axis, int milliseconds);
+
 // Where the axes stand when the motion begins; nothing for an axis that nobody knows.
 using Positions = std::array<std::optional<std::int64_t>, kAxisCount>;
 Positions positions_of(const State& state);
@@ -38,24 +42,5 @@ Positions positions_of(const State& state);
 // relative way is not checked against the travel limits.
 Result<MovePlan> plan_move(const std::vector<AxisMove>& moves, bool relative, const Positions& from,
                            const Envelope& envelope);
-
-struct SegmentPlan {
-  MovePlan move;
-  std::array<std::int64_t, kAxisCount> end{};  // where each axis stands after it
-  Duration shortest{};                         // by its speeds; it cannot be over sooner
-  Duration longest{};                          // it should be over by then, settling aside
-};
-
-struct PathPlan {
-  AxisSet axes;
-  std::array<std::int64_t, kAxisCount> begin{};  // where each axis stands before it
-  std::vector<SegmentPlan> segments;
-
-  Register reg() const;  // the prebuffer that its segments are put into
-};
-
-// As plan_move, and: the same axes in every segment, straight lines relative and of axes of one scale, no segment
-// without any way. Every axis of the path must be known in `from`.
-Result<PathPlan> plan_path(const PathRequest& request, const Positions& from, const Envelope& envelope);
 
 }  // namespace axisgate::shrc203

@@ -1,5 +1,8 @@
 #include "device/shrc203/registers.h"
 
+#include <algorithm>
+#include <string>
+
 #include <utility>
 
 namespace axisgate::shrc203 {
@@ -141,6 +144,26 @@ Held held_jog(const Reply& reply, const Command& setter, AxisSet controllable) {
   return all ? Held::as_set : none ? Held::nothing : Held::other;
 }
 
+bool same_amount(std::string_view told, std::string_view set) {
+  const auto one = parse_decimal(told), other = parse_decimal(set);
+  return one && other ? *one == *other : told == set;
+}
+
+// ?:EP tells its kind, axes and rotation, and then all amounts in the order in which they were set (manual 23)).
+Held held_curve(const Reply& reply, const Command& setter) {
+  if (reply.text == "NS") return Held::nothing;
+  std::vector<std::string> wanted = {std::string(1, setter.row->name.back())};
+  std::string sign;
+  for (const auto& [letter, value] : setter.arguments.values()) {
+    if (letter == "m") sign = value == "-" ? "-" : "";
+    if (letter == "m" || letter == "u") continue;
+    if (letter == "spds") break;
+    const bool place = letter != "a" && letter != "d" && letter != "n" && letter != "ae";
+    wanted.push_back(place ? sign + value : value);
+  }
+  return std::ranges::equal(reply.fields, wanted, same_amount) ? Held::as_set : Held::other;
+}
+
 }  // namespace
 
 Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
@@ -152,6 +175,7 @@ Held held(const Reply& reply, const Command& setter, AxisSet controllable) {
   std::size_t next = 0;
   bool all = true, none = true;
   if (setter.row->reg == Register::j) return held_jog(reply, setter, controllable);
+  if (setter.row->reg == Register::ep) return held_curve(reply, setter);
   const bool shared = setter.row->reg == Register::kp;
   if (shared && reply.text == "NS") return Held::nothing;
   const AxisSet axes = setter.axes(controllable);
@@ -196,6 +220,25 @@ std::string_view name(Register reg) {
       return "WI:";
   }
   return "";
+}
+
+std::string_view question_of(Register reg) {
+  switch (reg) {
+    case Register::mp:
+      return "?:MP";
+    case Register::ap:
+      return "?:AP";
+    case Register::kp:
+      return "?:KP";
+    case Register::ep:
+      return "?:EP";
+    case Register::m:
+      return "?:M";
+    case Register::j:
+      return "?:J";
+    default:
+      return "?:A";
+  }
 }
 
 }  // namespace axisgate::shrc203

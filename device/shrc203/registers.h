@@ -65,5 +65,7 @@ enum class Held { as_set, nothing, other };
 Held held(const Reply& reply, const Command& setter, AxisSet controllable);
 
 std::string_view name(Register reg);
+// What tells what it holds: "?:MP".
+std::string_view question_of(Register reg);
 
 }  // namespace axisgate::shrc203

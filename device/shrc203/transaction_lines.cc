@@ -50,13 +50,6 @@ Result<void> check_modes(const std::vector<Command>& commands) {
     if (command.line == "P:U1") {
       return fail(Reason::invalid_request, "P:U1 lets a program go on that nobody here has begun", "run it by P:S");
     }
-    if (row.name == "P:C" || row.name == "P:T") {
-      if (command.arguments.values().front().second == "1") {
-        return fail(Reason::invalid_request,
-                    fmt::format("{} lets the controller write lines that nobody asked for", command.line),
-                    "leave it off: Execute waits for the program's end by itself");
-      }
-    }
     mode = row.enters.value_or(mode);
   }
   if (mode == Mode::host) return {};

@@ -129,6 +129,7 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   }
   if (guarded(Guard::speeds_owed)) co_await pay_speeds(axes, live->context.who);
+  co_await pay_trigger(live->context.who);
   if (!registers_.known() || registers_.any()) {
     const auto cleared = co_await clear_left_overs(live, reg);
     if (!cleared) co_return cleared;
@@ -191,7 +192,8 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
 
 bool Controller::Impl::at_targets(const LiveMotion& live) const {
   return !guarded(Guard::success_at_target) || std::ranges::all_of(live.motion.results, [&](const AxisResult& result) {
-    return result.target_pulses && state_.axis(result.axis).position_pulses == result.target_pulses;
+    const auto position = state_.axis(result.axis).position_pulses;
+    return result.target_pulses && position && std::abs(*position - *result.target_pulses) <= live.slack;
   });
 }
 
@@ -233,6 +235,9 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
     const bool completed = live->completed == live->motion.axes;
     const auto read = co_await read_positions(completed ? Lane::motion : Lane::poll, live->context.who);
     if (live->line_lost) continue;
+    if (read && live->scan && !state_.axis(live->motion.axes.lowest()).busy.value_or(true)) {
+      co_await count_triggers(live);
+    }
     if (read) {
       judge(live, check);
       failures = 0;
@@ -281,7 +286,7 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   const bool borne_out = !guarded(Guard::success_seen_twice) || live->completed == live->motion.axes ||
                          (check.ready && here == check.positions);
   const bool good = !error || !guarded(Guard::success_without_error);
-  if (at_targets(*live) && good && evident && borne_out) {
+  if (at_targets(*live) && good && evident && borne_out && !live->cut_short) {
     end_motion(live, MotionState::succeeded, {});
     return;
   }

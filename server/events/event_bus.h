@@ -18,8 +18,9 @@
 namespace axisgate::server {
 
 // What is told to everybody, each exactly once and in order. Telemetry is not among it: newest.h.
-using Fact = std::variant<shrc203::MotionChanged, shrc203::CompletionSeen, shrc203::PathProgress, shrc203::LinkChanged,
-                          shrc203::StopRequested, shrc203::ForeignMotion>;
+using Fact =
+    std::variant<shrc203::MotionChanged, shrc203::CompletionSeen, shrc203::PathProgress, shrc203::LinkChanged,
+                 shrc203::StopRequested, shrc203::ForeignMotion, shrc203::SwitchesChanged, shrc203::ProgramNotice>;
 
 struct FactRecord {
   std::uint64_t revision = 0;  // counts from 1 as long as the daemon runs, over all devices

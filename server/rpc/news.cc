@@ -108,6 +108,23 @@ struct EventFiller {
   void operator()(const shrc203::ForeignMotion& motion) const {
     for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
+  void operator()(const shrc203::SwitchesChanged& change) const {
+    api::SwitchesChanged& told = *event.mutable_switches_changed();
+    told.set_who(change.who);
+    told.set_unknown(change.unknown);
+    for (const auto& one : change.changes) {
+      api::SwitchChange& proto = *told.add_changes();
+      proto.set_item(one.item);
+      proto.set_number(one.number);
+      proto.set_before(escaped(one.before));
+      proto.set_after(escaped(one.after));
+    }
+  }
+  void operator()(const shrc203::ProgramNotice& notice) const {
+    static_assert(static_cast<int>(shrc203::ProgramNotice::Kind::trigger) + 1 == api::ProgramNotice::KIND_TRIGGER);
+    event.mutable_program_notice()->set_kind(static_cast<api::ProgramNotice::Kind>(static_cast<int>(notice.kind) + 1));
+    event.mutable_program_notice()->set_count(notice.count);
+  }
   void operator()(const shrc203::StopRequested& stop) const {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
     event.mutable_stop_requested()->set_emergency(stop.emergency);

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <numeric>
 
 #include "device/shrc203/codec.h"
 #include "server/access/leases.h"
@@ -17,6 +18,7 @@ using std::chrono::milliseconds;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using Lines = std::vector<std::string>;
 
 // What a line is: motion needs the lease of all that it concerns.
 class HazardOfHiddenMotion : public testing::TestWithParam<const char*> {};
@@ -146,6 +148,54 @@ TEST(Hazard, H24_MemorySwitchesAreReachedAlone) {
   moved(world, {{1, 100}});
 }
 
+std::vector<SwitchesChanged> switches_told(World& world, const Lines& lines) {
+  std::vector<SwitchesChanged> told;
+  world.on_news = [&](const Event& event) {
+    if (const auto* changed = std::get_if<SwitchesChanged>(&event)) told.push_back(*changed);
+  };
+  (void)execute(world, lines);
+  world.run_for(seconds(10));
+  return told;
+}
+
+TEST(Hazard, H24_TheDifferenceIsTold) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const auto told = switches_told(world, {"MS:ON", "MS:SET,0,3,0", "MS:SET,5,4,777", "MS:SET,5,4,778", "MS:OFF"});
+  ASSERT_EQ(told.size(), 1U) << world.replay();
+  EXPECT_EQ(told[0].who, "tester");
+  EXPECT_FALSE(told[0].unknown);
+  ASSERT_EQ(told[0].changes.size(), 2U) << world.replay();
+  const auto& beep = told[0].changes[0];
+  EXPECT_EQ(std::tuple(beep.item, beep.number, beep.before, beep.after), std::tuple(0, 3, "1", "0"));
+  const auto& speed = told[0].changes[1];
+  EXPECT_EQ(std::tuple(speed.item, speed.number, speed.after), std::tuple(5, 4, "778"));
+}
+
+TEST(Hazard, H24_WhatIsSetAsItWasIsNoDifference) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_TRUE(switches_told(world, {"MS:ON", "MS:GET,0,4", "MS:OFF"}).empty()) << world.replay();
+  EXPECT_TRUE(switches_told(world, {"MS:ON", "MS:SET,5,4,777", "MS:DEF,5,4", "MS:OFF"}).empty()) << world.replay();
+}
+
+// The way back saves what was set before the line was lost.
+TEST(Hazard, H24_ADifferenceThatNobodyCanTell) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  std::vector<SwitchesChanged> told;
+  world.on_news = [&](const Event& event) {
+    if (const auto* changed = std::get_if<SwitchesChanged>(&event)) told.push_back(*changed);
+  };
+  world.controller().execute({{"MS:ON", "MS:SET,5,4,777", "MS:OFF"}, world.context("admin")}, world.now(),
+                             [](const ExecuteEvent&) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "MS:SET") == 1; }, seconds(5))) << world.replay();
+  world.wire().cut(world.now(), seconds(1));
+  world.run_for(seconds(5));
+  ASSERT_EQ(told.size(), 1U) << world.replay();
+  EXPECT_TRUE(told[0].unknown);
+}
+
 class HazardOfTheWayBack : public testing::TestWithParam<std::vector<std::string>> {};
 
 TEST_P(HazardOfTheWayBack, IsInTheSameLines) {
@@ -155,7 +205,6 @@ TEST_P(HazardOfTheWayBack, IsInTheSameLines) {
   EXPECT_EQ(written(world, "MS:") + written(world, "P:"), 0) << world.replay();
 }
 
-using Lines = std::vector<std::string>;
 INSTANTIATE_TEST_SUITE_P(H24H25, HazardOfTheWayBack,
                          testing::Values(Lines{"MS:ON"}, Lines{"MS:OFF"}, Lines{"MS:GET,0,1"}, Lines{"P:R"},
                                          Lines{"P:R", "P:ON", "P:H"}, Lines{"P:R", "P:ON", "P:OFF"},
@@ -282,11 +331,51 @@ TEST(Hazard, H25_SavingTakesLong) {
   EXPECT_EQ(world.controller().state().device_epoch, epoch) << world.replay();
 }
 
-TEST(Hazard, H25_NoLinesThatNobodyAskedFor) {
+// It gives a trigger pulse every 1000 pulses of 100000, and tells of each and of its end.
+const Lines kTellingProgram = {"P:R",         "P:P1",  "P:ON", "P:INIT", "P:SET,1,M,1,0,0,100000,0,0,0,1,0,0,1,1000",
+                               "P:SET,2,END", "P:OFF", "P:C1", "P:T1",   "P:S",
+                               "P:H"};
+
+struct Noticed {
+  std::vector<std::int64_t> triggers;  // the counts of each event
+  int ends = 0, barriers = 0;
+};
+
+Noticed run_telling_program(World& world) {
+  Noticed noticed;
+  world.on_news = [&](const Event& event) {
+    if (std::holds_alternative<BarrierEntered>(event)) ++noticed.barriers;
+    const auto* notice = std::get_if<ProgramNotice>(&event);
+    if (!notice) return;
+    if (notice->kind == ProgramNotice::Kind::trigger) noticed.triggers.push_back(notice->count);
+    if (notice->kind == ProgramNotice::Kind::ended) ++noticed.ends;
+  };
+  EXPECT_THAT(execute(world, kTellingProgram), testing::Each("OK")) << world.replay();
+  world.run_for(seconds(1));
+  return noticed;
+}
+
+TEST(Hazard, H25_NoticesAreNoAnswers) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  EXPECT_THAT(execute(world, {"P:R", "P:C1", "P:H"}), ElementsAre("INVALID_REQUEST"));
-  EXPECT_EQ(written(world, "P:"), 0) << world.replay();
+  const Noticed noticed = run_telling_program(world);
+  EXPECT_EQ(world.device().position(1), 100'000) << world.replay();
+  EXPECT_EQ(noticed.barriers, 0) << world.replay();
+  EXPECT_EQ(noticed.ends, 1) << world.replay();
+  EXPECT_EQ(world.device().trigger_pulses(), 100);
+  EXPECT_EQ(std::accumulate(noticed.triggers.begin(), noticed.triggers.end(), std::int64_t{0}), 100) << world.replay();
+  moved(world, {{1, 100}});
+}
+
+TEST(Hazard, H25_NoticesAreBounded) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const TimePoint begun = world.now();
+  const Noticed noticed = run_telling_program(world);
+  const double seconds_taken = std::chrono::duration<double>(world.now() - begun).count();
+  EXPECT_GT(noticed.triggers.size(), 1U) << world.replay();
+  EXPECT_LE(static_cast<double>(noticed.triggers.size()), 10 * seconds_taken + 1) << world.replay();
+  EXPECT_LT(noticed.triggers.size(), 50U) << "100 pulses were told within 2 s\n" << world.replay();
 }
 
 // Where the program leads is not known, so somebody with a travel envelope cannot run it.

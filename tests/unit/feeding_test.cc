@@ -8,7 +8,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-SegmentPlan segment(Duration lasts, std::vector<AxisPlan> axes) { return {{true, std::move(axes)}, {}, lasts, lasts}; }
+SegmentPlan segment(Duration lasts, std::vector<AxisPlan> axes) {
+  SegmentPlan plan;
+  plan.move = {true, std::move(axes)};
+  plan.shortest = plan.longest = lasts;
+  return plan;
+}
 SegmentPlan to_and_fro(Duration lasts) { return segment(lasts, {{1, 100, {}, {}}}); }
 
 // 10,000 baud: a millisecond a byte; answers come without delay.
@@ -54,6 +59,13 @@ TEST_F(FeedingTest, WhatIsShorterIsRefused) {
             "segment 2 takes 24.0 ms, in which a line of 10000 baud cannot set the next one: the shortest feasible "
             "segment time is 25 ms");
   EXPECT_THAT(refused.error().hint, testing::StartsWith("let every segment but the last take 25 ms or more: "));
+}
+
+TEST_F(FeedingTest, WhatIsFollowedByARestMayBeShort) {
+  PathPlan plan = path({milliseconds(1), kShortest});
+  EXPECT_FALSE(check_feeding(plan, pace));
+  plan.segments[1].rest = milliseconds(1);
+  EXPECT_TRUE(check_feeding(plan, pace)) << "the next one is set while nothing runs";
 }
 
 TEST_F(FeedingTest, TheLastSegmentMayBeShort) {

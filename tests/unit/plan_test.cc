@@ -1,5 +1,7 @@
 #include "device/shrc203/plan.h"
 
+#include "device/shrc203/path_plan.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -201,9 +203,6 @@ TEST_F(PlanTest, PathsThatCannotBe) {
   EXPECT_EQ(path_refused({}), Reason::invalid_request);
   EXPECT_EQ(path_refused({line(1, 1), line(0, 0)}), Reason::invalid_request) << "it moves nothing";
   EXPECT_EQ(path_refused({line(1, 1), {{{2, pulses(1), {}}}, true, {}, {}}}), Reason::invalid_request) << "other axes";
-  Segment absolute = line(1, 1);
-  absolute.relative = false;
-  EXPECT_EQ(path_refused({absolute}), Reason::invalid_request);
   EXPECT_EQ(path_refused({{{{1, pulses(90000), {}}}, true, {}, {}}, {{{1, pulses(20000), {}}}, true, {}, {}}}),
             Reason::outside_travel);
   state.axes[2].scale = Scale{{20, 0}, false};

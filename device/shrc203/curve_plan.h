@@ -1,0 +1,37 @@
+// What a curve of a path comes to: a line of EP: (manual 77) to 82)), and what is to be expected of it.
+#pragma once
+
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/shrc203/arc.h"
+#include "device/shrc203/controller.h"
+#include "device/shrc203/envelope.h"
+#include "device/shrc203/pattern.h"
+#include "device/shrc203/plan.h"
+
+namespace axisgate::shrc203 {
+
+struct CurvePlan {
+  Arc arc;
+  std::string_view command;  // "EP:1"
+  Arguments arguments;       // without speeds
+};
+
+struct PlannedCurve {
+  CurvePlan curve;
+  MovePlan move;  // its axes, ascending, and where it leads; relative
+};
+
+// From where the axes are, held against the envelope along the whole curve. invalid_request, out_of_range,
+// outside_travel, position_unknown and what the envelope's conversions refuse.
+Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, const Envelope& envelope);
+
+// Pulses by which the controller's own reckoning of its end may differ: that of an angle ("an error occurs", manual
+// 72), 75)), unless the curve ends on whole pulses.
+std::int64_t slack_of(const CurvePlan& curve);
+
+// The highest part of the path speed that each axis of the move makes on the way: 1 in the plane of the circle.
+double share_of_speed(const Arc& arc, bool third_axis);
+
+}  // namespace axisgate::shrc203

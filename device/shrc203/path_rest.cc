@@ -1,0 +1,132 @@
+// What a segment waits for while the axes stand: a rest, inputs, a trigger that is armed. The gateway keeps these times
+// itself: whether WT: and WI: answer OK or OK_D behind a running segment, and whether their end tells a number, is open
+// (manual 57), 58)), and a stop must not have to clear them.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "device/core/guard.h"
+#include "device/shrc203/path_run.h"
+#include "device/shrc203/refusals.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kInputsPoll = std::chrono::milliseconds(20);
+constexpr Duration kEndShows =
+    std::chrono::milliseconds(500);  // READY elsewhere counts so long behind a segment's time
+constexpr int kArmTries = 3;
+
+}  // namespace
+
+Task<bool> PathRun::wait_until(TimePoint limit) {
+  while (impl_.now_ < limit && !live_->stop_requested && !live_->line_lost) {
+    auto news = live_->news.wait_until(limit);
+    co_await news;
+  }
+  co_return !live_->stop_requested && !live_->line_lost;
+}
+
+bool PathRun::stands_at(const std::array<std::int64_t, kAxisCount>& place, std::int64_t slack) const {
+  return std::ranges::all_of(plan_.axes.list(), [&](int axis) {
+    const auto position = impl_.state_.axis(axis).position_pulses;
+    return position && std::abs(*position - place[static_cast<std::size_t>(axis - 1)]) <= slack;
+  });
+}
+
+// The segment that runs has ended, and its axis numbers are in: they must not be taken for the next one's.
+Task<bool> PathRun::come_to_rest() {
+  const bool due = co_await wait_until(segment_began_ + segment(running_).shortest);
+  if (!due) co_return false;
+  for (;;) {
+    const bool standing = co_await wait_for_ready();
+    if (!standing || live_->stop_requested) co_return false;
+    const auto error = error_shown(live_->motion.axes, impl_.state_);
+    if (error) {
+      give_up(MotionState::failed, *error);
+      co_return false;
+    }
+    const bool numbers_in = (impl_.line_.completions().outstanding() & plan_.axes).empty();
+    if (stands_at_end(running_) && numbers_in) co_return true;
+    if (numbers_in && impl_.now_ >= segment_began_ + segment(running_).longest + kEndShows) {
+      give_up(MotionState::failed, Problem{Reason::target_not_reached,
+                                           fmt::format("the axes stand, but not at the end of segment {}", running_),
+                                           "look at the positions and the controller's front panel",
+                                           {},
+                                           {},
+                                           {}});
+      co_return false;
+    }
+  }
+}
+
+Task<void> PathRun::start_from_rest(int number) {
+  release_line();
+  const bool resting = co_await come_to_rest();
+  if (!resting) co_return;
+  tell(PathProgress::Step::done, running_);
+  const bool good = co_await wait_before(number);
+  if (good) co_await start(number);
+}
+
+Task<bool> PathRun::wait_before(int number) {
+  const SegmentPlan& next = segment(number);
+  const bool waits = next.rest > Duration{} || next.inputs;
+  if (waits) impl_.mark_running(live_);
+  const bool rested = co_await wait_until(impl_.now_ + next.rest);
+  if (!rested) co_return false;
+  if (next.inputs) {
+    show_armed(true);
+    const bool shown = co_await wait_for_inputs(*next.inputs);
+    show_armed(false);
+    if (!shown) co_return false;
+  }
+  if (next.arm) {
+    co_await impl_.count_triggers(live_);
+    const bool armed = co_await arm(*next.arm);
+    if (!armed) co_return false;
+  }
+  missed_ = 0;
+  clock_axis_ = 0;
+  live_->completions.clear();
+  co_return true;
+}
+
+void PathRun::show_armed(bool armed) {
+  for (const int axis : plan_.axes.list()) impl_.state_.axis(axis).armed = armed;
+  impl_.publish_state();
+}
+
+// Two answers in a row: one flipped bit must not start a motion.
+Task<bool> PathRun::wait_for_inputs(int pattern) {
+  int agreed = 0;
+  for (;;) {
+    const auto told = co_await impl_.ask("I:", Lane::motion, live_->context.who);
+    if (live_->stop_requested || live_->line_lost) co_return false;
+    const bool as_wanted = told.reply && !told.problem && parse_integer(told.reply->text) == pattern;
+    agreed = as_wanted ? agreed + 1 : 0;
+    if (agreed == 2 || (agreed == 1 && !guarded(Guard::inputs_told_twice))) co_return true;
+    const bool goes_on = co_await wait_until(impl_.now_ + (as_wanted ? Duration{} : kInputsPoll));
+    if (!goes_on) co_return false;
+  }
+}
+
+// T: sets nothing in motion, and the same twice is the same.
+Task<bool> PathRun::arm(Trigger trigger) {
+  const Command setter = trigger_command(trigger);
+  ExchangeResult result;
+  for (int attempt = 0; attempt < kArmTries; ++attempt) {
+    if (live_->stop_requested || live_->line_lost) co_return false;
+    auto pending = impl_.line_.exchange(impl_.motion_request(*live_, setter, Lane::motion), impl_.now_);
+    result = co_await pending;
+    impl_.note_setting(setter, result);
+    if (result.accepted()) co_return true;
+    if (result.refused()) break;
+  }
+  Problem why = result.problem.value_or(Problem{});
+  if (result.refused()) why = co_await impl_.explain_refusal(setter, AxisSet::all(), live_->context.who);
+  give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, why);
+  co_return false;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,52 @@
+#include "device/shrc203/switch_audit.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "device/core/quantity.h"
+#include "device/shrc203/reply.h"
+
+namespace axisgate::shrc203 {
+
+std::optional<int> SwitchAudit::item_set_by(const Command& command) {
+  constexpr std::array<std::string_view, 4> kSetters = {"MS:SET", "MS:DEF", "MS:SETK", "MS:DEFK"};
+  if (std::ranges::find(kSetters, command.row->name) == kSetters.end()) return {};
+  return static_cast<int>(*parse_integer(*command.arguments.first("k")));
+}
+
+Command SwitchAudit::question_of(int item) {
+  return make_command("MS:GETK", Arguments().add("k", std::to_string(item)));
+}
+
+void SwitchAudit::before(int item, std::optional<Values> values) { before_.try_emplace(item, std::move(values)); }
+
+void SwitchAudit::after(int item, std::optional<Values> values) { after_.insert_or_assign(item, std::move(values)); }
+
+std::vector<int> SwitchAudit::items() const {
+  std::vector<int> items;
+  for (const auto& [item, values] : before_) items.push_back(item);
+  return items;
+}
+
+std::optional<SwitchesChanged> SwitchAudit::result(const std::string& who) const {
+  SwitchesChanged told{who, {}, false};
+  for (const auto& [item, old] : before_) {
+    const auto found = after_.find(item);
+    const bool known = old && found != after_.end() && found->second && found->second->size() == old->size();
+    if (!known) {
+      told.unknown = true;
+      continue;
+    }
+    const Values& now = *found->second;
+    for (std::size_t number = 0; number < now.size(); ++number) {
+      if ((*old)[number] == now[number]) continue;
+      told.changes.push_back({item, static_cast<int>(number), (*old)[number], now[number]});
+    }
+  }
+  if (told.changes.empty() && !told.unknown) return {};
+  return told;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,352 @@
+// Paths of lines and curves with rests between, and targets that are come to from one side.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "tests/simulation/random.h"
+#include "tests/simulation/scenario.h"
+
+namespace axisgate::simulation {
+namespace {
+
+using namespace shrc203;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+Segment line(std::int64_t first, std::int64_t second) {
+  Segment segment;
+  segment.moves = {{1, pulses(first), {}}, {2, pulses(second), {}}};
+  return segment;
+}
+
+Segment along(int axis, std::int64_t way) {
+  Segment segment;
+  segment.moves = {{axis, pulses(way), {}}};
+  return segment;
+}
+
+Segment around(std::int64_t first, std::int64_t second, Rotation rotation, std::variant<int, Decimal> extent) {
+  Segment segment;
+  segment.curve = Curve{{1, 2}, Curve::Around{{pulses(first), pulses(second)}, rotation, extent}, {}};
+  return segment;
+}
+
+Segment through(std::array<std::int64_t, 2> point, std::array<std::int64_t, 2> end) {
+  Segment segment;
+  segment.curve =
+      Curve{{1, 2}, Curve::Through{{pulses(point[0]), pulses(point[1])}, {pulses(end[0]), pulses(end[1])}}, {}};
+  return segment;
+}
+
+PathRequest path_of(const World& world, std::vector<Segment> segments) {
+  return {std::move(segments), world.context("tester")};
+}
+
+Reason refusal_of(World& world, std::vector<Segment> segments) {
+  Reason reason = Reason::unspecified;
+  world.controller().run_path(path_of(world, std::move(segments)), world.now(), [&](const Result<Motion>& motion) {
+    if (!motion) reason = motion.error().reason;
+  });
+  return reason;
+}
+
+void run(World& world, std::vector<Segment> segments) {
+  world.controller().run_path(path_of(world, std::move(segments)), world.now(), [](const Result<Motion>&) {});
+}
+
+// The prebuffer lines in their order.
+std::vector<std::string> set_lines(World& world, std::size_t first = 0) {
+  std::vector<std::string> lines;
+  for (std::size_t i = first; i < world.wire().commands().size(); ++i) {
+    const std::string& one = world.wire().commands()[i];
+    if (one.starts_with("KP:") || one.starts_with("EP:") || one.starts_with("AP:") || one.starts_with("MP:")) {
+      lines.push_back(one);
+    }
+  }
+  return lines;
+}
+
+TEST(PathShapes, LinesAndCurvesInOneChain) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  auto first = line(2000, 1000);
+  first.speed = pulses(5000);
+  run(world, {first, around(0, 1000, Rotation::counterclockwise, Decimal{90, 0}), line(0, -500),
+              through({1000, 1000}, {2000, 0}), around(-300, 400, Rotation::clockwise, 1), line(-100, -100)});
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
+  EXPECT_THAT(set_lines(world), ElementsAre("KP:A+P2000+P1000,S5000F50000R100", "EP:1A1+P0+P1000D90", "KP:A+P0-P500",
+                                            "EP:2A0+P1000+P1000+P2000+P0", "EP:0A0-P300+P400", "KP:A-P100-P100"));
+  EXPECT_EQ(world.device().position(1), 2000 + 1000 + 0 + 2000 + 0 - 100);
+  EXPECT_EQ(world.device().position(2), 1000 + 1000 - 500 + 0 + 0 - 100);
+  EXPECT_EQ(motion.underruns, 0);
+  EXPECT_EQ(motion.segments_done, 6);
+  std::vector<std::string> replies;
+  for (const auto& news : world.progress()) {
+    if (news.step == PathProgress::Step::sent) replies.push_back(news.wire_reply);
+  }
+  EXPECT_THAT(replies, ElementsAre("OK", "OK_D", "OK_D", "OK_D", "OK_D", "OK_D"));
+}
+
+TEST(PathShapes, AHelixBetweenStraightLines) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  Segment straight;
+  straight.moves = {{1, pulses(100), {}}, {2, pulses(200), {}}, {3, pulses(300), {}}};
+  Segment helix = around(500, 0, Rotation::counterclockwise, 3);
+  helix.curve->rise = pulses(-40);
+  Segment half = around(500, 0, Rotation::clockwise, Decimal{180, 0});
+  half.curve->rise = pulses(70);
+  run(world, {straight, helix, half, straight});
+  EXPECT_EQ(outcome_of(world, 1, seconds(60)).state, MotionState::succeeded) << world.replay();
+  EXPECT_THAT(set_lines(world), ElementsAre("KP:D+P100+P200+P300", "EP:3A1N3+P500+P0-P40", "EP:4A0+P500+P0D180+P70",
+                                            "KP:D+P100+P200+P300"));
+  EXPECT_EQ(world.device().position(1), 1200);
+  EXPECT_EQ(world.device().position(2), 400);
+  EXPECT_EQ(world.device().position(3), 300 - 120 + 70 + 300);
+}
+
+TEST(PathShapes, PlacesInsteadOfWays) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  moved(world, {{1, 300}, {2, -200}});
+  auto to = line(1000, 1000), back = line(40, -30),
+       turn = around(500, 500, Rotation::counterclockwise, Decimal{180, 0});
+  to.relative = back.relative = turn.relative = false;
+  const std::size_t before = world.wire().commands().size();
+  run(world, {to, turn, back, line(5, 5)});
+  EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
+  // 180 degrees about (500, 500) lead from (1000, 1000) to (0, 0).
+  EXPECT_THAT(set_lines(world, before),
+              ElementsAre("KP:A+P700+P1200", "EP:1A1-P500-P500D180", "KP:A+P40-P30", "KP:A+P5+P5"));
+  EXPECT_EQ(world.device().position(1), 45);
+  EXPECT_EQ(world.device().position(2), -25);
+}
+
+TEST(PathShapes, WhatCannotBe) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  EXPECT_EQ(refusal_of(world, {through({100, 100}, {200, 200})}), Reason::invalid_request) << "on one line";
+  EXPECT_EQ(refusal_of(world, {around(0, 0, Rotation::clockwise, 1)}), Reason::invalid_request) << "no radius";
+  EXPECT_EQ(refusal_of(world, {around(5, 0, Rotation::clockwise, 2)}), Reason::out_of_range) << "two turns";
+  EXPECT_EQ(refusal_of(world, {around(5, 0, Rotation::clockwise, Decimal{361, 0})}), Reason::out_of_range);
+  EXPECT_EQ(refusal_of(world, {line(1, 1), along(1, 5)}), Reason::invalid_request) << "other axes";
+  Segment helix = around(5, 0, Rotation::clockwise, 1);
+  helix.curve->axes = {1, 3};
+  helix.curve->rise = pulses(5);
+  EXPECT_EQ(refusal_of(world, {helix}), Reason::invalid_request) << "a helix turns in axes 1 and 2";
+  auto resting = line(1, 1);
+  resting.rest = milliseconds(255'001);
+  EXPECT_EQ(refusal_of(world, {resting}), Reason::out_of_range);
+  EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
+}
+
+TEST(PathShapes, TheWholeCurveKeepsWithinTheTravel) {
+  auto setup = quiet();
+  setup.profile.axes[1].travel_maximum = pulses(1999);
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up());
+  // It ends where it began, and comes to 2000 on the way.
+  EXPECT_EQ(refusal_of(world, {around(0, 1000, Rotation::counterclockwise, 1)}), Reason::outside_travel);
+  EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
+  run(world, {around(0, 999, Rotation::counterclockwise, 1)});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+}
+
+// Every seed draws one of each of the manual's open questions.
+class PathShapesSeeds : public testing::TestWithParam<int> {};
+
+TEST_P(PathShapesSeeds, EndWhereTheirSumIs) {
+  auto setup = drawn_setup(static_cast<std::uint64_t>(GetParam()), Faults{});
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  Random random(static_cast<std::uint64_t>(GetParam()));
+  for (std::size_t round = 1; round <= 4; ++round) {
+    std::vector<Segment> segments;
+    std::int64_t first = world.device().position(1), second = world.device().position(2);
+    for (int i = 0; i < 6; ++i) {
+      const std::int64_t a = random.between(200, 900), b = random.between(-900, -200);
+      switch (random.between(0, 3)) {
+        case 0:
+          segments.push_back(line(a, b));
+          first += a;
+          second += b;
+          break;
+        case 1:
+          segments.push_back(through({a, 0}, {a, b}));
+          first += a;
+          second += b;
+          break;
+        case 2: {  // half a turn leads to the other side of the center
+          segments.push_back(around(a, b, Rotation::clockwise, Decimal{180, 0}));
+          first += 2 * a;
+          second += 2 * b;
+          break;
+        }
+        default:  // a quarter turn, counterclockwise: the center seen from the end is (-b, a)
+          segments.push_back(around(a, b, Rotation::counterclockwise, Decimal{90, 0}));
+          first += a + b;
+          second += b - a;
+      }
+      if (random.between(0, 4) == 0) segments.back().rest = milliseconds(random.between(1, 200));
+    }
+    const std::size_t before = world.outcomes().size();
+    run(world, segments);
+    EXPECT_EQ(outcome_of(world, before + 1, seconds(120)).state, MotionState::succeeded) << world.replay();
+    EXPECT_EQ(world.device().position(1), first) << world.replay();
+    EXPECT_EQ(world.device().position(2), second) << world.replay();
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Drawn, PathShapesSeeds, testing::Range(1, 41));
+
+TEST(PathRests, TheAxesStandMeanwhile) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  auto later = line(300, 0);
+  later.rest = milliseconds(700);
+  run(world, {line(1000, 0), later, line(-300, 0)});
+  ASSERT_TRUE(world.run_until([&] { return world.device().position(1) == 1000; }, seconds(10)));
+  const TimePoint there = world.now();
+  ASSERT_TRUE(world.run_until([&] { return world.device().position(1) != 1000; }, seconds(10)));
+  EXPECT_GE(world.now() - there, milliseconds(700)) << world.replay();
+  EXPECT_LE(world.now() - there, milliseconds(1200)) << world.replay();
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(motion.underruns, 0) << "a rest is no underrun";
+  EXPECT_EQ(motion.segments_done, 3);
+}
+
+// It stands where the path would end: that it did not run on is no success.
+TEST(PathRests, AStopWhileItRests) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  auto there = along(1, 500), back = along(1, -500);
+  there.rest = back.rest = seconds(2);
+  run(world, {along(1, 1000), there, back});
+  ASSERT_TRUE(world.run_until([&] { return world.device().position(1) == 1000; }, seconds(10)));
+  world.run_for(milliseconds(500));
+  const std::size_t lines = world.wire().commands().size();
+  EXPECT_FALSE(stopped(world).problem) << world.replay();
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+  world.run_for(seconds(5));
+  EXPECT_EQ(motion_lines(world, lines), 0) << world.replay();
+  EXPECT_EQ(world.device().position(1), 1000);
+  moved(world, {{1, 100}});
+}
+
+TEST(PathRests, InputsNeedTheConfiguration) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  auto second = along(1, 100);
+  second.inputs = 5;
+  EXPECT_EQ(refusal_of(world, {along(1, 100), second}), Reason::not_allowed);
+  EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
+}
+
+Setup with_inputs() {
+  auto setup = quiet();
+  setup.profile.wait_for_inputs = true;
+  return setup;
+}
+
+TEST(PathRests, InputsAreWaitedFor) {
+  World world(with_inputs());
+  ASSERT_TRUE(world.run_until_up());
+  auto second = along(1, 100);
+  second.inputs = 5;
+  run(world, {along(1, 1000), second});
+  ASSERT_TRUE(world.run_until([&] { return world.controller().state().axis(1).armed; }, seconds(10)));
+  world.device().set_inputs(4);
+  world.run_for(seconds(3));
+  EXPECT_EQ(world.device().position(1), 1000) << world.replay();
+  world.device().set_inputs(5);
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().position(1), 1100);
+  EXPECT_FALSE(world.controller().state().axis(1).armed);
+}
+
+TEST(PathRests, OneMisreadInputStartsNothing) {
+  World world(with_inputs());
+  ASSERT_TRUE(world.run_until_up());
+  world.wire().set_script([&world, hits = 0](LineKind kind, const std::string&) mutable -> Scripted {
+    const bool hit = kind == LineKind::reply && world.wire().commands().back() == "I:" && ++hits == 5;
+    return {.drop = false, .delay = {}, .instead = hit ? std::optional<std::string>("5") : std::nullopt};
+  });
+  auto second = along(1, 100);
+  second.inputs = 5;
+  run(world, {along(1, 1000), second});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "I:") > 12; }, seconds(30))) << world.replay();
+  EXPECT_EQ(world.device().position(1), 1000) << world.replay();
+  EXPECT_FALSE(stopped(world).problem);
+}
+
+class Approaches : public testing::TestWithParam<std::int64_t> {};
+
+// From below, from above, from so near that it must go away first, and from where it sets out already.
+TEST_P(Approaches, ComeFromTheSameSide) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  if (GetParam() != 0) moved(world, {{1, GetParam()}});
+  const std::size_t before = world.outcomes().size(), lines = world.wire().commands().size();
+  auto request = move_of(world, {{1, 5000}}, false);
+  request.moves[0].approach = pulses(800);
+  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
+  std::int64_t last = world.device().position(1);
+  int steps_down_behind_the_turn = 0;
+  bool turned = false;
+  while (world.outcomes().size() == before && world.now() < TimePoint(std::chrono::minutes(5))) {
+    world.run_for(milliseconds(1));
+    const std::int64_t at = world.device().position(1);
+    if (turned && at < last) ++steps_down_behind_the_turn;
+    turned = turned || at == 4200;
+    last = at;
+  }
+  EXPECT_EQ(world.device().position(1), 5000) << world.replay();
+  EXPECT_EQ(steps_down_behind_the_turn, 0) << world.replay();
+  EXPECT_EQ(world.outcomes().back().state, MotionState::succeeded);
+  EXPECT_EQ(world.outcomes().back().kind, MotionKind::move);
+  const auto sent = set_lines(world, lines);
+  EXPECT_EQ(sent.size(), GetParam() == 4200 ? 1U : 2U) << world.replay();
+  EXPECT_EQ(sent.front(), GetParam() == 4200 ? "AP:1+P5000" : "AP:1+P4200") << world.replay();
+  EXPECT_EQ(sent.back(), "AP:1+P5000") << world.replay();
+  EXPECT_TRUE(world.progress().empty()) << "a move has no segments to tell of";
+}
+
+INSTANTIATE_TEST_SUITE_P(From, Approaches, testing::Values(0, 9000, 4300, 4200, 5000));
+
+TEST(Approach, SeveralAxesRestBetween) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  auto request = move_of(world, {{1, 5000}, {2, -700}}, true);
+  request.moves[0].approach = pulses(800);
+  request.moves[1].approach = pulses(-100);
+  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_THAT(set_lines(world), ElementsAre("AP:A+P4200-P600", "AP:A+P5000-P700"));
+  EXPECT_EQ(world.device().position(2), -700);
+}
+
+TEST(Approach, KeepsWithinTheTravel) {
+  auto setup = quiet();
+  setup.profile.axes[0].travel_minimum = pulses(-100);
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up());
+  auto request = move_of(world, {{1, 500}}, false);
+  request.moves[0].approach = pulses(601);
+  const auto checked = world.controller().check(request);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().reason, Reason::outside_travel);
+  request.moves[0].approach = pulses(600);
+  EXPECT_TRUE(world.controller().check(request));
+  request.moves[0].approach = pulses(0);
+  EXPECT_EQ(world.controller().check(request).error().reason, Reason::invalid_request);
+}
+
+}  // namespace
+}  // namespace axisgate::simulation
