@@ -24,8 +24,8 @@ std::string who(Random& random) { return fmt::format("caller-{}", random.between
 
 }  // namespace
 
-Callers::Callers(World& world, std::uint64_t seed, double mishaps_an_hour)
-    : world_(world), mishaps_(world, seed, mishaps_an_hour) {
+Callers::Callers(World& world, std::uint64_t seed, double mishaps_an_hour, bool shapes)
+    : world_(world), mishaps_(world, seed, mishaps_an_hour), shapes_(shapes) {
   world_.device().set_inputs(kInputs);
 }
 
@@ -39,6 +39,16 @@ void Callers::act_for(Duration duration) {
 }
 
 void Callers::act() {
+  if (shapes_ && world_.random().chance(0.35)) {
+    switch (world_.random().between(0, 3)) {
+      case 0:
+        return scan();
+      case 1:
+        return approach();
+      default:
+        return curved_path();
+    }
+  }
   switch (world_.random().between(0, 11)) {
     case 0:
     case 1:
@@ -110,6 +120,62 @@ void Callers::path() {
     request.segments.push_back(std::move(segment));
   }
   world_.controller().run_path(std::move(request), world_.now(), [](Result<Motion>) {});
+}
+
+void Callers::allow_starts(AxisSet axes) {
+  for (const int axis : axes.list()) ++starts_allowed_[static_cast<std::size_t>(axis - 1)];
+}
+
+void Callers::curved_path() {
+  auto& random = world_.random();
+  const AxisSet plane = AxisSet::of(1) | AxisSet::of(2);
+  PathRequest request;
+  request.context = world_.context(who(random));
+  const auto count = random.between(1, 6);
+  for (int i = 0; i < count; ++i) {
+    Segment segment;
+    const Quantity first = pulses(random.between(100, 1500)), second = pulses(-random.between(100, 1500));
+    if (random.chance(0.3)) {
+      segment.moves = {{1, first, {}}, {2, second, {}}};
+    } else if (random.chance(0.5)) {
+      segment.curve = Curve{{1, 2}, Curve::Through{{first, pulses(0)}, {first, second}}, {}};
+    } else {
+      const std::variant<int, Decimal> half = Decimal{180, 0};
+      segment.curve = Curve{{1, 2}, Curve::Around{{first, second}, Rotation::clockwise, half}, {}};
+    }
+    segment.speed = pulses(random.between(2000, 20'000));
+    if (random.chance(0.2)) segment.rest = milliseconds(random.between(1, 500));
+    allow_starts(plane);
+    request.segments.push_back(std::move(segment));
+  }
+  world_.controller().run_path(std::move(request), world_.now(), [](Result<Motion>) {});
+}
+
+void Callers::approach() {
+  auto& random = world_.random();
+  MoveRequest request;
+  request.context = world_.context(who(random));
+  for (int axis = 1; axis <= kAxisCount; ++axis) {
+    if (!random.chance(0.5)) continue;
+    AxisMove move{axis, pulses(random.between(-3000, 3000)), {}};
+    move.approach = pulses(random.chance(0.5) ? 300 : -300);
+    request.moves.push_back(std::move(move));
+    for (int legs = 0; legs < 2; ++legs) allow_starts(AxisSet::of(axis));
+  }
+  world_.controller().move(std::move(request), world_.now(), [](Result<Motion>) {});
+}
+
+void Callers::scan() {
+  auto& random = world_.random();
+  ScanRequest request;
+  request.axis = static_cast<int>(random.between(1, 3));
+  request.from = pulses(random.between(-3000, 3000));
+  request.to = pulses(random.between(-3000, 3000));
+  request.speed = pulses(random.between(1000, 56'000));
+  request.interval = random.between(2, 500);
+  request.context = world_.context(who(random));
+  for (int legs = 0; legs < 2; ++legs) allow_starts(AxisSet::of(request.axis));
+  world_.controller().scan(request, world_.now(), [](Result<Motion>) {});
 }
 
 void Callers::stop() {
@@ -184,6 +250,14 @@ void Callers::come_to_rest() {
   for (int minute = 0; minute < 60 && !rests && moves(); ++minute) rests = world_.run_until(at_rest, seconds(60));
   if (!rests && !moves() && world_.violations().empty()) {
     world_.violation("two quiet minutes after the last fault something is still unfinished");
+  }
+  if (shapes_) {
+    allow_starts(AxisSet::of(1));
+    MoveRequest last{{{1, pulses(10), {}}}, true, world_.context("last")};
+    world_.controller().move(last, world_.now(), [](Result<Motion>) {});
+    world_.run_until(at_rest, seconds(30));
+    const bool intact = world_.wire().commands_damaged() == 0;
+    if (intact && world_.device().trigger() != "NS") world_.violation("a scan has left its trigger armed");
   }
   check_starts();
   bool answered = false;

@@ -1,7 +1,6 @@
 // Several people and programs who use the stage at once, at random, and remember what they were told.
 #pragma once
 
-#include <map>
 #include <string>
 #include <vector>
 
@@ -12,7 +11,8 @@ namespace axisgate::simulation {
 
 class Callers {
  public:
-  explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0);
+  // `shapes`: they also draw curves, rest between segments, come from one side, and scan.
+  explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0, bool shapes = false);
 
   void act_for(Duration duration);
   // The line is made perfect; every motion must end and the device must answer.
@@ -23,6 +23,10 @@ class Callers {
   void move();
   void home();
   void path();
+  void curved_path();
+  void approach();
+  void scan();
+  void allow_starts(shrc203::AxisSet axes);
   void stop();
   void ask();
   void set_and_go();
@@ -31,7 +35,7 @@ class Callers {
 
   World& world_;
   Mishaps mishaps_;
-  std::map<shrc203::MotionId, bool> asked_;
+  const bool shapes_;
   std::array<int, shrc203::kAxisCount> starts_allowed_{};
   int unfinished_questions_ = 0;
 };

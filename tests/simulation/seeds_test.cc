@@ -15,7 +15,7 @@ namespace axisgate::simulation {
 namespace {
 
 constexpr int kSeeds = 1000;
-constexpr int kSeedsACase = 10;
+constexpr int kSeedsACase = 10, kShapedSeedsACase = 3;
 
 int seeds() {
   const char* limit = std::getenv("AXISGATE_SEEDS");
@@ -39,6 +39,22 @@ TEST_P(Seeds, NothingIsMixedUp) {
   for (int seed = first; seed < std::min(first + kSeedsACase, seeds()) && !HasFatalFailure(); ++seed) {
     hold({.seed = static_cast<std::uint64_t>(seed)});
   }
+}
+
+// Other seeds, in which callers draw curves, rest between segments, come to targets from one side, and scan.
+TEST_P(Seeds, NorWithShapes) {
+  const auto shaped = [](std::uint64_t seed) {
+    Trial trial{.seed = seed};
+    trial.shapes = true;
+    return trial;
+  };
+  if (const char* only = std::getenv("AXISGATE_SEED")) {
+    if (GetParam() == 0) hold(shaped(std::strtoull(only, nullptr, 10)));
+    return;
+  }
+  if (GetParam() * kSeedsACase >= seeds()) return;
+  const auto first = static_cast<std::uint64_t>(5'000'000 + GetParam() * kShapedSeedsACase);
+  for (std::uint64_t seed = first; seed < first + kShapedSeedsACase && !HasFatalFailure(); ++seed) hold(shaped(seed));
 }
 
 // 10085: a command cut in two by the line is refused twice. 10270: the OK of a stop written inside a barrier came after

@@ -15,6 +15,7 @@ struct Trial {
   std::uint64_t seed = 0;
   Faults faults = Faults::hostile();
   Duration duration = std::chrono::minutes(10);
+  bool shapes = false;                  // callers draw curves, rest, come from one side, and scan, too
   std::set<std::uint64_t> spared = {};  // faults that do not strike, by number
 };
 
