@@ -1,5 +1,6 @@
 #include "device/link/pty_line.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,7 +16,11 @@ PtyLine::PtyLine(Strand strand, Pty pty, PtyWatch watch)
       pty_(std::move(pty)),
       watch_(std::move(watch)),
       bytes_(this->strand(), ::dup(pty_.master())),
-      visits_(this->strand(), ::dup(watch_.descriptor())) {}
+      visits_(this->strand(), ::dup(watch_.descriptor())) {
+  // Only so does the master hear that its other end's input was emptied: each read begins with a byte that tells.
+  const int on = 1;
+  ::ioctl(pty_.master(), TIOCPKT, &on);
+}
 
 void PtyLine::start() {
   boost::asio::dispatch(strand(), [self = std::static_pointer_cast<PtyLine>(shared_from_this())] { self->look(); });
@@ -28,17 +33,37 @@ void PtyLine::shutdown() {
 }
 
 void PtyLine::write(std::string_view bytes) {
-  while (client_ && !bytes.empty()) {
-    const ssize_t sent = ::write(pty_.master(), bytes.data(), bytes.size());
-    if (sent > 0) {
-      bytes.remove_prefix(static_cast<std::size_t>(sent));
-    } else if (sent == 0 || errno != EINTR) {
-      return;
-    }
-  }
+  if (!client_ || unsent_.size() + bytes.size() > kBytesUnsentMax) return;
+  unsent_ += bytes;
+  send();
 }
 
-void PtyLine::reopen(Duration) { pty_.discard_unread(); }
+void PtyLine::send() {
+  std::size_t sent = 0;
+  while (sent < unsent_.size()) {
+    const ssize_t size = ::write(pty_.master(), unsent_.data() + sent, unsent_.size() - sent);
+    if (size > 0) {
+      sent += static_cast<std::size_t>(size);
+    } else if (size == 0 || errno != EINTR) {
+      break;
+    }
+  }
+  unsent_.erase(0, sent);
+  if (!unsent_.empty()) wait_for(bytes_, Stream::wait_write, waiting_for_room_);
+}
+
+void PtyLine::reopen(Duration) {
+  unsent_.clear();
+  pty_.discard_unread();
+  forget_flush();
+}
+
+// That the machine's own end has emptied the other one's input would be told with the next bytes, and cost them their
+// answers. A packet of one byte takes the news and no bytes.
+void PtyLine::forget_flush() {
+  char news = TIOCPKT_DATA;
+  [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &news, 1);
+}
 
 // Bytes are read before the visits, so that the coming of every client whose bytes were read is among the visits. Where
 // clients followed each other since the last look, the bytes are the last one's if it has written at all.
@@ -58,17 +83,20 @@ void PtyLine::look() {
   } else if (!client_) {
     watch_.everybody_left();
   }
-  if (client_) wait_for(bytes_, waiting_for_bytes_);
-  wait_for(visits_, waiting_for_visits_);
+  send();
+  if (client_) wait_for(bytes_, Stream::wait_read, waiting_for_bytes_);
+  wait_for(visits_, Stream::wait_read, waiting_for_visits_);
 }
 
 // True when no client has the terminal open.
 bool PtyLine::read_all(std::string& bytes) {
-  std::array<char, 4096> buffer;
+  std::array<char, 4096> packet;
   for (;;) {
-    const ssize_t size = ::read(pty_.master(), buffer.data(), buffer.size());
-    if (size > 0) {
-      bytes.append(buffer.data(), static_cast<std::size_t>(size));
+    const ssize_t size = ::read(pty_.master(), packet.data(), packet.size());
+    if (size > 0 && packet[0] == TIOCPKT_DATA) {
+      bytes.append(packet.data() + 1, static_cast<std::size_t>(size) - 1);
+    } else if (size > 0) {
+      if ((packet[0] & TIOCPKT_FLUSHREAD) != 0) unsent_.clear();
     } else if (size == 0 || errno != EINTR) {
       return size < 0 && errno == EIO;
     }
@@ -93,19 +121,21 @@ void PtyLine::client_came() {
 
 void PtyLine::client_left() {
   client_ = false;
+  unsent_.clear();
   if (pty_.has_client()) {
     pty_.discard_unread();
   } else {
     pty_.make_raw();
   }
+  forget_flush();
   call([](LineMachine& machine, TimePoint now) { machine.link_down(now, "the client closed the line"); });
 }
 
-void PtyLine::wait_for(Stream& stream, bool& waiting) {
+void PtyLine::wait_for(Stream& stream, Stream::wait_type what, bool& waiting) {
   if (waiting) return;
   waiting = true;
-  stream.async_wait(Stream::wait_read, [self = std::static_pointer_cast<PtyLine>(shared_from_this()),
-                                        &waiting](const boost::system::error_code& error) {
+  stream.async_wait(what, [self = std::static_pointer_cast<PtyLine>(shared_from_this()),
+                           &waiting](const boost::system::error_code& error) {
     waiting = false;
     if (!error) self->look();
   });

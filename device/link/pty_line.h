@@ -12,10 +12,13 @@
 namespace axisgate {
 
 // Made by std::make_shared. The machine hears link_up when a client opens the terminal and link_down when the last one
-// has closed it. What it writes while nobody is there, or faster than a client reads, is lost as on a UART: a client
-// that does not read holds nothing up. Threads as for Runner.
+// has closed it. What it writes waits for the client to read it, and holds nothing up; what it writes while nobody is
+// there, or when kBytesUnsentMax wait already, is lost. A client that empties its input empties what waits, too.
+// Threads as for Runner.
 class PtyLine : public MachineHost, public ByteLink {
  public:
+  static constexpr std::size_t kBytesUnsentMax = 1 << 20;  // beyond what the kernel takes
+
   PtyLine(Strand strand, Pty pty, PtyWatch watch);
 
   void start();     // after attach()
@@ -35,13 +38,17 @@ class PtyLine : public MachineHost, public ByteLink {
   void deliver(std::string& bytes);
   void client_came();
   void client_left();
-  void wait_for(Stream& stream, bool& waiting);
+  void forget_flush();
+  void send();
+  void wait_for(Stream& stream, Stream::wait_type what, bool& waiting);
 
   Pty pty_;
   PtyWatch watch_;
   Stream bytes_;
   Stream visits_;
+  std::string unsent_;
   bool waiting_for_bytes_ = false;
+  bool waiting_for_room_ = false;
   bool waiting_for_visits_ = false;
   bool client_ = false;
 };

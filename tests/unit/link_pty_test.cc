@@ -220,6 +220,49 @@ TEST_F(PtyLineTest, AClientThatDoesNotReadHoldsNothingUp) {
   EXPECT_TRUE(client_reads(next, "Q:\r\n"));
 }
 
+TEST_F(PtyLineTest, AClientThatReadsLateGetsEverything) {
+  const Descriptor late = client();
+  ASSERT_TRUE(hears(1));
+  std::string expected;
+  for (int number = 0; expected.size() < 200'000; ++number) expected += std::to_string(number) + "\r\n";
+  line_->post([&](TimePoint) { line_->write(expected); });
+  loop_.run_ready();
+  EXPECT_TRUE(client_reads(late, expected));
+}
+
+TEST_F(PtyLineTest, BeyondWhatIsKeptEachWriteIsLostAsAWhole) {
+  const Descriptor late = client();
+  ASSERT_TRUE(hears(1));
+  const std::string kept(PtyLine::kBytesUnsentMax, 'k');
+  line_->post([&](TimePoint) {
+    line_->write(kept);
+    for (int i = 0; i < 100; ++i) line_->write(std::string(1000, 'l'));
+  });
+  loop_.run_ready();
+  std::string got;
+  ASSERT_TRUE(loop_.run_until([&] {
+    got += read_now(late.get());
+    return got.size() >= kept.size();
+  }));
+  send_now(late.get(), "Q:\r\n");
+  ASSERT_TRUE(loop_.run_until([&] {
+    got += read_now(late.get());
+    return got.ends_with("Q:\r\n");
+  }));
+  EXPECT_EQ((got.size() - kept.size() - 4) % 1000, 0u);
+  EXPECT_LT(got.size(), kept.size() + 50'000);
+}
+
+TEST_F(PtyLineTest, AClientThatEmptiesItsInputGetsNothingOld) {
+  const Descriptor client = this->client();
+  ASSERT_TRUE(hears(1));
+  line_->post([&](TimePoint) { line_->write(std::string(200'000, 'x')); });
+  loop_.run_ready();
+  ASSERT_EQ(::tcflush(client.get(), TCIFLUSH), 0);
+  send_now(client.get(), "Q:\r\n");
+  EXPECT_TRUE(client_reads(client, "Q:\r\n"));
+}
+
 TEST_F(PtyLineTest, IsRawAgainAfterAClientThatTurnedEchoOn) {
   Descriptor first = client();
   ASSERT_TRUE(hears(1));
