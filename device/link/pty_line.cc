@@ -65,15 +65,20 @@ void PtyLine::forget_flush() {
   [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &news, 1);
 }
 
-// Bytes are read before the visits, so that the coming of every client whose bytes were read is among the visits. Where
-// clients followed each other since the last look, the bytes are the last one's if it has written at all.
+// Where clients followed each other since the last look, the bytes are the last one's if it has written at all. That a
+// client has written is told after its bytes can be read, so bytes of which nothing is told yet are the last one's,
+// too.
 void PtyLine::look() {
   if (!attached()) return;
+  PtyWatch::Visits visits{0, wrote_after_reading_, false};
+  visits.add(watch_.drain());
   std::string bytes;
   const bool nobody = read_all(bytes);
-  const PtyWatch::Visits visits = watch_.drain();
+  const PtyWatch::Visits meanwhile = watch_.drain();
+  visits.add(meanwhile);
+  wrote_after_reading_ = meanwhile.last_wrote;
   if (visits.came > (client_ ? 0 : 1)) {
-    if (!visits.last_wrote) deliver(bytes);
+    if (visits.others_wrote && !visits.last_wrote) deliver(bytes);
     if (client_) client_left();
   }
   deliver(bytes);

@@ -51,6 +51,7 @@ class PtyLine : public MachineHost, public ByteLink {
   bool waiting_for_room_ = false;
   bool waiting_for_visits_ = false;
   bool client_ = false;
+  bool wrote_after_reading_ = false;
 };
 
 }  // namespace axisgate

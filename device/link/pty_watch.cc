@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 namespace axisgate {
 
@@ -20,6 +21,13 @@ Result<PtyWatch> PtyWatch::open(const Pty& pty) {
                 "Raise fs.inotify.max_user_instances if too many programs watch files.");
   }
   return PtyWatch(std::move(events));
+}
+
+void PtyWatch::Visits::add(const Visits& later) {
+  if (later.came > 0) others_wrote = others_wrote || std::exchange(last_wrote, false);
+  came += later.came;
+  last_wrote = last_wrote || later.last_wrote;
+  others_wrote = others_wrote || later.others_wrote;
 }
 
 PtyWatch::Visits PtyWatch::drain() {
@@ -39,11 +47,11 @@ PtyWatch::Visits PtyWatch::drain() {
 
 void PtyWatch::count(std::uint32_t event, Visits& visits) {
   if ((event & IN_OPEN) != 0) {
-    if (clients_++ == 0) visits = {visits.came + 1, false};
+    if (clients_++ == 0) visits.add({1, false, false});
   } else if ((event & IN_CLOSE) != 0) {
     clients_ = std::max(0, clients_ - 1);
   } else if ((event & IN_MODIFY) != 0) {
-    visits.last_wrote = true;
+    visits.add({0, true, false});
   }
 }
 

@@ -15,8 +15,11 @@ namespace axisgate {
 class PtyWatch {
  public:
   struct Visits {
-    int came = 0;             // clients that came when none was there
-    bool last_wrote = false;  // the last of these has written
+    int came = 0;               // clients that came when none was there
+    bool last_wrote = false;    // the last of these has written
+    bool others_wrote = false;  // one before it has
+
+    void add(const Visits& later);
   };
 
   static Result<PtyWatch> open(const Pty& pty);

@@ -186,6 +186,18 @@ TEST_F(PtyLineTest, BytesOfASuccessorAreItsOwn) {
   EXPECT_EQ(machine_.heard, (Heard{"up", "down", "up", "Q:\r\n"}));
 }
 
+// XOFF goes the way of bytes, but nothing tells that it was written: like bytes whose writing is told too late.
+TEST_F(PtyLineTest, BytesOfWhichNothingIsToldAreASuccessors) {
+  Descriptor first = client();
+  send_now(first.get(), "for the first\r\n");
+  ASSERT_TRUE(hears(2));
+  first.reset();
+  const Descriptor second = client();
+  ASSERT_EQ(::tcflow(second.get(), TCIOFF), 0);
+  ASSERT_TRUE(hears(5));
+  EXPECT_EQ(machine_.heard, (Heard{"up", "for the first\r\n", "down", "up", "\x13"}));
+}
+
 TEST_F(PtyLineTest, TwoUnseenClientsInARow) {
   Descriptor first = client();
   send_now(first.get(), "first\r\n");
