@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <poll.h>
 #include <stdlib.h>
+#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
@@ -52,9 +53,23 @@ Pty::~Pty() {
   if (fs::read_symlink(link_, error) == device_) fs::remove(link_, error);
 }
 
+Pty& Pty::operator=(Pty&& other) noexcept {
+  std::swap(master_, other.master_);
+  std::swap(device_, other.device_);
+  std::swap(link_, other.link_);
+  return *this;
+}
+
 bool Pty::has_client() const {
   pollfd query{master_.get(), 0, 0};
   return ::poll(&query, 1, 0) == 0;
+}
+
+bool Pty::is_reserved() const {
+  const Descriptor trial(::open(device_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  if (!trial.valid()) return errno == EBUSY;
+  int reserved = 0;
+  return ::ioctl(trial.get(), TIOCGEXCL, &reserved) == 0 && reserved != 0;
 }
 
 // Two places keep unread bytes: the buffer between the ends, which the master can empty, and the other end's line

@@ -14,7 +14,7 @@ class Pty {
  public:
   ~Pty();
   Pty(Pty&&) = default;
-  Pty& operator=(Pty&&) = delete;
+  Pty& operator=(Pty&& other) noexcept;
 
   int master() const { return master_.get(); }           // non-blocking; reading answers EIO while nobody is there
   const std::string& device() const { return device_; }  // "/dev/pts/7"
@@ -22,6 +22,9 @@ class Pty {
 
   // Does any process have the other end open now?
   bool has_client() const;
+
+  // Has a client reserved the other end (TIOCEXCL)? Even when it has gone, nobody but root can open it any more.
+  bool is_reserved() const;
 
   // Drops what was written to the master and not yet read at the other end; what the clients wrote stays.
   void discard_unread();

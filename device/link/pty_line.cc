@@ -10,6 +10,15 @@
 #include <utility>
 
 namespace axisgate {
+namespace {
+
+// Only so does the master hear that its other end's input was emptied: each read begins with a byte that tells.
+void use_packets(const Pty& pty) {
+  const int on = 1;
+  ::ioctl(pty.master(), TIOCPKT, &on);
+}
+
+}  // namespace
 
 PtyLine::PtyLine(Strand strand, Pty pty, PtyWatch watch)
     : MachineHost(std::move(strand)),
@@ -17,9 +26,7 @@ PtyLine::PtyLine(Strand strand, Pty pty, PtyWatch watch)
       watch_(std::move(watch)),
       bytes_(this->strand(), ::dup(pty_.master())),
       visits_(this->strand(), ::dup(watch_.descriptor())) {
-  // Only so does the master hear that its other end's input was emptied: each read begins with a byte that tells.
-  const int on = 1;
-  ::ioctl(pty_.master(), TIOCPKT, &on);
+  use_packets(pty_);
 }
 
 void PtyLine::start() {
@@ -133,7 +140,27 @@ void PtyLine::client_left() {
     pty_.make_raw();
   }
   forget_flush();
+  replace_if_reserved();
   call([](LineMachine& machine, TimePoint now) { machine.link_down(now, "the client closed the line"); });
+}
+
+// Who has reserved a pseudo terminal and gone keeps everybody out for as long as it exists: its name leads to another
+// one from then on.
+void PtyLine::replace_if_reserved() {
+  if (pty_.has_client()) return;
+  const bool reserved = pty_.is_reserved();
+  watch_.drain();  // to find out was no visit
+  if (!reserved || pty_.has_client()) return;
+  auto pty = open_pty(pty_.link());
+  if (!pty) return;
+  auto watch = PtyWatch::open(*pty);
+  if (!watch) return;
+  pty_ = std::move(*pty);
+  watch_ = std::move(*watch);
+  bytes_ = Stream(strand(), ::dup(pty_.master()));
+  visits_ = Stream(strand(), ::dup(watch_.descriptor()));
+  waiting_for_bytes_ = waiting_for_room_ = waiting_for_visits_ = false;
+  use_packets(pty_);
 }
 
 void PtyLine::wait_for(Stream& stream, Stream::wait_type what, bool& waiting) {
@@ -141,8 +168,9 @@ void PtyLine::wait_for(Stream& stream, Stream::wait_type what, bool& waiting) {
   waiting = true;
   stream.async_wait(what, [self = std::static_pointer_cast<PtyLine>(shared_from_this()),
                            &waiting](const boost::system::error_code& error) {
+    if (error) return;
     waiting = false;
-    if (!error) self->look();
+    self->look();
   });
 }
 

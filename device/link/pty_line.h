@@ -39,6 +39,7 @@ class PtyLine : public MachineHost, public ByteLink {
   void client_came();
   void client_left();
   void forget_flush();
+  void replace_if_reserved();
   void send();
   void wait_for(Stream& stream, Stream::wait_type what, bool& waiting);
 

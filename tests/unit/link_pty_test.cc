@@ -1,3 +1,4 @@
+#include <sys/ioctl.h>
 #include <termios.h>
 
 #include <fstream>
@@ -287,6 +288,21 @@ TEST_F(PtyLineTest, IsRawAgainAfterAClientThatTurnedEchoOn) {
   const Descriptor second = client();
   ASSERT_EQ(::tcgetattr(second.get(), &mode), 0);
   EXPECT_EQ(mode.c_lflag & (ECHO | ICANON), 0u);
+}
+
+TEST_F(PtyLineTest, AClientThatReservedItKeepsNobodyOutForever) {
+  Descriptor first = client();
+  ASSERT_TRUE(hears(1));
+  ASSERT_EQ(::ioctl(first.get(), TIOCEXCL), 0);
+  first.reset();
+  ASSERT_TRUE(hears(2));
+  EXPECT_FALSE(line_->pty().is_reserved());
+  EXPECT_EQ(fs::read_symlink(line_->pty().link()), line_->pty().device());
+  for (int i = 0; i < 2; ++i) {
+    const Descriptor next = client();
+    send_now(next.get(), "Q:\r\n");
+    EXPECT_TRUE(client_reads(next, "Q:\r\n"));
+  }
 }
 
 TEST_F(PtyLineTest, WritesToNobodyAreLost) {
