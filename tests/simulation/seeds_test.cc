@@ -8,7 +8,10 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <map>
 
+#include "tests/simulation/callers.h"
+#include "tests/simulation/scenario.h"
 #include "tests/simulation/trial.h"
 
 namespace axisgate::simulation {
@@ -55,6 +58,22 @@ TEST_P(Seeds, NorWithShapes) {
   if (GetParam() * kSeedsACase >= seeds()) return;
   const auto first = static_cast<std::uint64_t>(5'000'000 + GetParam() * kShapedSeedsACase);
   for (std::uint64_t seed = first; seed < first + kShapedSeedsACase && !HasFatalFailure(); ++seed) hold(shaped(seed));
+}
+
+// That they are not all refused.
+TEST(ShapedCallers, GetThroughOnAGoodLine) {
+  World world(drawn_setup(5'000'000, Faults::none()));
+  Callers callers(world, 5'000'000, 0, true);
+  callers.act_for(std::chrono::minutes(10));
+  std::map<shrc203::MotionKind, int> well;
+  for (const auto& motion : world.outcomes()) {
+    if (motion.state == shrc203::MotionState::succeeded) ++well[motion.kind];
+  }
+  EXPECT_GT(well[shrc203::MotionKind::scan], 5) << world.replay();
+  EXPECT_GT(well[shrc203::MotionKind::path], 20) << world.replay();
+  EXPECT_GT(written(world, "EP:2A"), 20) << world.replay();
+  EXPECT_GT(written(world, "EP:1A"), 20) << world.replay();
+  EXPECT_TRUE(world.violations().empty()) << world.violations().front();
 }
 
 // 10085: a command cut in two by the line is refused twice. 10270: the OK of a stop written inside a barrier came after
