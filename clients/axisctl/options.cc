@@ -1,4 +1,4 @@
-// The one unit that includes CLI11, which takes eight seconds to compile.
+// CLI11 takes eight seconds to compile: only this unit and setting_options.cc include it.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
@@ -8,9 +8,29 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/help_topics.h"
 #include "clients/axisctl/print.h"
+#include "clients/axisctl/verb_options.h"
 #include "server/default_socket.h"
 
 namespace axisgate::axisctl {
+
+CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
+  CLI::App* added = app.add_subcommand(name, description);
+  added->fallthrough();
+  added->footer(help_text(name));
+  added->callback([&options, verb] { options.verb = verb; });
+  return added;
+}
+
+void add_wait(CLI::App& verb, Options& options) {
+  verb.add_option("--wait", options.wait_s, "wait so long for axes that another's lease is over")
+      ->check(CLI::Range(1, 86'400))
+      ->type_name("S");
+}
+
+void add_axes(CLI::App& verb, Options& options) {
+  verb.add_option("AXES", options.axes, "numbers or names; none: all axes")->delimiter(',')->type_name("");
+}
+
 namespace {
 
 constexpr const char* kExitCodes = R"(
@@ -30,24 +50,6 @@ void add_speed(CLI::App& verb, Options& options) {
   verb.add_option("--acceleration-ms", options.acceleration_ms, "time from the lowest to the highest speed")
       ->check(CLI::Range(1, 1000))
       ->type_name("MS");
-}
-
-void add_wait(CLI::App& verb, Options& options) {
-  verb.add_option("--wait", options.wait_s, "wait so long for axes that another's lease is over")
-      ->check(CLI::Range(1, 86'400))
-      ->type_name("S");
-}
-
-void add_axes(CLI::App& verb, Options& options) {
-  verb.add_option("AXES", options.axes, "numbers or names; none: all axes")->delimiter(',')->type_name("");
-}
-
-CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
-  CLI::App* added = app.add_subcommand(name, description);
-  added->fallthrough();
-  added->footer(help_text(name));
-  added->callback([&options, verb] { options.verb = verb; });
-  return added;
 }
 
 void add_motion_verbs(CLI::App& app, Options& options) {
@@ -176,102 +178,6 @@ void add_access_verbs(CLI::App& app, Options& options) {
   revoke->add_option("NAME", options.name, "as `token list` shows it")->required()->type_name("");
 }
 
-void add_several_axes(CLI::App& verb, Options& options) {
-  verb.add_option("AXES", options.axes, "numbers or names, as 1,2")
-      ->required()
-      ->delimiter(',')
-      ->allow_extra_args(false)
-      ->type_name("");
-}
-
-// One word of these, in either case.
-void add_value(CLI::App& verb, Options& options, const char* name, std::vector<std::string> values) {
-  verb.add_option(name, options.value)
-      ->required()
-      ->check(CLI::IsMember(std::move(values), CLI::ignore_case))
-      ->type_name("");
-}
-
-CLI::App* add_change(CLI::App& app, Options& options, Verb verb, const char* name, const char* description) {
-  CLI::App* added = add_verb(app, options, verb, name, description);
-  add_wait(*added, options);
-  return added;
-}
-
-// What `speed`, `outputs` and `trigger` set ends with the lease under which it was set, so that they have no --wait.
-void add_axis_settings(CLI::App& app, Options& options) {
-  CLI::App* speed = add_verb(app, options, Verb::speed, "speed", "show or set the speeds of axes");
-  add_axes(*speed, options);
-  speed->add_option("--minimum", options.minimum, "at which a motion begins and ends, as 10um")->type_name("SPEED");
-  speed->add_option("--maximum", options.maximum, "as 1mm")->type_name("SPEED");
-  speed->add_option("--acceleration", options.acceleration_ms, "time from the lowest to the highest speed")
-      ->check(CLI::Range(1, 1000))
-      ->type_name("MS");
-  speed->add_flag("--origin-return", options.origin_return, "those of the mechanical origin return");
-
-  CLI::App* motor = add_change(app, options, Verb::motor, "motor", "switch the motors' current");
-  add_several_axes(*motor, options);
-  add_value(*motor, options, "SWITCH", {"on", "off"});
-  CLI::App* loop = add_change(app, options, Verb::loop, "loop", "closed or open: whether the scale holds the axes");
-  add_several_axes(*loop, options);
-  add_value(*loop, options, "LOOP", {"closed", "open"});
-  CLI::App* divisions = add_change(app, options, Verb::divisions, "divisions", "of the motor driver: what a pulse is");
-  divisions->add_option("AXIS", options.axes)->required()->expected(1)->allow_extra_args(false)->type_name("");
-  divisions->add_option("NUMBER", options.divisions, "1 to 8000, as 200")->required()->type_name("");
-  add_axes(*add_change(app, options, Verb::zero, "zero", "call the place where axes stand 0"), options);
-  add_axes(*add_change(app, options, Verb::unzero, "unzero", "take `zero` back"), options);
-  add_change(app, options, Verb::preset, "preset", "give the place where axes stand a coordinate")
-      ->add_option("AXIS=AMOUNT", options.places, "as 1=5mm")
-      ->required()
-      ->type_name("");
-}
-
-void add_controller_settings(CLI::App& app, Options& options) {
-  add_verb(app, options, Verb::settings, "settings", "everything that is set");
-  add_change(app, options, Verb::settle, "settle", "wait between the end of a motion and READY")
-      ->add_option("SECONDS", options.value, "0 to 255, in steps of 0.1")
-      ->required()
-      ->type_name("");
-  add_change(app, options, Verb::sleep, "sleep", "motors off, until `wake`");
-  add_change(app, options, Verb::wake, "wake", "motors on again: stages go back to their places");
-  add_value(*add_change(app, options, Verb::display, "display", "the lights of the display"), options, "SWITCH",
-            {"on", "off"});
-  add_value(*add_change(app, options, Verb::beep, "beep", "the controller's beep"), options, "SWITCH", {"on", "off"});
-  add_value(*add_change(app, options, Verb::mode, "mode", "for administrators: change the operation mode"), options,
-            "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
-  add_value(*add_change(app, options, Verb::dialect, "dialect", "for administrators: the controller's language"),
-            options, "DIALECT", {"SHOT_FC", "HIT"});
-  add_verb(app, options, Verb::reset, "reset", "for administrators: restart the controller");
-}
-
-void add_signals(CLI::App& app, Options& options) {
-  CLI::App* outputs = add_verb(app, options, Verb::outputs, "outputs", "show or switch OUT1 to OUT6");
-  outputs->add_option("SWITCH", options.value, "none: all off")
-      ->check(CLI::IsMember({"on", "off", "none"}))
-      ->type_name("");
-  outputs->add_option("OUT", options.outputs, "1 to 6; others stay")
-      ->delimiter(',')
-      ->check(CLI::Range(1, 6))
-      ->type_name("");
-  add_verb(app, options, Verb::inputs, "inputs", "show IN1 to IN6");
-  CLI::App* trigger = app.add_subcommand("trigger", "the trigger output: every, off, fire");
-  trigger->require_subcommand(1);
-  trigger->fallthrough();
-  trigger->footer(help_text("trigger"));
-  CLI::App* every =
-      add_verb(*trigger, options, Verb::trigger_every, "every", "a pulse every so many pulses, or so often");
-  every->add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, as 1000; or a time, as 0.2s")
-      ->required()
-      ->type_name("");
-  CLI::Option* axis = every->add_option("--axis", options.axis, "whose pulses are counted")->type_name("AXIS");
-  every->add_option("--scale", options.scale, "pulses of its scale in this direction, instead of drive pulses")
-      ->check(CLI::IsMember({"+", "-"}))
-      ->needs(axis)
-      ->type_name("+|-");
-  add_verb(*trigger, options, Verb::trigger_off, "off", "no more pulses");
-  add_change(*trigger, options, Verb::trigger_fire, "fire", "one pulse now");
-}
-
 void add_target(CLI::App& app, Target& target) {
   app.add_option("--target", target.address, "the daemon: a socket's path or HOST:PORT; none: the local one")
       ->envname("AXISGATE_TARGET")
@@ -359,9 +265,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_access_verbs(app, options);
   add_simulator_verb(app, options);
   add_recording_verbs(app, options);
-  add_controller_settings(app, options);
-  add_axis_settings(app, options);
-  add_signals(app, options);
+  add_setting_verbs(app, options);
   CLI::App* help = app.add_subcommand("help", "this, or about one verb, or: units, leases, settings, triggers");
   help->add_option("TOPIC", help_topic)->type_name("");
   help->add_flag("--list-examples", examples)->group("");
