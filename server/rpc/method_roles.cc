@@ -15,7 +15,7 @@ constexpr std::string_view kApi = "/axisgate.v1.";
 constexpr std::array<std::string_view, 2> kReadOnlyServices = {"/grpc.health.v1.Health/",
                                                                "/grpc.reflection.v1alpha.ServerReflection/"};
 
-constexpr std::array<std::pair<std::string_view, Role>, 34> kRoles = {{
+constexpr std::array<std::pair<std::string_view, Role>, 35> kRoles = {{
     {"AccessService/GetCaller", Role::observer},
     {"CommandService/ListCommands", Role::observer},
     {"CommandService/Execute", Role::operator_},
@@ -42,6 +42,7 @@ constexpr std::array<std::pair<std::string_view, Role>, 34> kRoles = {{
     {"StageService/Home", Role::operator_},
     {"StageService/ReturnToOrigin", Role::operator_},
     {"StageService/RunPath", Role::operator_},
+    {"StageService/Scan", Role::operator_},
     {"StageService/Jog", Role::operator_},
     {"StageService/Stop", Role::observer},
     {"StageService/EmergencyStop", Role::observer},

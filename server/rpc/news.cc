@@ -187,6 +187,16 @@ struct Moment {
   }
 };
 
+api::Scan to_proto(const shrc203::ScanResult& scan) {
+  api::Scan proto;
+  proto.set_run_from_pulses(scan.run_from);
+  proto.set_run_to_pulses(scan.run_to);
+  if (scan.expected) proto.set_expected_triggers(*scan.expected);
+  if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
+  if (scan.observed) proto.set_observed_triggers(*scan.observed);
+  return proto;
+}
+
 void set_times(api::Motion& proto, const shrc203::Motion& motion, const Moment& moment) {
   *proto.mutable_create_time() = to_proto(moment.at(motion.created));
   if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(moment.at(motion.started));
@@ -214,6 +224,7 @@ api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, s
   proto.set_segments_total(motion.segments_total);
   proto.set_segments_done(motion.segments_done);
   proto.set_underruns(motion.underruns);
+  if (motion.scan) *proto.mutable_scan() = to_proto(*motion.scan);
   return proto;
 }
 

@@ -106,6 +106,28 @@ grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* StageService
   return PathRun::start(gateway_, access_, *context, paths_.take());
 }
 
+grpc::ServerUnaryReactor* StageService::Scan(grpc::CallbackServerContext* context, const api::ScanRequest* request,
+                                             api::ScanResponse* response) {
+  const auto call = UnaryCall<api::ScanResponse>::start(response);
+  const Result<server::Device*> device = find_device(gateway_, request->device());
+  if (!device) return call->refuse(device.error());
+  Result<shrc203::RequestContext> asked = motion_context(*context, request->context(), access_);
+  if (!asked) return call->refuse(asked.error());
+  Result<shrc203::ScanRequest> scan = to_scan(*request, *std::move(asked));
+  if (!scan) return call->refuse(scan.error());
+  (*device)->post([call, &device = **device, validate_only = request->validate_only(), scan = *std::move(scan)](
+                      Controller& controller, TimePoint now) {
+    if (!validate_only) {
+      controller.scan(scan, now, tell_started(call, device));
+    } else if (const Result<void> checked = controller.check(scan); !checked) {
+      call->refuse(checked.error());
+    } else {
+      call->answer([](api::ScanResponse&) {});
+    }
+  });
+  return call.get();
+}
+
 grpc::ServerBidiReactor<api::JogRequest, api::JogResponse>* StageService::Jog(grpc::CallbackServerContext* context) {
   return JogRun::start(gateway_, access_, *context, streams_.take());
 }

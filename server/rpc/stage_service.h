@@ -25,6 +25,8 @@ class StageService final : public api::StageService::CallbackService {
                                            api::ReturnToOriginResponse* response) override;
   grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* RunPath(
       grpc::CallbackServerContext* context) override;
+  grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const api::ScanRequest* request,
+                                 api::ScanResponse* response) override;
   grpc::ServerBidiReactor<api::JogRequest, api::JogResponse>* Jog(grpc::CallbackServerContext* context) override;
   grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
                                  api::StopResponse* response) override;

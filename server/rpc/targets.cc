@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "server/rpc/amounts.h"
+#include "server/rpc/curves.h"
 
 namespace axisgate::rpc {
 
@@ -54,6 +56,8 @@ Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc
 
 namespace {
 
+constexpr int kInputsMax = 63;  // IN1 to IN6 (manual 95) I:)
+
 Result<shrc203::AxisMove> to_axis_move(int number, const api::Distance& distance) {
   const Result<int> axis = to_axis(number);
   if (!axis) return tl::unexpected(axis.error());
@@ -82,10 +86,34 @@ Result<std::vector<shrc203::AxisMove>> to_axis_moves(const api::Segment& segment
         if (const Result<void> added = add(part); !added) return tl::unexpected(added.error());
       }
       return moves;
+    case api::Segment::kArc:
     case api::Segment::SHAPE_NOT_SET:
       break;
   }
-  return fail(Reason::invalid_request, "the segment has no shape", "set `line` or `single`");
+  return fail(Reason::invalid_request, "the segment has no shape", "set `line`, `single` or `arc`");
+}
+
+// What goes before a segment, while the axes stand.
+Result<void> fill_halt(const api::Segment& segment, shrc203::Segment& stretch) {
+  constexpr auto most = std::chrono::duration_cast<std::chrono::milliseconds>(shrc203::Segment::kRestMax).count();
+  if (segment.rest_ms() < 0 || segment.rest_ms() > most) {
+    return fail(Reason::out_of_range, fmt::format("a rest of {} ms; 0 to {} ms are possible", segment.rest_ms(), most));
+  }
+  stretch.rest = std::chrono::milliseconds(segment.rest_ms());
+  if (!segment.has_inputs()) return {};
+  if (segment.inputs() < 0 || segment.inputs() > kInputsMax) {
+    return fail(Reason::out_of_range,
+                fmt::format("inputs that show {}; 0 to {} are possible", segment.inputs(), kInputsMax),
+                "add 1 for IN1, 2 for IN2, 4 for IN3, 8 for IN4, 16 for IN5 and 32 for IN6");
+  }
+  stretch.inputs = segment.inputs();
+  return {};
+}
+
+Result<Quantity> to_approach(const api::Distance& way) {
+  const Result<Quantity> approach = to_quantity(way);
+  if (!approach || approach->value.digits != 0) return approach;
+  return fail(Reason::invalid_request, "an approach of 0 comes from no side", "leave it out to go straight there");
 }
 
 }  // namespace
@@ -103,6 +131,11 @@ Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc
       if (!profile) return tl::unexpected(on_axis(target.axis(), profile.error()));
       one->profile = *profile;
     }
+    if (target.has_approach()) {
+      const Result<Quantity> approach = to_approach(target.approach());
+      if (!approach) return tl::unexpected(on_axis(target.axis(), approach.error()));
+      one->approach = *approach;
+    }
     move.moves.push_back(*std::move(one));
   }
   return move;
@@ -110,9 +143,15 @@ Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc
 
 Result<shrc203::Segment> to_segment(const api::Segment& segment) {
   shrc203::Segment stretch;
-  Result<std::vector<shrc203::AxisMove>> moves = to_axis_moves(segment);
-  if (!moves) return tl::unexpected(moves.error());
-  stretch.moves = *std::move(moves);
+  if (segment.has_arc()) {
+    Result<shrc203::Curve> curve = to_curve(segment.arc());
+    if (!curve) return tl::unexpected(curve.error());
+    stretch.curve = *std::move(curve);
+  } else {
+    Result<std::vector<shrc203::AxisMove>> moves = to_axis_moves(segment);
+    if (!moves) return tl::unexpected(moves.error());
+    stretch.moves = *std::move(moves);
+  }
   stretch.relative = segment.relative();
   if (segment.has_speed()) {
     const Result<Quantity> speed = to_quantity(segment.speed());
@@ -120,7 +159,41 @@ Result<shrc203::Segment> to_segment(const api::Segment& segment) {
     stretch.speed = *speed;
   }
   if (segment.acceleration_ms() != 0) stretch.acceleration_ms = segment.acceleration_ms();
+  const Result<void> halted = fill_halt(segment, stretch);
+  if (!halted) return tl::unexpected(halted.error());
   return stretch;
+}
+
+Result<shrc203::ScanRequest> to_scan(const api::ScanRequest& request, shrc203::RequestContext context) {
+  const Result<int> axis = to_axis(request.axis());
+  if (!axis) return tl::unexpected(axis.error());
+  shrc203::ScanRequest scan;
+  scan.axis = *axis;
+  scan.context = std::move(context);
+  for (const auto& [end, place] : {std::pair(&request.from(), &scan.from), {&request.to(), &scan.to}}) {
+    const Result<Quantity> quantity = to_quantity(*end);
+    if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
+    *place = *quantity;
+  }
+  if (request.has_speed()) {
+    const Result<Quantity> speed = to_quantity(request.speed());
+    if (!speed) return tl::unexpected(on_axis(*axis, speed.error()));
+    scan.speed = *speed;
+  }
+  if (request.acceleration_ms() != 0) scan.acceleration_ms = request.acceleration_ms();
+  switch (request.interval_case()) {
+    case api::ScanRequest::kDrivePulses:
+      scan.interval = request.drive_pulses();
+      return scan;
+    case api::ScanRequest::kScalePulses:
+      scan.by_scale = true;
+      scan.interval = request.scale_pulses();
+      return scan;
+    case api::ScanRequest::INTERVAL_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "a scan does not say how far apart its trigger pulses are",
+              "set `drive_pulses` or `scale_pulses`");
 }
 
 Result<shrc203::AxisSet> controllable_axes(shrc203::AxisSet named, const shrc203::State& state) {

@@ -1,4 +1,4 @@
-// Moves and path segments as callers write them, as a controller takes them.
+// Moves, path segments and scans as callers write them, as a controller takes them.
 #pragma once
 
 #include "axisgate/v1/stage.pb.h"
@@ -17,6 +17,9 @@ Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc
 Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis);
 
 Result<shrc203::Segment> to_segment(const api::Segment& segment);
+
+// Ends, speed and interval are the controller's to judge.
+Result<shrc203::ScanRequest> to_scan(const api::ScanRequest& request, shrc203::RequestContext context);
 
 // "axis 1: ..."
 Problem on_axis(int axis, Problem problem);

@@ -40,6 +40,7 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "StageService/Home",
                                          "StageService/ReturnToOrigin",
                                          "StageService/RunPath",
+                                         "StageService/Scan",
                                          "StageService/Jog",
                                          "StageService/CancelMotion"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",

@@ -1,0 +1,16 @@
+// Circles, arcs and helices as callers write them, as a controller takes them.
+#pragma once
+
+#include "axisgate/v1/stage.pb.h"
+#include "device/core/problem.h"
+#include "device/shrc203/controller.h"
+
+namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
+
+// invalid_request where something is missing, doubled or of the wrong axes, unknown_axis, out_of_range for turns; of an
+// amount as to_quantity().
+Result<shrc203::Curve> to_curve(const api::Arc& arc);
+
+}  // namespace axisgate::rpc

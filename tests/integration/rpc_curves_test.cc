@@ -1,0 +1,228 @@
+// Curves, rests, approaches and scans, from what callers write to what a controller takes, and what is refused.
+#include <gmock/gmock.h>
+#include <google/protobuf/text_format.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "server/rpc/news.h"
+#include "server/rpc/targets.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using google::protobuf::TextFormat;
+using shrc203::Curve;
+using shrc203::Rotation;
+using std::chrono::milliseconds;
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+template <class Message>
+Message parsed(const std::string& text) {
+  Message message;
+  EXPECT_TRUE(TextFormat::ParseFromString(text, &message)) << text;
+  return message;
+}
+
+shrc203::Segment segment(const std::string& text) {
+  const Result<shrc203::Segment> result = to_segment(parsed<api::Segment>(text));
+  EXPECT_TRUE(result) << text << ": " << result.error().message;
+  return result.value_or(shrc203::Segment{});
+}
+
+// "INVALID_REQUEST: message"
+std::string refused(const std::string& text) {
+  const Result<shrc203::Segment> result = to_segment(parsed<api::Segment>(text));
+  return result ? "taken" : std::string(name(result.error().reason)) + ": " + result.error().message;
+}
+
+std::string written(const Quantity& quantity) { return to_string(quantity.value) + std::string(symbol(quantity.unit)); }
+
+constexpr const char* kCenter =
+    "center { axis: 1 distance { mm: \"0.05\" } } center { axis: 2 distance { um: \"-50\" } }";
+constexpr const char* kAround = "rotation: ROTATION_CLOCKWISE turns: 1";
+constexpr const char* kPlaneOf13 =
+    "center { axis: 1 distance { pulses: 1 } } center { axis: 3 distance { pulses: 1 } }";
+
+std::string around(const std::string& text, const std::string& rise = "") {
+  return "arc { around { " + text + " } " + rise + " }";
+}
+std::string through(const std::string& text) { return "arc { through { " + text + " } }"; }
+
+TEST(Curves, AroundACenterByTurns) {
+  const shrc203::Segment taken = segment(around(std::string(kCenter) + kAround) + " relative: true");
+  EXPECT_TRUE(taken.moves.empty());
+  EXPECT_TRUE(taken.relative);
+  ASSERT_TRUE(taken.curve);
+  EXPECT_THAT(taken.curve->axes, ElementsAre(1, 2));
+  EXPECT_FALSE(taken.curve->rise);
+  const auto& course = std::get<Curve::Around>(taken.curve->course);
+  EXPECT_EQ(written(course.center[0]), "0.05mm");
+  EXPECT_EQ(written(course.center[1]), "-50um");
+  EXPECT_EQ(course.rotation, Rotation::clockwise);
+  EXPECT_EQ(std::get<int>(course.extent), 1);
+}
+
+TEST(Curves, AroundACenterByDegreesInPlacesOfAnotherPlane) {
+  const shrc203::Segment taken =
+      segment(around("center { axis: 3 distance { pulses: 7 } } center { axis: 2 distance { pulses: -8 } } "
+                     "rotation: ROTATION_COUNTERCLOCKWISE degrees: \"22.5\""));
+  EXPECT_FALSE(taken.relative);
+  ASSERT_TRUE(taken.curve);
+  EXPECT_THAT(taken.curve->axes, ElementsAre(2, 3));
+  const auto& course = std::get<Curve::Around>(taken.curve->course);
+  EXPECT_EQ(written(course.center[0]), "-8pulse");
+  EXPECT_EQ(written(course.center[1]), "7pulse");
+  EXPECT_EQ(course.rotation, Rotation::counterclockwise);
+  EXPECT_EQ(std::get<Decimal>(course.extent), (Decimal{225, 1}));
+}
+
+TEST(Curves, ThroughAPoint) {
+  const shrc203::Segment taken =
+      segment(through("point { axis: 2 distance { um: \"4\" } } point { axis: 1 distance { um: \"3\" } } "
+                      "end { axis: 1 distance { um: \"5\" } } end { axis: 2 distance { um: \"-6\" } }"));
+  ASSERT_TRUE(taken.curve);
+  EXPECT_THAT(taken.curve->axes, ElementsAre(1, 2));
+  const auto& course = std::get<Curve::Through>(taken.curve->course);
+  EXPECT_EQ(written(course.point[0]) + " " + written(course.point[1]), "3um 4um");
+  EXPECT_EQ(written(course.end[0]) + " " + written(course.end[1]), "5um -6um");
+}
+
+TEST(Curves, AHelixRisesAlongAxis3) {
+  const std::string text = std::string(kCenter) + "rotation: ROTATION_CLOCKWISE turns: 1000";
+  const shrc203::Segment taken = segment(around(text, "rise { axis: 3 distance { um: \"-2\" } }"));
+  ASSERT_TRUE(taken.curve && taken.curve->rise);
+  EXPECT_EQ(written(*taken.curve->rise), "-2um");
+  EXPECT_EQ(std::get<int>(std::get<Curve::Around>(taken.curve->course).extent), 1000);
+}
+
+TEST(Curves, WhatIsNoCurveIsRefused) {
+  const std::string center = kCenter;
+  EXPECT_EQ(refused("arc {}"), "INVALID_REQUEST: an arc has no course");
+  EXPECT_EQ(refused(around(kAround)), "INVALID_REQUEST: the center of an arc has two coordinates, not 0");
+  EXPECT_EQ(refused(around(center + "center { axis: 3 distance { pulses: 1 } }" + kAround)),
+            "INVALID_REQUEST: the center of an arc has two coordinates, not 3");
+  EXPECT_EQ(refused(around("center { axis: 2 distance { pulses: 1 } } center { axis: 2 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: the center of an arc names axis 2 twice");
+  EXPECT_EQ(refused(around("center { axis: 1 distance { pulses: 1 } } center { axis: 4 distance { pulses: 1 } }")),
+            "UNKNOWN_AXIS: there is no axis 4");
+  EXPECT_EQ(refused(around("center { axis: 1 distance {} } center { axis: 2 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: axis 1: a distance has no amount");
+  EXPECT_EQ(refused(through("point { axis: 1 distance { pulses: 1 } } point { axis: 2 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: the end of an arc has two coordinates, not 0");
+  EXPECT_EQ(refused(through("point { axis: 1 distance { pulses: 1 } } point { axis: 2 distance { pulses: 1 } }"
+                            "end { axis: 1 distance { pulses: 1 } } end { axis: 3 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: an arc goes through a point of axes 1 and 2 to an end of axes 1 and 3");
+}
+
+TEST(Curves, AnArcAroundACenterSaysWhichWayAndHowFar) {
+  const std::string center = kCenter;
+  EXPECT_EQ(refused(around(center + "turns: 1")),
+            "INVALID_REQUEST: an arc around a center does not say which way round it goes");
+  const std::string way = center + "rotation: ROTATION_COUNTERCLOCKWISE ";
+  EXPECT_EQ(refused(around(way)), "INVALID_REQUEST: an arc around a center does not say how far it goes");
+  EXPECT_EQ(refused(around(way + "turns: 2")), "OUT_OF_RANGE: a circle of 2 turns; in one plane it has 1");
+  EXPECT_EQ(refused(around(way + "turns: 0")), "OUT_OF_RANGE: a circle of 0 turns; in one plane it has 1");
+  EXPECT_THAT(refused(around(way + "degrees: \"1e2\"")), HasSubstr("INVALID_REQUEST: "));
+  const std::string rise = "rise { axis: 3 distance { pulses: 1 } }";
+  for (const char* turns : {"0", "1001", "-1"}) {
+    EXPECT_EQ(refused(around(way + "turns: " + turns, rise)),
+              "OUT_OF_RANGE: a helix of " + std::string(turns) + " turns; 1 to 1000 are possible");
+  }
+}
+
+// Manual 74) to 76), 80) to 82): axis setting A alone.
+TEST(Curves, NoOtherHelixIsKnown) {
+  EXPECT_EQ(refused(around(std::string(kCenter) + kAround, "rise { axis: 2 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: a helix rises along axis 3, not along axis 2");
+  EXPECT_EQ(refused(around(std::string(kPlaneOf13) + kAround, "rise { axis: 3 distance { pulses: 1 } }")),
+            "INVALID_REQUEST: the circle of a helix is one of axes 1 and 2, not of axes 1 and 3");
+  EXPECT_EQ(refused(around(std::string(kCenter) + kAround, "rise { axis: 3 }")),
+            "INVALID_REQUEST: axis 3: a distance has no amount");
+}
+
+TEST(Segments, RestAndWaitForInputs) {
+  const std::string way = "single { axis: 1 distance { pulses: 1 } } ";
+  EXPECT_EQ(segment(way).rest, Duration::zero());
+  EXPECT_FALSE(segment(way).inputs);
+  EXPECT_EQ(segment(way + "rest_ms: 255000 inputs: 63").rest, milliseconds(255'000));
+  EXPECT_EQ(segment(way + "inputs: 63").inputs, 63);
+  EXPECT_EQ(segment(way + "inputs: 0").inputs, 0);
+  EXPECT_EQ(segment(around(std::string(kCenter) + kAround) + " rest_ms: 1 speed { pulses_per_s: 9 }").rest,
+            milliseconds(1));
+  EXPECT_EQ(refused(way + "rest_ms: -1"), "OUT_OF_RANGE: a rest of -1 ms; 0 to 255000 ms are possible");
+  EXPECT_EQ(refused(way + "rest_ms: 255001"), "OUT_OF_RANGE: a rest of 255001 ms; 0 to 255000 ms are possible");
+  EXPECT_EQ(refused(way + "inputs: -1"), "OUT_OF_RANGE: inputs that show -1; 0 to 63 are possible");
+  EXPECT_EQ(refused(way + "inputs: 64"), "OUT_OF_RANGE: inputs that show 64; 0 to 63 are possible");
+  EXPECT_EQ(refused("rest_ms: 1"), "INVALID_REQUEST: the segment has no shape");
+}
+
+TEST(Moves, Approach) {
+  const auto move = [](const std::string& approach) {
+    return to_move(parsed<api::MoveRequest>("targets { axis: 2 distance { mm: \"1\" } " + approach + " }"), {}, {});
+  };
+  ASSERT_TRUE(move("approach { um: \"-10\" }"));
+  EXPECT_EQ(written(move("approach { um: \"-10\" }")->moves.at(0).approach.value()), "-10um");
+  EXPECT_FALSE(move("")->moves.at(0).approach);
+  EXPECT_EQ(move("approach { um: \"0\" }").error().message, "axis 2: an approach of 0 comes from no side");
+  EXPECT_EQ(move("approach {}").error().message, "axis 2: a distance has no amount");
+}
+
+Result<shrc203::ScanRequest> scan(const std::string& text) {
+  return to_scan(parsed<api::ScanRequest>(text), {.who = "anna"});
+}
+
+TEST(Scans, AreTakenAsWritten) {
+  const auto taken = scan(
+      "axis: 2 from { mm: \"-1\" } to { um: \"500\" } speed { um_per_s: \"20\" } acceleration_ms: 50 drive_pulses: "
+      "100");
+  ASSERT_TRUE(taken);
+  EXPECT_EQ(taken->axis, 2);
+  EXPECT_EQ(written(taken->from) + " " + written(taken->to), "-1mm 500um");
+  EXPECT_EQ(written(taken->speed.value()), "20um");
+  EXPECT_EQ(taken->acceleration_ms, 50);
+  EXPECT_EQ(std::pair(taken->by_scale, taken->interval), std::pair(false, std::int64_t{100}));
+  EXPECT_EQ(taken->context.who, "anna");
+  const auto by_scale = scan("axis: 3 from { pulses: 9 } to { pulses: 1 } scale_pulses: 2");
+  ASSERT_TRUE(by_scale);
+  EXPECT_EQ(std::pair(by_scale->by_scale, by_scale->interval), std::pair(true, std::int64_t{2}));
+  EXPECT_FALSE(by_scale->speed || by_scale->acceleration_ms);
+}
+
+TEST(Scans, WhatIsMissingIsNamed) {
+  const auto message = [](const std::string& text) {
+    const auto taken = scan(text);
+    return taken ? "taken" : std::string(name(taken.error().reason)) + ": " + taken.error().message;
+  };
+  EXPECT_EQ(message("axis: 4"), "UNKNOWN_AXIS: there is no axis 4");
+  EXPECT_EQ(message("axis: 1 from { pulses: 1 } drive_pulses: 2"), "INVALID_REQUEST: axis 1: a distance has no amount");
+  EXPECT_EQ(message("axis: 1 from { pulses: 1 } to { pulses: 2 } speed {} drive_pulses: 2"),
+            "INVALID_REQUEST: axis 1: a speed has no amount");
+  EXPECT_EQ(message("axis: 1 from { pulses: 1 } to { pulses: 2 }"),
+            "INVALID_REQUEST: a scan does not say how far apart its trigger pulses are");
+}
+
+TEST(Scans, AreToldWithWhatIsKnown) {
+  shrc203::Motion motion;
+  motion.kind = shrc203::MotionKind::scan;
+  EXPECT_FALSE(to_proto("stage", motion, 1).has_scan());
+  motion.scan = shrc203::ScanResult{-200, 1300, 16, 11, {}};
+  const api::Motion running = to_proto("stage", motion, 1);
+  EXPECT_EQ(running.kind(), api::MOTION_KIND_SCAN);
+  EXPECT_EQ(running.scan().run_from_pulses(), -200);
+  EXPECT_EQ(running.scan().run_to_pulses(), 1300);
+  EXPECT_EQ(running.scan().expected_triggers(), 16);
+  EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
+  EXPECT_FALSE(running.scan().has_observed_triggers());
+  motion.scan = shrc203::ScanResult{0, 0, {}, {}, 0};
+  const api::Motion ended = to_proto("stage", motion, 1);
+  EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
+  EXPECT_TRUE(ended.scan().has_observed_triggers());
+}
+
+}  // namespace
+}  // namespace axisgate::rpc
