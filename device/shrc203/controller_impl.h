@@ -290,6 +290,7 @@ class Controller::Impl : public LineListener {
   // execute.cc
   void execute(ExecuteRequest request, OnExecute event);
   Task<void> run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event);
+  Result<void> may_wait_for_inputs(std::string_view what) const;  // "WI:"; not_allowed
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
 
   // excursion.cc

@@ -1,5 +1,8 @@
 // What a caller's lines must pass before they become a transaction; a stop among them goes its own way.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -33,17 +36,17 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
     const bool step = one.row->name == "P:SET" && one.arguments.first("p").value_or("").starts_with("INPUT");
     return step || (one.row->reg == Register::wi && waits_of(one).set);
   });
-  if (arms && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
-    return refuse({Reason::not_allowed,
-                   "WI: lets an input pin start a motion, whoever may stand beside the stage",
-                   "an administrator may allow it for this device: wait_for_inputs = true",
-                   {},
-                   {},
-                   {}});
-  }
+  if (const auto armed = may_wait_for_inputs("WI:"); arms && !armed) return refuse(armed.error());
   const auto allowed = may_use(request.context, axes_used(commands, state_.controllable()));
   if (!allowed) return refuse(allowed.error());
   executor_.spawn(run_transaction(std::move(request), std::move(commands), std::move(event)));
+}
+
+Result<void> Controller::Impl::may_wait_for_inputs(std::string_view what) const {
+  if (profile_.wait_for_inputs || !guarded(Guard::inputs_start_nothing)) return {};
+  return fail(Reason::not_allowed,
+              fmt::format("{} lets an input pin start a motion, whoever may stand beside the stage", what),
+              "an administrator may allow it for this device: wait_for_inputs = true");
 }
 
 Result<void> Controller::check(const ExecuteRequest& request) {

@@ -11,6 +11,11 @@ namespace axisgate::shrc203 {
 
 // Where the axes and their speeds are known, which they are not always before the gate has been passed.
 Result<PathPlan> Controller::Impl::plan_feasible_path(const PathRequest& request) const {
+  const auto waits = std::ranges::find_if(request.segments, [](const Segment& one) { return one.inputs.has_value(); });
+  if (waits != request.segments.end()) {
+    const auto allowed = may_wait_for_inputs(fmt::format("segment {}", waits - request.segments.begin() + 1));
+    if (!allowed) return tl::unexpected(allowed.error());
+  }
   auto plan = plan_path(request, positions_of(state_), envelope(request.context));
   if (!plan) return plan;
   const bool by_inputs =

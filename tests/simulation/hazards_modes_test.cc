@@ -66,6 +66,24 @@ TEST(Hazard, H16_InputsStartNothing) {
   EXPECT_EQ(written(world, "WI:"), 0) << world.replay();
 }
 
+TEST(Hazard, H16_NorDoTheyInAPath) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  PathRequest path = line_of(world, 3);
+  path.segments[1].inputs = 0;
+  const auto checked = world.controller().check(path);
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().reason, Reason::not_allowed);
+  EXPECT_THAT(checked.error().message, HasSubstr("segment 2"));
+  Reason refused{};
+  world.controller().run_path(path, world.now(), [&](const Result<Motion>& motion) {
+    if (!motion) refused = motion.error().reason;
+  });
+  world.run_for(seconds(1));
+  EXPECT_EQ(refused, Reason::not_allowed);
+  EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
+}
+
 // C is an axes letter, too; and a line that cancels one wait may set another.
 TEST(Hazard, H16_NoWayRound) {
   World world(quiet());
