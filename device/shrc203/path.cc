@@ -1,8 +1,9 @@
 // Paths: checked, then run at their turn by path_run.h.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
-#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/feeding.h"
 #include "device/shrc203/path_run.h"
@@ -17,15 +18,7 @@ Result<PathPlan> Controller::Impl::plan_feasible_path(const PathRequest& request
     if (!allowed) return tl::unexpected(allowed.error());
   }
   auto plan = plan_path(request, positions_of(state_), envelope(request.context));
-  if (!plan) return plan;
-  const bool by_inputs =
-      std::ranges::any_of(plan->segments, [](const SegmentPlan& one) { return one.inputs.has_value(); });
-  if (by_inputs && !profile_.wait_for_inputs && guarded(Guard::inputs_start_nothing)) {
-    return fail(Reason::not_allowed,
-                "a segment that waits for inputs starts by a switch, whoever may stand beside the stage",
-                "an administrator may allow it for this device: wait_for_inputs = true");
-  }
-  if (!known_speeds(AxisSet::of(plan->axes.lowest())).contains(plan->axes.lowest())) return plan;
+  if (!plan || !known_speeds(AxisSet::of(plan->axes.lowest())).contains(plan->axes.lowest())) return plan;
   const auto feasible = check_feeding(*plan, line_.pace());
   if (!feasible) return tl::unexpected(feasible.error());
   return plan;
