@@ -28,11 +28,6 @@ std::string quoted(std::string_view text) { return '"' + escaped(text) + '"'; }
 
 std::string shown(Decimal value, Unit unit) { return to_string(value).append(symbol(unit)); }
 
-std::string shown(const Scale& scale) {
-  return scale.rotary ? to_string(from_pulses(1, Unit::degrees, scale).value_or(Decimal{})) + " deg"
-                      : to_string(scale.per_pulse) + " nm";
-}
-
 // The power of ten between a unit and what Scale::per_pulse counts: nanometres, or millionths of a degree.
 int scale_units_exponent(Unit unit) {
   switch (unit) {
@@ -53,6 +48,21 @@ std::optional<Wide> times_power_of_ten(Wide value, int exponent) {
     if (__builtin_mul_overflow(value, 10, &value)) return std::nullopt;
   }
   return value;
+}
+
+// Nothing where it has more than 18 digits.
+std::optional<Decimal> to_decimal(Wide digits, int decimals) {
+  for (; decimals > 0 && digits % 10 == 0; --decimals) digits /= 10;
+  constexpr Wide kEnd = 1'000'000'000'000'000'000;
+  if (digits <= -kEnd || digits >= kEnd || decimals > 18) return std::nullopt;
+  return Decimal{static_cast<std::int64_t>(digits), decimals};
+}
+
+tl::unexpected<Problem> too_many_digits(std::int64_t pulses, Unit unit, const Scale& scale) {
+  return fail(Reason::out_of_range,
+              std::to_string(pulses) + " pulses of " + to_string(scale.per_pulse) + " have more than 18 digits in " +
+                  std::string(symbol(unit)),
+              "Ask for the position in pulses.");
 }
 
 Result<void> check_unit(Unit unit, const Scale& scale) {
@@ -76,7 +86,7 @@ Result<void> check_unit(Unit unit, const Scale& scale) {
 std::string range_hint(Unit unit, const Scale& scale) {
   const Result<Decimal> limit = from_pulses(kPulsesMax, unit, scale);
   if (unit == Unit::pulses || !limit) return "Ask for less.";
-  return "At " + shown(scale) + " a pulse that is " + shown(*limit, unit) + " either way.";
+  return "At " + pulse_text(scale) + " a pulse that is " + shown(*limit, unit) + " either way.";
 }
 
 tl::unexpected<Problem> out_of_range(const Quantity& quantity, const Scale& scale) {
@@ -86,15 +96,36 @@ tl::unexpected<Problem> out_of_range(const Quantity& quantity, const Scale& scal
       range_hint(quantity.unit, scale));
 }
 
-tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale& scale, std::int64_t below) {
+// `per` is "" or "/s". Nobody asks for a speed below 1 pulse/s: it is none.
+tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale& scale, std::int64_t below,
+                                          std::string_view per) {
   const auto nearest = [&](std::int64_t count) {
-    return shown(from_pulses(count, quantity.unit, scale).value_or(Decimal{}), quantity.unit);
+    const Result<Decimal> way = from_pulses(count, quantity.unit, scale);
+    return (way ? shown(*way, quantity.unit) : shown(Decimal{count, 0}, Unit::pulses)).append(per);
   };
-  const std::string size = quantity.unit == Unit::pulses ? "" : " of " + shown(scale);
+  const std::string size = quantity.unit == Unit::pulses ? "" : " of " + pulse_text(scale);
+  const bool lowest = !per.empty() && below == 0;
   return fail(Reason::not_representable,
-              quoted(shown(quantity.value, quantity.unit)) + " is not a whole number of pulses" + size +
-                  "; the nearest are " + nearest(below) + " and " + nearest(below + 1),
-              "Ask for one of these: the gateway never rounds.");
+              quoted(shown(quantity.value, quantity.unit).append(per)) + " is not a whole number of pulses" + size +
+                  (per.empty() ? "" : " a second") +
+                  (lowest ? "; the nearest is " : "; the nearest are " + nearest(below) + " and ") + nearest(below + 1),
+              lowest ? "Ask for this: the gateway never rounds." : "Ask for one of these: the gateway never rounds.");
+}
+
+Result<std::int64_t> whole_pulses(const Quantity& quantity, const Scale& scale, std::string_view per) {
+  if (auto fits = check_unit(quantity.unit, scale); !fits) return tl::make_unexpected(fits.error());
+  const Decimal per_pulse = quantity.unit == Unit::pulses ? Decimal{1, 0} : scale.per_pulse;
+  const int exponent = scale_units_exponent(quantity.unit) + per_pulse.decimals - quantity.value.decimals;
+  const std::optional<Wide> numerator = times_power_of_ten(quantity.value.digits, exponent);
+  const std::optional<Wide> denominator = times_power_of_ten(per_pulse.digits, -exponent);
+  // An overflowing numerator is beyond 10^38 / 10^18 pulses; a denominator cannot overflow within Decimal's limits.
+  if (!numerator || !denominator) return out_of_range(quantity, scale);
+  const Wide remainder = *numerator % *denominator;
+  const Wide below = *numerator / *denominator - (remainder < 0 ? 1 : 0);
+  const Wide above = below + (remainder != 0 ? 1 : 0);
+  if (below < -kPulsesMax || above > kPulsesMax) return out_of_range(quantity, scale);
+  if (remainder != 0) return not_representable(quantity, scale, static_cast<std::int64_t>(below), per);
+  return static_cast<std::int64_t>(below);
 }
 
 }  // namespace
@@ -144,35 +175,52 @@ Result<Quantity> parse_speed(std::string_view text, Unit fallback) {
 }
 
 Result<std::int64_t> to_pulses(const Quantity& quantity, const Scale& scale) {
-  if (auto fits = check_unit(quantity.unit, scale); !fits) return tl::make_unexpected(fits.error());
-  const Decimal per_pulse = quantity.unit == Unit::pulses ? Decimal{1, 0} : scale.per_pulse;
-  const int exponent = scale_units_exponent(quantity.unit) + per_pulse.decimals - quantity.value.decimals;
-  const std::optional<Wide> numerator = times_power_of_ten(quantity.value.digits, exponent);
-  const std::optional<Wide> denominator = times_power_of_ten(per_pulse.digits, -exponent);
-  // An overflowing numerator is beyond 10^38 / 10^18 pulses; a denominator cannot overflow within Decimal's limits.
-  if (!numerator || !denominator) return out_of_range(quantity, scale);
-  const Wide remainder = *numerator % *denominator;
-  const Wide below = *numerator / *denominator - (remainder < 0 ? 1 : 0);
-  const Wide above = below + (remainder != 0 ? 1 : 0);
-  if (below < -kPulsesMax || above > kPulsesMax) return out_of_range(quantity, scale);
-  if (remainder != 0) return not_representable(quantity, scale, static_cast<std::int64_t>(below));
-  return static_cast<std::int64_t>(below);
+  return whole_pulses(quantity, scale, "");
+}
+
+Result<std::int64_t> to_pulses_per_second(const Quantity& speed, const Scale& scale) {
+  return whole_pulses(speed, scale, "/s");
 }
 
 Result<Decimal> from_pulses(std::int64_t pulses, Unit unit, const Scale& scale) {
   if (auto fits = check_unit(unit, scale); !fits) return tl::make_unexpected(fits.error());
   const Decimal per_pulse = unit == Unit::pulses ? Decimal{1, 0} : scale.per_pulse;
-  Wide digits = Wide{pulses} * per_pulse.digits;
-  int decimals = per_pulse.decimals + scale_units_exponent(unit);
-  for (; decimals > 0 && digits % 10 == 0; --decimals) digits /= 10;
-  constexpr Wide kEnd = 1'000'000'000'000'000'000;
-  if (digits <= -kEnd || digits >= kEnd || decimals > 18) {
-    return fail(Reason::out_of_range,
-                std::to_string(pulses) + " pulses of " + to_string(per_pulse) + " have more than 18 digits in " +
-                    std::string(symbol(unit)),
-                "Ask for the position in pulses.");
+  const auto way = to_decimal(Wide{pulses} * per_pulse.digits, per_pulse.decimals + scale_units_exponent(unit));
+  if (!way) return too_many_digits(pulses, unit, scale);
+  return *way;
+}
+
+Result<Decimal> within_turn(std::int64_t pulses, const Decimal& turn, const Scale& scale) {
+  if (auto fits = check_unit(Unit::degrees, scale); !fits) return tl::make_unexpected(fits.error());
+  const int decimals = scale.per_pulse.decimals + scale_units_exponent(Unit::degrees);
+  const int common = std::max(decimals, turn.decimals);
+  const auto way = times_power_of_ten(Wide{pulses} * scale.per_pulse.digits, common - decimals);
+  const auto whole = times_power_of_ten(turn.digits, common - turn.decimals);
+  if (!way || !whole) return too_many_digits(pulses, Unit::degrees, scale);
+  const Wide rest = *way % *whole;
+  const auto place = to_decimal(rest < 0 ? rest + *whole : rest, common);
+  if (!place) return too_many_digits(pulses, Unit::degrees, scale);
+  return *place;
+}
+
+std::string pulse_text(const Scale& scale) {
+  return scale.rotary ? to_string(from_pulses(1, Unit::degrees, scale).value_or(Decimal{})) + " deg"
+                      : to_string(scale.per_pulse) + " nm";
+}
+
+Result<Scale> scale_of(const Quantity& pulse) {
+  if (pulse.unit == Unit::pulses || pulse.value.digits <= 0) {
+    return fail(Reason::invalid_request, quoted(shown(pulse.value, pulse.unit)) + " is no way of one pulse",
+                "Give a way above 0 in nm, um, mm or deg.");
   }
-  return Decimal{static_cast<std::int64_t>(digits), decimals};
+  const int decimals = pulse.value.decimals - scale_units_exponent(pulse.unit);
+  const auto digits = times_power_of_ten(pulse.value.digits, -decimals);
+  const auto per_pulse = digits ? to_decimal(*digits, std::max(decimals, 0)) : std::nullopt;
+  if (!per_pulse) {
+    return fail(Reason::out_of_range, quoted(shown(pulse.value, pulse.unit)) + " has more than 18 digits as a pulse",
+                "Give a shorter way.");
+  }
+  return Scale{*per_pulse, pulse.unit == Unit::degrees};
 }
 
 }  // namespace axisgate

@@ -52,6 +52,11 @@ struct Scale {
 
   friend bool operator==(const Scale&, const Scale&) = default;
 };
+std::string pulse_text(const Scale& scale);  // "10 nm", "0.0025 deg"
+
+// The scale of which one pulse is that way, exactly; rotary for degrees. invalid_request for a way in pulses or not
+// above zero, out_of_range when it does not fit a Decimal.
+Result<Scale> scale_of(const Quantity& pulse);
 
 // The most that a command carries either way (manual 67) M:).
 inline constexpr std::int64_t kPulsesMax = 999'999'999;
@@ -61,8 +66,15 @@ inline constexpr std::int64_t kPulsesMax = 999'999'999;
 // not above zero. A scale is not looked at for a quantity in pulses.
 Result<std::int64_t> to_pulses(const Quantity& quantity, const Scale& scale);
 
+// The same of a speed, in whole pulses per second; messages are of speeds.
+Result<std::int64_t> to_pulses_per_second(const Quantity& speed, const Scale& scale);
+
 // Exactly; e.g. 500000 pulses of 10 nm are "5" mm. Zeros at the end of the fraction are dropped. Otherwise unknown_unit
 // and device_error as above, or out_of_range when it does not fit a Decimal.
 Result<Decimal> from_pulses(std::int64_t pulses, Unit unit, const Scale& scale);
+
+// Where in its turn an axis is that has turned so far: degrees from 0 up to, and not including, `turn`, which is above
+// zero. Exactly; otherwise as from_pulses().
+Result<Decimal> within_turn(std::int64_t pulses, const Decimal& turn, const Scale& scale);
 
 }  // namespace axisgate

@@ -179,6 +179,27 @@ TEST(ToPulses, NamesTheNearestBelowZeroAndInTheUnitAsked) {
   EXPECT_EQ(reason_of(pulses_of("0.000000000000000001mm", k10Nanometers)), Reason::not_representable);
 }
 
+TEST(ToPulses, NamesTheNearestInPulsesWhereTheyHaveTooManyDigits) {
+  EXPECT_EQ(pulses_of("0.000000000000000001mm", {{7, 13}, false}).error().message,
+            "\"0.000000000000000001mm\" is not a whole number of pulses of 0.0000000000007 nm; the nearest are 1pulse "
+            "and 2pulse");
+}
+
+TEST(ToPulses, SpeedsAreSpokenOfAsSpeeds) {
+  EXPECT_EQ(to_pulses_per_second({{2, 0}, Unit::millimeters}, k10Nanometers), 200'000);
+  EXPECT_EQ(to_pulses_per_second({{5, 3}, Unit::degrees}, kMicrodegree), 5000);
+  const auto between = to_pulses_per_second({{25, 0}, Unit::nanometers}, k10Nanometers);
+  ASSERT_FALSE(between);
+  EXPECT_EQ(between.error().reason, Reason::not_representable);
+  EXPECT_EQ(between.error().message,
+            "\"25nm/s\" is not a whole number of pulses of 10 nm a second; the nearest are 20nm/s and 30nm/s");
+  const auto slow = to_pulses_per_second({{5, 3}, Unit::micrometers}, k10Nanometers);
+  ASSERT_FALSE(slow);
+  EXPECT_EQ(slow.error().message,
+            "\"0.005um/s\" is not a whole number of pulses of 10 nm a second; the nearest is 0.01um/s");
+  EXPECT_EQ(slow.error().hint, "Ask for this: the gateway never rounds.");
+}
+
 // Manual 67) M:, y: 0 to 999,999,999 with a sign.
 TEST(ToPulses, TakesNineDigitsEitherWay) {
   EXPECT_EQ(pulses_of("999999999", k10Nanometers), 999999999);
@@ -247,6 +268,58 @@ TEST(FromPulses, IsUndoneByToPulses) {
       EXPECT_EQ(to_pulses({*value, unit}, {{125, 1}, false}), count) << symbol(unit);
     }
   }
+}
+
+Result<Scale> scale_named(std::string_view pulse) {
+  return parse_quantity(pulse, Unit::pulses).and_then([](const Quantity& quantity) { return scale_of(quantity); });
+}
+
+TEST(ScaleOf, IsExact) {
+  EXPECT_EQ(scale_named("1um"), (Scale{{1000, 0}, false}));
+  EXPECT_EQ(scale_named("10nm"), k10Nanometers);
+  EXPECT_EQ(scale_named("0.0000125mm"), (Scale{{125, 1}, false}));
+  EXPECT_EQ(scale_named("0.5nm"), (Scale{{5, 1}, false}));
+  EXPECT_EQ(scale_named("0.0025deg"), (Scale{{2500, 0}, true}));
+  EXPECT_EQ(scale_named("0.00000125deg"), (Scale{{125, 2}, true}));
+  EXPECT_EQ(pulse_text(*scale_named("1um")), "1000 nm");
+  EXPECT_EQ(pulse_text(*scale_named("0.0025deg")), "0.0025 deg");
+}
+
+TEST(ScaleOf, IsAWayAboveZero) {
+  EXPECT_EQ(reason_of(scale_named("1")), Reason::invalid_request);
+  EXPECT_EQ(reason_of(scale_named("0um")), Reason::invalid_request);
+  EXPECT_EQ(reason_of(scale_named("-1um")), Reason::invalid_request);
+  EXPECT_EQ(reason_of(scale_named("999999999999999999mm")), Reason::out_of_range);
+}
+
+std::string in_turn(std::int64_t count, const Decimal& turn, const Scale& scale) {
+  const auto place = within_turn(count, turn, scale);
+  return place ? to_string(*place) : std::string(name(place.error().reason));
+}
+
+TEST(WithinTurn, IsExactOnBothSidesOfTheOrigin) {
+  const Scale half_step = {{2500, 0}, true};
+  const Decimal turn = {360, 0};
+  EXPECT_EQ(in_turn(0, turn, half_step), "0");
+  EXPECT_EQ(in_turn(143'999, turn, half_step), "359.9975");
+  EXPECT_EQ(in_turn(144'000, turn, half_step), "0");
+  EXPECT_EQ(in_turn(148'000, turn, half_step), "10");
+  EXPECT_EQ(in_turn(-1, turn, half_step), "359.9975");
+  EXPECT_EQ(in_turn(-144'000, turn, half_step), "0");
+  EXPECT_EQ(in_turn(999'999'999, turn, half_step), "159.9975");
+  EXPECT_EQ(in_turn(4, {225, 1}, {{7, 0}, true}), "0.000028");
+}
+
+// No whole number of pulses makes a turn: nothing is rounded, however many there were.
+TEST(WithinTurn, IsExactWhereATurnIsNoWholeNumberOfPulses) {
+  EXPECT_EQ(in_turn(51'429, {360, 0}, {{7000, 0}, true}), "0.003");
+  EXPECT_EQ(in_turn(999'999'999, {360, 0}, {{7000, 0}, true}), "159.993");
+}
+
+TEST(WithinTurn, IsOfAxesThatTurn) {
+  EXPECT_EQ(in_turn(1, {360, 0}, k10Nanometers), "UNKNOWN_UNIT");
+  EXPECT_EQ(in_turn(1, {360, 0}, {{0, 0}, true}), "DEVICE_ERROR");
+  EXPECT_EQ(in_turn(1, {360, 0}, {{1, 18}, true}), "OUT_OF_RANGE");
 }
 
 }  // namespace
