@@ -135,6 +135,7 @@ enum class Guard {
   speed_bounded,
   narrower_for_some,
   home_comes_first,
+  stage_of_profile,
   jog_needs_renewal,
   jog_ends_before_bound,
   jog_ends_with_its_right,

@@ -44,7 +44,21 @@ Result<void> Envelope::check_axis(int axis) const {
                    fmt::format("the way of one pulse of {} is not known yet", label(axis)),
                    "wait until the device is up");
   }
-  return {};
+  return check_stage(axis);
+}
+
+Result<void> Envelope::check_stage(int axis) const {
+  const auto& stage = profile(axis).stage;
+  const auto& told = state_.axis(axis).scale;
+  if (!stage || !told || *told == stage->pulse || !guarded(Guard::stage_of_profile)) return {};
+  return fail_on(
+      axis, Reason::identity_mismatch,
+      fmt::format("a pulse of {} is {} by the controller (?:P) and {} by the profile of its stage, {}: "
+                  "another stage is plugged in, the divisions were changed, or the profile is wrong",
+                  label(axis), pulse_text(*told), pulse_text(stage->pulse), stage->model),
+      fmt::format("plug in the {}, set divisions that make {} of a pulse (`axisctl divisions`), or put right "
+                  "the profile that the configuration names as the axis's stage",
+                  stage->model, pulse_text(stage->pulse)));
 }
 
 Result<void> Envelope::check_homed(int axis) const {
@@ -94,8 +108,11 @@ bool Envelope::is_bounded(int axis) const {
 }
 
 Result<std::int64_t> Envelope::speed(int axis, const Quantity& asked) const {
-  const auto wanted = pulses(axis, asked);
-  if (!wanted) return wanted;
+  auto wanted = to_pulses_per_second(asked, scale(axis));
+  if (!wanted) {
+    wanted.error().axis = axis;
+    return wanted;
+  }
   if (*wanted < 1 || *wanted > kSpeedMax) {
     return fail_on(axis, Reason::out_of_range,
                    fmt::format("a speed of {}{}/s is {} pulses/s on {}; 1 to {} are possible", to_string(asked.value),
@@ -144,8 +161,15 @@ Result<std::optional<Envelope::Bound>> Envelope::innermost(int axis, std::option
   std::optional<Bound> found;
   const auto take = [&](const AxisLimits& limits, const std::string& whose) -> Result<void> {
     if (!(limits.*limit)) return {};
-    const auto here = pulses(axis, *(limits.*limit));
-    if (!here) return tl::unexpected(here.error());
+    const bool speed = limit == &AxisLimits::maximum_speed;
+    const Quantity& amount = *(limits.*limit);
+    const auto here = speed ? to_pulses_per_second(amount, scale(axis)) : to_pulses(amount, scale(axis));
+    if (!here) {
+      const std::string_view key = speed ? "maximum_speed" : sign < 0 ? "travel_minimum" : "travel_maximum";
+      return fail_on(axis, here.error().reason,
+                     fmt::format("{} cannot be kept to its {}: {}", label(axis), key, here.error().message),
+                     "have that changed in the configuration");
+    }
     if (!found || sign * *here < sign * found->pulses) found = Bound{*here, whose};
     return {};
   };

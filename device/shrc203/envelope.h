@@ -21,8 +21,11 @@ class Envelope {
   // `role` is a word of the configuration, "operator"; with `who` it chooses what is narrower for the caller.
   Envelope(const Profile& profile, const State& state, std::string_view who, std::string_view role);
 
-  // unknown_axis, link_down, or position_unknown where nothing can be converted yet.
+  // unknown_axis, link_down, position_unknown where nothing can be converted yet, or as check_stage().
   Result<void> check_axis(int axis) const;
+  // identity_mismatch, where a pulse is not what the profile of the axis's stage says. Looked at whenever the axis is
+  // to move, since S: makes another way of it (manual 55)).
+  Result<void> check_stage(int axis) const;
   // not_homed, where the axis must have found its origin before it moves otherwise.
   Result<void> check_homed(int axis) const;
   // outside_travel, out_of_range. Of an axis that check_axis() passed, as all that follows.

@@ -164,7 +164,7 @@ Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
     const auto per_pulse = parse_decimal(scales.at(number));
     const auto speed = parse_speed_setting(set_speeds.at(number));
     if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
-    axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].unit == Unit::degrees};
+    axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].rotary()};
     note_speeds({{number, *speed}});
     note_origin_speeds(number, origins.contains(number) ? parse_speed_setting(origins.at(number)) : std::nullopt);
     axis.excited = excited.at(number) == "1";

@@ -16,6 +16,10 @@ void Controller::Impl::home(MotionKind kind, HomeRequest request, OnStarted star
                  "see `axisctl status`"));
     return;
   }
+  for (const int axis : axes.list()) {
+    const auto good = envelope(request.context).check_stage(axis);
+    if (!good) return started(tl::unexpected(good.error()));
+  }
   if (kind == MotionKind::return_to_origin) {
     const auto good = check_logical_origin(axes, envelope(request.context));
     if (!good) return started(tl::unexpected(good.error()));

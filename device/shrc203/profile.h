@@ -25,10 +25,20 @@ struct NarrowerLimits : AxisLimits {
   std::string whose;  // a role, "operator", or a caller, "token student"
 };
 
+// Which stage an axis has. How far and how fast that may go is in the axis's own limits.
+struct StageProfile {
+  std::string model;              // "OSMS20-85"; for people
+  Scale pulse;                    // what ?:P must say of the axis (manual 10))
+  std::optional<Decimal> modulo;  // degrees of one turn, of a rotary stage; above 0
+};
+
 struct AxisProfile : AxisLimits {
   std::string name;               // shown beside the number; may be empty
   Unit unit = Unit::micrometers;  // how positions are shown, and what a bare number in a request means
+  std::optional<StageProfile> stage;
   std::vector<NarrowerLimits> narrower;
+
+  bool rotary() const { return stage ? stage->pulse.rotary : unit == Unit::degrees; }
 };
 
 // How far one axis's business concerns the others, where the manual does not say (device/shrc203/README.md).

@@ -111,6 +111,11 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
   }
   const AxisSet axes = live->motion.axes;
+  // Divisions may have been changed while the motion waited.
+  for (const int axis : axes.list()) {
+    const auto good = envelope(live->context).check_stage(axis);
+    if (!good) co_return good;
+  }
   const auto late_numbers = [&] {
     return guarded(Guard::late_numbers_wait) && !(line_.completions().outstanding() & axes).empty();
   };

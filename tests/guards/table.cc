@@ -228,6 +228,8 @@ constexpr Row kTable[] = {
              "EnvelopeTest.ARoleHasNarrowerBounds"),
     by_tests(Guard::home_comes_first, "home-comes-first", "an axis may have to find its origin first",
              "EnvelopeTest.HomeComesFirst"),
+    by_tests(Guard::stage_of_profile, "stage-of-profile", "an axis moves only with the stage of its profile",
+             "EnvelopeTest.AnotherStageThanTheProfilesMovesNothing"),
     by_tests(Guard::jog_needs_renewal, "jog-needs-renewal", "a jog whose caller is silent is stopped",
              "Baud/HazardOfJogsAt.H29_SilenceStopsIt/1"),
     by_tests(Guard::jog_ends_before_bound, "jog-ends-before-bound", "... and one that comes near its travel limit",

@@ -157,6 +157,54 @@ TEST_F(EnvelopeTest, AnAxisThatTurns) {
             "axis 2 (turn) would go to 90.0025deg, beyond its travel maximum of 90deg");
 }
 
+// 10 nm by the controller; what the profile says is another matter.
+TEST_F(EnvelopeTest, AnotherStageThanTheProfilesMovesNothing) {
+  profile.axes[0].name = "x";
+  profile.axes[0].stage = StageProfile{"OSMS20-85", {{1000, 0}, false}, {}};
+  EXPECT_EQ(reason(admin().check_axis(1)), Reason::identity_mismatch);
+  EXPECT_EQ(reason(admin().check_stage(1)), Reason::identity_mismatch);
+  EXPECT_EQ(admin().check_axis(1).error().axis, 1);
+  EXPECT_EQ(
+      message(admin().check_axis(1)),
+      "a pulse of axis 1 (x) is 10 nm by the controller (?:P) and 1000 nm by the profile of its stage, OSMS20-85: "
+      "another stage is plugged in, the divisions were changed, or the profile is wrong");
+  EXPECT_THAT(admin().check_axis(1).error().hint, HasSubstr("axisctl divisions"));
+  EXPECT_TRUE(admin().check_axis(2)) << "which has no profile";
+}
+
+// S: makes another way of a pulse at any time (manual 55)).
+TEST_F(EnvelopeTest, ThePulseIsLookedAtEachTime) {
+  profile.axes[0].stage = StageProfile{"OSMS20-85", {{10, 0}, false}, {}};
+  EXPECT_TRUE(admin().check_axis(1));
+  state.axes[0].scale->per_pulse = {20, 0};
+  EXPECT_EQ(reason(admin().check_axis(1)), Reason::identity_mismatch);
+  state.axes[0].scale->per_pulse = {10, 0};
+  EXPECT_TRUE(admin().check_axis(1));
+}
+
+TEST_F(EnvelopeTest, APulseOfAStageThatTurnsIsAnAngle) {
+  profile.axes[1].unit = Unit::pulses;
+  profile.axes[1].stage = StageProfile{"OSMS-60YAW", {{2500, 0}, true}, Decimal{360, 0}};
+  state.axes[1].scale = Scale{{5000, 0}, profile.axes[1].rotary()};
+  EXPECT_THAT(message(admin().check_axis(2)),
+              HasSubstr("is 0.005 deg by the controller (?:P) and 0.0025 deg by the profile of its stage, OSMS-60YAW"));
+  state.axes[1].scale->per_pulse = {2500, 0};
+  EXPECT_TRUE(admin().check_axis(2));
+}
+
+TEST_F(EnvelopeTest, ALimitThatIsNoWholePulsesIsToldAsThat) {
+  profile.axes[0].travel_maximum = Quantity{{15, 0}, Unit::nanometers};
+  profile.axes[0].maximum_speed = Quantity{{15, 0}, Unit::nanometers};
+  EXPECT_EQ(reason(admin().check_target(1, 0)), Reason::not_representable);
+  EXPECT_EQ(
+      message(admin().check_target(1, 0)),
+      "axis 1 cannot be kept to its travel_maximum: \"15nm\" is not a whole number of pulses of 10 nm; the nearest "
+      "are 10nm and 20nm");
+  EXPECT_EQ(message(admin().check_speed(1, 1)),
+            "axis 1 cannot be kept to its maximum_speed: \"15nm/s\" is not a whole number of pulses of 10 nm a second; "
+            "the nearest are 10nm/s and 20nm/s");
+}
+
 TEST_F(EnvelopeTest, AxesOfWhichNothingCanBeSaid) {
   EXPECT_TRUE(admin().check_axis(3));
   EXPECT_EQ(reason(admin().check_axis(0)), Reason::unknown_axis);
