@@ -5,14 +5,13 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <set>
+#include <tuple>
 
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
 #include "server/config_axis.h"
+#include "server/config_file.h"
 #include "server/config_limits.h"
 #include "server/config_name.h"
 #include "server/config_network.h"
@@ -31,7 +30,6 @@ using shrc203::Scope;
 
 constexpr std::uint16_t kGrpcPort = 50203;
 constexpr std::uint16_t kMetricsPort = 9203;
-constexpr std::size_t kFileBytesMax = 1 << 20;
 
 enum class Connection { serial, tcp, simulated };
 constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
@@ -250,25 +248,21 @@ Configured<Config> parse_config(std::string_view text, const std::string& file) 
     errors.push_back({file, error.source().begin.line, "", fmt::format("is not TOML: {}", error.description())});
   }
   if (errors.empty()) return config;
+  // Those of the stage profiles that it names come last, each once whatever names it.
+  const auto place = [&file](const ConfigError& error) {
+    return std::tuple(error.file != file, std::string_view(error.file), error.line);
+  };
   std::stable_sort(errors.begin(), errors.end(),
-                   [](const ConfigError& a, const ConfigError& b) { return a.line < b.line; });
+                   [&](const ConfigError& a, const ConfigError& b) { return place(a) < place(b); });
+  const auto same = [](const ConfigError& a, const ConfigError& b) { return to_string(a) == to_string(b); };
+  errors.erase(std::unique(errors.begin(), errors.end(), same), errors.end());
   return tl::unexpected(std::move(errors));
 }
 
 Configured<Config> load_config(const std::string& path) {
-  const auto failed = [&](std::string message) {
-    return tl::unexpected(std::vector<ConfigError>{{path, 0, "", std::move(message)}});
-  };
-  errno = 0;
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return failed(fmt::format("cannot be opened: {}", std::strerror(errno)));
-  std::string text(kFileBytesMax + 1, '\0');
-  file.read(text.data(), static_cast<std::streamsize>(text.size()));
-  if (file.bad() || (file.fail() && !file.eof()))
-    return failed(fmt::format("cannot be read: {}", std::strerror(errno)));
-  text.resize(static_cast<std::size_t>(file.gcount()));
-  if (text.size() > kFileBytesMax) return failed("is larger than 1 MB: not a configuration");
-  return parse_config(text, path);
+  const auto text = read_config_file(path);
+  if (!text) return tl::unexpected(std::vector<ConfigError>{{path, 0, "", text.error()}});
+  return parse_config(*text, path);
 }
 
 }  // namespace axisgate::server

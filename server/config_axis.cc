@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <optional>
 #include <set>
 #include <string>
@@ -11,7 +10,8 @@
 
 #include "device/core/quantity.h"
 #include "server/config_name.h"
-#include "server/explain.h"
+#include "server/config_quantity.h"
+#include "server/config_stage.h"
 
 namespace axisgate::server {
 namespace {
@@ -22,49 +22,9 @@ using shrc203::NarrowerLimits;
 
 constexpr std::array<std::string_view, 4> kLimits = {"travel_minimum", "travel_maximum", "maximum_speed", "home_first"};
 
-// A long double holds the 18 digits of a Decimal.
-long double in_smallest_unit(const Quantity& quantity) {
-  const int power = quantity.unit == Unit::millimeters ? 6 : quantity.unit == Unit::micrometers ? 3 : 0;
-  return static_cast<long double>(quantity.value.digits) * std::pow(10.0L, power - quantity.value.decimals);
-}
-
-bool is_length(Unit unit) { return unit != Unit::pulses && unit != Unit::degrees; }
-
-// Nothing where one is missing, or where only the controller can tell, which knows what a pulse is.
-std::optional<bool> below(const std::optional<Quantity>& a, const std::optional<Quantity>& b) {
-  if (!a || !b || (a->unit != b->unit && !(is_length(a->unit) && is_length(b->unit)))) return std::nullopt;
-  return in_smallest_unit(*a) < in_smallest_unit(*b);
-}
-
-using Parse = Result<Quantity> (*)(std::string_view, Unit);
-std::optional<Quantity> read_quantity(ConfigTable& table, std::string_view key, Unit shown, Parse parse) {
-  const std::optional<std::string> text = table.text(key);
-  if (!text) return std::nullopt;
-  const Result<Quantity> parsed = parse(*text, shown);
-  if (!parsed) {
-    table.error(key, explain(parsed.error()));
-    return std::nullopt;
-  }
-  // Pulses go with either kind of axis.
-  const bool either = parsed->unit == Unit::pulses || shown == Unit::pulses;
-  if (!either && is_length(parsed->unit) != is_length(shown)) {
-    table.error(key, fmt::format("is in {}, but the axis is shown in {}; an axis turns or slides, not both",
-                                 symbol(parsed->unit), symbol(shown)));
-  }
-  return *parsed;
-}
-
 void read_limits(ConfigTable& table, Unit shown, AxisLimits& limits) {
-  limits.travel_minimum = read_quantity(table, "travel_minimum", shown, parse_quantity);
-  limits.travel_maximum = read_quantity(table, "travel_maximum", shown, parse_quantity);
-  limits.maximum_speed = read_quantity(table, "maximum_speed", shown, parse_speed);
+  read_bounds(table, shown, limits);
   limits.home_first = table.flag("home_first").value_or(false);
-  if (limits.maximum_speed && limits.maximum_speed->value.digits <= 0) {
-    table.error("maximum_speed", "must be above 0");
-  }
-  if (below(limits.travel_minimum, limits.travel_maximum) == false) {
-    table.error("travel_minimum", "must be below travel_maximum");
-  }
 }
 
 // What is wider than everybody's changes nothing, which nobody would notice.
@@ -119,20 +79,21 @@ std::string read_whose(ConfigTable& table) {
   return *whose;
 }
 
-AxisProfile read_axis(ConfigTable& table) {
+AxisProfile read_axis(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors) {
   AxisProfile axis;
   axis.name = table.text("name").value_or("");
   if (!axis.name.empty() && !is_name(axis.name)) {
     table.error("name", fmt::format("\"{}\" is not a name; use {}", axis.name, kNameRule));
   }
-  if (const std::optional<std::string> unit = table.text("unit")) {
-    if (const Result<Unit> parsed = parse_unit(*unit)) {
-      axis.unit = *parsed;
-    } else {
-      table.error("unit", fmt::format("\"{}\" is not a unit; use pulse, nm, um, mm or deg", *unit));
-    }
+  const std::optional<Stage> stage = read_stage(table, file, errors);
+  if (stage) {
+    axis.unit = unit_on(table, *stage);
+  } else {
+    // The axis's own amounts are not to blame where its profile cannot be read.
+    axis.unit = read_unit(table, "unit").value_or(table.has("stage") ? Unit::pulses : axis.unit);
   }
   read_limits(table, axis.unit, axis);
+  if (stage) put_on_stage(table, *stage, axis);
   return axis;
 }
 
@@ -140,6 +101,7 @@ NarrowerLimits read_narrower(ConfigTable& table, const AxisProfile& axis) {
   NarrowerLimits narrower;
   narrower.whose = read_whose(table);
   read_limits(table, axis.unit, narrower);
+  if (axis.stage) check_whole_pulses(table, *axis.stage, narrower);
   if (std::ranges::none_of(kLimits, [&](std::string_view key) { return table.has(key); })) {
     table.error("whose", fmt::format("is limited in nothing; give some of {}", fmt::join(kLimits, ", ")));
   }
@@ -166,7 +128,7 @@ void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigErr
     if (number && !numbers.insert(*number).second) {
       table.error("number", fmt::format("{} is the number of another axis of this device, too", *number));
     }
-    AxisProfile axis = read_axis(table);
+    AxisProfile axis = read_axis(table, file, errors);
     if (!axis.name.empty() && !names.insert(axis.name).second) {
       table.error("name", fmt::format("\"{}\" is the name of another axis of this device, too", axis.name));
     }

@@ -72,6 +72,9 @@ class ConfigTable {
     return node == nullptr ? nullptr : node->as_table();
   }
 
+  // Without an error, whatever the key holds.
+  bool holds_table(std::string_view key) const { return table_.get(key) != nullptr && table_.get(key)->is_table(); }
+
   std::optional<std::vector<std::string>> texts(std::string_view key) {
     const toml::node* node = find(key);
     if (node == nullptr) return std::nullopt;

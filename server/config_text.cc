@@ -117,12 +117,22 @@ void write_limits(TomlWriter& out, const shrc203::AxisLimits& limits) {
   if (limits.home_first) out.key("home_first", "true");
 }
 
+void write(TomlWriter& out, const shrc203::StageProfile& stage) {
+  const Unit unit = stage.pulse.rotary ? Unit::degrees : Unit::nanometers;
+  out.table("[device.axis.stage]");
+  out.text("name", stage.model);
+  out.key("kind", word(kStageKinds, stage.pulse.rotary));
+  out.quantity("pulse", Quantity{from_pulses(1, unit, stage.pulse).value_or(Decimal{}), unit});
+  if (stage.modulo) out.quantity("modulo", Quantity{*stage.modulo, Unit::degrees});
+}
+
 void write(TomlWriter& out, int number, const shrc203::AxisProfile& axis) {
   out.table("[[device.axis]]");
   out.number("number", number);
   if (!axis.name.empty()) out.text("name", axis.name);
   out.text("unit", symbol(axis.unit));
   write_limits(out, axis);
+  if (axis.stage) write(out, *axis.stage);
   for (const shrc203::NarrowerLimits& narrower : axis.narrower) {
     out.table("[[device.axis.narrower]]");
     out.text("whose", narrower.whose);

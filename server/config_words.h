@@ -17,6 +17,7 @@ inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = 
     {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
 inline constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
     {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, bool>, 2> kStageKinds = {{{"linear", false}, {"rotary", true}}};
 inline constexpr std::array<std::pair<std::string_view, Role>, 4> kRoles = {
     {{"nobody", Role::nobody}, {"observer", Role::observer}, {"operator", Role::operator_}, {"admin", Role::admin}}};
 inline constexpr std::array<std::pair<std::string_view, shrc203::AtExit>, 2> kAtExit = {

@@ -111,6 +111,33 @@ home_first = true
   EXPECT_EQ(to_toml(*again), text);
 }
 
+TEST(ConfigText, AStageIsReadAsTheSame) {
+  const std::string axis = R"([[device.axis]]
+number = 3
+unit = "pulse"
+travel_minimum = "-2.5deg"
+maximum_speed = "30deg/s"
+
+[device.axis.stage]
+name = "OSMS-60YAW"
+kind = "rotary"
+pulse = "0.0025deg"
+modulo = "360deg"
+
+[[device.axis.narrower]]
+whose = "operator"
+travel_maximum = "90deg"
+)";
+  const auto config = parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const std::string text = to_toml(*config);
+  EXPECT_THAT(text, HasSubstr(axis));
+  const Configured<Config> again = parse_config(text, "again.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front()) << text;
+  EXPECT_EQ(to_toml(*again), text);
+  EXPECT_EQ(again->devices.at(0).profile.axes[2].stage->pulse, (Scale{{2500, 0}, true}));
+}
+
 TEST(ConfigText, TellsTheBuiltInConfiguration) {
   const Configured<Config> again = parse_config(to_toml(default_config()), "again.toml");
   ASSERT_TRUE(again) << to_string(again.error().front());
