@@ -37,10 +37,10 @@ std::string speed_text(const v1::Axis& axis) {
 
 std::string axis_text(const v1::Axis& axis) {
   if (!axis.controllable()) return fmt::format("axis {}  {}  not controllable", axis.number(), label(axis));
-  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}", axis.number(),
+  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}{}", axis.number(),
                      label(axis), position_text(axis), known(axis.has_busy(), axis.busy()),
                      known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits(),
-                     speed_text(axis));
+                     speed_text(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
 }
 
 void print_status(const v1::Device& device) {
@@ -56,6 +56,7 @@ void print_status(const v1::Device& device) {
   print_line(fmt::format("outputs {}  trigger {}", device.has_outputs() ? pins_text(device.outputs(), "OUT") : "?",
                          device.has_trigger() ? trigger_text(device.trigger()) : "?"));
   for (const v1::Axis& axis : device.axes()) {
+    if (!axis.stage_problem().empty()) print_line(fmt::format("WRONG STAGE: {}", axis.stage_problem()));
     if (axis.armed()) print_line(fmt::format("ARMED: the inputs may start axis {}", axis.number()));
     if (axis.foreign_motion())
       print_line(fmt::format("FOREIGN MOTION: nobody asked for that of axis {} here", axis.number()));

@@ -134,7 +134,11 @@ Unit core_unit(v1::Unit unit) {
 }
 
 std::string position_text(const v1::Axis& axis) {
-  if (!axis.position().empty()) return fmt::format("{} {}", axis.position(), symbol(core_unit(axis.unit())));
+  const bool turned = !axis.position_in_turn().empty() && axis.position_in_turn() != axis.position();
+  const std::string in_turn = turned ? fmt::format(" ({} deg in the turn)", axis.position_in_turn()) : "";
+  if (!axis.position().empty()) {
+    return fmt::format("{} {}{}", axis.position(), symbol(core_unit(axis.unit())), in_turn);
+  }
   if (axis.has_position_pulses()) return fmt::format("{} pulse", axis.position_pulses());
   return "unknown";
 }

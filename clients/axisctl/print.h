@@ -32,7 +32,8 @@ std::string label(const v1::Axis& axis);
 
 Unit core_unit(v1::Unit unit);
 
-// "2.5 mm"; in pulses where the scale is not known; "unknown" where the position is not.
+// "2.5 mm", "370 deg (10 deg in the turn)"; in pulses where the scale is not known; "unknown" where the position is
+// not.
 std::string position_text(const v1::Axis& axis);
 std::string position_text(const v1::Axis& axis, std::int64_t pulses);
 

@@ -8,6 +8,7 @@
 
 #include "device/core/escape.h"
 #include "device/link/clock.h"
+#include "device/shrc203/envelope.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/status.h"
@@ -45,6 +46,18 @@ std::string position(const shrc203::AxisState& axis, Unit unit) {
   if (!axis.position_pulses || (unit != Unit::pulses && !axis.scale)) return "";
   const Result<Decimal> shown = from_pulses(*axis.position_pulses, unit, axis.scale.value_or(Scale{}));
   return shown ? to_string(*shown) : "";
+}
+
+void fill_stage(int number, const shrc203::Profile& profile, const shrc203::State& state, api::Axis& axis) {
+  const auto& stage = profile.axes[static_cast<std::size_t>(number - 1)].stage;
+  if (!stage) return;
+  axis.set_stage(stage->model);
+  const auto fits = shrc203::Envelope(profile, state, "", "").check_stage(number);
+  if (!fits) axis.set_stage_problem(fits.error().message);
+  const shrc203::AxisState& now = state.axis(number);
+  if (!stage->modulo || !now.position_pulses || !now.scale) return;
+  const Result<Decimal> place = within_turn(*now.position_pulses, *stage->modulo, *now.scale);
+  if (place) axis.set_position_in_turn(to_string(*place));
 }
 
 void fill_limits(const shrc203::AxisProfile& profile, api::Axis& axis) {
@@ -167,8 +180,9 @@ api::Device to_proto(const server::Device& device, const shrc203::State& state) 
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
   for (int number = 1; number <= shrc203::kAxisCount; ++number) {
-    fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number),
-              *proto.add_axes());
+    api::Axis& axis = *proto.add_axes();
+    fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number), axis);
+    fill_stage(number, device.profile(), state, axis);
   }
   if (state.outputs) proto.set_outputs(*state.outputs);
   if (state.trigger) fill_trigger(*state.trigger, *proto.mutable_trigger());

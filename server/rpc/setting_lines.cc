@@ -68,7 +68,7 @@ void add_speeds(int number, const api::Profile& profile, const shrc203::AxisStat
   const auto pulses_of = [&](bool given, const api::Speed& speed) -> std::optional<std::int64_t> {
     if (!given) return {};
     const auto quantity = to_quantity(speed);
-    const auto pulses = quantity ? to_pulses(*quantity, *present.scale) : tl::unexpected(quantity.error());
+    const auto pulses = quantity ? to_pulses_per_second(*quantity, *present.scale) : tl::unexpected(quantity.error());
     if (!pulses) writer.refuse(on_axis(number, pulses.error()));
     return pulses ? std::optional(*pulses) : std::nullopt;
   };
@@ -106,7 +106,8 @@ void add_origin_speeds(int number, const api::Profile& profile, const shrc203::A
   }
   const auto speeds = to_profile(profile, origin);
   if (!speeds) return writer.refuse(on_axis(number, speeds.error()));
-  const auto minimum = to_pulses(speeds->minimum, *present.scale), maximum = to_pulses(speeds->maximum, *present.scale);
+  const auto minimum = to_pulses_per_second(speeds->minimum, *present.scale),
+             maximum = to_pulses_per_second(speeds->maximum, *present.scale);
   for (const auto& speed : {minimum, maximum}) {
     if (!speed) return writer.refuse(on_axis(number, speed.error()));
   }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <utility>
 
+#include "device/shrc203/envelope.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
@@ -32,6 +33,17 @@ Controller::OnStarted tell_started(std::shared_ptr<UnaryCall<Response>> call, se
   };
 }
 
+Result<void> check_home(const shrc203::HomeRequest& home, const shrc203::Profile& profile,
+                        const shrc203::State& state) {
+  const auto axes = controllable_axes(home.axes, state);
+  if (!axes) return tl::unexpected(axes.error());
+  const shrc203::Envelope envelope(profile, state, home.context.who, "");
+  for (const int axis : axes->list()) {
+    if (const auto good = envelope.check_stage(axis); !good) return good;
+  }
+  return {};
+}
+
 // Home and ReturnToOrigin, which differ in the controller's member alone.
 template <class Response, class Request>
 grpc::ServerUnaryReactor* home(server::Gateway& gateway, const server::Access& access,
@@ -48,8 +60,8 @@ grpc::ServerUnaryReactor* home(server::Gateway& gateway, const server::Access& a
                    home = shrc203::HomeRequest{*named, *std::move(asked)}](Controller& controller, TimePoint now) {
     if (!validate_only) {
       (controller.*start)(home, now, tell_started(call, device));
-    } else if (const auto axes = controllable_axes(home.axes, controller.state()); !axes) {
-      call->refuse(axes.error());
+    } else if (const auto checked = check_home(home, device.profile(), controller.state()); !checked) {
+      call->refuse(checked.error());
     } else {
       call->answer([](Response&) {});
     }

@@ -28,7 +28,7 @@ tl::unexpected<Problem> profile_needs(std::string_view what) {
 Result<Quantity> minimum_under(const Quantity& maximum, const shrc203::AxisState& axis) {
   if (!axis.minimum_speed) return profile_needs("minimum speed S");
   if (maximum.unit != Unit::pulses && !axis.scale) return profile_needs("scale");
-  const Result<std::int64_t> highest = to_pulses(maximum, axis.scale.value_or(Scale{}));
+  const Result<std::int64_t> highest = to_pulses_per_second(maximum, axis.scale.value_or(Scale{}));
   if (!highest) return tl::unexpected(highest.error());
   return pulses(std::min(*axis.minimum_speed, *highest));
 }

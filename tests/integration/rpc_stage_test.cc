@@ -1,0 +1,66 @@
+// A stage of another pulse than its profile's, over gRPC: what is refused before anything is done, and what is shown.
+#include <gmock/gmock.h>
+
+#include "tests/integration/rpc_fixture.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using ::testing::HasSubstr;
+
+// 10 nm a pulse: axis 1 has another stage, axis 2 turns, axis 3 has no profile.
+class RpcStage : public RpcTest {
+ protected:
+  void configure(server::Config& config) override {
+    auto& axes = config.devices[0].profile.axes;
+    axes[0].stage = shrc203::StageProfile{"Other", {{20, 0}, false}, {}};
+    axes[1].unit = Unit::degrees;
+    axes[1].stage = shrc203::StageProfile{"Turner", {{10, 0}, true}, Decimal{5, 0}};
+  }
+
+  api::Device device() {
+    grpc::ClientContext context;
+    limit(context);
+    api::GetDeviceRequest request;
+    request.set_name("devices/stage");
+    request.mutable_max_age();
+    api::GetDeviceResponse response;
+    EXPECT_TRUE(devices_->GetDevice(&context, request, &response).ok());
+    return response.device();
+  }
+
+  grpc::Status would_home(int axis) {
+    grpc::ClientContext context;
+    limit(context);
+    api::HomeRequest request;
+    request.set_device("devices/stage");
+    request.add_axes(axis);
+    request.set_validate_only(true);
+    api::HomeResponse response;
+    return stage_->Home(&context, request, &response);
+  }
+};
+
+TEST_F(RpcStage, IsToldWithEveryAxis) {
+  const api::Device shown = device();
+  ASSERT_EQ(shown.axes_size(), 3);
+  EXPECT_EQ(shown.axes(0).stage(), "Other");
+  EXPECT_THAT(shown.axes(0).stage_problem(), HasSubstr("10 nm by the controller (?:P) and 20 nm by the profile"));
+  EXPECT_EQ(shown.axes(0).position_in_turn(), "");
+  EXPECT_EQ(shown.axes(1).stage(), "Turner");
+  EXPECT_EQ(shown.axes(1).stage_problem(), "");
+  EXPECT_EQ(shown.axes(1).position_in_turn(), "0");
+  EXPECT_EQ(shown.axes(2).stage() + shown.axes(2).stage_problem() + shown.axes(2).position_in_turn(), "");
+}
+
+TEST_F(RpcStage, WhatIsOnlyCheckedIsRefusedAlike) {
+  api::MoveRequest request = move_request(1, "1");
+  request.set_validate_only(true);
+  EXPECT_EQ(reason(move(request)), api::REASON_IDENTITY_MISMATCH);
+  EXPECT_EQ(reason(would_home(1)), api::REASON_IDENTITY_MISMATCH);
+  EXPECT_TRUE(would_home(2).ok());
+  EXPECT_EQ(motion_count(), 0);
+}
+
+}  // namespace
+}  // namespace axisgate::rpc
