@@ -13,11 +13,48 @@ constexpr HelpTopic kTopics[] = {
     {"position", "", "axisctl position"},
     {"commands", "", "axisctl commands M:"},
     {"home", "", "axisctl home 1,2"},
-    {"move", "An amount is a position, with --relative a way. `axisctl help units` says how to write it.",
+    {"move",
+     R"(An amount is a position, with --relative a way. `axisctl help units` says how to write it. With --approach each axis
+comes to its target by that way in the end, always from the same side, so that the play of its screw does not count.)",
      R"(axisctl move 1=+1mm 2=-200um --relative --speed 2mm/s
-axisctl move 1=0.5mm --wait 60)"},
-    {"path", "One segment a line, every segment with the same axes: 1=1mm 2=-500um speed=2mm/s   # comment",
-     R"(printf '1=1mm 2=-500um speed=2mm/s\n1=-1mm 2=500um\n' | axisctl path -)"},
+axisctl move 1=0.5mm --wait 60
+axisctl move 1=0.4mm 2=0 --approach 10um)"},
+    {"path", "`axisctl help paths` says how a segment is written.",
+     R"(printf '1=1mm 2=-500um speed=2mm/s\n1=-1mm 2=500um\n' | axisctl path -
+printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | axisctl path - --speed 1mm/s)"},
+    {"line", "A path of one straight line; `axisctl help paths` says how it is written.",
+     "axisctl line 1=0.1mm 2=-50um --speed 1mm/s"},
+    {"arc", "A path of one arc; `axisctl help paths` says how it is written.",
+     R"(axisctl arc around 1=0 2=50um ccw 90deg --speed 1mm/s
+axisctl arc through 1=20um 2=30um to 1=50um 2=20um --speed 1mm/s)"},
+    {"scan", "`axisctl help scans` says when the pulses come.",
+     "axisctl scan 1 0mm 0.5mm --every 1000\naxisctl scan 1 0.5mm 0.25mm --every 500 --speed 100um/s"},
+    {"paths",
+     R"(A path is one segment a line, every segment with the same axes; # begins a comment. Amounts are ways from where the
+segment begins, with --absolute positions. A segment is a straight line, a piece of a circle around a center, cw or ccw, by
+an angle or whole turns, or one through a point to an end. The lower axis points to the right, the other one up. In a helix
+axis 3 rises meanwhile, by so much in one turn or in all of less than one turn: a way, with --absolute, too.
+
+  1=1mm 2=-500um speed=2mm/s
+  around 1=0 2=1mm ccw 90deg
+  around 1=0 2=1mm cw 2turns rise 3=0.1mm
+  through 1=1mm 2=1mm to 1=2mm 2=0
+
+Any of them may have speed=2mm/s, the speed along it; rest=0.5s, for which the axes stand before it; and inputs=5, until the
+inputs show which they stand before it (5: IN1 and IN3 on, the others off; only where the configuration has
+wait_for_inputs).)",
+     R"(printf 'around 1=0 2=50um cw 1turn\nthrough 1=20um 2=30um to 1=50um 2=20um rest=0.1s\n' | axisctl path - --speed 1mm/s
+printf 'around 1=0 2=50um cw 2turns rise 3=10um\n' | axisctl path - --speed 1mm/s)"},
+    {"scans",
+     R"(One axis runs from FROM to TO at constant speed, and the trigger output gives a pulse every so many drive pulses, or with
+--scale pulses of its scale. The controller compares no positions: pulses come every so many pulses from the arming of the
+trigger on, also while the axis speeds up and slows down. So it sets out before FROM, by a whole number of intervals: one
+pulse falls on FROM, the next ones on multiples of the interval behind it. When it stands the trigger is again what it
+was. Faster than 56000 pulses/s, where pulses may be missing, is refused. There is one trigger, so a scan needs the right to
+all axes. Told at its end: where the axis ran, how many pulses were due in the range and in all, and how many the way that
+it was seen to go comes to; the controller itself does not tell how many it gave.)",
+     R"(axisctl scan 2 0mm 0.1mm --every 500 --speed 200um/s
+axisctl --json scan 2 0.1mm 0mm --every 500)"},
     {"jog", "", "axisctl jog 1=- --speed 200um/s --seconds 1"},
     {"stop", "", "axisctl stop"},
     {"rearm", "", "axisctl rearm"},
@@ -103,7 +140,8 @@ axisctl trigger off)"},
      "axisctl reset"},
     {"",
      R"(Amounts have a unit: pulse, nm, um, mm, deg; without one they are in the axis's own. AXIS is a number or the
-axis's configured name. `axisctl help VERB` has examples of each verb; other topics are units, leases, settings, triggers.)",
+axis's configured name. `axisctl help VERB` has examples of each verb; other topics are units, paths, scans,
+leases, settings, triggers.)",
      R"(axisctl home
 axisctl move 1=+1mm 2=-200um --relative
 axisctl jog 1=+ --speed 200um/s   # until Ctrl-C

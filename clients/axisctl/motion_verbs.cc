@@ -1,4 +1,4 @@
-// home and move: ask, then wait for the outcome.
+// home, move and scan: ask, then wait for the outcome.
 #include <functional>
 #include <optional>
 
@@ -41,6 +41,9 @@ v1::AxisTarget target(const Session& session, const v1::Device& device, const st
   if (session.options.acceleration_ms != 0) {
     target.mutable_profile()->set_acceleration_ms(session.options.acceleration_ms);
   }
+  if (!session.options.approach.empty()) {
+    *target.mutable_approach() = parse_amount_for(axis, session.options.approach);
+  }
   return target;
 }
 
@@ -64,6 +67,29 @@ int move(const Session& session) {
   for (const std::string& place : session.options.places) *request.add_targets() = target(session, device, place);
   return start_and_wait(session, device, [&] {
     return session.connection.call(session.connection.stage, &v1::StageService::Stub::Move, request, kStartLimit)
+        .motion();
+  });
+}
+
+int scan(const Session& session) {
+  const Options& options = session.options;
+  const v1::Device device = chosen_device(session);
+  const v1::Axis& axis = find_axis(device, options.axis);
+  v1::ScanRequest request;
+  *request.mutable_context() = new_call_context();
+  request.set_device(device.name());
+  request.set_axis(axis.number());
+  *request.mutable_from() = parse_amount_for(axis, options.from);
+  *request.mutable_to() = parse_amount_for(axis, options.to);
+  if (!options.speed.empty()) *request.mutable_speed() = parse_speed_for(axis, options.speed);
+  request.set_acceleration_ms(options.acceleration_ms);
+  if (options.by_scale) {
+    request.set_scale_pulses(options.every);
+  } else {
+    request.set_drive_pulses(options.every);
+  }
+  return start_and_wait(session, device, [&] {
+    return session.connection.call(session.connection.stage, &v1::StageService::Stub::Scan, request, kScanStartLimit)
         .motion();
   });
 }

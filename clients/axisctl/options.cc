@@ -52,6 +52,28 @@ void add_speed(CLI::App& verb, Options& options) {
       ->type_name("MS");
 }
 
+void add_manner_of_path(CLI::App& verb, Options& options) {
+  verb.add_flag("--absolute", options.absolute, "the amounts are positions, not ways");
+  add_speed(verb, options);
+  add_waiting(verb, options);
+  add_wait(verb, options);
+}
+
+void add_scan(CLI::App& app, Options& options) {
+  CLI::App* scan = add_verb(app, options, Verb::scan, "scan", "run over a range with pulses at the trigger output");
+  scan->add_option("AXIS", options.axis, "number or name")->required()->type_name("");
+  scan->add_option("FROM", options.from, "where the range begins, as 0mm")->required()->type_name("");
+  scan->add_option("TO", options.to, "where it ends, as 1mm")->required()->type_name("");
+  scan->add_option("--every", options.every, "a trigger pulse every so many drive pulses, 2 to 30000")
+      ->required()
+      ->check(CLI::Range(2, 30'000))
+      ->type_name("PULSES");
+  scan->add_flag("--scale", options.by_scale, "every so many pulses of the scale, instead of drive pulses");
+  add_speed(*scan, options);
+  add_waiting(*scan, options);
+  add_wait(*scan, options);
+}
+
 void add_motion_verbs(CLI::App& app, Options& options) {
   CLI::App* home = add_verb(app, options, Verb::home, "home", "find the mechanical origin of the axes");
   add_axes(*home, options);
@@ -62,16 +84,23 @@ void add_motion_verbs(CLI::App& app, Options& options) {
   CLI::App* move = add_verb(app, options, Verb::move, "move", "move axes to positions, or by ways");
   move->add_option("AXIS=AMOUNT", options.places, "as 1=+5mm 2=-200um")->required()->type_name("");
   move->add_flag("--relative", options.relative, "the amounts are ways from where the axes are");
+  move->add_option("--approach", options.approach,
+                   "the last way of each axis to its target, as 10um: always from below")
+      ->type_name("AMOUNT");
   add_speed(*move, options);
   add_waiting(*move, options);
   add_wait(*move, options);
 
   CLI::App* path = add_verb(app, options, Verb::path, "path", "run segments one after another without a halt");
   path->add_option("FILE", options.file, "one segment a line; - is the standard input")->required()->type_name("");
-  path->add_flag("--absolute", options.absolute, "the amounts are positions, not ways");
-  add_speed(*path, options);
-  add_waiting(*path, options);
-  add_wait(*path, options);
+  add_manner_of_path(*path, options);
+  CLI::App* line = add_verb(app, options, Verb::line, "line", "run a straight line");
+  line->add_option("AXIS=AMOUNT", options.lines, "as 1=1mm 2=-500um")->required()->type_name("");
+  add_manner_of_path(*line, options);
+  CLI::App* arc = add_verb(app, options, Verb::arc, "arc", "run a circle, an arc or a helix");
+  arc->add_option("COURSE", options.lines, "as around 1=0 2=1mm ccw 90deg")->required()->type_name("");
+  add_manner_of_path(*arc, options);
+  add_scan(app, options);
 
   CLI::App* jog = add_verb(app, options, Verb::jog, "jog", "run axes until Ctrl-C");
   jog->add_option("AXIS=DIRECTION", options.places, "as 1=+ 2=-")->required()->type_name("");
@@ -266,7 +295,8 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_simulator_verb(app, options);
   add_recording_verbs(app, options);
   add_setting_verbs(app, options);
-  CLI::App* help = app.add_subcommand("help", "this, or about one verb, or: units, leases, settings, triggers");
+  CLI::App* help =
+      app.add_subcommand("help", "this, or about one verb, or: units, paths, scans, leases, settings, triggers");
   help->add_option("TOPIC", help_topic)->type_name("");
   help->add_flag("--list-examples", examples)->group("");
   app.footer(help_text("") + kExitCodes);  // last, or every verb's help would repeat it

@@ -16,6 +16,9 @@ enum class Verb {
   home,
   move,
   path,
+  line,
+  arc,
+  scan,
   jog,
   stop,
   estop,
@@ -75,28 +78,32 @@ struct Options {
 
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
-  std::vector<std::string> lines;   // exec; lease run, sim: the command and its words
+  std::vector<std::string> lines;   // exec; lease run, sim: the command and its words; line, arc: the segment's
   std::string file;                 // path, replay; "-" is the standard input
   std::string output;               // record, support: a file; empty: as the verb does by itself
   std::string command;              // commands: one row only
-  std::string speed;                // move, path, jog; empty: as the axis is set, jog: its lowest
-  int acceleration_ms = 0;          // move, path, speed; 0: as the axis is set
+  std::string speed;                // motions; empty: as the axis is set, jog: its lowest
+  int acceleration_ms = 0;          // motions, speed; 0: as the axis is set
+  std::string approach;             // move; empty: straight there
+  std::string from, to;             // scan
+  int every = 0;                    // scan: pulses
+  bool by_scale = false;            // scan: of the scale
   std::string minimum, maximum;     // speed; empty: as the axis is set
   bool origin_return = false;       // speed: those of the origin return
   std::string value;                // motor, loop, settle, display, beep, mode, dialect, outputs: the new one
   int divisions = 0;                // divisions
   std::vector<int> outputs;         // outputs: those to be switched
   std::string interval;             // trigger every
-  std::string axis, scale;          // trigger every: whose pulses, and the scale's in direction "+" or "-"
+  std::string axis, scale;          // trigger every: whose pulses, and the scale's in direction "+" or "-"; scan: axis
   bool relative = false;            // move
-  bool absolute = false;            // path
+  bool absolute = false;            // path, line, arc
   bool logical = false;             // home
-  bool no_wait = false;             // home, move, path
+  bool no_wait = false;             // motions
   bool no_follow = false;           // record
   bool only_new = false;            // record
   std::optional<int> seconds;       // record, jog
   std::optional<std::uint64_t> from_revision;  // watch
-  std::optional<int> wait_s;                   // home, move, path, jog, lease run: for a lease that another holds
+  std::optional<int> wait_s;                   // motions, lease run: for a lease that another holds
   bool take_over = false;                      // lease run
   bool follow = false;                         // lease list
   std::string at_loss = "stop";                // lease run

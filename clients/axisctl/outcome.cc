@@ -23,11 +23,17 @@ std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
   return fmt::format("{}", fmt::join(ends, ", "));
 }
 
-Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
+// "; x ran from ..." of a scan that has set out.
+std::string scan_of(const Session& session, const v1::Device& device, const v1::Motion& motion) {
+  return motion.has_scan() ? "; " + scan_text(find_axis(device, session.options.axis), motion.scan()) : "";
+}
+
+Failure to_failure(const Session& session, const v1::Device& device, const v1::Motion& motion) {
   Failure failure = axisctl::to_failure(motion.problem());
   failure.exit_code = kMotionFailed;
   if (!motion.has_problem()) failure = {kMotionFailed, state_name(motion.state()), "the motion did not succeed", ""};
   if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now at " + ends;
+  failure.message += scan_of(session, device, motion);
   return failure;
 }
 
@@ -60,8 +66,8 @@ int report_outcome(const Session& session, const v1::Device& device, const v1::M
     *outcome.mutable_motion() = motion;
     print_json(outcome);
   }
-  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(device, motion);
-  if (!session.options.json) print_line("done: " + ends_text(device, motion));
+  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(session, device, motion);
+  if (!session.options.json) print_line("done: " + ends_text(device, motion) + scan_of(session, device, motion));
   return kDone;
 }
 

@@ -2,10 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <sstream>
-#include <utility>
-
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 
@@ -25,44 +21,6 @@ std::int64_t whole_pulses(const Quantity& quantity) {
   if (quantity.value.decimals == 0) return quantity.value.digits;
   throw usage(fmt::format("{} is not a whole number of pulses", to_string(quantity.value)),
               "pulses are whole; give a length to have it converted");
-}
-
-// The path's speed belongs to its lower axis (manual 2.4), so a bare number is in that axis's unit.
-const v1::Axis& lowest_axis(const v1::Device& device, const std::vector<v1::AxisDistance>& places) {
-  const auto lowest =
-      std::min_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.axis() < b.axis(); });
-  return find_axis(device, std::to_string(lowest->axis()));
-}
-
-v1::Segment parse_segment(const v1::Device& device, const PathOptions& options, const std::vector<std::string>& words) {
-  std::vector<v1::AxisDistance> places;
-  std::string speed = options.speed;
-  for (const std::string& word : words) {
-    constexpr std::string_view prefix = "speed=";
-    if (word.rfind(prefix, 0) == 0) {
-      speed = word.substr(prefix.size());
-    } else {
-      places.push_back(parse_place(device, word));
-    }
-  }
-  if (places.empty()) throw usage("no axis is named", "write AXIS=AMOUNT, as 1=+5mm");
-  v1::Segment segment;
-  if (places.size() == 1) {
-    *segment.mutable_single() = places.front();
-  } else {
-    segment.mutable_line()->mutable_distances()->Add(places.begin(), places.end());
-  }
-  segment.set_relative(!options.absolute);
-  segment.set_acceleration_ms(options.acceleration_ms);
-  if (!speed.empty()) *segment.mutable_speed() = parse_speed_for(lowest_axis(device, places), speed);
-  return segment;
-}
-
-std::vector<std::string> words_of(const std::string& line) {
-  std::istringstream stream(line.substr(0, line.find('#')));
-  std::vector<std::string> words;
-  for (std::string word; stream >> word;) words.push_back(word);
-  return words;
 }
 
 }  // namespace
@@ -134,17 +92,21 @@ v1::Speed parse_speed_for(const v1::Axis& axis, std::string_view text) {
   return to_speed(*speed);
 }
 
+v1::Distance parse_amount_for(const v1::Axis& axis, std::string_view text) {
+  const Result<Quantity> amount = parse_quantity(text, core_unit(axis.unit()));
+  if (!amount) throw to_usage(amount.error());
+  return to_distance(*amount);
+}
+
 v1::AxisDistance parse_place(const v1::Device& device, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
     throw usage(fmt::format("\"{}\" is not AXIS=AMOUNT", text), "as 1=+5mm");
   }
   const v1::Axis& axis = find_axis(device, text.substr(0, equals));
-  const Result<Quantity> amount = parse_quantity(text.substr(equals + 1), core_unit(axis.unit()));
-  if (!amount) throw to_usage(amount.error());
   v1::AxisDistance place;
   place.set_axis(axis.number());
-  *place.mutable_distance() = to_distance(*amount);
+  *place.mutable_distance() = parse_amount_for(axis, text.substr(equals + 1));
   return place;
 }
 
@@ -166,24 +128,6 @@ std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std
   std::int64_t steps = value->digits;
   for (int decimal = value->decimals; decimal < decimals && steps <= most; ++decimal) steps *= 10;
   return steps <= most ? std::optional(steps) : std::nullopt;
-}
-
-std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions& options, std::istream& input,
-                                    const std::string& file_name) {
-  std::vector<v1::Segment> segments;
-  std::string line;
-  for (int number = 1; std::getline(input, line); ++number) {
-    try {
-      const std::vector<std::string> words = words_of(line);
-      if (!words.empty()) segments.push_back(parse_segment(device, options, words));
-    } catch (Failure& failure) {
-      failure.message = fmt::format("{}:{}: {}", file_name, number, failure.message);
-      throw;
-    }
-  }
-  if (input.bad()) throw usage(fmt::format("{}: cannot be read to its end", file_name), "is it a file?");
-  if (segments.empty()) throw usage(fmt::format("{}: no segment in it", file_name), "write one a line, as 1=1mm 2=1mm");
-  return segments;
 }
 
 }  // namespace axisgate::axisctl

@@ -1,9 +1,7 @@
-// What people type as amounts, axes and paths. Decimals stay text from the keyboard to the daemon: they are exact
-// there.
+// What people type as amounts and axes. Decimals stay text from the keyboard to the daemon: they are exact there.
 #pragma once
 
 #include <cstdint>
-#include <istream>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -26,6 +24,9 @@ std::vector<int> find_axes(const v1::Device& device, const std::vector<std::stri
 v1::Distance to_distance(const Quantity& quantity);
 v1::Speed to_speed(const Quantity& quantity);
 
+// "+5mm"; a bare number is in the axis's unit.
+v1::Distance parse_amount_for(const v1::Axis& axis, std::string_view text);
+
 // "2mm/s"; a bare number is in the axis's unit.
 v1::Speed parse_speed_for(const v1::Axis& axis, std::string_view text);
 
@@ -37,15 +38,5 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text);
 
 // "0.2" with one decimal: 2 steps of 0.1. Nothing where it is no whole number of them, or not from 0 to `most`.
 std::optional<std::int64_t> parse_steps(std::string_view text, int decimals, std::int64_t most);
-
-struct PathOptions {
-  std::string speed;  // for the lines that name none; empty: as the axes are set
-  int acceleration_ms = 0;
-  bool absolute = false;
-};
-
-// "1=1mm 2=-500um speed=2mm/s": one segment. Nothing but a comment is no segment.
-std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions& options, std::istream& input,
-                                    const std::string& file_name);
 
 }  // namespace axisgate::axisctl

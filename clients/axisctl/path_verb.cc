@@ -1,4 +1,4 @@
-// path: read the file whole, send it, follow it.
+// path, line and arc: read the segments whole, send them, follow them.
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -8,7 +8,7 @@
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/outcome.h"
-#include "clients/axisctl/parse.h"
+#include "clients/axisctl/path_grammar.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
 
@@ -17,13 +17,14 @@ namespace {
 
 using PathStream = grpc::ClientReaderWriter<v1::RunPathRequest, v1::RunPathResponse>;
 
+PathOptions path_options(const Options& options) { return {options.speed, options.acceleration_ms, options.absolute}; }
+
 std::vector<v1::Segment> read_segments(const Options& options, const v1::Device& device) {
-  const PathOptions path_options{options.speed, options.acceleration_ms, options.absolute};
-  if (options.file == "-") return parse_path(device, path_options, std::cin, "standard input");
+  if (options.file == "-") return parse_path(device, path_options(options), std::cin, "standard input");
   std::ifstream file(options.file);
   if (!file)
     throw usage(fmt::format("{}: {}", options.file, std::strerror(errno)), "name a file, or - for the standard input");
-  return parse_path(device, path_options, file, options.file);
+  return parse_path(device, path_options(options), file, options.file);
 }
 
 void send_path(PathStream& stream, const v1::Device& device, const std::vector<v1::Segment>& segments) {
@@ -59,11 +60,7 @@ v1::Motion start_path(const Session& session, PathStream& stream, const v1::Devi
   throw Failure{kMotionFailed, "INTERNAL", "the daemon ended the call without starting the path", "see its log"};
 }
 
-}  // namespace
-
-int path(const Session& session) {
-  const v1::Device device = chosen_device(session);
-  const std::vector<v1::Segment> segments = read_segments(session.options, device);
+int run(const Session& session, const v1::Device& device, const std::vector<v1::Segment>& segments) {
   grpc::ClientContext context;
   if (session.options.no_wait) {
     const auto stream = session.connection.stage->RunPath(&context);
@@ -82,6 +79,28 @@ int path(const Session& session) {
   if (motion.state() < v1::MOTION_STATE_SUCCEEDED) motion = await_outcome(session, motion.name());
   follower.finish();
   return report_outcome(session, device, motion);
+}
+
+}  // namespace
+
+int path(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  return run(session, device, read_segments(session.options, device));
+}
+
+int line(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  const v1::Segment segment = parse_segment(device, path_options(session.options), session.options.lines);
+  if (segment.has_arc()) throw usage("that is no straight line", "axisctl arc runs it");
+  return run(session, device, {segment});
+}
+
+int arc(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  const v1::Segment segment = parse_segment(device, path_options(session.options), session.options.lines);
+  if (!segment.has_arc())
+    throw usage("that is a straight line", "axisctl line runs it; an arc begins with around or through");
+  return run(session, device, {segment});
 }
 
 }  // namespace axisgate::axisctl

@@ -196,6 +196,19 @@ std::string trigger_text(const v1::Trigger& trigger) {
   }
 }
 
+std::string scan_text(const v1::Axis& axis, const v1::Scan& scan) {
+  std::string text = fmt::format("{} ran from {} to {}", label(axis), position_text(axis, scan.run_from_pulses()),
+                                 position_text(axis, scan.run_to_pulses()));
+  if (scan.has_expected_triggers() && scan.has_expected_triggers_in_range()) {
+    text += fmt::format("; {} trigger pulses were due in its range, {} in all", scan.expected_triggers_in_range(),
+                        scan.expected_triggers());
+  } else {
+    text += "; how many trigger pulses were due is not known";
+  }
+  if (!scan.has_observed_triggers()) return text + "; how far it came is not known";
+  return text + fmt::format("; {} by the way that it was seen to go", scan.observed_triggers());
+}
+
 std::string positions_text(const v1::Device& device) {
   std::vector<std::string> parts;
   for (const v1::Axis& axis : device.axes()) {

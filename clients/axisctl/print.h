@@ -46,6 +46,10 @@ std::string pins_text(int bits, std::string_view name);
 // "every 500 drive pulses of axis 2".
 std::string trigger_text(const v1::Trigger& trigger);
 
+// "x ran from -0.1 mm to 1.1 mm; 101 trigger pulses are due in its range, 121 in all; 121 by the way it was seen to
+// go".
+std::string scan_text(const v1::Axis& axis, const v1::Scan& scan);
+
 // "x 2.5 mm, y 0 mm", the controllable axes.
 std::string positions_text(const v1::Device& device);
 

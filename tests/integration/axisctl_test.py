@@ -48,8 +48,8 @@ class WithoutDaemon(unittest.TestCase):
     def test_help_lists_every_verb(self):
         answer = self.run_axisctl("help")
         self.assertEqual(answer.returncode, 0)
-        for verb in ("devices status position home move path jog stop estop clear exec watch commands record replay "
-                     "support lease rearm whoami token").split():
+        for verb in ("devices status position home move path line arc scan jog stop estop clear exec watch commands "
+                     "record replay support lease rearm whoami token").split():
             self.assertRegex(answer.stdout, rf"(?m)^  {verb} +\w")
         self.assertIn("Exit codes", answer.stdout)
 

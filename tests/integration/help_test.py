@@ -22,7 +22,7 @@ connection = "simulated"
 """
 
 ENDLESS = "# until Ctrl-C"
-TOPICS = ("units", "leases", "settings", "triggers")
+TOPICS = ("units", "paths", "scans", "leases", "settings", "triggers")
 
 
 def axisctl(*arguments):
