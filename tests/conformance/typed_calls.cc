@@ -11,6 +11,8 @@ constexpr std::string_view kChanged = "SettingService.ChangeSettings";
 constexpr std::string_view kCoordinates = "SettingService.SetCoordinates";
 constexpr std::string_view kMoved = "StageService.Move";
 constexpr std::string_view kMovedOrRun = "StageService.Move, StageService.RunPath";
+constexpr std::string_view kRun = "StageService.RunPath";
+constexpr std::string_view kChangedOrScanned = "SettingService.ChangeSettings, StageService.Scan";
 
 constexpr TypedCall kTypedCalls[] = {
     // What changes nothing.
@@ -67,10 +69,10 @@ constexpr TypedCall kTypedCalls[] = {
     {"B:", kChanged, "speed --origin-return"},
     {"O:", kChanged, "outputs"},
     {"T:T", kChanged, "trigger every"},
-    {"T:P", kChanged, "trigger every"},
-    {"T:S", kChanged, "trigger off"},
+    {"T:P", kChangedOrScanned, "trigger every, scan"},
+    {"T:S", kChangedOrScanned, "trigger off, scan"},
     {"T:M", "SettingService.FireTrigger", "trigger fire"},
-    {"T:E", kChanged, "trigger every"},
+    {"T:E", kChangedOrScanned, "trigger every, scan --scale"},
     // Motion.
     {"H:", "StageService.Home", "home"},
     {"HRT:", "StageService.Home", "home"},
@@ -82,8 +84,23 @@ constexpr TypedCall kTypedCalls[] = {
     {"MP:", kMovedOrRun, "move, path"},
     {"A:", kMoved, "move"},
     {"AP:", kMovedOrRun, "move, path"},
-    {"KP:", "StageService.RunPath", "path"},
-    {"G:", "StageService.Move, StageService.RunPath, StageService.Jog", "move, path, jog"},
+    {"K:", kRun, "line, path"},
+    {"KP:", kRun, "line, path"},
+    {"E:0", kRun, "arc, path"},
+    {"E:1", kRun, "arc, path"},
+    {"E:2", kRun, "arc, path"},
+    {"E:3", kRun, "arc, path"},
+    {"E:4", kRun, "arc, path"},
+    {"E:5", kRun, "arc, path"},
+    {"EP:0", kRun, "arc, path"},
+    {"EP:1", kRun, "arc, path"},
+    {"EP:2", kRun, "arc, path"},
+    {"EP:3", kRun, "arc, path"},
+    {"EP:4", kRun, "arc, path"},
+    {"EP:5", kRun, "arc, path"},
+    {"WT:", kRun, "path"},
+    {"WI:", kRun, "path"},
+    {"G:", "StageService.Move, StageService.RunPath, StageService.Scan, StageService.Jog", "move, path, scan, jog"},
     {"J:", "StageService.Jog", "jog"},
     {"JD:", "StageService.Jog", "jog"},
 };
