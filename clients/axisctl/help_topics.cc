@@ -27,7 +27,9 @@ printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | a
     {"arc", "A path of one arc; `axisctl help paths` says how it is written.",
      R"(axisctl arc around 1=0 2=50um ccw 90deg --speed 1mm/s
 axisctl arc through 1=20um 2=30um to 1=50um 2=20um --speed 1mm/s)"},
-    {"scan", "`axisctl help scans` says when the pulses come.",
+    {"scan",
+     R"(The controller compares no positions: pulses come every so many pulses from the arming of the trigger on. The way before
+FROM is a whole number of intervals, so that one of them falls on FROM. `axisctl help scans` says more.)",
      "axisctl scan 1 0mm 0.5mm --every 1000\naxisctl scan 1 0.5mm 0.25mm --every 500 --speed 100um/s"},
     {"paths",
      R"(A path is one segment a line, every segment with the same axes; # begins a comment. Amounts are ways from where the

@@ -168,6 +168,23 @@ TEST_F(RpcTest, ABadSegmentIsNamed) {
   EXPECT_EQ(motion_count(), 0);
 }
 
+TEST_F(RpcTest, InputsStartNothing) {
+  grpc::ClientContext context;
+  limit(context);
+  const auto stream = stage_->RunPath(&context);
+  stream->Write(header());
+  api::RunPathRequest waits = segment("50");
+  waits.mutable_segment()->set_inputs(0);
+  stream->Write(waits);
+  stream->WritesDone();
+  api::RunPathResponse response;
+  EXPECT_FALSE(stream->Read(&response));
+  const grpc::Status status = stream->Finish();
+  EXPECT_EQ(status.error_code(), grpc::PERMISSION_DENIED);
+  EXPECT_EQ(reason(status), api::REASON_NOT_ALLOWED);
+  EXPECT_EQ(motion_count(), 0);
+}
+
 TEST_F(RpcTest, AClientThatBreaksOffAPathStartsNothing) {
   for (int i = 0; i < 20; ++i) {
     grpc::ClientContext context;
