@@ -5,6 +5,7 @@ import json
 import pathlib
 import subprocess
 import tempfile
+import time
 import unittest
 
 from programs import BIN, LIMIT_S, ROOT, Daemon
@@ -39,7 +40,7 @@ stage = "stages/other.toml"
 # The simulated pulse is 10 nm, or a hundred-thousandth of a degree, at 200 divisions.
 STAGES = {
     "slides": 'name = "Slider"\nkind = "linear"\npulse = "10nm"\nunit = "mm"\ntravel_minimum = "-5mm"\n'
-              'travel_maximum = "5mm"\nmaximum_speed = "20mm/s"\n',
+              'travel_maximum = "5mm"\nmaximum_speed = "5mm/s"\n',
     "turns": 'name = "Turner"\nkind = "rotary"\npulse = "0.00001deg"\nmodulo = "5deg"\n',
     "other": 'name = "Other"\nkind = "linear"\npulse = "20nm"\n',
 }
@@ -76,12 +77,20 @@ class Stages(unittest.TestCase):
         return next(axis for axis in map(json.loads, self.ok("--json", "position").splitlines())
                     if axis["number"] == number)
 
+    def divide(self, number, divisions, fits):
+        """And waits until the gateway has asked what a pulse is now."""
+        self.ok("divisions", str(number), divisions)
+        deadline = time.monotonic() + LIMIT_S
+        while (self.axis(number)["stage_problem"] == "") != fits:
+            self.assertLess(time.monotonic(), deadline, "the pulse was not asked for")
+            time.sleep(0.02)  # between two looks; the deadline above decides
+
     def test_the_stage_that_is_there_moves_within_its_stroke(self):
         self.serve()
         self.assertRegex(self.ok("move", "x=-5"), r"done: x -5 mm")
         self.assertIn("beyond its travel minimum of -5mm", self.refused("OUTSIDE_TRAVEL", "move", "x=-5.00001mm"))
         self.assertIn("beyond its travel maximum of 4mm", self.refused("OUTSIDE_TRAVEL", "move", "x=4.00001mm"))
-        self.assertIn("20mm/s at most", self.refused("TOO_FAST", "move", "x=0", "--speed", "21mm/s"))
+        self.assertIn("5mm/s at most", self.refused("TOO_FAST", "move", "x=0", "--speed", "6mm/s"))
         self.assertRegex(self.ok("status"), r"(?m)^axis 1  x  -5 mm .* stage Slider$")
         self.assertEqual(self.axis(1)["position_in_turn"], "")
 
@@ -99,18 +108,17 @@ class Stages(unittest.TestCase):
         self.assertEqual(self.axis(1)["stage_problem"], "")
         self.assertEqual(self.ok("exec", "?:P3"), "10\n")
         self.ok("stop")
-        self.ok("rearm")
         self.ok("move", "x=1")
 
     def test_divisions_decide_at_any_time(self):
         self.serve()
-        self.ok("divisions", "z", "100")
+        self.divide(3, "100", fits=True)
         self.ok("move", "z=1um")
         self.assertNotIn("WRONG STAGE", self.ok("status"))
-        self.ok("divisions", "x", "100")
+        self.divide(1, "100", fits=False)
         self.assertIn("is 20 nm by the controller (?:P) and 10 nm by the profile of its stage, Slider",
                       self.refused("IDENTITY_MISMATCH", "move", "x=1"))
-        self.ok("divisions", "x", "200")
+        self.divide(1, "200", fits=True)
         self.ok("move", "x=1")
 
     def test_a_turn_is_shown_and_nothing_is_wrapped(self):
