@@ -22,6 +22,23 @@ Result<void> check_characters(std::string_view text) {
   return fail(Reason::malformed_line, fmt::format("the line is longer than {} characters", kLineCharactersMax));
 }
 
+std::string in_upper_case(std::string_view text) {
+  std::string upper(text);
+  for (char& c : upper) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
+  return upper;
+}
+
+// The command that the text begins with, by its longest name. G begins too much.
+const CommandRow* begun_by(std::string_view text) {
+  const std::string upper = in_upper_case(text);
+  const CommandRow* begun = nullptr;
+  for (const CommandRow& row : command_table()) {
+    if (!upper.starts_with(row.name) || row.name == "G") continue;
+    if (begun == nullptr || row.name.size() > begun->name.size()) begun = &row;
+  }
+  return begun;
+}
+
 }  // namespace
 
 AxisSet Command::axes(AxisSet controllable) const {
@@ -44,12 +61,21 @@ Command make_command(std::string_view name, AxisSet axes) { return make_command(
 
 Result<Command> parse_command(std::string_view text) {
   if (auto good = check_characters(text); !good) return tl::unexpected(good.error());
+  std::optional<Problem> wrong;
   for (const CommandRow& row : command_table()) {
     auto arguments = decode(row, text);
     if (!arguments) continue;
-    if (!*arguments) return tl::unexpected(arguments->error());
+    if (!*arguments) {
+      wrong = wrong.value_or(arguments->error());
+      continue;
+    }
     auto line = encode(row, **arguments);
     return Command{&row, **std::move(arguments), *std::move(line)};
+  }
+  if (wrong) return tl::unexpected(*std::move(wrong));
+  if (const CommandRow* row = begun_by(text)) {
+    return fail(Reason::malformed_line, fmt::format("\"{}\" has not the form of {}: {}", text, row->name, row->format),
+                fmt::format("`axisctl commands {}` says what the letters stand for", row->name));
   }
   return fail(Reason::unknown_command, fmt::format("\"{}\" is no command that the gateway knows", text),
               "`axisctl commands` lists them with their parameters");

@@ -24,8 +24,8 @@ struct Command {
 Command make_command(std::string_view name, const Arguments& arguments = {});
 Command make_command(std::string_view name, AxisSet axes);
 
-// A line that a caller wrote. malformed_line for CR, LF, NUL, other control and non-ASCII characters and for more than
-// 200 characters; unknown_command; out_of_range.
+// A line that a caller wrote. malformed_line for CR, LF, NUL, other control and non-ASCII characters, for more than 200
+// characters, and for a command of the table in another form; unknown_command; out_of_range.
 Result<Command> parse_command(std::string_view text);
 
 }  // namespace axisgate::shrc203

@@ -38,6 +38,19 @@ std::size_t choice_length(std::string_view choices, std::string_view text) {
   return longest;
 }
 
+// A number where a choice of numbers stands, though it be none of them: it is told then, instead of any other form.
+std::string_view number_chosen(std::string_view choices, std::string_view text) {
+  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
+  const auto first = std::ranges::find_if(choices, is_digit);
+  if (first == choices.end()) return {};
+  const bool of_one_digit = std::ranges::adjacent_find(choices, [&](char one, char next) {
+                              return is_digit(one) && is_digit(next);
+                            }) == choices.end();
+  const auto end = std::ranges::find_if_not(text, is_digit);
+  const auto length = static_cast<std::size_t>(end - text.begin());
+  return text.substr(0, of_one_digit ? std::min<std::size_t>(length, 1) : length);
+}
+
 // A bracketed part of a format and what follows it.
 struct Group {
   std::string_view inner, rest;
@@ -284,6 +297,8 @@ class Decoder {
     std::string_view taken;
     if (parameter.kind == Parameter::Kind::choice) {
       taken = text_.substr(0, choice_length(parameter.choices, text_));
+      const auto number = number_chosen(parameter.choices, text_);
+      if (number.size() > taken.size()) taken = number;
       if (!taken.empty()) {
         text_.remove_prefix(taken.size());
       } else if (parameter.choices == "+ -") {

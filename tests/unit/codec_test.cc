@@ -114,9 +114,23 @@ TEST(Codec, OutOfRange) {
 }
 
 TEST(Codec, NotOfAnyShape) {
-  for (const char* line : {"X:1", "M:1", "M:A+P1000", "M:1+P1000+P2000", "M:4+P1000", "M:1+Q1000", "C:1", "C:12x",
-                           "K:1+P1000", "G:E", "?:", "D:AS100F1000R100", "M:1+P1000 ", " G", "G:1 G:2"}) {
+  for (const char* line : {"X:1", "?:", " G", "GO"}) {
     EXPECT_EQ(sent(line), "refused: UNKNOWN_COMMAND") << line;
+  }
+}
+
+// A command that the controller has, with other parameters than it takes.
+TEST(Codec, NotOfItsShape) {
+  for (const char* line : {"M:1", "M:A+P1000", "M:1+P1000+P2000", "M:1+Q1000", "C:1", "C:12x", "K:1+P1000", "G:E",
+                           "D:AS100F1000R100", "M:1+P1000 ", "G:1 G:2"}) {
+    EXPECT_EQ(sent(line), "refused: MALFORMED_LINE") << line;
+  }
+}
+
+// A number where others are to be chosen from.
+TEST(Codec, NoneOfTheChoices) {
+  for (const char* line : {"M:4+P1000", "?:R4", "C:12", "S:1,7", "S:1,15", "WI:1,64", "H5:1", "T:P4P5"}) {
+    EXPECT_EQ(sent(line), "refused: OUT_OF_RANGE") << line;
   }
 }
 
