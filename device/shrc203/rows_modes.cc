@@ -44,6 +44,12 @@ constexpr CommandRow of_program(std::string_view name, std::string_view format, 
                  whole_controller(command(name, format, description, section, parameters, effect, kReady)));
 }
 
+// Manual 107) and 108) name no condition: a program that runs is what they are for.
+constexpr CommandRow while_it_runs(CommandRow row) {
+  row.needs.ready = false;
+  return row;
+}
+
 constexpr CommandRow of_edit(std::string_view name, std::string_view format, std::string_view description, int section,
                              std::span<const Parameter> parameters) {
   return in_mode(Mode::program_edit, of_program(name, format, description, section, parameters));
@@ -76,15 +82,15 @@ constexpr CommandRow kRows[] = {
     of_program("P:P", "P:P<p>", "choose a program", 104, kProgramOnly),
     of_program("P:S", "P:S", "run the program", 105, kNone, Effect::motion),
     of_program("P:O", "P:O", "run one line of a program that pauses", 106, kNone, Effect::motion),
-    of_program("P:E", "P:E", "stop the program", 107, kNone),
-    of_program("P:U", "P:U<u>", "pause the program, or go on", 108, kPauseOnly),
+    while_it_runs(of_program("P:E", "P:E", "stop the program", 107, kNone)),
+    while_it_runs(of_program("P:U", "P:U<u>", "pause the program, or go on", 108, kPauseOnly)),
     of_program("P:C", "P:C<c>", "whether COMP is told at its end", 109, kSignalOnly),
     of_program("P:T", "P:T<t>", "whether TRIG is told at triggers", 110, kTriggerSignalOnly),
     enters(Mode::program_edit, of_program("P:ON", "P:ON", "to program edit mode", 111, kNone)),
     enters(Mode::program, saves(of_edit("P:OFF", "P:OFF", "save, and back to program mode", 112, kNone))),
     of_edit("P:DEL", "P:DEL,<n>", "delete a line", 113, kLineOnly),
     of_edit("P:SET", "P:SET,<n>,<p>", "write a line", 114, kLineAndStep),
-    in_mode(Mode::program_edit, question("P:GET", "P:GET,<n>", "read a line", 115, kLineOnly, "step")),
+    ready(in_mode(Mode::program_edit, question("P:GET", "P:GET,<n>", "read a line", 115, kLineOnly, "step"))),
     saves(of_edit("P:INIT", "P:INIT", "delete all lines", 116, kNone)),
     enters(Mode::memory_switches,
            ready(in_mode(Mode::host, of_switches("MS:ON", "MS:ON", "to memory switch edit mode", 117, kNone)))),

@@ -25,9 +25,9 @@ constexpr CommandRow kRows[] = {
     whole_controller(command("SLEEP:", "SLEEP:<s>", "sleep, or wake up", 47, kSleepOnly, Effect::motion, kReady)),
     // Its end, and its cancelling, start what is in the prebuffer (manual 2. 3)).
     waits(Register::wt,
-          command("WT:", "WT:<a>,{<w>|,}", "wait, prebuffer; 0 cancels", 57, kWaits, Effect::motion, kExcited)),
+          command("WT:", "WT:<a>,{<w>|,}", "wait, prebuffer; 0 cancels", 57, kWaits, Effect::motion, kNothing)),
     waits(Register::wi, command("WI:", "WI:<a>,{<i>|,}", "wait for an input pattern, prebuffer; C cancels", 58, kInputs,
-                                Effect::motion, kExcited)),
+                                Effect::motion, kNothing)),
     command("H:", "H[<m>]:[<a>]", "mechanical origin return", 59, kOriginReturn, Effect::motion, kReadyExcited),
     completes(command("HRT:", "HRT[<m>]:[<a>]", "mechanical origin return with completions", 60, kOriginReturn,
                       Effect::motion, kReadyExcited)),

@@ -74,7 +74,7 @@ constexpr CommandRow kRows[] = {
     of_motion(command("DR:", "DR:<a> {<r>|,}", "set the acceleration and deceleration time R", 92, kAxesAndTime,
                       Effect::setting, kReady)),
     command("JD:", "JD:<a>{<u><spd>}", "change the speed of a running jog", 93, kSpeedsWithUnit, Effect::setting,
-            kExcited),
+            kNothing),
     sets_speeds(SetsSpeeds::of_origin_return, command("B:", "B:<a>{S<spds>F<spdf>R<r>| }",
                                                       "set speeds S, F and time R of the mechanical origin return", 94,
                                                       kSpeeds, Effect::setting, kReady)),
