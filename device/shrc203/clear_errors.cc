@@ -7,7 +7,7 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
   ExchangeRequest request;
   const AxisSet named = axes.empty() ? state_.controllable() : axes;
   if (named.empty()) {
-    done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
+    done(tl::unexpected(not_up()));
     co_return;
   }
   if (away_) {

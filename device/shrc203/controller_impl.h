@@ -131,6 +131,8 @@ class Controller::Impl : public LineListener {
   // handshake.cc
   Task<void> handshake(Identity identity, std::uint64_t connection);
   Task<bool> wait_for_host_mode(std::uint64_t connection);
+  std::string wrong_panel() const;
+  Problem not_up() const;
   Task<bool> wait_until_all_ready(std::uint64_t connection);
   Task<bool> read_settings(std::uint64_t connection);
   Task<void> poll();
@@ -155,6 +157,10 @@ class Controller::Impl : public LineListener {
 
   // explain.cc
   Task<Problem> explain_refusal(Command command, AxisSet axes, std::string caller);
+  Task<std::optional<Problem>> explain_refused_question(Command question, std::string caller);
+  Problem values_refused() const;
+  Task<std::optional<Problem>> refusal_by_program(Command command, std::string caller);
+  Task<std::optional<Problem>> refusal_by_settings(Command command, AxisSet axes, std::string caller);
   Task<std::optional<Problem>> wrong_mode(std::string caller);
   Task<bool> sleeps(std::string caller);
   Problem asleep_problem() const;

@@ -22,6 +22,15 @@ std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
   return reply.kind == Reply::Kind::data ? std::optional(reply.fields) : std::nullopt;
 }
 
+Problem nothing_saved(const Command& question) {
+  return {Reason::not_found,
+          fmt::format("nothing is saved under number {}", question.arguments.first("n").value_or("")),
+          "save a position there first; a restart of the controller forgets places (PIT:)",
+          {},
+          question.line,
+          "NG"};
+}
+
 // One caller's transaction.
 class Transaction {
  public:
@@ -36,6 +45,7 @@ class Transaction {
   Task<bool> send_all();
   Task<Result<void>> read_what_is_set();
   Task<bool> send(std::size_t index);
+  Task<bool> answered(Command question, bool refused);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
   Task<Result<Reply>> ask_twice(Command question);
@@ -120,10 +130,13 @@ Task<Result<void>> Transaction::ask_for_destination() {
   if (!question) co_return Result<void>();
   const auto told = co_await ask_twice(*question);
   if (!told) co_return tl::unexpected(told.error());
+  if (told->kind == Reply::Kind::ng) {
+    const auto why = co_await impl_.explain_refused_question(*question, request_.context.who);
+    if (why) co_return tl::unexpected(*why);
+  }
   const auto coordinates = by_axis(*told, impl_.state_.controllable());
   if (coordinates.empty()) {
-    co_return fail(Reason::not_found, fmt::format("nothing is saved under number {}", *question->arguments.first("n")),
-                   "save a position there first; a restart of the controller forgets places (PIT:)");
+    co_return tl::unexpected(nothing_saved(*question));
   }
   for (const auto& [axis, pulses] : coordinates) {
     destination_[static_cast<std::size_t>(axis - 1)] = parse_integer(pulses);
@@ -146,7 +159,7 @@ Task<Result<void>> Transaction::begin() {
     if (!learned && !live_->motion.axes.empty()) co_return learned;
   }
   if (leaves_host(commands_) && !impl_.line_works()) {
-    co_return fail(Reason::link_down, "the device is not up: " + impl_.state_.link_problem, "try again when it is up");
+    co_return tl::unexpected(impl_.not_up());
   }
   if (live_->motion.axes.empty()) co_return check_envelope();
   Register reg = Register::none;
@@ -273,7 +286,10 @@ Task<bool> Transaction::send(std::size_t index) {
   event.wire_reply = result.reply->text;
   event.answer = picked(command, *result.reply, impl_.state_.controllable());
   tell_(event);
-  if (command.row->effect == Effect::question) co_return true;
+  if (command.row->effect == Effect::question) {
+    const bool good = co_await answered(command, result.refused());
+    co_return good;
+  }
   if (result.accepted()) {
     const bool program = command.row->moves() && command.row->needs.mode == Mode::program;
     if (program) {
@@ -284,6 +300,17 @@ Task<bool> Transaction::send(std::size_t index) {
     co_return true;
   }
   auto why = co_await impl_.explain_refusal(command, command.axes(impl_.state_.controllable()), request_.context.who);
+  end(std::move(why));
+  co_return false;
+}
+
+// NG to a question is its answer where nothing says why.
+Task<bool> Transaction::answered(Command question, bool refused) {
+  if (!refused) co_return true;
+  const bool saved = question.row->name == "PIT:GET" || question.row->name == "PAV:GET";
+  auto why = co_await impl_.explain_refused_question(question, request_.context.who);
+  if (!why && saved) why = nothing_saved(question);
+  if (!why) co_return true;
   end(std::move(why));
   co_return false;
 }

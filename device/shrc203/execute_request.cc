@@ -11,6 +11,20 @@
 #include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
+namespace {
+
+// Of a trigger's axis the manual says nothing.
+Result<void> check_axes_there(const std::vector<Command>& commands, const Envelope& envelope) {
+  const AxisSet controllable = envelope.state().controllable();
+  for (const Command& command : commands) {
+    const bool of_controller = command.row->effect == Effect::setting && command.row->scope == CommandScope::controller;
+    const AxisSet missing = of_controller ? AxisSet() : command.axes(controllable) - controllable;
+    if (!missing.empty()) return envelope.check_axis(missing.list().front());
+  }
+  return {};
+}
+
+}  // namespace
 
 void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   const auto refuse = [&event](Problem problem) {
@@ -23,14 +37,15 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   if (!checked) return refuse(checked.error());
   std::vector<Command> commands = *std::move(checked);
   if (ending_ && commands.front().row->effect != Effect::stop) return refuse(*ending_);
-  if (state_.controllable().empty() || state_.link == LinkState::down) {
+  const bool panel = !line_works() && not_up().reason == Reason::wrong_mode;  // somebody must put it right first
+  if (state_.controllable().empty() || state_.link == LinkState::down || panel) {
     if (commands.front().row->effect != Effect::stop) {
-      return refuse(
-          {Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up", {}, {}, {}});
+      return refuse(not_up());
     }
   }
   request.context.not_after = default_limit(request.context.not_after, kQuestionLimit);
   if (commands.front().row->effect == Effect::stop) return execute_stop(commands.front(), request, std::move(event));
+  if (const auto there = check_axes_there(commands, envelope(request.context)); !there) return refuse(there.error());
   if (away_ && !needs_gate(commands)) return refuse(away_problem());
   const bool arms = std::ranges::any_of(commands, [](const Command& one) {
     const bool step = one.row->name == "P:SET" && one.arguments.first("p").value_or("").starts_with("INPUT");

@@ -7,22 +7,38 @@
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/refusals.h"
+#include "device/shrc203/transaction_lines.h"
 
 namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kSleepLimit = std::chrono::seconds(1);
+constexpr Duration kQuiet = std::chrono::milliseconds(10);
+
+Problem refusal_of(const Command& command, Problem why) {
+  why.message = fmt::format("the controller refused {} (NG): {}", command.line, why.message);
+  why.sent = command.line;
+  why.wire_reply = "NG";
+  return why;
+}
+
+}  // namespace
 
 // Each in turn, and the first that tells ends it.
 Task<Problem> Controller::Impl::explain_refusal(Command command, AxisSet axes, std::string caller) {
-  const auto explained = [&](Problem problem) {
-    problem.message = fmt::format("the controller refused {} (NG): {}", command.line, problem.message);
-    problem.sent = command.line;
-    problem.wire_reply = "NG";
-    return problem;
-  };
-  if (away_ && *away_ != Mode::host) co_return unexplained(command.line, {}, state_);  // no Q: is answered there
+  const auto explained = [&](Problem problem) { return refusal_of(command, std::move(problem)); };
+  if (edits()) {  // no Q: is answered there
+    const auto wrong = co_await wrong_mode(caller);
+    co_return explained(wrong ? *wrong : values_refused());
+  }
   const auto read = co_await read_positions(Lane::motion, caller);
   if (!read) {
     const auto wrong = co_await wrong_mode(caller);
     co_return wrong ? explained(*wrong) : unexplained(command.line, axes, state_);
+  }
+  if (away_ == Mode::program) {
+    const auto by_program = co_await refusal_by_program(command, caller);
+    if (by_program) co_return explained(*by_program);
   }
   (void)co_await read_excitation(caller);
   if (const auto shown = refusal_by(*command.row, axes, state_)) co_return explained(*shown);
@@ -31,28 +47,110 @@ Task<Problem> Controller::Impl::explain_refusal(Command command, AxisSet axes, s
     const auto other = refusal_by(command_row("W:"), state_.controllable(), state_);
     if (other) co_return explained(*other);
   }
+  const auto by_setting = co_await refusal_by_settings(command, axes, caller);
+  if (by_setting) co_return explained(*by_setting);
+  const bool asleep = co_await sleeps(caller);
+  if (asleep) co_return explained(asleep_problem());
+  const auto wrong = co_await wrong_mode(caller);
+  co_return wrong ? explained(*wrong) : unexplained(command.line, axes, state_);
+}
+
+// A question is refused where the mode is another, or for its values.
+Task<std::optional<Problem>> Controller::Impl::explain_refused_question(Command question, std::string caller) {
+  const auto wrong = co_await wrong_mode(std::move(caller));
+  if (wrong) co_return refusal_of(question, *wrong);
+  if (edits()) co_return refusal_of(question, values_refused());
+  co_return std::nullopt;
+}
+
+// In the edit modes nobody is told which axes move, and nothing else is left (manual 111), 117)).
+Problem Controller::Impl::values_refused() const {
+  if (away_ == Mode::memory_switches) {
+    return {Reason::device_refused,
+            "it is in memory switch edit mode, so there is no such memory switch, or it does not take that value",
+            "compare number and value with the list of memory switches in \"Preparation and Operation\"",
+            {},
+            {},
+            {}};
+  }
+  return {Reason::device_refused,
+          "it is in program edit mode, so it does not take that step, or something moves",
+          "compare the step with manual 114), and see that nothing moves: axisctl status",
+          {},
+          {},
+          {}};
+}
+
+// Manual 41): 1 it runs, 2 it pauses, 3 it runs one line.
+Task<std::optional<Problem>> Controller::Impl::refusal_by_program(Command command, std::string caller) {
+  const auto told = co_await ask("?:L", Lane::motion, std::move(caller));
+  const bool known = told.reply && !told.problem && told.reply->fields.size() > 2;
+  if (!known) co_return std::nullopt;
+  const auto status = parse_integer(told.reply->fields[1]).value_or(0);
+  const bool active = status >= 1 && status <= 3;
+  if (command.row->needs.ready && active) {
+    co_return Problem{Reason::axis_busy,
+                      fmt::format("program {} {}", told.reply->fields[0], status == 2 ? "pauses" : "runs"),
+                      "wait for its end, or stop it: axisctl stop",
+                      {},
+                      {},
+                      {}};
+  }
+  if (command.row->name == "P:U" && !active) {
+    co_return Problem{Reason::device_refused,
+                      "no program runs that could pause",
+                      "let P:S run it; `axisctl stop` ends it",
+                      {},
+                      {},
+                      {}};
+  }
+  co_return std::nullopt;
+}
+
+// S: where the stage sets its own divisions, and one speed that does not fit the other.
+Task<std::optional<Problem>> Controller::Impl::refusal_by_settings(Command command, AxisSet axes, std::string caller) {
   if (command.row->rescales) {
     const auto config = co_await ask("?:ACS", Lane::motion, caller);
     const auto told =
         config.reply && !config.problem ? by_axis(*config.reply, state_.controllable()) : std::map<int, std::string>();
     const auto on = [&told](int axis) { return told.contains(axis) && told.at(axis) == "1"; };
     if (std::ranges::any_of(axes.list(), on)) {
-      co_return explained({Reason::device_refused,
-                           "the axis is configured by its stage (memory switch AXIS-CONFIG), so S: is invalid",
-                           "switch CONFIG off in the memory switches, if the divisions must be others",
-                           {},
-                           {},
-                           {}});
+      co_return Problem{Reason::device_refused,
+                        "the axis is configured by its stage (memory switch AXIS-CONFIG), so S: is invalid",
+                        "switch CONFIG off in the memory switches, if the divisions must be others",
+                        {},
+                        {},
+                        {}};
     }
   }
-  const bool asleep = co_await sleeps(caller);
-  if (asleep) co_return explained(asleep_problem());
-  co_return unexplained(command.line, axes, state_);
+  if (command.row->name != "DS:" && command.row->name != "DF:") co_return std::nullopt;
+  const auto read = co_await read_speeds(caller);
+  if (!read) co_return std::nullopt;
+  const RequestContext nobody{.who = std::move(caller)};
+  for (const auto& [axis, minimum, maximum] : speeds_of(command, state_.controllable())) {
+    const auto asked = envelope(nobody).speed(axis, minimum ? *minimum : *maximum);
+    const Speeds known = known_speeds(AxisSet::of(axis));
+    if (!asked || !known.contains(axis)) continue;
+    const std::int64_t s = minimum ? *asked : known.at(axis).minimum, f = minimum ? known.at(axis).maximum : *asked;
+    if (s <= f) continue;
+    co_return Problem{
+        Reason::out_of_range,
+        fmt::format("axis {} would have a minimum speed S of {} above its maximum speed F of {} pulses/s", axis, s, f),
+        fmt::format("set both at once: axisctl speed {} --minimum ... --maximum ...", axis),
+        axis,
+        {},
+        {}};
+  }
+  co_return std::nullopt;
 }
 
-// Somebody has changed the mode or the dialect at the front panel, where Q: is refused too.
+// Somebody has changed the mode or the dialect at the front panel, where Q: is refused too, or leads it through P:R.
 Task<std::optional<Problem>> Controller::Impl::wrong_mode(std::string caller) {
-  for (const auto& [question, expected] : {std::pair{"?:MODE", "HOST"}, {"?:FMT", "SHOT_FC"}}) {
+  const Mode mode = away_.value_or(Mode::host);
+  const std::string_view expected_mode = mode == Mode::host              ? "HOST"
+                                         : mode == Mode::memory_switches ? "HOST,MS"
+                                                                         : "HOST,PROGRAM";
+  for (const auto& [question, expected] : {std::pair{"?:MODE", expected_mode}, {"?:FMT", "SHOT_FC"}}) {
     const auto told = co_await ask(question, Lane::question, caller, true);
     const bool known = told.reply && !told.problem && told.reply->kind == Reply::Kind::data;
     if (!known || told.reply->text == expected) continue;
@@ -66,10 +164,21 @@ Task<std::optional<Problem>> Controller::Impl::wrong_mode(std::string caller) {
   co_return std::nullopt;
 }
 
-// A bare 1 could be an axis number, so this is asked only where none may come.
+// A bare 1 could be an axis number, so this waits until none of those that were refused may come; not for others'
+// motion to end.
 Task<bool> Controller::Impl::sleeps(std::string caller) {
-  if (!line_.completions().possible().empty()) co_return false;
-  const auto told = co_await ask("?:SLEEP", Lane::motion, std::move(caller));
+  if (!line_.completions().possible().empty()) {
+    auto quiet = tick_.wait_until(now_ + Completions::kAfterReady + kQuiet);
+    co_await quiet;
+    (void)co_await read_positions(Lane::motion, caller);
+  }
+  ExchangeRequest request;
+  request.command = make_command("?:SLEEP");
+  request.lane = Lane::motion;
+  request.caller = std::move(caller);
+  request.not_after = now_ + kSleepLimit;
+  auto pending = line_.exchange(std::move(request), now_);
+  const auto told = co_await pending;
   co_return told.reply && !told.problem && told.reply->text == "1";
 }
 

@@ -20,11 +20,6 @@ bool is_data(const ExchangeResult& result) {
   return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
 }
 
-std::string wrong_panel(const State& state) {
-  return state.mode != "HOST" ? fmt::format("the controller is in {} mode; HOST is needed", state.mode)
-                              : fmt::format("the command format is {}; SHOT_FC is needed", state.format);
-}
-
 }  // namespace
 
 Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connection) {
@@ -63,6 +58,21 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   publish_state();
 }
 
+std::string Controller::Impl::wrong_panel() const {
+  return state_.mode != "HOST" ? fmt::format("the controller is in {} mode; HOST is needed", state_.mode)
+                               : fmt::format("the command format is {}; SHOT_FC is needed", state_.format);
+}
+
+Problem Controller::Impl::not_up() const {
+  const bool panel = !state_.mode.empty() && state_.link_problem == wrong_panel();
+  return {panel ? Reason::wrong_mode : Reason::link_down,
+          "the device is not up: " + state_.link_problem,
+          panel ? "put it right at the controller's front panel" : "try again when it is up",
+          {},
+          {},
+          {}};
+}
+
 // The front panel chooses the mode and the dialect; neither is ever switched back from here.
 Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
   int failures = 0;
@@ -82,7 +92,7 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
       if (state_.format == "SHOT_FC" || !guarded(Guard::host_mode)) co_return true;
       if (!is_data(format)) ++failures;
     }
-    state_.link_problem = wrong_panel(state_);
+    state_.link_problem = wrong_panel();
     publish_state();
     co_await come_back_in_handshake();
     auto wait = tick_.wait_until(now_ + kModePoll);
@@ -205,7 +215,7 @@ Task<void> Controller::Impl::follow_mode() {
     state_.format = format.reply->text;
   }
   if (state_.mode == "HOST" && state_.format == "SHOT_FC") co_return;
-  line_.give_up(wrong_panel(state_), now_);
+  line_.give_up(wrong_panel(), now_);
 }
 
 // After a restart every command counter shows 0 until something moves, and nothing is moved before this has been

@@ -202,7 +202,7 @@ Task<void> Controller::Impl::refresh(Duration max_age, RequestContext context, O
     co_return;
   }
   if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
-    done(fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up"));
+    done(tl::unexpected(not_up()));
     co_return;
   }
   if (state_.read == TimePoint{} || now_ - state_.read > max_age) {

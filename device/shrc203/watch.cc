@@ -108,7 +108,7 @@ Task<Result<void>> Controller::Impl::enter_gate(LiveMotionPtr live, bool prebuff
 // speeds are known.
 Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   if (state_.link != LinkState::up && state_.link != LinkState::doubtful) {
-    co_return fail(Reason::link_down, "the device is not up: " + state_.link_problem, "try again when it is up");
+    co_return tl::unexpected(not_up());
   }
   const AxisSet axes = live->motion.axes;
   // Divisions may have been changed while the motion waited.
@@ -122,11 +122,15 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
   while (!settled_ || late_numbers()) {
     const auto read = co_await read_positions(Lane::motion, live->context.who);
     if (!read) co_return read;
-    bool busy = false;
-    for (const int axis : axes.list()) busy = busy || state_.axis(axis).busy.value_or(true);
-    if ((!busy || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
+    int busy = 0;
+    for (const int axis : axes.list()) {
+      if (busy == 0 && state_.axis(axis).busy.value_or(true)) busy = axis;
+    }
+    if ((busy == 0 || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
     if (now_ >= live->context.not_after) {
-      co_return fail(Reason::axis_busy, "the axes did not come to rest in the time allowed", "wait, or stop them");
+      const int late = busy != 0 ? busy : axes.list().front();
+      co_return fail_on(late, Reason::axis_busy, fmt::format("axis {} did not come to rest in the time allowed", late),
+                        "wait until it stands, or stop it: axisctl stop");
     }
     auto pause = tick_.wait_until(now_ + kConfirmAfter);
     co_await pause;
