@@ -1,0 +1,150 @@
+// Each condition of NG in the manual, for each command that it names: the simulator refuses, and the gateway says why.
+// With AXISGATE_WRITE_REFUSALS=1 in the environment device/shrc203/REFUSALS.md is written.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include "tests/refusals/page.h"
+
+namespace axisgate::refusals {
+namespace {
+
+constexpr std::string_view kHowToWrite =
+    "AXISGATE_WRITE_REFUSALS=1 build-dev/bin/refusals_tests --gtest_filter='RefusalsPage.*'";
+const std::filesystem::path kSource = AXISGATE_SOURCE_DIR;
+
+std::string content(const std::filesystem::path& path) {
+  std::ifstream file(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+const std::vector<Condition>& all_conditions() {
+  static const std::vector<Condition> kept = conditions();
+  return kept;
+}
+
+std::string described(const Told& told) {
+  if (!told.problem) {
+    return fmt::format("no problem, {} replies, ended: {}\n{}", told.answers.size(), told.ended, told.replay);
+  }
+  return fmt::format("{}: {} ({})", name(told.problem->reason), told.problem->message, told.problem->hint);
+}
+
+// What is wrong with it; empty where nothing is.
+std::string wrong_with(const Condition& condition, const Case& one, const Told& told) {
+  const Reason wanted = one.reason == Reason::unspecified ? condition.reason : one.reason;
+  if (!told.problem || told.problem->reason != wanted) return fmt::format("not {}", name(wanted));
+  if (told.problem->message.find(condition.told) == std::string::npos) return "does not tell " + condition.told;
+  if (told.problem->hint.empty()) return "does not say what helps";
+  return {};
+}
+
+class Ng : public testing::TestWithParam<const Condition*> {};
+
+TEST_P(Ng, TheSimulatorRefuses) {
+  for (const Case& one : GetParam()->cases) EXPECT_EQ(at_simulator(*GetParam(), one), "NG") << one.line;
+}
+
+// Struck as the line arrives: the gateway learns it from NG.
+TEST_P(Ng, TheGatewaySaysWhy) {
+  for (const Case& one : GetParam()->cases) {
+    if (!is_seen_at_gateway(one)) continue;
+    const Told told = at_gateway(*GetParam(), one, Moment::as_it_arrives);
+    EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
+  }
+}
+
+TEST_P(Ng, TheGatewayKnowsItBefore) {
+  if (!GetParam()->strikes_early) return;
+  for (const Case& one : GetParam()->cases) {
+    if (!is_seen_at_gateway(one)) continue;
+    const Told told = at_gateway(*GetParam(), one, Moment::before);
+    EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
+    if (GetParam()->never_sent(*one.sentence)) {
+      EXPECT_EQ(told.sent, 0) << one.line;
+    }
+  }
+}
+
+std::vector<const Condition*> each_condition() {
+  std::vector<const Condition*> each;
+  for (const Condition& condition : all_conditions()) each.push_back(&condition);
+  return each;
+}
+
+INSTANTIATE_TEST_SUITE_P(Conditions, Ng, testing::ValuesIn(each_condition()), [](const auto& one) {
+  std::string name;
+  for (const char c : one.param->name) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+});
+
+// In the ordinary state everything is taken, so that what always refuses fails.
+TEST(Ordinary, TheSimulatorTakesEachCommand) {
+  const Condition nothing;
+  for (const Sentence& sentence : sentences()) {
+    Case one{&sentence, sentence.line, sentence.whole(), sentence.way_there(), {}};
+    // Only a program that runs can be made to pause.
+    if (sentence.command == "P:U") one.simulator_before.push_back("P:S");
+    const std::string answer = at_simulator(nothing, one);
+    EXPECT_FALSE(answer.empty() || answer.find("NG") != std::string::npos) << sentence.line << " -> " << answer;
+  }
+}
+
+// But JD:, which Jog sends by itself, and P:U, since P:S is waited for.
+TEST(Ordinary, TheGatewayTakesEachCommand) {
+  const Condition nothing;
+  for (const Sentence& sentence : sentences()) {
+    if (sentence.command == "JD:" || sentence.command == "P:U") continue;
+    const Case one{&sentence, sentence.line, sentence.whole(), {}, {}};
+    const Told told = at_gateway(nothing, one, Moment::before);
+    EXPECT_TRUE(told.ended && !told.problem) << sentence.line << ": " << described(told);
+    EXPECT_EQ(told.sent, 1) << sentence.line;
+  }
+}
+
+// "In the case of the motor excitation is OFF, it will be NG" (65)): the axis stands all the same.
+TEST(Stop, OfAnAxisWithoutExcitationIsNoProblem) {
+  const Sentence& stop = sentence("L:");
+  const Condition off{.name = "Motor excitation OFF", .manual = "65)", .strikes = [](Device& device, TimePoint now) {
+                        device.set_excitation(1, false, now);
+                      }};
+  const Case one{&stop, stop.line, {stop.line}, {}, {}};
+  EXPECT_EQ(at_simulator(off, one), "NG");
+  const Told told = at_gateway(off, one, Moment::as_it_arrives);
+  EXPECT_EQ(told.answers, Lines{"NG"});
+  EXPECT_TRUE(told.ended && !told.problem) << described(told);
+}
+
+TEST(Manual, EachSectionIsThereOnce) {
+  int section = 0;
+  for (const Sentence& sentence : sentences()) EXPECT_EQ(sentence.section, ++section) << sentence.command;
+  EXPECT_EQ(section, 136);
+}
+
+TEST(RefusalsPage, IsWhatTheTrialsTold) {
+  std::vector<Outcome> outcomes;
+  for (const Condition& condition : all_conditions()) {
+    for (const Case& one : condition.cases) {
+      if (!is_seen_at_gateway(one)) continue;
+      Outcome outcome{&condition, &one, at_gateway(condition, one, Moment::as_it_arrives), true};
+      const bool early = condition.strikes_early && condition.strikes;
+      outcome.sent = (early ? at_gateway(condition, one, Moment::before) : outcome.told).sent > 0;
+      outcomes.push_back(std::move(outcome));
+    }
+  }
+  const auto codes = codes_by_reason(content(kSource / "proto/axisgate/v1/common.proto"));
+  const std::filesystem::path path = kSource / "device/shrc203/REFUSALS.md";
+  const std::string wanted = refusals_page(outcomes, codes);
+  EXPECT_EQ(wanted.find("| - |"), std::string::npos) << "a reason without its gRPC code in common.proto";
+  const char* write = std::getenv("AXISGATE_WRITE_REFUSALS");
+  if (write != nullptr && std::string_view(write) == "1") std::ofstream(path, std::ios::binary) << wanted;
+  EXPECT_TRUE(content(path) == wanted) << "device/shrc203/REFUSALS.md is not what the gateway tells\nwrite it anew: "
+                                       << kHowToWrite;
+}
+
+}  // namespace
+}  // namespace axisgate::refusals

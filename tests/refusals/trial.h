@@ -1,0 +1,30 @@
+// A command under a condition: told straight to the simulated controller, and asked of the gateway over one.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "tests/refusals/conditions.h"
+
+namespace axisgate::refusals {
+
+// What the simulator answers to the case's line, the condition having struck; or what of the lines before it refused.
+std::string at_simulator(const Condition& condition, const Case& one);
+
+// When the condition strikes: as the line is about to reach the controller, or so long before that the gateway has
+// seen what there is to be seen.
+enum class Moment { as_it_arrives, before };
+
+struct Told {
+  bool ended = false;
+  std::optional<Problem> problem;
+  std::vector<std::string> answers;
+  int sent = 0;  // how often the line was written
+  std::string replay;
+};
+// The world takes a bare G for a fault of the gateway's own, so that what a caller's is answered is not seen there.
+bool is_seen_at_gateway(const Case& one);
+Told at_gateway(const Condition& condition, const Case& one, Moment moment);
+
+}  // namespace axisgate::refusals
