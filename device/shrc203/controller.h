@@ -103,7 +103,8 @@ struct ScanRequest {
 struct GoToPositionRequest {
   bool place = true;  // PIT:, else PAV:
   int number = 0;     // 1 to 20
-  // What the controller must tell that it holds, by axis; anything else is refused with epoch_passed.
+  // What the controller must tell that it holds, by axis; anything else is refused with epoch_passed. Empty: anything,
+  // but not nothing. For a place whose coordinates may have been set anew since, or recomputed (manual 129)).
   std::map<int, std::int64_t> expected;
   RequestContext context;
 };
@@ -207,6 +208,7 @@ class Controller : public LineMachine {
   Result<void> check(const MoveRequest& request) const;
   Result<void> check(const PathRequest& request) const;
   Result<void> check(const ScanRequest& request) const;
+  Result<void> check(const GoToPositionRequest& request) const;
   static Result<void> check(const ExecuteRequest& request);
 
   // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.

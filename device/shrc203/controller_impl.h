@@ -7,7 +7,7 @@
 //   wind_down.cc  the end                               jog.cc           axes that run until they are stopped
 //   excursion.cc  out of HOST and back                  explain.cc       why NG
 //   speeds.cc     what D: has set, for a motion         clear_errors.cc  BEC:
-//   lease_settings.cc  what a lease's holder has set
+//   lease_settings.cc  what a lease's holder has set    positions.cc     saved positions
 #pragma once
 
 #include <deque>
@@ -25,6 +25,7 @@
 #include "device/shrc203/plan.h"
 #include "device/shrc203/registers.h"
 #include "device/shrc203/scan_plan.h"
+#include "device/shrc203/switch_audit.h"
 
 namespace axisgate::shrc203 {
 
@@ -141,6 +142,8 @@ class Controller::Impl : public LineListener {
 
   // reading.cc
   Task<ExchangeResult> ask(std::string_view question, Lane lane, std::string caller, bool in_handshake = false);
+  // The same answer in a row: one byte that the line lost would make another of it. line_fault.
+  Task<Result<Reply>> ask_twice(LiveMotionPtr live, Command question);
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
@@ -202,6 +205,8 @@ class Controller::Impl : public LineListener {
   void forget_speeds(AxisSet axes);
   // Speeds for axes whose own F is more than the caller may run at; none where all are slow enough.
   Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
+  // Sets those; who calls restores the speeds when the motion is over.
+  Task<Result<void>> slow_down(LiveMotionPtr live);
   Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
   Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
   Task<Result<void>> learn_speeds(AxisSet axes, std::string caller);
@@ -239,8 +244,16 @@ class Controller::Impl : public LineListener {
   Task<bool> moves_all_the_same(LiveMotionPtr live);
   void home(MotionKind kind, HomeRequest request, OnStarted started);
   Task<void> run_home(LiveMotionPtr live);
-  Task<void> start_home(LiveMotionPtr live);
+  // Of a line that starts by itself, and after which each axis tells its end.
+  Task<void> start_and_watch(LiveMotionPtr live, Command start);
   Result<void> check_logical_origin(AxisSet axes, const Envelope& limits) const;
+
+  // positions.cc
+  void go_to_position(GoToPositionRequest request, OnStarted started);
+  Task<void> run_to_position(LiveMotionPtr live, GoToPositionRequest request);
+  Task<Result<void>> find_position(LiveMotionPtr live, GoToPositionRequest request);
+  // The coordinates by axis that PIT:GET or PAV:GET tells twice in a row; none where nothing is saved there.
+  Task<Result<std::map<int, std::int64_t>>> ask_for_position(LiveMotionPtr live, Command question);
 
   // path.cc
   void run_path(PathRequest request, OnStarted started);
@@ -303,6 +316,9 @@ class Controller::Impl : public LineListener {
   bool edits() const { return away_ == Mode::memory_switches || away_ == Mode::program_edit; }
   Problem away_problem() const;
   void leave_host(MotionId motion);
+  // What the item of the line says before any of it is set, and all items before they are left: for the audit.
+  Task<Result<void>> read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command);
+  Task<void> read_switches_left(LiveMotionPtr live, SwitchAudit& audit);
   Task<Result<void>> wait_for_program(LiveMotionPtr live);
   Task<void> come_back(LiveMotionPtr live, bool all, bool switches);
   Task<void> come_back_in_handshake();

@@ -30,6 +30,10 @@ Result<void> program_outcome(const std::vector<std::string>& told) {
               "mend the line (P:SET), or what it met; see `axisctl status`");
 }
 
+std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
+  return reply.kind == Reply::Kind::data ? std::optional(reply.fields) : std::nullopt;
+}
+
 }  // namespace
 
 Problem Controller::Impl::away_problem() const {
@@ -52,6 +56,23 @@ void Controller::Impl::leave_host(MotionId motion) {
         return request.lane != Lane::stop && !request.handshake && request.motion != motion;
       },
       away_problem());
+}
+
+Task<Result<void>> Controller::Impl::read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command) {
+  const auto item = SwitchAudit::item_set_by(command);
+  if (!item || audit.knows(*item) || !guarded(Guard::switches_audited)) co_return Result<void>();
+  const auto told = co_await ask_twice(std::move(live), SwitchAudit::question_of(*item));
+  if (!told) co_return tl::unexpected(told.error());
+  audit.before(*item, values_of(*told));
+  co_return Result<void>();
+}
+
+Task<void> Controller::Impl::read_switches_left(LiveMotionPtr live, SwitchAudit& audit) {
+  for (const int item : audit.items()) {
+    if (away_ != Mode::memory_switches || live->line_lost) co_return;
+    const auto told = co_await ask_twice(live, SwitchAudit::question_of(item));
+    if (told) audit.after(item, values_of(*told));
+  }
 }
 
 // A program runs on the controller's own account, and ?:L tells how far it is (manual 41)): axes are READY between its

@@ -16,11 +16,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr int kClosedTries = 8, kTellingTries = 4;
-
-std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
-  return reply.kind == Reply::Kind::data ? std::optional(reply.fields) : std::nullopt;
-}
+constexpr int kClosedTries = 8;
 
 Problem nothing_saved(const Command& question) {
   return {Reason::not_found,
@@ -48,10 +44,7 @@ class Transaction {
   Task<bool> answered(Command question, bool refused);
   Task<ExchangeResult> exchange(const Command& command);
   bool single_motion() const;
-  Task<Result<Reply>> ask_twice(Command question);
   Task<Result<void>> ask_for_destination();
-  Task<Result<void>> read_switches_before(const Command& command);
-  Task<void> read_switches_left();
   Result<void> check_envelope();
   ExchangeRequest request_for(const Command& command);
   void end(std::optional<Problem> problem);
@@ -95,52 +88,16 @@ Result<void> Transaction::check_envelope() {
   return {};
 }
 
-// What counts must be told twice: one byte that the line lost would make another answer of it.
-Task<Result<Reply>> Transaction::ask_twice(Command question) {
-  std::string before;
-  for (int attempt = 0; attempt < kTellingTries; ++attempt) {
-    const auto result = co_await exchange(question);
-    if (result.problem) co_return tl::unexpected(*result.problem);
-    if (std::exchange(before, result.reply->text) == result.reply->text) co_return *result.reply;
-  }
-  co_return fail(Reason::line_fault, fmt::format("{} is answered otherwise every time", question.line),
-                 "check the cable");
-}
-
-// For the audit: what the line's item says before any of it is set.
-Task<Result<void>> Transaction::read_switches_before(const Command& command) {
-  const auto item = SwitchAudit::item_set_by(command);
-  if (!item || audit_.knows(*item) || !guarded(Guard::switches_audited)) co_return Result<void>();
-  const auto told = co_await ask_twice(SwitchAudit::question_of(*item));
-  if (!told) co_return tl::unexpected(told.error());
-  audit_.before(*item, values_of(*told));
-  co_return Result<void>();
-}
-
-Task<void> Transaction::read_switches_left() {
-  for (const int item : audit_.items()) {
-    if (impl_.away_ != Mode::memory_switches || live_->line_lost) co_return;
-    const auto told = co_await ask_twice(SwitchAudit::question_of(item));
-    if (told) audit_.after(item, values_of(*told));
-  }
-}
-
 Task<Result<void>> Transaction::ask_for_destination() {
   const auto question = destination_question(commands_.front());
   if (!question) co_return Result<void>();
-  const auto told = co_await ask_twice(*question);
+  const auto told = co_await impl_.ask_for_position(live_, *question);
   if (!told) co_return tl::unexpected(told.error());
-  if (told->kind == Reply::Kind::ng) {
+  if (told->empty()) {
     const auto why = co_await impl_.explain_refused_question(*question, request_.context.who);
-    if (why) co_return tl::unexpected(*why);
+    co_return tl::unexpected(why ? *why : nothing_saved(*question));
   }
-  const auto coordinates = by_axis(*told, impl_.state_.controllable());
-  if (coordinates.empty()) {
-    co_return tl::unexpected(nothing_saved(*question));
-  }
-  for (const auto& [axis, pulses] : coordinates) {
-    destination_[static_cast<std::size_t>(axis - 1)] = parse_integer(pulses);
-  }
+  for (const auto& [axis, pulses] : *told) destination_[static_cast<std::size_t>(axis - 1)] = pulses;
   co_return Result<void>();
 }
 
@@ -246,11 +203,11 @@ Task<bool> Transaction::send(std::size_t index) {
   event.sent = as_sent(command).line;
   if (live_) live_->wrote = true;
   if (command.row->enters && !impl_.away_) impl_.leave_host(live_->motion.id);
-  if (const auto known = co_await read_switches_before(command); !known) {
+  if (const auto known = co_await impl_.read_switches_before(live_, audit_, command); !known) {
     end(known.error());
     co_return false;
   }
-  if (command.row->enters == Mode::host) co_await read_switches_left();
+  if (command.row->enters == Mode::host) co_await impl_.read_switches_left(live_, audit_);
   impl_.remember_settings(request_.context, command);
   const auto result = co_await exchange(command);
   impl_.note_setting(command, result);
@@ -371,7 +328,7 @@ Task<void> Transaction::run() {
     co_return;
   }
   if (impl_.away_) {
-    co_await read_switches_left();
+    co_await impl_.read_switches_left(live_, audit_);
     co_await impl_.come_back(live_, all, switches_);
     if (const auto changed = audit_.result(request_.context.who)) impl_.emit(*changed);
     if (all) end({});

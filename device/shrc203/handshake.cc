@@ -47,6 +47,7 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
     co_return;
   }
   if (++state_.device_epoch > 1) permission_.device_restarted(now_);
+  state_.epoch_began = now_;
   frame_shifted(AxisSet::all());
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   unit_ = state_.serial_number;

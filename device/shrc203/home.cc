@@ -66,25 +66,22 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   for (auto& result : live->motion.results) result.target_pulses = 0;
   // Back to the logical origin the axes run at F of D:.
   const Speeds before = known_speeds(live->motion.axes);
-  const auto slower = mechanical ? MovePlan{} : slowed_down(live->motion.axes, envelope(live->context));
-  ready = slower ? Result<void>() : tl::unexpected(slower.error());
-  if (slower && !slower->axes.empty()) {
-    live->keeps_gate = true;
-    ready = co_await set_speeds(live, *slower);
-    if (ready) note_speeds(speeds_of(*slower));
-  }
+  if (!mechanical) ready = co_await slow_down(live);
   if (!ready) {
     end_motion(live, live->stop_requested ? MotionState::stopped : MotionState::failed, ready.error());
     co_await restore_speeds(live, before);
     co_return;
   }
-  co_await start_home(live);
+  co_await start_and_watch(live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes));
+  if (mechanical && live->motion.state == MotionState::succeeded) {
+    for (const int axis : live->motion.axes.list()) state_.axis(axis).homed = true;
+    publish_state();
+  }
   co_await restore_speeds(live, before);
 }
 
-Task<void> Controller::Impl::start_home(LiveMotionPtr live) {
-  const bool mechanical = live->motion.kind == MotionKind::home;
-  auto request = motion_request(*live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes), Lane::motion);
+Task<void> Controller::Impl::start_and_watch(LiveMotionPtr live, Command start) {
+  auto request = motion_request(*live, start, Lane::motion);
   request.completes = live->motion.axes;
   live->wrote = true;
   auto pending = line_.exchange(std::move(request), now_);
@@ -92,8 +89,7 @@ Task<void> Controller::Impl::start_home(LiveMotionPtr live) {
   bool in_doubt = result.in_doubt();
   if (result.refused() && guarded(Guard::refused_start_looked_at)) in_doubt = co_await moves_all_the_same(live);
   if (result.refused() && !in_doubt) {
-    const auto why = co_await explain_refusal(make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes),
-                                              live->motion.axes, live->context.who);
+    const auto why = co_await explain_refusal(start, live->motion.axes, live->context.who);
     end_motion(live, MotionState::failed, why);
     co_return;
   }
@@ -103,9 +99,6 @@ Task<void> Controller::Impl::start_home(LiveMotionPtr live) {
   }
   if (result.accepted()) mark_running(live);
   co_await watch(live, in_doubt);
-  if (!mechanical || live->motion.state != MotionState::succeeded) co_return;
-  for (const int axis : live->motion.axes.list()) state_.axis(axis).homed = true;
-  publish_state();
 }
 
 }  // namespace axisgate::shrc203

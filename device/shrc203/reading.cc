@@ -10,6 +10,7 @@ namespace {
 // Faster than this no axis runs (manual 89) D:); a reading beyond it is read again before it is believed.
 constexpr double kPulsesPerSecondMax = 1'000'000;
 constexpr std::int64_t kJumpMargin = 10'000;
+constexpr int kTellings = 4;
 
 Problem unreadable(std::string_view question, const ExchangeResult& result) {
   return {Reason::device_refused,          fmt::format("{} was answered by {}", question, result.reply->text),
@@ -30,6 +31,21 @@ Task<ExchangeResult> Controller::Impl::ask(std::string_view question, Lane lane,
   auto pending = line_.exchange(std::move(request), now_);
   auto result = co_await pending;
   co_return result;
+}
+
+Task<Result<Reply>> Controller::Impl::ask_twice(LiveMotionPtr live, Command question) {
+  std::string before;
+  for (int telling = 0; telling < kTellings; ++telling) {
+    auto request = motion_request(*live, question, Lane::motion);
+    request.not_after = now_ + kStepLimit;
+    auto pending = line_.exchange(std::move(request), now_);
+    const auto result = co_await pending;
+    if (result.problem) co_return tl::unexpected(*result.problem);
+    if (telling > 0 && before == result.reply->text) co_return *result.reply;
+    before = result.reply->text;
+  }
+  co_return fail(Reason::line_fault, fmt::format("{} is answered otherwise every time", question.line),
+                 "check the cable");
 }
 
 Task<Result<void>> Controller::Impl::read_positions(Lane lane, std::string caller, bool in_handshake) {

@@ -69,6 +69,16 @@ Result<MovePlan> Controller::Impl::slowed_down(AxisSet axes, const Envelope& lim
   return slower;
 }
 
+Task<Result<void>> Controller::Impl::slow_down(LiveMotionPtr live) {
+  const auto slower = slowed_down(live->motion.axes, envelope(live->context));
+  if (!slower) co_return tl::unexpected(slower.error());
+  if (slower->axes.empty()) co_return Result<void>();
+  live->keeps_gate = true;
+  const auto set = co_await set_speeds(live, *slower);
+  if (set) note_speeds(speeds_of(*slower));
+  co_return set;
+}
+
 // A speed is asked for one motion, but the controller keeps it (manual 68)): the next user gets back what was set
 // before.
 Task<void> Controller::Impl::restore_speeds(LiveMotionPtr live, Speeds before) {

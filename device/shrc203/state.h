@@ -59,6 +59,7 @@ struct State {
   std::string vendor, model, serial_number, firmware;
   std::string mode, format;
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
+  TimePoint epoch_began{};         // when that was last seen
   std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set anew: R: RC: PSET:
   std::array<AxisState, kAxisCount> axes;
   std::optional<int> outputs;      // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
