@@ -23,8 +23,6 @@ namespace axisgate::axisctl {
 // Starting a motion may first wait for its turn, at most 5 s (CallContext.not_after).
 inline constexpr std::chrono::seconds kQuestionLimit{5};
 inline constexpr std::chrono::seconds kStartLimit{10};
-// A scan begins with a move to where it sets out, however far that is.
-inline constexpr std::chrono::seconds kScanStartLimit = std::chrono::hours(24);
 // An axis at full speed may take a second to slow down, and the daemon watches until it stands.
 inline constexpr std::chrono::seconds kStopLimit{30};
 

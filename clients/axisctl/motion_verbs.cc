@@ -89,7 +89,7 @@ int scan(const Session& session) {
     request.set_drive_pulses(options.every);
   }
   return start_and_wait(session, device, [&] {
-    return session.connection.call(session.connection.stage, &v1::StageService::Stub::Scan, request, kScanStartLimit)
+    return session.connection.call(session.connection.stage, &v1::StageService::Stub::Scan, request, kStartLimit)
         .motion();
   });
 }
