@@ -23,6 +23,7 @@
 #include "server/gateway.h"
 #include "server/logging.h"
 #include "server/rpc/server.h"
+#include "server/saved_positions.h"
 
 namespace axisgate {
 namespace {
@@ -77,12 +78,14 @@ int serve(const server::Config& config) {
   server::start_logging();
   const auto access = open_access(config.access);
   if (!access) return complain(kExitFailed, server::explain(access.error()));
+  const auto positions = server::SavedPositions::open(server::default_state_directory() + "/positions");
+  if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   server::Gateway gateway(config, start_generation());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
                                         .of_one = static_cast<std::size_t>(config.limits.connections)};
-  const auto server = rpc::Server::start(gateway, **access, limits);
+  const auto server = rpc::Server::start(gateway, **access, **positions, limits);
   if (!server) return complain(kExitFailed, server::explain(server.error()));
 
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};

@@ -15,7 +15,7 @@ constexpr std::string_view kApi = "/axisgate.v1.";
 constexpr std::array<std::string_view, 2> kReadOnlyServices = {"/grpc.health.v1.Health/",
                                                                "/grpc.reflection.v1alpha.ServerReflection/"};
 
-constexpr std::array<std::pair<std::string_view, Role>, 35> kRoles = {{
+constexpr std::array<std::pair<std::string_view, Role>, 42> kRoles = {{
     {"AccessService/GetCaller", Role::observer},
     {"CommandService/ListCommands", Role::observer},
     {"CommandService/Execute", Role::operator_},
@@ -32,6 +32,10 @@ constexpr std::array<std::pair<std::string_view, Role>, 35> kRoles = {{
     {"DiagnosticsService/Record", Role::observer},
     {"DiagnosticsService/GetSupportReport", Role::observer},
     {"EventService/Watch", Role::observer},
+    {"PositionService/SavePosition", Role::operator_},
+    {"PositionService/ListPositions", Role::observer},
+    {"PositionService/DeletePosition", Role::operator_},
+    {"PositionService/MoveToPosition", Role::operator_},
     {"SettingService/GetSettings", Role::observer},
     {"SettingService/ChangeSettings", Role::operator_},
     {"SettingService/SetCoordinates", Role::operator_},

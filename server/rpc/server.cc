@@ -34,7 +34,8 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 
 }  // namespace
 
-Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener)
+Server::Server(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
+               std::unique_ptr<server::Listener> listener)
     : access_(access),
       network_(gateway.config().network),
       message_bytes_max_(gateway.config().limits.message_bytes),
@@ -48,6 +49,7 @@ Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr
       commands_(gateway, access, streams_),
       settings_(gateway, access),
       simulators_(gateway),
+      positions_(gateway, access, positions),
       diagnostics_(gateway, streams_),
       control_(gateway, streams_),
       known_callers_(access),
@@ -56,6 +58,7 @@ Server::Server(server::Gateway& gateway, server::Access& access, std::unique_ptr
       names_(devices_) {}
 
 Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::Access& access,
+                                              server::SavedPositions& positions,
                                               const server::ConnectionLimits& limits) {
   gpr_set_log_function(log_quietly);
   const server::Config& config = gateway.config();
@@ -63,7 +66,7 @@ Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::
   auto listener = server::Listener::open(config.listen, config.socket, network);
   if (!listener) return tl::unexpected(listener.error());
   allow_only_tls_13();
-  std::unique_ptr<Server> server(new Server(gateway, access, *std::move(listener)));
+  std::unique_ptr<Server> server(new Server(gateway, access, positions, *std::move(listener)));
   server->build_ordinary();
   server->build_reserve();
   if (server->ordinary_.server == nullptr || server->reserve_.server == nullptr) {
@@ -86,7 +89,7 @@ void Server::build_ordinary() {
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
   for (grpc::Service* service :
        std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &settings_, &simulators_,
-                                             &diagnostics_, &control_, &known_callers_, &health_}) {
+                                             &positions_, &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   build(builder, ordinary_);

@@ -23,6 +23,7 @@
 #include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/health_service.h"
+#include "server/rpc/position_service.h"
 #include "server/rpc/rpc_metrics.h"
 #include "server/rpc/setting_service.h"
 #include "server/rpc/simulator_service.h"
@@ -36,8 +37,9 @@ class Server {
  public:
   // Serves at once where the gateway's configuration says. Refuses an address that somebody else serves, and a socket
   // whose directory cannot be trusted. Connections beyond `limits` are served a stop only (stop_only.h). `gateway` and
-  // `access` outlive the server.
+  // `access` outlive the server, and `positions` the gateway.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
+                                               server::SavedPositions& positions,
                                                const server::ConnectionLimits& limits);
   // Ends all calls and waits until none is left, so that nobody calls into the gateway any more.
   ~Server();
@@ -54,7 +56,8 @@ class Server {
     std::optional<Entrances> entrances;
   };
 
-  Server(server::Gateway& gateway, server::Access& access, std::unique_ptr<server::Listener> listener);
+  Server(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
+         std::unique_ptr<server::Listener> listener);
   void build_ordinary();
   void build_reserve();
   void build(grpc::ServerBuilder& builder, Part& part);
@@ -74,6 +77,7 @@ class Server {
   CommandService commands_;
   SettingService settings_;
   SimulatorService simulators_;
+  PositionService positions_;
   DiagnosticsService diagnostics_;
   ControlService control_;
   AccessService known_callers_;

@@ -25,7 +25,7 @@ const std::set<std::string> kObserver = {"AccessService/GetCaller",    "CommandS
                                          "EventService/Watch",         "StageService/Stop",
                                          "StageService/EmergencyStop", "StageService/GetMotion",
                                          "StageService/ListMotions",   "StageService/WatchMotion",
-                                         "SettingService/GetSettings"};
+                                         "SettingService/GetSettings", "PositionService/ListPositions"};
 const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "ControlService/AcquireLease",
                                          "ControlService/KeepLeaseAlive",
@@ -42,7 +42,10 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "StageService/RunPath",
                                          "StageService/Scan",
                                          "StageService/Jog",
-                                         "StageService/CancelMotion"};
+                                         "StageService/CancelMotion",
+                                         "PositionService/SavePosition",
+                                         "PositionService/DeletePosition",
+                                         "PositionService/MoveToPosition"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
                                       "AccessService/RevokeToken", "ControlService/TakeOverLease",
                                       "DeviceService/ClearErrors", "SettingService/ResetDevice"};

@@ -22,6 +22,7 @@
 #include "server/events/wall_time.h"
 #include "server/gateway.h"
 #include "server/rpc/server.h"
+#include "server/saved_positions.h"
 
 namespace axisgate::rpc {
 
@@ -37,7 +38,8 @@ class RpcTest : public ::testing::Test {
     gateway_ = std::make_unique<server::Gateway>(config, 1);
     access_ = std::make_unique<server::Access>(config.access, server::caller_name(::geteuid()),
                                                *server::Tokens::open(directory_ + ".tokens"));
-    auto started = Server::start(*gateway_, *access_, limits_);
+    positions_ = *server::SavedPositions::open(directory_ + ".positions");
+    auto started = Server::start(*gateway_, *access_, *positions_, limits_);
     ASSERT_TRUE(started) << started.error().message;
     server_ = *std::move(started);
     gateway_->start();
@@ -58,6 +60,7 @@ class RpcTest : public ::testing::Test {
     server_.reset();
     gateway_.reset();
     std::filesystem::remove(directory_ + ".tokens");
+    std::filesystem::remove(directory_ + ".positions");
     std::filesystem::remove(directory_);
   }
 
@@ -166,6 +169,7 @@ class RpcTest : public ::testing::Test {
   server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
   std::unique_ptr<server::Access> access_;
+  std::unique_ptr<server::SavedPositions> positions_;
   std::unique_ptr<server::Gateway> gateway_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;

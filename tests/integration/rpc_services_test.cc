@@ -264,10 +264,10 @@ TEST_F(RpcTest, ASecondServerIsRefused) {
   same_address.listen = server_->listen();
   same_address.socket += "2";
   server::Gateway second(same_address, 2);
-  const auto tcp = Server::start(second, *access_, limits_);
+  const auto tcp = Server::start(second, *access_, *positions_, limits_);
   ASSERT_FALSE(tcp);
   EXPECT_THAT(tcp.error().message, ::testing::HasSubstr("Address already in use"));
-  const auto socket = Server::start(*gateway_, *access_, limits_);
+  const auto socket = Server::start(*gateway_, *access_, *positions_, limits_);
   ASSERT_FALSE(socket);
   EXPECT_THAT(socket.error().message, ::testing::HasSubstr("is served by another process already"));
 }

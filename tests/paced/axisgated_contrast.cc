@@ -14,6 +14,7 @@
 #include "server/gateway.h"
 #include "server/logging.h"
 #include "server/rpc/server.h"
+#include "server/saved_positions.h"
 
 namespace axisgate {
 namespace {
@@ -28,9 +29,10 @@ int serve(const char* config_path) {
   server::EndSignals end_signals;
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
+  const auto positions = *server::SavedPositions::open("");
   server::Gateway gateway(*config, 1);
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
-  const auto server = rpc::Server::start(gateway, access, {server::raise_descriptor_limit()});
+  const auto server = rpc::Server::start(gateway, access, *positions, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);
     return 1;
