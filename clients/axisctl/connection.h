@@ -13,6 +13,7 @@
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
+#include "axisgate/v1/position.grpc.pb.h"
 #include "axisgate/v1/settings.grpc.pb.h"
 #include "axisgate/v1/simulator.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
@@ -63,6 +64,7 @@ class Connection {
   const std::unique_ptr<v1::AccessService::Stub> access;
   const std::unique_ptr<v1::SettingService::Stub> settings;
   const std::unique_ptr<v1::SimulatorService::Stub> simulators;
+  const std::unique_ptr<v1::PositionService::Stub> positions;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

@@ -58,6 +58,15 @@ it was seen to go comes to; the controller itself does not tell how many it gave
      R"(axisctl scan 2 0mm 0.1mm --every 500 --speed 200um/s
 axisctl --json scan 2 0.1mm 0mm --every 500)"},
     {"jog", "", "axisctl jog 1=- --speed 200um/s --seconds 1"},
+    {"save",
+     R"(All axes belong to it. The place stays where it is, wherever 0 is counted from, and a restart of the controller
+empties it. With --coordinates it is what the coordinates say by then, and outlives a restart. The controller keeps
+twenty of each.)",
+     "axisctl save sample\naxisctl save park --coordinates\naxisctl positions"},
+    {"positions", "", "axisctl positions"},
+    {"go", "All axes together. Nothing moves where the controller holds another position by now, or none.",
+     "axisctl go sample\naxisctl go park --wait 60"},
+    {"forget", "", "axisctl forget sample"},
     {"stop", "", "axisctl stop"},
     {"rearm", "", "axisctl rearm"},
     {"estop", "", "axisctl estop"},

@@ -66,6 +66,10 @@ constexpr Row kRows[] = {
     {Verb::trigger_every, trigger_every},
     {Verb::trigger_off, trigger_off},
     {Verb::trigger_fire, trigger_fire, true},
+    {Verb::save, save_position, true},
+    {Verb::positions, list_positions},
+    {Verb::go, go_to_position, true},
+    {Verb::forget, forget_position, true},
 };
 
 constexpr bool in_order() {
@@ -74,7 +78,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::trigger_fire) + 1);
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::forget) + 1);
 
 int run(const Options& options) {
   const Session session{options, Connection(options.target)};

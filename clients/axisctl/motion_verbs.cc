@@ -9,17 +9,6 @@
 namespace axisgate::axisctl {
 namespace {
 
-int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start) {
-  if (session.options.no_wait) return report_started(session, start());
-  MotionFollower follower(session, device);
-  const v1::Motion started = start();
-  say_on_interrupt_that_motion_goes_on();
-  follower.follow(started.name());
-  const v1::Motion outcome = await_outcome(session, started.name());
-  follower.finish();
-  return report_outcome(session, device, outcome);
-}
-
 template <class Request, class Method>
 v1::Motion start_on_axes(const Session& session, const v1::Device& device, Method method) {
   Request request;

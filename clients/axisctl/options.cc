@@ -5,11 +5,11 @@
 #include <cstdio>
 #include <utility>
 
+#include "clients/axisctl/addresses.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/help_topics.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verb_options.h"
-#include "server/default_socket.h"
 
 namespace axisgate::axisctl {
 
@@ -225,18 +225,21 @@ void add_target(CLI::App& app, Target& target) {
   key->needs(certificate);
 }
 
+void add_position_verbs(CLI::App& app, Options& options) {
+  CLI::App* save = add_verb(app, options, Verb::save, "save", "give the place where the stage stands a name");
+  save->add_flag("--coordinates", options.coordinates, "its coordinates, instead of the place itself");
+  save->add_flag("--keep", options.keep, "not where there is one of that name");
+  add_verb(app, options, Verb::positions, "positions", "the positions that have names");
+  CLI::App* go = add_verb(app, options, Verb::go, "go", "move to a position that has a name");
+  add_waiting(*go, options);
+  CLI::App* forget = add_verb(app, options, Verb::forget, "forget", "forget a position and its name");
+  for (CLI::App* verb : {save, go, forget}) {
+    verb->add_option("NAME", options.name, "1 to 40 letters, digits, - and _")->required()->type_name("");
+    add_wait(*verb, options);
+  }
+}
+
 bool writes_text_only(Verb verb) { return verb == Verb::record || verb == Verb::replay || verb == Verb::support; }
-
-// "/path" for people; gRPC wants "unix:/path".
-std::string address(std::string target) {
-  if (target.empty()) target = default_socket_to_connect();
-  return target.front() == '/' ? "unix:" + target : target;
-}
-
-std::string resource(const std::string& device) {
-  constexpr std::string_view prefix = "devices/";
-  return device.empty() || device.rfind(prefix, 0) == 0 ? device : std::string(prefix) + device;
-}
 
 int list_examples() {
   for (const HelpTopic& topic : help_topics()) print_line(topic.examples);
@@ -289,6 +292,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   app.get_formatter()->label("REQUIRED", "");
   add_questions(app, options);
   add_motion_verbs(app, options);
+  add_position_verbs(app, options);
   add_other_verbs(app, options);
   add_lease_verbs(app, options);
   add_access_verbs(app, options);

@@ -58,7 +58,11 @@ enum class Verb {
   inputs,
   trigger_every,
   trigger_off,
-  trigger_fire
+  trigger_fire,
+  save,
+  positions,
+  go,
+  forget
 };
 
 // The way to the daemon.
@@ -109,7 +113,9 @@ struct Options {
   std::string at_loss = "stop";                // lease run
   std::string purpose;                         // lease run
   std::string holder;                          // lease hand-over: to whom
-  std::string name;                            // token create, token revoke
+  std::string name;                            // token create, token revoke, save, go, forget
+  bool coordinates = false;                    // save
+  bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
   int days = 90;                               // token create: until it expires
 };

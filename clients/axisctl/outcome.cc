@@ -82,6 +82,17 @@ int report_started(const Session& session, const v1::Motion& motion) {
   return kDone;
 }
 
+int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start) {
+  if (session.options.no_wait) return report_started(session, start());
+  MotionFollower follower(session, device);
+  const v1::Motion started = start();
+  say_on_interrupt_that_motion_goes_on();
+  follower.follow(started.name());
+  const v1::Motion outcome = await_outcome(session, started.name());
+  follower.finish();
+  return report_outcome(session, device, outcome);
+}
+
 void say_on_interrupt_that_motion_goes_on() {
   struct sigaction action = {};
   action.sa_handler = leave_motion_running;

@@ -1,6 +1,7 @@
 // What becomes of a motion, told to a person and as an exit code.
 #pragma once
 
+#include <functional>
 #include <string>
 
 #include "clients/axisctl/motion_follower.h"
@@ -16,6 +17,9 @@ int report_outcome(const Session& session, const v1::Device& device, const v1::M
 
 // A motion that was started and is not waited for.
 int report_started(const Session& session, const v1::Motion& motion);
+
+// Starts it and waits for the outcome, which is reported; with --no-wait, once it has started. Throws Failure.
+int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start);
 
 // From now on Ctrl-C says that the motion goes on, before it ends axisctl with exit code 130.
 void say_on_interrupt_that_motion_goes_on();

@@ -54,6 +54,10 @@ int inputs(const Session& session);
 int trigger_every(const Session& session);
 int trigger_off(const Session& session);
 int trigger_fire(const Session& session);
+int save_position(const Session& session);
+int list_positions(const Session& session);
+int go_to_position(const Session& session);
+int forget_position(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

@@ -15,7 +15,7 @@ constexpr std::string_view kApi = "/axisgate.v1.";
 constexpr std::array<std::string_view, 2> kReadOnlyServices = {"/grpc.health.v1.Health/",
                                                                "/grpc.reflection.v1alpha.ServerReflection/"};
 
-constexpr std::array<std::pair<std::string_view, Role>, 42> kRoles = {{
+constexpr std::array<std::pair<std::string_view, Role>, 39> kRoles = {{
     {"AccessService/GetCaller", Role::observer},
     {"CommandService/ListCommands", Role::observer},
     {"CommandService/Execute", Role::operator_},
