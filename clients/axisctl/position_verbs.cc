@@ -27,7 +27,7 @@ std::string places_text(const v1::Device& device, const v1::Position& position) 
   return fmt::format("{}", fmt::join(places, ", "));
 }
 
-std::string describe(const v1::Device& device, const v1::Position& position) {
+std::string whole_text(const v1::Device& device, const v1::Position& position) {
   const bool place = position.kind() == v1::POSITION_KIND_PLACE;
   return fmt::format("{}  {} {}  {}  saved {} by {}{}", last_part(position.name()), place ? "place" : "coordinates",
                      position.number(), places_text(device, position), time_text(position.save_time()), position.who(),
@@ -60,7 +60,7 @@ int list_positions(const Session& session) {
   const v1::ListPositionsResponse there = session.connection.call(
       session.connection.positions, &v1::PositionService::Stub::ListPositions, request, kQuestionLimit);
   for (const v1::Position& position : there.positions()) {
-    session.options.json ? print_json(position) : print_line(describe(device, position));
+    session.options.json ? print_json(position) : print_line(whole_text(device, position));
   }
   if (there.positions().empty() && !session.options.json) print_line("no position has a name");
   return kDone;

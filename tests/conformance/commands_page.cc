@@ -33,9 +33,9 @@ Every numbered command of the manual, in its order. Made from the command table 
   apart from a completion, which is a bare `1`, `2` or `3`: *by its form*; *asked for all axes*, so that it has commas;
   *waits* until no completion can come; *closed* by an `!:S` behind it while a single motion runs.
 - **RPC**, **axisctl**: the typed call and the verb that do it, or tell it. They send `HRT:` and `ZRT:` where `H:` and
-  `Z:` would do the same, `D:` for `DS:`, `DF:` and `DR:`, `EP:` for `E:`, `KP:` for `K:`, and an origin return of the
-  kind that the controller is set to; where `WT:` and `WI:` would wait, the gateway itself does. `CommandService.Execute`
-  and `axisctl exec` take every command but `J:` and `JD:`.
+  `Z:` would do the same, `D:` for `DS:`, `DF:` and `DR:`, `EP:` for `E:`, `KP:` for `K:`, `PIT:GRT` and `PAV:GRT` for
+  `PIT:G` and `PAV:G`, and an origin return of the kind that the controller is set to; where `WT:` and `WI:` would wait,
+  the gateway itself does. `CommandService.Execute` and `axisctl exec` take every command but `J:` and `JD:`.
 
 | section | command | what it does | parameters | reply | conditions | class | RPC | axisctl |
 |---|---|---|---|---|---|---|---|---|

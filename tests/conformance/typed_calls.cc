@@ -10,6 +10,9 @@ constexpr std::string_view kToldAndAsked = "DeviceService.GetDevice, SettingServ
 constexpr std::string_view kChanged = "SettingService.ChangeSettings";
 constexpr std::string_view kCoordinates = "SettingService.SetCoordinates";
 constexpr std::string_view kMoved = "StageService.Move";
+constexpr std::string_view kSaved = "PositionService.SavePosition";
+constexpr std::string_view kForgotten = "PositionService.DeletePosition";
+constexpr std::string_view kGone = "PositionService.MoveToPosition";
 constexpr std::string_view kMovedOrRun = "StageService.Move, StageService.RunPath";
 constexpr std::string_view kRun = "StageService.RunPath";
 constexpr std::string_view kChangedOrScanned = "SettingService.ChangeSettings, StageService.Scan";
@@ -103,6 +106,17 @@ constexpr TypedCall kTypedCalls[] = {
     {"G:", "StageService.Move, StageService.RunPath, StageService.Scan, StageService.Jog", "move, path, scan, jog"},
     {"J:", "StageService.Jog", "jog"},
     {"JD:", "StageService.Jog", "jog"},
+    // Saved positions.
+    {"PIT:DEL", kForgotten, "forget"},
+    {"PIT:SET", kSaved, "save"},
+    {"PIT:GET", kSaved, "save"},
+    {"PIT:G", kGone, "go"},
+    {"PIT:GRT", kGone, "go"},
+    {"PAV:DEL", kForgotten, "forget"},
+    {"PAV:SET", kSaved, "save --coordinates"},
+    {"PAV:GET", kSaved, "save --coordinates"},
+    {"PAV:G", kGone, "go"},
+    {"PAV:GRT", kGone, "go"},
 };
 
 }  // namespace
