@@ -1,9 +1,9 @@
 #include "device/shrc203/plan.h"
 
-#include "device/shrc203/path_plan.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "device/shrc203/path_plan.h"
 
 namespace axisgate::shrc203 {
 namespace {
