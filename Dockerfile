@@ -24,14 +24,16 @@ RUN apt-get update --quiet \
       libtomlplusplus3 \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 203 --no-create-home --groups dialout axisgate \
- && install --directory --owner axisgate --group axisgate /run/axisgate
+ && install --directory --owner axisgate --group axisgate /run/axisgate /var/lib/axisgate
 COPY --from=build /src/build/bin/axisgated /src/build/bin/axisctl /usr/local/bin/
 ARG REVISION
 LABEL org.opencontainers.image.title="axisgate" \
       org.opencontainers.image.description="Shares the serial line of a SHRC-203 stage controller over gRPC" \
       org.opencontainers.image.licenses="Apache-2.0" \
       org.opencontainers.image.revision="${REVISION}"
-ENV AXISGATE_SOCKET=/run/axisgate/axisgate.sock
+ENV AXISGATE_SOCKET=/run/axisgate/axisgate.sock STATE_DIRECTORY=/var/lib/axisgate
+# Tokens and the names of saved positions.
+VOLUME /var/lib/axisgate
 USER axisgate
 EXPOSE 50203 9203
 # Whether the daemon answers; not whether the line is up, which no new container would mend.

@@ -84,7 +84,7 @@ Frame frame_of(const shrc203::State& state) {
   Frame frame{state.device_epoch, state.frame_epoch, {}, {}};
   for (const int number : state.controllable().list()) {
     const shrc203::AxisState& axis = state.axis(number);
-    if (axis.homed) frame.homed.add(number);
+    frame.homings[static_cast<std::size_t>(number - 1)] = axis.homings;
     if (axis.scale) frame.per_pulse[static_cast<std::size_t>(number - 1)] = axis.scale->per_pulse;
   }
   return frame;
@@ -119,6 +119,10 @@ Result<void> SavedPositions::read() {
                               position ? "its name or its number stands above already" : "is no saved position"),
                   "mend or remove the line: the controller keeps the position, and the gateway only its name");
     }
+  }
+  if (file.bad()) {
+    return fail(Reason::internal, fmt::format("cannot read all of the saved positions in {}", path_),
+                "look at the disk: the file is left as it is");
   }
   return {};
 }

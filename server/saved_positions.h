@@ -22,7 +22,8 @@ namespace axisgate::server {
 // Of which epoch a coordinate is, and in which frame. None of it means anything in another run of the daemon.
 struct Frame {
   std::uint64_t device_epoch = 0, frame_epoch = 0;
-  shrc203::AxisSet homed;  // an origin return sets coordinates anew without raising the frame epoch
+  // An origin return sets coordinates anew without raising the frame epoch.
+  std::array<int, shrc203::kAxisCount> homings{};
   std::array<std::optional<Decimal>, shrc203::kAxisCount> per_pulse;
 
   friend bool operator==(const Frame&, const Frame&) = default;

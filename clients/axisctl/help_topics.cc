@@ -29,7 +29,7 @@ printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | a
 axisctl arc through 1=20um 2=30um to 1=50um 2=20um --speed 1mm/s)"},
     {"scan",
      R"(The controller compares no positions: pulses come every so many pulses from the arming of the trigger on. The way before
-FROM is a whole number of intervals, so that one of them falls on FROM. `axisctl help scans` says more.)",
+FROM is a whole number of intervals, so that one of them falls on FROM (not with --scale). `axisctl help scans` says more.)",
      "axisctl scan 1 0mm 0.5mm --every 1000\naxisctl scan 1 0.5mm 0.25mm --every 500 --speed 100um/s"},
     {"paths",
      R"(A path is one segment a line, every segment with the same axes; # begins a comment. Amounts are ways from where the
@@ -51,7 +51,8 @@ printf 'around 1=0 2=50um cw 2turns rise 3=10um\n' | axisctl path - --speed 1mm/
      R"(One axis runs from FROM to TO at constant speed, and the trigger output gives a pulse every so many drive pulses, or with
 --scale pulses of its scale. The controller compares no positions: pulses come every so many pulses from the arming of the
 trigger on, also while the axis speeds up and slows down. So it sets out before FROM, by a whole number of intervals: one
-pulse falls on FROM, the next ones on multiples of the interval behind it. When it stands the trigger is again what it
+pulse falls on FROM, the next ones on multiples of the interval behind it; with --scale they count from where it sets out.
+When it stands the trigger is again what it
 was. Faster than 56000 pulses/s, where pulses may be missing, is refused. There is one trigger, so a scan needs the right to
 all axes. Told at its end: where the axis ran, how many pulses were due in the range and in all, and how many the way that
 it was seen to go comes to; the controller itself does not tell how many it gave.)",
@@ -61,7 +62,7 @@ axisctl --json scan 2 0.1mm 0mm --every 500)"},
     {"save",
      R"(All axes belong to it. The place stays where it is, wherever 0 is counted from, and a restart of the controller
 empties it. With --coordinates it is what the coordinates say by then, and outlives a restart. The controller keeps
-twenty of each.)",
+twenty of each, by number: the lowest that no name has is taken, whatever a program of your own keeps there.)",
      "axisctl save sample\naxisctl save park --coordinates\naxisctl positions"},
     {"positions", "", "axisctl positions"},
     {"go", "All axes together. Nothing moves where the controller holds another position by now, or none.",

@@ -31,7 +31,7 @@ std::string whole_text(const v1::Device& device, const v1::Position& position) {
   const bool place = position.kind() == v1::POSITION_KIND_PLACE;
   return fmt::format("{}  {} {}  {}  saved {} by {}{}", last_part(position.name()), place ? "place" : "coordinates",
                      position.number(), places_text(device, position), time_text(position.save_time()), position.who(),
-                     position.emptied() ? "  the controller may have forgotten it since" : "");
+                     position.emptied() ? "  it may not be there any more" : "");
 }
 
 }  // namespace

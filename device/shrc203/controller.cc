@@ -304,6 +304,10 @@ Result<void> Controller::check(const PathRequest& request) const {
   return {};
 }
 
+Result<void> Controller::check_use(const RequestContext& context, AxisSet axes) {
+  return impl_->may_use(context, axes);
+}
+
 Result<void> Controller::check(const ScanRequest& request) const {
   const auto plan = impl_->plan_scan(request, {});
   if (!plan) return tl::unexpected(plan.error());

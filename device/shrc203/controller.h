@@ -204,6 +204,10 @@ class Controller : public LineMachine {
   // Stops it: succeeded where the caller wanted that, else stopped, with the reason.
   void end_jog(MotionId id, std::optional<Problem> why, TimePoint now);
 
+  // Whether the caller may change something of these axes now: lease_held, lease_lost, outside_lease, stopped_by,
+  // epoch_passed.
+  Result<void> check_use(const RequestContext& context, AxisSet axes);
+
   // The same checks as above, and nothing is sent.
   Result<void> check(const MoveRequest& request) const;
   Result<void> check(const PathRequest& request) const;

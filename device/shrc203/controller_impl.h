@@ -74,6 +74,7 @@ struct LiveMotion {
   bool needs_excitation = true;
   bool ends_where_it_began = false;  // a whole circle: standing at its target tells nothing
   bool seen_busy = false;
+  bool chains = false;     // several segments: its numbers come more than once
   std::int64_t slack = 0;  // pulses by which its end may lie beside its targets (manual 72))
   bool cut_short = false;  // not all of its segments were started: standing at its target is no success
   bool wrote = false;      // a line of its own went out: the registers may hold something
@@ -268,9 +269,9 @@ class Controller::Impl : public LineListener {
   Result<ScanPlan> plan_scan(const ScanRequest& request, std::optional<Decimal> scale_pulse) const;
   Task<std::optional<Decimal>> read_scale_pulse(int axis, std::string caller);
   Task<std::optional<std::int64_t>> read_counter(int axis, bool of_scale, std::string caller);
-  Task<void> count_triggers(LiveMotionPtr live);
+  Task<void> count_triggers(LiveMotionPtr live, bool arming);
   Task<void> disarm(LiveMotionPtr live);
-  Task<void> pay_trigger(std::string caller);
+  Task<bool> pay_trigger(std::string caller);
 
   // approach.cc
   static bool approaches(const MoveRequest& request);

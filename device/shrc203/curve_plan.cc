@@ -145,7 +145,8 @@ double share_of_speed(const Arc& arc, bool third_axis) {
   return third_axis ? std::abs(arc.rise) / std::max(1.0, length_of(arc)) : 1;
 }
 
-Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, const Envelope& envelope) {
+Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, std::int64_t slack,
+                                const Envelope& envelope) {
   AxisSet axes;
   for (const int axis : curve.axes) {
     if (auto good = envelope.check_axis(axis); !good) return tl::unexpected(good.error());
@@ -172,7 +173,8 @@ Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positio
   std::size_t place = 0;
   for (const int axis : axes.list()) {
     const std::int64_t at = *from[static_cast<std::size_t>(axis - 1)];
-    for (const std::int64_t reached : {reaches[place].lowest, reaches[place].highest, ways[place]}) {
+    const std::int64_t beside = slack + slack_of(*planned);
+    for (const std::int64_t reached : {reaches[place].lowest - beside, reaches[place].highest + beside}) {
       if (auto good = envelope.check_target(axis, at + reached); !good) return tl::unexpected(good.error());
     }
     move.axes.push_back({axis, ways[place], at + ways[place], {}});

@@ -25,7 +25,9 @@ struct PlannedCurve {
 
 // From where the axes are, held against the envelope along the whole curve. invalid_request, out_of_range,
 // outside_travel, position_unknown and what the envelope's conversions refuse.
-Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, const Envelope& envelope);
+// `slack`: by so many pulses the axes may stand beside `from`.
+Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, std::int64_t slack,
+                                const Envelope& envelope);
 
 // Pulses by which the controller's own reckoning of its end may differ: that of an angle ("an error occurs", manual
 // 72), 75)), unless the curve ends on whole pulses.

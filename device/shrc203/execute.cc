@@ -150,7 +150,7 @@ ExchangeRequest Transaction::request_for(const Command& command) {
 bool Transaction::single_motion() const {
   return std::ranges::none_of(impl_.live_, [](const auto& entry) {
     const MotionKind kind = entry.second->motion.kind;
-    return kind == MotionKind::path || kind == MotionKind::execute;
+    return kind == MotionKind::path || kind == MotionKind::execute || entry.second->chains;
   });
 }
 
@@ -211,6 +211,7 @@ Task<bool> Transaction::send(std::size_t index) {
   impl_.remember_settings(request_.context, command);
   const auto result = co_await exchange(command);
   impl_.note_setting(command, result);
+  if (trigger_of(command) && result.accepted()) impl_.trigger_owed_.reset();
   if (command.row->moves()) {
     started_ = started_ || result.accepted();
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();

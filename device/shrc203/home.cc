@@ -74,13 +74,20 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
   }
   co_await start_and_watch(live, make_command(mechanical ? "HRT:" : "ZRT:", live->motion.axes));
   if (mechanical && live->motion.state == MotionState::succeeded) {
-    for (const int axis : live->motion.axes.list()) state_.axis(axis).homed = true;
+    for (const int axis : live->motion.axes.list()) {
+      state_.axis(axis).homed = true;
+      ++state_.axis(axis).homings;
+    }
     publish_state();
   }
   co_await restore_speeds(live, before);
 }
 
 Task<void> Controller::Impl::start_and_watch(LiveMotionPtr live, Command start) {
+  if (live->stop_requested && guarded(Guard::stop_before_go)) {
+    end_motion(live, MotionState::stopped, Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}});
+    co_return;
+  }
   auto request = motion_request(*live, start, Lane::motion);
   request.completes = live->motion.axes;
   live->wrote = true;

@@ -73,7 +73,9 @@ void Controller::Impl::remember_settings(const RequestContext& context, const Co
   for (const auto& [axis, speed] : known_speeds(axes)) before.speeds.try_emplace(axis, speed);
   for (const auto& [axis, speed] : known_origin_speeds(origin)) before.origin_speeds.try_emplace(axis, speed);
   if (outputs && !before.outputs) before.outputs = state_.outputs;
-  if (trigger && !before.trigger) before.trigger = state_.trigger;
+  // What a scan has left armed is nobody's.
+  const bool left = trigger_owed_ && state_.trigger == trigger_owed_->armed;
+  if (trigger && !before.trigger) before.trigger = left ? trigger_owed_->before : state_.trigger;
   if (outputs) before.outputs_set = outputs_of(command);
   if (trigger) before.trigger_set = trigger_of(command);
   before.epoch = state_.device_epoch;
@@ -165,7 +167,8 @@ Task<bool> Controller::Impl::set_back_in_turn(EndedLease lease, Settings before)
   const std::string caller = request.caller;
   const bool speeds = co_await set_back(before.speeds, std::move(request));
   const bool origin = co_await set_origin_speeds_back(before.origin_speeds, caller);
-  const bool trigger = co_await set_trigger_back(before, caller);
+  bool trigger = co_await pay_trigger(caller);
+  if (trigger) trigger = co_await set_trigger_back(before, caller);
   gate_.leave(lease.token);
   const bool back = speeds && origin && trigger;
   co_return back;
@@ -196,7 +199,7 @@ Task<void> Controller::Impl::restore_all_settings() {
   const std::string caller = "the gateway, which is ending";
   co_await pay_speeds(AxisSet::all(), caller);
   speeds_owed_.clear();
-  co_await pay_trigger(caller);
+  (void)co_await pay_trigger(caller);
   for (const auto& [token, before] : std::exchange(settings_before_, {})) {
     speeds_owed_ = before.speeds;
     co_await pay_speeds(AxisSet::all(), caller);

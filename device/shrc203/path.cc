@@ -64,6 +64,7 @@ Task<void> Controller::Impl::follow_path(LiveMotionPtr live, PathPlan plan) {
   live->keeps_gate = live->keeps_gate || std::ranges::any_of(plan.segments, [](const SegmentPlan& segment) {
                        return !speeds_of(segment.move).empty();
                      });
+  live->chains = plan.segments.size() > 1;
   PathRun run(*this, live, std::move(plan));
   co_await run.run();
   if (live->scan) co_await disarm(live);

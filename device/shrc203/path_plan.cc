@@ -72,6 +72,8 @@ class PathPlanner {
   std::vector<double> ways_of(const SegmentPlan& planned) const;
   double share_of(const SegmentPlan& planned, const std::vector<double>& ways, std::size_t place) const;
 
+  std::int64_t slack() const { return path_.segments.empty() ? 0 : path_.segments.back().slack; }
+
   Positions at_;
   const Envelope& envelope_;
   SpeedSetting speed_{};  // of the first axis, by now
@@ -89,6 +91,11 @@ Result<SegmentPlan> PathPlanner::plan_straight(const Segment& segment) const {
                      fmt::format("where {} stands is not known", envelope_.label(one.axis)),
                      "wait until the device is up");
     }
+    for (const std::int64_t beside : {-slack(), slack()}) {
+      if (auto good = envelope_.check_target(one.axis, *one.target + beside); !good) {
+        return tl::unexpected(good.error());
+      }
+    }
     if (move->axes.size() == 1) continue;
     one.amount = *one.target - *at;
     if (std::abs(one.amount) > kWayMax) {
@@ -105,7 +112,7 @@ Result<SegmentPlan> PathPlanner::plan_straight(const Segment& segment) const {
 
 Result<SegmentPlan> PathPlanner::plan_shape(const Segment& segment) const {
   if (!segment.curve) return plan_straight(segment);
-  auto curve = plan_curve(*segment.curve, segment.relative, at_, envelope_);
+  auto curve = plan_curve(*segment.curve, segment.relative, at_, slack(), envelope_);
   if (!curve) return tl::unexpected(curve.error());
   SegmentPlan planned;
   planned.move = std::move(curve->move);
@@ -212,7 +219,7 @@ Result<void> PathPlanner::add(const Segment& segment) {
   plan_time(*planned, ways);
   for (const auto& one : planned->move.axes) at_[static_cast<std::size_t>(one.axis - 1)] = one.target;
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) planned->end[axis] = at_[axis].value_or(0);
-  planned->slack = (first ? 0 : path_.segments.back().slack) + (planned->curve ? slack_of(*planned->curve) : 0);
+  planned->slack = slack() + (planned->curve ? slack_of(*planned->curve) : 0);
   planned->rest = segment.rest;
   planned->inputs = segment.inputs;
   path_.segments.push_back(*std::move(planned));

@@ -81,8 +81,12 @@ Task<bool> PathRun::wait_before(int number) {
     show_armed(false);
     if (!shown) co_return false;
   }
+  if (waits) {
+    const bool there = co_await still_there(number);
+    if (!there) co_return false;
+  }
   if (next.arm) {
-    co_await impl_.count_triggers(live_);
+    co_await impl_.count_triggers(live_, true);
     const bool armed = co_await arm(*next.arm);
     if (!armed) co_return false;
   }
@@ -92,17 +96,43 @@ Task<bool> PathRun::wait_before(int number) {
   co_return true;
 }
 
+// Somebody at the front panel may have moved the axes meanwhile: the ways that follow would lead elsewhere.
+Task<bool> PathRun::still_there(int number) {
+  const bool standing = co_await wait_for_ready();
+  if (!standing || live_->stop_requested) co_return false;
+  const std::int64_t slack = number == 1 ? 0 : segment(number - 1).slack;
+  auto problem = error_shown(live_->motion.axes, impl_.state_);
+  if (!problem && !stands_at(begin_of(number), slack)) {
+    problem = Problem{Reason::target_not_reached,
+                      fmt::format("the axes do not stand where segment {} begins any more", number),
+                      "something else has moved them while they rested: look at the positions",
+                      {},
+                      {},
+                      {}};
+  }
+  if (!problem) co_return true;
+  give_up(MotionState::failed, *problem);
+  co_return false;
+}
+
 void PathRun::show_armed(bool armed) {
   for (const int axis : plan_.axes.list()) impl_.state_.axis(axis).armed = armed;
   impl_.publish_state();
 }
 
-// Two answers in a row: one flipped bit must not start a motion.
+// Two answers in a row: one flipped bit must not start a motion. Nobody's switch starts it once its owner has lost the
+// right to the axes, whatever becomes of motions that run.
 Task<bool> PathRun::wait_for_inputs(int pattern) {
   int agreed = 0;
   for (;;) {
     const auto told = co_await impl_.ask("I:", Lane::motion, live_->context.who);
     if (live_->stop_requested || live_->line_lost) co_return false;
+    const RequestContext& owner = live_->context;
+    const auto allowed = impl_.permission_.may_use({owner.who, owner.lease, live_->uses, 0}, impl_.now_);
+    if (owner.lease != 0 && !allowed) {
+      give_up(MotionState::stopped, allowed.error());
+      co_return false;
+    }
     const bool as_wanted = told.reply && !told.problem && parse_integer(told.reply->text) == pattern;
     agreed = as_wanted ? agreed + 1 : 0;
     if (agreed == 2 || (agreed == 1 && !guarded(Guard::inputs_told_twice))) co_return true;
@@ -123,6 +153,8 @@ Task<bool> PathRun::arm(Trigger trigger) {
     if (result.accepted()) co_return true;
     if (result.refused()) break;
   }
+  if (result.refused())
+    impl_.state_.trigger.reset();  // the NG may have been the line's: it is asked for, to be taken back
   Problem why = result.problem.value_or(Problem{});
   if (result.refused()) why = co_await impl_.explain_refusal(setter, AxisSet::all(), live_->context.who);
   give_up(live_->stop_requested ? MotionState::stopped : MotionState::failed, why);

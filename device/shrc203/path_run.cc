@@ -19,9 +19,9 @@ constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
 }  // namespace
 
 void PathRun::tell(PathProgress::Step step, int number, std::string reply) {
+  if (live_->motion.kind != MotionKind::path) return;
   if (step == PathProgress::Step::done) live_->motion.segments_done = number;
   if (step == PathProgress::Step::underrun) ++live_->motion.underruns;
-  if (live_->motion.kind != MotionKind::path) return;
   impl_.emit(PathProgress{live_->motion.id, step, number, std::move(reply)});
 }
 
@@ -61,13 +61,18 @@ Task<void> PathRun::run() {
   live_->slack = segment(count()).slack;
   live_->ends_where_it_began = returns(count());
   live_->completed = {};  // of the segments before; the last one's are still to come
+  live_->woken = false;
   live_->on_success = [this] { tell(PathProgress::Step::done, count()); };
   co_await impl_.watch(live_, false);
 }
 
-// A whole circle.
+// A whole circle, or nearly one: within its slack, where it begins looks like its end.
 bool PathRun::returns(int number) const {
-  return segment(number).end == (number == 1 ? plan_.begin : segment(number - 1).end);
+  const auto& from = begin_of(number);
+  return std::ranges::all_of(plan_.axes.list(), [&](int axis) {
+    const auto place = static_cast<std::size_t>(axis - 1);
+    return std::abs(segment(number).end[place] - from[place]) <= segment(number).slack;
+  });
 }
 
 Task<bool> PathRun::start(int number) {
@@ -253,6 +258,7 @@ Task<void> PathRun::resume_from_ready() {
   missed_ = 0;
   clock_axis_ = 0;
   if (done == count()) {
+    if (live_->scan) co_await impl_.count_triggers(live_, false);
     impl_.end_motion(live_, MotionState::succeeded, {});
     co_return;
   }

@@ -49,6 +49,10 @@ class PathRun {
   bool stands_at(const std::array<std::int64_t, kAxisCount>& place, std::int64_t slack) const;
   bool stands_at_end(int number) const { return stands_at(segment(number).end, segment(number).slack); }
   bool returns(int number) const;
+  const std::array<std::int64_t, kAxisCount>& begin_of(int number) const {
+    return number == 1 ? plan_.begin : segment(number - 1).end;
+  }
+  Task<bool> still_there(int number);
   Task<bool> come_to_rest();
   Task<void> start_from_rest(int number);
   Task<bool> wait_before(int number);  // for all that the segment waits for at READY

@@ -92,6 +92,10 @@ void Controller::Impl::go_to_position(GoToPositionRequest request, OnStarted sta
 Task<Result<void>> Controller::Impl::find_position(LiveMotionPtr live, GoToPositionRequest request) {
   const auto told = co_await ask_for_position(live, question_of(request));
   if (!told) co_return tl::unexpected(told.error());
+  if (told->empty()) {
+    const auto why = co_await explain_refused_question(question_of(request), live->context.who);
+    if (why) co_return tl::unexpected(*why);
+  }
   if (const auto good = as_expected(request, *told); !good) co_return good;
   const auto place = within(envelope(live->context), state_, *told);
   if (!place) co_return tl::unexpected(place.error());

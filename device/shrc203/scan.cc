@@ -11,6 +11,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
+constexpr int kPayTries = 3;
 constexpr Duration kDisarmLimit = std::chrono::seconds(10), kDisarmPause = std::chrono::milliseconds(60);
 
 }  // namespace
@@ -79,11 +80,12 @@ Task<std::optional<std::int64_t>> Controller::Impl::read_counter(int axis, bool 
 }
 
 // While the axis stands: at the arming, and whenever a reading may be the end.
-Task<void> Controller::Impl::count_triggers(LiveMotionPtr live) {
+Task<void> Controller::Impl::count_triggers(LiveMotionPtr live, bool arming) {
   ScanKeeping& keeping = *live->scan;
+  if (!arming && !keeping.armed_at) co_return;
   const bool of_scale = keeping.trigger.target != Trigger::Target::drive_pulses;
   const auto counter = co_await read_counter(live->motion.axes.lowest(), of_scale, live->context.who);
-  if (!keeping.armed_at) {
+  if (arming) {
     keeping.armed_at = counter;
   } else if (counter) {
     live->motion.scan->observed = triggers_on(*counter - *keeping.armed_at, keeping.trigger);
@@ -95,27 +97,27 @@ Task<void> Controller::Impl::disarm(LiveMotionPtr live) {
   trigger_owed_ = OwedTrigger{live->scan->before, live->scan->trigger};
   for (const TimePoint limit = now_ + kDisarmLimit;
        trigger_owed_ && now_ < limit && line_works() && !live->line_lost;) {
-    co_await pay_trigger(live->context.who);
-    if (!trigger_owed_) break;
+    const bool paid = co_await pay_trigger(live->context.who);
+    if (paid) break;
     auto pause = tick_.wait_until(now_ + kDisarmPause);
     co_await pause;
   }
 }
 
-// What a scan has armed and could not disarm, because the line was lost: before anything moves again.
-Task<void> Controller::Impl::pay_trigger(std::string caller) {
-  if (!trigger_owed_ || !guarded(Guard::scans_disarm)) co_return;
-  if (!state_.trigger) (void)co_await read_trigger(caller);
-  if (!state_.trigger || !trigger_owed_) co_return;
-  const OwedTrigger owed = *trigger_owed_;
-  // Somebody has set another one since, or the controller has restarted: nothing is switched on there.
-  const bool ours = *state_.trigger == owed.armed;
-  if (*state_.trigger == owed.before || !ours) {
-    trigger_owed_.reset();
-    co_return;
+// What a scan has armed and could not disarm, because the line was lost: before anything moves again. Whether nothing
+// is owed any more.
+Task<bool> Controller::Impl::pay_trigger(std::string caller) {
+  for (int attempt = 0; attempt < kPayTries && trigger_owed_ && guarded(Guard::scans_disarm); ++attempt) {
+    if (!state_.trigger) (void)co_await read_trigger(caller);
+    if (!state_.trigger || !trigger_owed_) continue;
+    const OwedTrigger owed = *trigger_owed_;
+    // Somebody has set another one since, or the controller has restarted: nothing is switched on there.
+    const bool settled = *state_.trigger == owed.before || *state_.trigger != owed.armed;
+    bool back = settled;
+    if (!settled) back = co_await set_line_back(trigger_command(owed.before), caller);
+    if (back) trigger_owed_.reset();
   }
-  const bool back = co_await set_line_back(trigger_command(owed.before), std::move(caller));
-  if (back) trigger_owed_.reset();
+  co_return !trigger_owed_ || !guarded(Guard::scans_disarm);
 }
 
 }  // namespace axisgate::shrc203

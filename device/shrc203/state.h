@@ -46,6 +46,7 @@ struct AxisState {
   bool foreign_motion = false;  // it moves, and nobody asked the gateway for that
   std::optional<bool> excited;
   bool homed = false;  // by this gateway since the device epoch began, and no coordinate was set since
+  int homings = 0;     // mechanical origin returns seen to succeed: each sets its coordinates anew
   AxisStatusBits status;
   std::optional<Scale> scale;
   std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses per second, as last read or set

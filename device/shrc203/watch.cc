@@ -138,7 +138,11 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   }
   if (guarded(Guard::speeds_owed)) co_await pay_speeds(axes, live->context.who);
-  co_await pay_trigger(live->context.who);
+  const bool disarmed = co_await pay_trigger(live->context.who);
+  if (!disarmed) {
+    co_return fail(Reason::device_refused, "the trigger that a scan has left armed could not be taken back",
+                   "see that nothing moves, and try again; or set it: axisctl trigger off");
+  }
   if (!registers_.known() || registers_.any()) {
     const auto cleared = co_await clear_left_overs(live, reg);
     if (!cleared) co_return cleared;
@@ -245,7 +249,7 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
     const auto read = co_await read_positions(completed ? Lane::motion : Lane::poll, live->context.who);
     if (live->line_lost) continue;
     if (read && live->scan && !state_.axis(live->motion.axes.lowest()).busy.value_or(true)) {
-      co_await count_triggers(live);
+      co_await count_triggers(live, false);
     }
     if (read) {
       judge(live, check);

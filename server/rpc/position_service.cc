@@ -53,6 +53,10 @@ struct Saving {
 using SavingPtr = std::shared_ptr<Saving>;
 
 Result<void> Saving::read(const ExecuteEvent& ended, const shrc203::State& state) {
+  if (ended.problem && ended.problem->reason == Reason::not_found) {
+    return fail(Reason::device_refused, "the controller took the position, and does not hold it",
+                "look at its mode: axisctl status");
+  }
   if (ended.problem) return tl::unexpected(*ended.problem);
   auto coordinates = coordinates_told(position, {answers.begin() + 1, answers.end()}, state);
   if (!coordinates) return tl::unexpected(coordinates.error());
@@ -99,7 +103,6 @@ struct Removal {
   SavedPositions& positions;
   SavedPosition position;
   shrc203::RequestContext asked;
-  bool held = false;  // by the controller
 
   void refuse(const Problem& problem) const { call->refuse(problem); }
 };
@@ -129,10 +132,9 @@ void remove(const RemovalPtr& removal, Controller& controller, TimePoint now) {
 void remove_if_there(const RemovalPtr& removal, Controller& controller, TimePoint now) {
   controller.execute(
       {{position_line(removal->position, "GET")}, removal->asked}, now, [removal](const ExecuteEvent& event) {
-        if (event.kind == ExecuteEvent::Kind::reply) removal->held = event.wire_reply != "NG";
         if (event.kind != ExecuteEvent::Kind::ended) return;
+        if (event.problem && event.problem->reason == Reason::not_found) return forget(removal);
         if (event.problem) return removal->refuse(*event.problem);
-        if (!removal->held) return forget(removal);
         removal->device.post([removal](Controller& same, TimePoint then) { remove(removal, same, then); });
       });
 }
@@ -211,6 +213,8 @@ grpc::ServerUnaryReactor* PositionService::DeletePosition(grpc::CallbackServerCo
                       &positions = positions_](Controller& controller, TimePoint now) {
     const auto position = find_position(positions, name);
     if (!position) return static_cast<void>(call->refuse(position.error()));
+    const auto allowed = controller.check_use(asked, controller.state().controllable());
+    if (!allowed) return static_cast<void>(call->refuse(allowed.error()));
     if (validate_only) return call->answer([](api::DeletePositionResponse&) {});
     const RemovalPtr removal(new Removal{call, *name.device, gateway, positions, *position, asked});
     // The number may be another position's in the controller that is here now.

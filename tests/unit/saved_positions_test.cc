@@ -209,7 +209,7 @@ TEST(FrameOfAState, ChangesWithWhateverChangesCoordinates) {
   other.device_epoch = 2;
   EXPECT_NE(frame_of(other), before);
   other = state;
-  other.axes[0].homed = true;
+  other.axes[0].homings = 1;
   EXPECT_NE(frame_of(other), before);
   other = state;
   other.axes[0].scale = Scale{{5, 0}, false};
