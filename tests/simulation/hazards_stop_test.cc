@@ -353,5 +353,26 @@ TEST_F(Refusals, ExecOutsideTheTravelLimitsSetsNothing) {
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
 }
 
+// The speeds that a narrower cap asks for are on the wire when the stop comes, and nothing of the motion waits.
+TEST(Hazard, H37_AStopWhileSpeedsAreSetForAReturn) {
+  auto setup = quiet();
+  setup.profile.axes[0].maximum_speed = pulses(20'000);
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  moved(world, {{1, 9000}});
+  const std::size_t lines = world.wire().commands().size(), before = world.outcomes().size();
+  world.wire().set_script([&world](LineKind kind, const std::string&) -> Scripted {
+    const bool late = kind == LineKind::reply && world.wire().commands().back().starts_with("D:");
+    return {.drop = false, .delay = milliseconds(late ? 60 : 0), .instead = {}};
+  });
+  world.controller().return_to_origin({AxisSet::of(1), world.context("tester")}, world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return written(world, "D:", lines) == 1; }, seconds(5))) << world.replay();
+  world.controller().stop({}, world.context("tester"), world.now(), [](const StopReport&) {});
+  EXPECT_EQ(outcome_of(world, before + 1).state, MotionState::stopped) << world.replay();
+  world.run_for(seconds(2));
+  EXPECT_EQ(written(world, "ZRT:", lines), 0) << world.replay();
+  EXPECT_EQ(world.device().position(1), 9000);
+}
+
 }  // namespace
 }  // namespace axisgate::simulation

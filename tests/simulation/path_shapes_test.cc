@@ -1,4 +1,4 @@
-// Paths of lines and curves with rests between, and targets that are come to from one side.
+// Paths of lines and curves with rests between.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "server/access/leases.h"
 #include "tests/simulation/random.h"
 #include "tests/simulation/scenario.h"
 
@@ -59,18 +60,6 @@ void run(World& world, std::vector<Segment> segments) {
   world.controller().run_path(path_of(world, std::move(segments)), world.now(), [](const Result<Motion>&) {});
 }
 
-// The prebuffer lines in their order.
-std::vector<std::string> set_lines(World& world, std::size_t first = 0) {
-  std::vector<std::string> lines;
-  for (std::size_t i = first; i < world.wire().commands().size(); ++i) {
-    const std::string& one = world.wire().commands()[i];
-    if (one.starts_with("KP:") || one.starts_with("EP:") || one.starts_with("AP:") || one.starts_with("MP:")) {
-      lines.push_back(one);
-    }
-  }
-  return lines;
-}
-
 TEST(PathShapes, LinesAndCurvesInOneChain) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
@@ -80,8 +69,9 @@ TEST(PathShapes, LinesAndCurvesInOneChain) {
               through({1000, 1000}, {2000, 0}), around(-300, 400, Rotation::clockwise, 1), line(-100, -100)});
   const Motion motion = outcome_of(world, 1);
   EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
-  EXPECT_THAT(set_lines(world), ElementsAre("KP:A+P2000+P1000,S5000F50000R100", "EP:1A1+P0+P1000D90", "KP:A+P0-P500",
-                                            "EP:2A0+P1000+P1000+P2000+P0", "EP:0A0-P300+P400", "KP:A-P100-P100"));
+  EXPECT_THAT(prebuffer_lines(world),
+              ElementsAre("KP:A+P2000+P1000,S5000F50000R100", "EP:1A1+P0+P1000D90", "KP:A+P0-P500",
+                          "EP:2A0+P1000+P1000+P2000+P0", "EP:0A0-P300+P400", "KP:A-P100-P100"));
   EXPECT_EQ(world.device().position(1), 2000 + 1000 + 0 + 2000 + 0 - 100);
   EXPECT_EQ(world.device().position(2), 1000 + 1000 - 500 + 0 + 0 - 100);
   EXPECT_EQ(motion.underruns, 0);
@@ -104,8 +94,8 @@ TEST(PathShapes, AHelixBetweenStraightLines) {
   half.curve->rise = pulses(70);
   run(world, {straight, helix, half, straight});
   EXPECT_EQ(outcome_of(world, 1, seconds(60)).state, MotionState::succeeded) << world.replay();
-  EXPECT_THAT(set_lines(world), ElementsAre("KP:D+P100+P200+P300", "EP:3A1N3+P500+P0-P40", "EP:4A0+P500+P0D180+P70",
-                                            "KP:D+P100+P200+P300"));
+  EXPECT_THAT(prebuffer_lines(world), ElementsAre("KP:D+P100+P200+P300", "EP:3A1N3+P500+P0-P40",
+                                                  "EP:4A0+P500+P0D180+P70", "KP:D+P100+P200+P300"));
   EXPECT_EQ(world.device().position(1), 1200);
   EXPECT_EQ(world.device().position(2), 400);
   EXPECT_EQ(world.device().position(3), 300 - 120 + 70 + 300);
@@ -122,7 +112,7 @@ TEST(PathShapes, PlacesInsteadOfWays) {
   run(world, {to, turn, back, line(5, 5)});
   EXPECT_EQ(outcome_of(world, 2).state, MotionState::succeeded) << world.replay();
   // 180 degrees about (500, 500) lead from (1000, 1000) to (0, 0).
-  EXPECT_THAT(set_lines(world, before),
+  EXPECT_THAT(prebuffer_lines(world, before),
               ElementsAre("KP:A+P700+P1200", "EP:1A1-P500-P500D180", "KP:A+P40-P30", "KP:A+P5+P5"));
   EXPECT_EQ(world.device().position(1), 45);
   EXPECT_EQ(world.device().position(2), -25);
@@ -276,7 +266,7 @@ TEST(PathRests, OneMisreadInputStartsNothing) {
   ASSERT_TRUE(world.run_until_up());
   world.wire().set_script([&world, hits = 0](LineKind kind, const std::string&) mutable -> Scripted {
     const bool hit = kind == LineKind::reply && world.wire().commands().back() == "I:" && ++hits == 5;
-    return {.drop = false, .delay = {}, .instead = hit ? std::optional<std::string>("5") : std::nullopt};
+    return {.drop = false, .delay = {}, .instead = hit ? std::optional<std::string>("5\r\n") : std::nullopt};
   });
   auto second = along(1, 100);
   second.inputs = 5;
@@ -286,66 +276,60 @@ TEST(PathRests, OneMisreadInputStartsNothing) {
   EXPECT_FALSE(stopped(world).problem);
 }
 
-class Approaches : public testing::TestWithParam<std::int64_t> {};
-
-// From below, from above, from so near that it must go away first, and from where it sets out already.
-TEST_P(Approaches, ComeFromTheSameSide) {
+// Somebody at the front panel moves an axis while the path rests.
+TEST(PathRests, WhatWasMovedMeanwhileIsNoticed) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());
-  if (GetParam() != 0) moved(world, {{1, GetParam()}});
-  const std::size_t before = world.outcomes().size(), lines = world.wire().commands().size();
-  auto request = move_of(world, {{1, 5000}}, false);
-  request.moves[0].approach = pulses(800);
-  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
-  std::int64_t last = world.device().position(1);
-  int steps_down_behind_the_turn = 0;
-  bool turned = false;
-  while (world.outcomes().size() == before && world.now() < TimePoint(std::chrono::minutes(5))) {
-    world.run_for(milliseconds(1));
-    const std::int64_t at = world.device().position(1);
-    if (turned && at < last) ++steps_down_behind_the_turn;
-    turned = turned || at == 4200;
-    last = at;
-  }
-  EXPECT_EQ(world.device().position(1), 5000) << world.replay();
-  EXPECT_EQ(steps_down_behind_the_turn, 0) << world.replay();
-  EXPECT_EQ(world.outcomes().back().state, MotionState::succeeded);
-  EXPECT_EQ(world.outcomes().back().kind, MotionKind::move);
-  const auto sent = set_lines(world, lines);
-  EXPECT_EQ(sent.size(), GetParam() == 4200 ? 1U : 2U) << world.replay();
-  EXPECT_EQ(sent.front(), GetParam() == 4200 ? "AP:1+P5000" : "AP:1+P4200") << world.replay();
-  EXPECT_EQ(sent.back(), "AP:1+P5000") << world.replay();
-  EXPECT_TRUE(world.progress().empty()) << "a move has no segments to tell of";
+  auto later = along(1, 300);
+  later.rest = seconds(4);
+  run(world, {along(1, 1000), later});
+  ASSERT_TRUE(world.run_until([&] { return world.device().position(1) == 1000; }, seconds(10)));
+  world.run_for(milliseconds(500));
+  const std::size_t lines = world.wire().commands().size();
+  // What moves the stage does not matter: its line is not the gateway's.
+  world.wire().cut(world.now(), milliseconds(0));
+  world.device().receive("M:1+P70\r\n", world.now());
+  world.device().receive("G:1\r\n", world.now());
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_NE(motion.state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(written(world, "MP:", lines), 0) << world.replay();
 }
 
-INSTANTIATE_TEST_SUITE_P(From, Approaches, testing::Values(0, 9000, 4300, 4200, 5000));
-
-TEST(Approach, SeveralAxesRestBetween) {
-  World world(quiet());
-  ASSERT_TRUE(world.run_until_up());
-  auto request = move_of(world, {{1, 5000}, {2, -700}}, true);
-  request.moves[0].approach = pulses(800);
-  request.moves[1].approach = pulses(-100);
-  world.controller().move(request, world.now(), [](const Result<Motion>&) {});
-  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
-  EXPECT_THAT(set_lines(world), ElementsAre("AP:A+P4200-P600", "AP:A+P5000-P700"));
-  EXPECT_EQ(world.device().position(2), -700);
-}
-
-TEST(Approach, KeepsWithinTheTravel) {
-  auto setup = quiet();
-  setup.profile.axes[0].travel_minimum = pulses(-100);
+// The lease of a path that waits for inputs ends, with motions to be finished: no switch starts it then.
+TEST(PathRests, InputsStartNothingOnceTheLeaseHasEnded) {
+  server::LeaseTokens tokens{1};
+  server::Leases leases{tokens};
+  auto setup = with_inputs();
+  setup.permission = &leases;
   World world(setup);
   ASSERT_TRUE(world.run_until_up());
-  auto request = move_of(world, {{1, 500}}, false);
-  request.moves[0].approach = pulses(601);
-  const auto checked = world.controller().check(request);
-  ASSERT_FALSE(checked);
-  EXPECT_EQ(checked.error().reason, Reason::outside_travel);
-  request.moves[0].approach = pulses(600);
-  EXPECT_TRUE(world.controller().check(request));
-  request.moves[0].approach = pulses(0);
-  EXPECT_EQ(world.controller().check(request).error().reason, Reason::invalid_request);
+  std::uint64_t token = 0;
+  leases.acquire({.axes = AxisSet::of(1), .at_loss = server::AtLoss::finish}, "anna", false, world.now(), world.now(),
+                 [&](const Result<server::Lease>& got) {
+                   ASSERT_TRUE(got);
+                   token = got->token;
+                 });
+  auto second = along(1, 100);
+  second.inputs = 5;
+  PathRequest request = path_of(world, {along(1, 1000), second});
+  request.context.who = "anna";
+  request.context.lease = token;
+  world.controller().run_path(request, world.now(), [](const Result<Motion>&) {});
+  ASSERT_TRUE(world.run_until([&] { return world.controller().state().axis(1).armed; }, seconds(10)));
+  EXPECT_TRUE(leases.release(token, world.now()));
+  world.run_for(seconds(1));
+  world.device().set_inputs(5);
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
+  EXPECT_EQ(world.device().position(1), 1000) << world.replay();
+}
+
+// It ends a pulse beside where it begins, and may end a pulse beside that: standing where it begins is no success.
+TEST(PathShapes, ANearlyWholeCircleIsSeenToRun) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  run(world, {line(0, 500), around(5000, 0, Rotation::counterclockwise, Decimal{35'999, 2})});
+  EXPECT_EQ(outcome_of(world, 1, seconds(120)).state, MotionState::succeeded) << world.replay();
+  EXPECT_FALSE(world.device().busy(1)) << world.replay();
 }
 
 }  // namespace

@@ -148,5 +148,40 @@ TEST(Scan, ALostLineDisarmsLater) {
   EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
 }
 
+// A line that is lost under a first scan, and a second one by somebody else: what was there before both is there again.
+TEST(Scan, OnesThatFollowALostOneLeaveNoTrigger) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  start(world, scan_of(world, 10'000, 90'000, 500));
+  ASSERT_TRUE(world.run_until([&] { return world.device().position(1) > 20'000; }, seconds(20)));
+  world.wire().cut(world.now(), seconds(1));
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::unknown) << world.replay();
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  // The first two tries to take it back are lost.
+  world.wire().set_script([&world, lost = 0](LineKind kind, const std::string&) mutable -> Scripted {
+    const bool hit = kind == LineKind::reply && world.wire().commands().back() == "T:S" && ++lost <= 2;
+    return {.drop = hit, .delay = {}, .instead = {}};
+  });
+  start(world, scan_of(world, 10'000, 20'000, 400));
+  EXPECT_EQ(outcome_of(world, 2, seconds(60)).state, MotionState::succeeded) << world.replay();
+  world.run_for(seconds(2));
+  EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
+}
+
+// The line makes an NG of the answer to T:, which the controller has taken.
+TEST(Scan, AFalseRefusalOfTheTriggerLeavesNone) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up());
+  world.wire().set_script([&world, done = false](LineKind kind, const std::string&) mutable -> Scripted {
+    const bool hit = kind == LineKind::reply && !done && world.wire().commands().back().starts_with("T:P");
+    done = done || hit;
+    return {.drop = false, .delay = {}, .instead = hit ? std::optional<std::string>("NG\r\n") : std::nullopt};
+  });
+  start(world, scan_of(world, 10'000, 20'000, 400));
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::failed) << world.replay();
+  world.run_for(seconds(2));
+  EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
+}
+
 }  // namespace
 }  // namespace axisgate::simulation

@@ -92,6 +92,17 @@ int motion_lines(World& world, std::size_t first) {
   return count - written(world, "GC:", first);
 }
 
+std::vector<std::string> prebuffer_lines(World& world, std::size_t first) {
+  std::vector<std::string> lines;
+  for (std::size_t i = first; i < world.wire().commands().size(); ++i) {
+    const std::string& one = world.wire().commands()[i];
+    if (one.starts_with("KP:") || one.starts_with("EP:") || one.starts_with("AP:") || one.starts_with("MP:")) {
+      lines.push_back(one);
+    }
+  }
+  return lines;
+}
+
 void foreign_traffic(World& world, const std::vector<std::string>& lines) {
   world.wire().cut(world.now(), seconds(1));
   for (const auto& line : lines) world.device().receive(line + "\r\n", world.now());

@@ -36,6 +36,9 @@ int written(World& world, std::string_view prefix, std::size_t first = 0);
 // HRT ZRT M A MP AP KP G and the like: what sets a motion or starts it.
 int motion_lines(World& world, std::size_t first);
 
+// The lines from `first` on that set a prebuffer, in their order.
+std::vector<std::string> prebuffer_lines(World& world, std::size_t first = 0);
+
 // Something else speaks to the device while the gateway's line is unplugged, which then comes back.
 void foreign_traffic(World& world, const std::vector<std::string>& lines);
 

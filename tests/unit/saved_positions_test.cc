@@ -35,7 +35,7 @@ class SavedPositionsTest : public testing::Test {
             std::chrono::sys_seconds(std::chrono::seconds(1'800'000'000)),
             "unix anna maria",
             "2106001001",
-            Frame{3, 4, shrc203::AxisSet::of(1), {}}};
+            Frame{3, 4, {1, 0, 0}, {}}};
   }
   void keep(const SavedPosition& position) {
     const auto kept = positions_->keep(position);
