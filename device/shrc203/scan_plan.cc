@@ -119,6 +119,10 @@ Result<ScanPlan> plan_scan(const ScanRequest& request, const Positions& from, st
   plan.due.run_from = range->from - range->direction() * before;
   plan.due.run_to = range->to + range->direction() * ramp;
 
+  for (const std::int64_t place : {plan.due.run_from, plan.due.run_to}) {
+    if (auto good = envelope.check_target(request.axis, place); !good) return tl::unexpected(good.error());
+  }
+
   const SpeedProfile profile{pulses(speed->minimum), pulses(speed->maximum), speed->acceleration_ms};
   PathRequest path{{}, request.context};
   const auto at = from[static_cast<std::size_t>(request.axis - 1)];

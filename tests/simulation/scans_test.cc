@@ -106,6 +106,8 @@ TEST(Scan, WhatCannotBe) {
   EXPECT_EQ(refusal(scan_of(world, 1'000, 2'000, 1)), Reason::out_of_range);
   EXPECT_EQ(refusal(scan_of(world, 1'000, 2'000, 30'001)), Reason::out_of_range);
   EXPECT_EQ(refusal(scan_of(world, 1'000, 29'000, 400)), Reason::outside_travel) << "it slows down behind the range";
+  EXPECT_THAT(world.controller().check(scan_of(world, 1'000, 29'000, 400)).error().message,
+              testing::StartsWith("axis 1 would go to 300.5um"));
   EXPECT_EQ(motion_lines(world, 0) + written(world, "T:"), 0) << world.replay();
 }
 
