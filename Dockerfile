@@ -6,6 +6,7 @@
 # With a stage, its line and a configuration of your own:
 #   docker run --network host --device /dev/ttyUSB0 --volume "$PWD/axisgate.toml:/etc/axisgate/axisgate.toml:ro" \
 #     axisgate --config /etc/axisgate/axisgate.toml
+# Tokens and the names of saved positions are in /var/lib/axisgate: --volume axisgate-state:/var/lib/axisgate keeps them.
 FROM debian:bookworm-slim AS build
 WORKDIR /src
 COPY deploy/debian-packages.txt deploy/install-packages.sh deploy/
@@ -32,8 +33,6 @@ LABEL org.opencontainers.image.title="axisgate" \
       org.opencontainers.image.licenses="Apache-2.0" \
       org.opencontainers.image.revision="${REVISION}"
 ENV AXISGATE_SOCKET=/run/axisgate/axisgate.sock STATE_DIRECTORY=/var/lib/axisgate
-# Tokens and the names of saved positions.
-VOLUME /var/lib/axisgate
 USER axisgate
 EXPOSE 50203 9203
 # Whether the daemon answers; not whether the line is up, which no new container would mend.
