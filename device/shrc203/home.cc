@@ -84,7 +84,7 @@ Task<void> Controller::Impl::run_home(LiveMotionPtr live) {
 }
 
 Task<void> Controller::Impl::start_and_watch(LiveMotionPtr live, Command start) {
-  if (live->stop_requested && guarded(Guard::stop_before_go)) {
+  if (live->stop_requested && guarded(Guard::stop_before_preparing)) {
     end_motion(live, MotionState::stopped, Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}});
     co_return;
   }

@@ -4,7 +4,6 @@
 #include <map>
 #include <utility>
 
-#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/forecast.h"
 
@@ -111,9 +110,6 @@ Task<void> Controller::Impl::run_to_position(LiveMotionPtr live, GoToPositionReq
   if (ready) ready = co_await find_position(live, request);
   const Speeds before = known_speeds(live->motion.axes);
   if (ready) ready = co_await slow_down(live);
-  if (ready && live->stop_requested && guarded(Guard::stop_before_go)) {
-    ready = fail(Reason::stopped, "stopped by " + live->stopped_by);
-  }
   if (ready) {
     co_await start_and_watch(live, command_of(request, "PIT:GRT", "PAV:GRT"));
   } else {
