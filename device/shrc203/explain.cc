@@ -107,8 +107,13 @@ Task<std::optional<Problem>> Controller::Impl::refusal_by_program(Command comman
   co_return std::nullopt;
 }
 
-// S: where the stage sets its own divisions, and one speed that does not fit the other.
+// S: where the stage sets its own divisions, one speed that does not fit the other, and a start of what two have set.
 Task<std::optional<Problem>> Controller::Impl::refusal_by_settings(Command command, AxisSet axes, std::string caller) {
+  if (command.row->name == "G" || command.row->name == "G:") {
+    const auto told = co_await read_registers(caller);
+    const AxisSet both = axes & registers_.clearable() & registers_.lasting();
+    if (told && !both.empty()) co_return left_over(both);
+  }
   if (command.row->rescales) {
     const auto config = co_await ask("?:ACS", Lane::motion, caller);
     const auto told =

@@ -82,6 +82,17 @@ std::optional<Problem> error_shown(AxisSet axes, const State& state) {
   return {};
 }
 
+Problem left_over(AxisSet axes) {
+  return {Reason::left_over_setting,
+          fmt::format("a prebuffer or jog setting is left over on {} and would run with the next start; no command is "
+                      "documented to clear it",
+                      to_string(axes)),
+          "reset the controller (RESET: or power), then home it",
+          {},
+          {},
+          {}};
+}
+
 Problem unexplained(std::string_view sent, AxisSet axes, const State& state) {
   std::string facts;
   for (const int number : axes.list()) {

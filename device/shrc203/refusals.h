@@ -32,6 +32,9 @@ std::optional<Problem> refusal_by(const CommandRow& row, AxisSet axes, const Sta
 // The first error that one of the axes shows, whatever is asked of it.
 std::optional<Problem> error_shown(AxisSet axes, const State& state);
 
+// Of what somebody has set on these axes and never started, and no command deletes.
+Problem left_over(AxisSet axes);
+
 // Where nothing tells: what there is to go by. `sent` is the line.
 Problem unexplained(std::string_view sent, AxisSet axes, const State& state);
 

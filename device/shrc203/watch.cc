@@ -17,6 +17,22 @@ constexpr Duration kConfirmAfter = std::chrono::milliseconds(60);
 // A gateway that does not hear the end of a motion for this long has lost it.
 constexpr int kReadFailuresMax = 20;
 
+// Of axes that stand where nobody wanted them, without an error.
+Problem fell_short_by(const LiveMotion& live, const State& state) {
+  auto off = live.needs_excitation ? refusal_by(command_row("G:"), live.motion.axes, state) : std::nullopt;
+  if (off && off->reason == Reason::not_excited) {
+    off->message = "it came to a stop on the way: " + off->message;
+    return *off;
+  }
+  return {
+      Reason::target_not_reached,
+      live.jog ? "the axes stand, although nobody here has stopped them" : "the axes stand, but not at their targets",
+      "look at the positions and the controller's front panel",
+      {},
+      {},
+      {}};
+}
+
 }  // namespace
 
 LiveMotionPtr Controller::Impl::create_motion(MotionKind kind, AxisSet axes, RequestContext context,
@@ -194,11 +210,7 @@ Task<Result<void>> Controller::Impl::clear_left_overs(LiveMotionPtr live, Regist
   const bool concerns =
       profile_.prebuffer_scope == Scope::controller ? !lasting.empty() : lasting.touches(live->motion.axes);
   if (concerns && guarded(Guard::left_overs_refused)) {
-    co_return fail(Reason::left_over_setting,
-                   fmt::format("a prebuffer or jog setting is left over on {} and would run with the next start; no "
-                               "command is documented to clear it",
-                               to_string(lasting)),
-                   "reset the controller (RESET: or power), then home it");
+    co_return tl::unexpected(left_over(lasting));
   }
   co_return Result<void>();
 }
@@ -250,6 +262,12 @@ Task<void> Controller::Impl::watch(LiveMotionPtr live, bool start_in_doubt) {
     if (live->line_lost) continue;
     if (read && live->scan && !state_.axis(live->motion.axes.lowest()).busy.value_or(true)) {
       co_await count_triggers(live, false);
+    }
+    const bool ended_here = live->stop_requested || (live->jog && live->jog->ended);
+    const bool fell_short = read && check.ready && !ended_here && !at_targets(*live);
+    if (fell_short && live->needs_excitation) {
+      (void)co_await read_excitation(live->context.who);  // a motor that was switched off
+      if (live->line_lost) continue;
     }
     if (read) {
       judge(live, check);
@@ -323,14 +341,7 @@ void Controller::Impl::judge(LiveMotionPtr live, EndCheck& check) {
   } else if (live->stop_requested) {
     end_motion(live, MotionState::stopped, Problem{Reason::stopped, "stopped by " + live->stopped_by, {}, {}, {}, {}});
   } else {
-    end_motion(live, MotionState::failed,
-               error ? *error
-                     : Problem{Reason::target_not_reached,
-                               "the axes stand, but not at their targets",
-                               "look at the positions and the controller's front panel",
-                               {},
-                               {},
-                               {}});
+    end_motion(live, MotionState::failed, error ? *error : fell_short_by(*live, state_));
   }
 }
 

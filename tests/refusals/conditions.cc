@@ -1,5 +1,7 @@
 #include "tests/refusals/conditions.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace axisgate::refusals {
@@ -128,14 +130,15 @@ std::vector<Condition> states_of_axes() {
 std::vector<Condition> modes() {
   const auto nothing_sent = [](const Sentence&) { return true; };
   std::vector<Condition> all;
-  all.push_back({.name = "MANUAL mode",
-                 .manual = "4. \"*IDN? ?:MODE ?:CMD MODE: can be used in all operation modes\": the others in HOST. "
-                           "REMOTE, TEACHING, EDIT and TEST are alike",
-                 .reason = Reason::wrong_mode,
-                 .told = "MANUAL",
-                 .cases = ordinary([](const Sentence& one) { return one.where != Where::everywhere; }),
-                 .strikes = [](Device& device, TimePoint now) { device.set_mode("MANUAL", now); },
-                 .never_sent = nothing_sent});
+  for (const char* mode : {"MANUAL", "REMOTE", "TEACHING", "EDIT", "TEST"}) {
+    all.push_back({.name = fmt::format("{} mode", mode),
+                   .manual = "4. \"*IDN? ?:MODE ?:CMD MODE: can be used in all operation modes\": the others in HOST",
+                   .reason = Reason::wrong_mode,
+                   .told = mode,
+                   .cases = ordinary([](const Sentence& one) { return one.where != Where::everywhere; }),
+                   .strikes = [mode](Device& device, TimePoint now) { device.set_mode(mode, now); },
+                   .never_sent = nothing_sent});
+  }
   all.push_back({.name = "Command format HIT",
                  .manual = "50) FMT:HIT: this volume is of SHOT_FC",
                  .reason = Reason::wrong_mode,

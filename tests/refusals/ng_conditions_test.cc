@@ -52,7 +52,6 @@ TEST_P(Ng, TheSimulatorRefuses) {
 // Struck as the line arrives: the gateway learns it from NG.
 TEST_P(Ng, TheGatewaySaysWhy) {
   for (const Case& one : GetParam()->cases) {
-    if (!is_seen_at_gateway(one)) continue;
     const Told told = at_gateway(*GetParam(), one, Moment::as_it_arrives);
     EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
   }
@@ -61,7 +60,6 @@ TEST_P(Ng, TheGatewaySaysWhy) {
 TEST_P(Ng, TheGatewayKnowsItBefore) {
   if (!GetParam()->strikes_early) return;
   for (const Case& one : GetParam()->cases) {
-    if (!is_seen_at_gateway(one)) continue;
     const Told told = at_gateway(*GetParam(), one, Moment::before);
     EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
     if (GetParam()->never_sent(*one.sentence)) {
@@ -119,6 +117,22 @@ TEST(Stop, OfAnAxisWithoutExcitationIsNoProblem) {
   EXPECT_TRUE(told.ended && !told.problem) << described(told);
 }
 
+// "It can be used only during operation with the J: command" (93)): what ends the operation refuses it, too.
+TEST(FasterJog, EndsWithTheReasonOfTheRefusal) {
+  int tried = 0;
+  for (const Condition& condition : all_conditions()) {
+    const bool ends_a_jog = condition.name == "Motor excitation OFF" || condition.name == "Limit sensor detected" ||
+                            condition.name == "Emergency stop";
+    if (!ends_a_jog) continue;
+    ++tried;
+    const Told told = of_a_faster_jog(condition);
+    EXPECT_TRUE(told.ended) << condition.name;
+    EXPECT_EQ(told.answers.empty() ? "nothing" : told.answers.front(), "NG") << condition.name << "\n" << told.replay;
+    EXPECT_EQ(wrong_with(condition, {}, told), "") << condition.name << ": " << described(told);
+  }
+  EXPECT_EQ(tried, 3);
+}
+
 TEST(Manual, EachSectionIsThereOnce) {
   int section = 0;
   for (const Sentence& sentence : sentences()) EXPECT_EQ(sentence.section, ++section) << sentence.command;
@@ -129,7 +143,6 @@ TEST(RefusalsPage, IsWhatTheTrialsTold) {
   std::vector<Outcome> outcomes;
   for (const Condition& condition : all_conditions()) {
     for (const Case& one : condition.cases) {
-      if (!is_seen_at_gateway(one)) continue;
       Outcome outcome{&condition, &one, at_gateway(condition, one, Moment::as_it_arrives), true};
       const bool early = condition.strikes_early && condition.strikes;
       outcome.sent = (early ? at_gateway(condition, one, Moment::before) : outcome.told).sent > 0;

@@ -23,14 +23,15 @@ simulation::Setup set_up(const Condition& condition) {
   simulation::Setup setup;
   setup.profile.baud = setup.baud;
   setup.profile.wait_for_inputs = true;
+  setup.callers_send_bare_go = true;
   if (condition.set_up) condition.set_up(setup);
   return setup;
 }
 
 // Within the silence that ends a jog.
-void jog(World& world, std::shared_ptr<Told> told) {
+void jog(World& world, std::shared_ptr<Told> told, std::optional<Quantity> speed = {}) {
   JogRequest request;
-  request.axes = {{1, 1, {}}};
+  request.axes = {{1, 1, std::move(speed)}};
   request.context = world.context("tester", milliseconds(300));
   world.controller().jog(request, world.now(), [told](const Result<Motion>& started) {
     told->ended = true;
@@ -65,8 +66,6 @@ std::string at_simulator(const Condition& condition, const Case& one) {
   (void)bench.send("");
   return bench.ask(one.line);
 }
-
-bool is_seen_at_gateway(const Case& one) { return one.line != "G" || one.whole.size() == 1; }
 
 Told at_gateway(const Condition& condition, const Case& one, Moment moment) {
   World world(set_up(condition));
@@ -113,6 +112,35 @@ Told at_gateway(const Condition& condition, const Case& one, Moment moment) {
   told->replay = world.replay();
   for (const std::string& violation : world.violations()) told->replay = violation + "\n" + told->replay;
   return *told;
+}
+
+Told of_a_faster_jog(const Condition& condition) {
+  World world(set_up(condition));
+  bool struck = false;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    const bool arrives = kind == LineKind::command && line.starts_with("JD:1");
+    if (arrives && !struck) {
+      struck = true;
+      condition.strikes(world.device(), world.now());
+    }
+    return {};
+  });
+  Told told;
+  world.on_motion = [&](const Motion& motion) {
+    if (!is_outcome(motion.state)) return;
+    told.ended = struck;
+    told.problem = motion.problem;
+  };
+  world.on_news = [&](const Event& event) {
+    const auto* ended = std::get_if<ExchangeEnded>(&event);
+    if (ended != nullptr && ended->line.starts_with("JD:1")) told.answers.push_back(ended->reply);
+  };
+  (void)world.run_until_up();
+  const auto started = std::make_shared<Told>();
+  jog(world, started, pulses(2000));
+  (void)world.run_until([&] { return told.ended; }, std::chrono::minutes(1));
+  told.replay = world.replay();
+  return told;
 }
 
 }  // namespace axisgate::refusals

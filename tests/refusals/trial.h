@@ -23,8 +23,10 @@ struct Told {
   int sent = 0;  // how often the line was written
   std::string replay;
 };
-// The world takes a bare G for a fault of the gateway's own, so that what a caller's is answered is not seen there.
-bool is_seen_at_gateway(const Case& one);
 Told at_gateway(const Condition& condition, const Case& one, Moment moment);
+
+// Of a jog that runs when the condition strikes, as JD: is about to reach the controller: its answers, and the jog's
+// end.
+Told of_a_faster_jog(const Condition& condition);
 
 }  // namespace axisgate::refusals

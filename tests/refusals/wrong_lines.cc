@@ -112,6 +112,19 @@ std::vector<Condition> about_order() {
                  .told = "jog",
                  .cases = {bare(faster)},
                  .never_sent = kNothingSent});
+  const Sentence& way = sentence("M:");
+  const auto with_a_prebuffer = [&](const Sentence& start) {
+    return Case{&start, start.line, {way.line, start.line}, {way.line}, {}};
+  };
+  all.push_back({.name = "A prebuffer left over",
+                 .manual = "2. does not say what a start does where M: and MP: are both set; here it is refused. "
+                           "Somebody has set MP: for axis 1 and never started it",
+                 .reason = Reason::left_over_setting,
+                 .told = "left over",
+                 .cases = {with_a_prebuffer(go), with_a_prebuffer(go_of)},
+                 .strikes = [](Device& device, TimePoint now) { device.receive("MP:1+P100\r\nQ:SPC\r\n", now); },
+                 .set_up = [](simulation::Setup& setup) { (void)setup.options.set("go_with_both_buffers", "ng"); },
+                 .never_sent = kNothingSent});
   all.push_back({.name = "Nothing saved under that number",
                  .manual = "130), 131), 135), 136) \"Moves to the position registered\"; 129), 134)",
                  .reason = Reason::not_found,

@@ -25,6 +25,7 @@ struct Setup {
   shrc203::simulator::Options options;
   shrc203::EventSink* listener = nullptr;     // hears every event too
   shrc203::Permission* permission = nullptr;  // none: everybody may
+  bool callers_send_bare_go = false;          // else a bare G is taken for a fault of the gateway's own
 };
 
 // A setup whose open questions are drawn from the seed.
