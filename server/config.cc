@@ -11,11 +11,11 @@
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
 #include "server/config_axis.h"
-#include "server/config_file.h"
+#include "device/core/config_file.h"
 #include "server/config_limits.h"
 #include "server/config_name.h"
 #include "server/config_network.h"
-#include "server/config_table.h"
+#include "device/core/config_table.h"
 #include "server/config_words.h"
 #include "server/default_socket.h"
 #include "server/explain.h"
@@ -219,14 +219,6 @@ class ConfigReader {
 };
 
 }  // namespace
-
-std::string to_string(const ConfigError& error) {
-  std::string text = error.file;
-  if (error.line > 0) text += fmt::format(":{}", error.line);
-  text += ": ";
-  if (!error.key.empty()) text += error.key + ": ";
-  return text + error.message;
-}
 
 Config default_config() {
   return Config{.listen = {"127.0.0.1", kGrpcPort},

@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "device/core/config_error.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
 #include "device/shrc203/profile.h"
@@ -58,17 +59,6 @@ struct Config {
   LimitsConfig limits;
   std::vector<DeviceConfig> devices;
 };
-
-struct ConfigError {
-  std::string file;
-  std::uint32_t line = 0;  // 0: the file as a whole
-  std::string key;         // "device.axis.unit"; empty where no key is meant
-  std::string message;
-};
-std::string to_string(const ConfigError& error);  // `lab.toml:12: device.axis.unit: ...`
-
-template <class T>
-using Configured = tl::expected<T, std::vector<ConfigError>>;
 
 // What the daemon runs without a file: one simulated SHRC-203 named `stage`.
 Config default_config();

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "server/access/identity_limits.h"
-#include "server/config_table.h"
+#include "device/core/config_table.h"
 
 namespace axisgate::server {
 

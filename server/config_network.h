@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "server/config_table.h"
+#include "device/core/config_table.h"
 
 namespace axisgate::server {
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "device/shrc203/profile.h"
-#include "server/config_table.h"
+#include "device/core/config_table.h"
 
 namespace axisgate::server {
 

@@ -1,4 +1,4 @@
-#include "server/config_file.h"
+#include "device/core/config_file.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <cstring>
 #include <fstream>
 
-namespace axisgate::server {
+namespace axisgate {
 namespace {
 
 constexpr std::size_t kBytesMax = 1 << 20;
@@ -27,4 +27,4 @@ tl::expected<std::string, std::string> read_config_file(const std::string& path)
   return text;
 }
 
-}  // namespace axisgate::server
+}  // namespace axisgate

@@ -13,9 +13,9 @@
 #include <utility>
 #include <vector>
 
-#include "server/config.h"
+#include "device/core/config_error.h"
 
-namespace axisgate::server {
+namespace axisgate {
 
 class ConfigTable {
  public:
@@ -164,4 +164,4 @@ class ConfigTable {
   std::vector<std::string> asked_;
 };
 
-}  // namespace axisgate::server
+}  // namespace axisgate

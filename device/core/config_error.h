@@ -1,0 +1,22 @@
+// What is wrong with a file that a person has written, and where.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <tl/expected.hpp>
+#include <vector>
+
+namespace axisgate {
+
+struct ConfigError {
+  std::string file;
+  std::uint32_t line = 0;  // 0: the file as a whole
+  std::string key;         // "device.axis.unit"; empty where no key is meant
+  std::string message;
+};
+std::string to_string(const ConfigError& error);  // `lab.toml:12: device.axis.unit: ...`
+
+template <class T>
+using Configured = tl::expected<T, std::vector<ConfigError>>;
+
+}  // namespace axisgate

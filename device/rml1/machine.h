@@ -1,0 +1,113 @@
+// A mill that plays a job in virtual time, without any clock: what an instruction binds, and what it moves (guideline
+// 3, 5-2, 5-3).
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "device/rml1/clip.h"
+#include "device/rml1/diagnostic.h"
+#include "device/rml1/instruction.h"
+#include "device/rml1/parser.h"
+#include "device/rml1/profile.h"
+
+namespace axisgate::rml1 {
+
+// Where the workpiece lies, in mm: X and Y from the machine's home corner, Z as the distance of Z0 below the top.
+struct Origin {
+  double x = 0, y = 0, z = 0;
+};
+
+// A straight piece of the real path.
+struct Move {
+  Point from, to;         // steps, in workpiece coordinates
+  double speed = 0;       // mm/s, as commanded and within the axes' highest
+  bool lowered = false;   // by a command that keeps the tool lowered
+  bool turning = false;   // whether the spindle turns
+  std::uint64_t end = 0;  // bytes of the job that had to come before
+  Place place;            // of the command
+
+  bool below_surface() const { return from.z < 0 || to.z < 0; }
+  bool cuts() const { return lowered || below_surface(); }
+};
+
+class MachineListener {
+ public:
+  virtual ~MachineListener() = default;
+  virtual void moved(const Move& move) = 0;
+  // An axis of rotation turns, while nothing else moves.
+  virtual void turned(double seconds, const Move& beside) = 0;
+  virtual void spun_up(double seconds) = 0;
+  virtual void dwelt(double seconds) = 0;
+  // A path was commanded to there, whatever clipping made of it. Steps, in workpiece coordinates.
+  virtual void commanded(const Point& target, const Instruction& by) = 0;
+  // The tool was lifted by so many steps, or to that height above Z0, by a command.
+  virtual void lifted(double steps, const Instruction& by) = 0;
+};
+
+class Machine : public ParserListener {
+ public:
+  Machine(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics, MachineListener& listener);
+
+  void execute(const Instruction& instruction) override;
+  void quit() override;
+
+  const Point& tool() const { return clipper_.tool(); }
+  const Point& commanded() const { return commanded_; }
+  const Box& box() const { return clipper_.box(); }
+  bool tool_lowered() const { return lowered_; }
+  bool spindle_turns() const { return turning_; }
+  double z1() const { return z1_; }
+  double z2() const { return z2_.value_or(box().highest.z); }
+  double cutting_speed() const { return cutting_speed_; }  // mm/s
+  double z_speed() const { return z_speed_; }              // mm/s
+  double rpm() const { return rpm_; }
+
+ private:
+  void bind(const Row& row);
+  void plot(const Instruction& instruction);
+  void take_tool(bool lowered, const Instruction& instruction);
+  void feed(const Instruction& instruction);
+  void extension(const Instruction& instruction);
+  void turn(const AxisTarget& target, const Instruction& instruction);
+  void home(const Instruction& instruction);
+  void initialize(const Instruction& instruction);
+  void set_defaults();
+  void set_heights(const Instruction& instruction);
+  void set_spindle(const Instruction& instruction);
+  void set_height(const Instruction& instruction);
+  void set_surface(const Instruction& instruction);
+  void pause(const Instruction& instruction);
+
+  void set_area();
+  bool within_travel(double height, const Instruction& instruction);
+  double target(double value, double present) const { return relative_ ? present + value : value; }
+  void move_to(const Point& target, double speed, const Instruction& instruction);
+  void dwell();
+  Clipper::Driven driven(double speed, const Instruction& instruction, bool starts_spindle = true);
+  void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by, bool starts_spindle);
+  double possible(double speed, const Point& way) const;
+  double height_of(double z) const { return z0_ + profile_.up * z; }                  // machine coordinate
+  double above_surface(double height) const { return profile_.up * (height - z0_); }  // of a machine coordinate
+
+  const Profile& profile_;
+  const std::optional<Origin> origin_;
+  Diagnostics& diagnostics_;
+  MachineListener& listener_;
+
+  double z0_ = 0;  // machine coordinate, in steps
+  bool surface_known_ = false;
+  Clipper clipper_;
+  Point commanded_;  // not rounded: the sums of PR are not either
+  bool relative_ = false, lowered_ = false;
+  double z1_ = 0;
+  std::optional<double> z2_;  // none: the top
+  double cutting_speed_ = 0, z_speed_ = 0;
+  double dwell_s_ = 0;
+  bool permitted_ = true, turning_ = false;
+  double rpm_ = 0;
+  double angle_ = 0;  // degrees, of the axis of rotation
+  bool other_axis_told_ = false;
+};
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,103 @@
+// Reads a job: instructions and diagnostics, the same for any split of its bytes, in bounded memory.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/axes_reader.h"
+#include "device/rml1/device_control.h"
+#include "device/rml1/diagnostic.h"
+#include "device/rml1/instruction.h"
+#include "device/rml1/number_reader.h"
+
+namespace axisgate::rml1 {
+
+// What machines differ in.
+struct Dialect {
+  std::vector<std::string> tolerated;  // of "J", "!0", "!1" (2-2: "depending on the model")
+  std::vector<std::string> apart;      // "YA": axes that cannot move in one group of !ZE
+
+  bool tolerates(std::string_view name) const;
+};
+
+class ParserListener : public InstructionListener {
+ public:
+  // ESC.K: what is being executed ends, and what is buffered is discarded (guideline 4-2).
+  virtual void quit() = 0;
+};
+
+// Not thread safe. The listener is called while bytes are fed.
+class Parser {
+ public:
+  Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener);
+  // With rows beside the guideline's.
+  Parser(const Dialect& dialect, std::span<const Row> more, Diagnostics& diagnostics, ParserListener& listener);
+
+  void feed(std::string_view bytes);
+  void finish();  // the job ends here
+
+  std::uint64_t commands() const { return commands_; }                         // that exist, executed or in error
+  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // of the next byte
+
+ private:
+  enum class State : std::uint8_t {
+    search,         // for a command
+    stray,          // in a run of digits that belong to none
+    second_letter,  // of a mode 2 command
+    common_first,   // behind "!"
+    common_second,
+    begin_list,  // no parameter yet
+    number,
+    after_number,  // behind blanks
+    after_comma,
+    axes,  // !ZE
+  };
+
+  void control(char c);
+  void take(char c);
+  bool step(char c);
+  bool search(char c);
+  bool second_letter(char c);
+  bool common_first(char c);
+  bool common_second(char c);
+  bool begin_list(char c);
+  bool in_number(char c);
+  bool after_number(char c);
+  bool in_axes(char c);
+
+  void begin_command(const Row& row);
+  void begin_number(char c);
+  void end_number();
+  void take_value(double value);
+  double in_range(const Parameter& parameter, double value, bool& good);
+  bool list_full() const { return row_->takes == Takes::up_to && instruction_.count == row_->count; }
+  void end_list();
+  void emit();
+  void unknown();
+  void end_last_command();
+
+  Diagnostics& diagnostics_;
+  ParserListener& listener_;
+  InstructionTable table_;
+  Dialect dialect_;
+  DeviceControl control_;
+  AxesReader axes_;
+  const Row* spindle_;  // the form !0, !1
+
+  std::uint64_t offset_ = 0, line_ = 1, line_start_ = 0;
+  std::uint64_t commands_ = 0;
+  State state_ = State::search;
+  bool called_ = false;  // by ^: a mode 2 name must follow
+  Place call_place_;
+  char first_ = 0;    // letter of a name
+  Place name_place_;  // of the name's first byte
+  Place number_place_, escape_place_;
+  NumberReader number_;
+  const Row* row_ = nullptr;
+  Instruction instruction_;
+  bool emitted_ = false;  // a set of this command
+};
+
+}  // namespace axisgate::rml1

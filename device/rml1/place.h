@@ -1,0 +1,16 @@
+// Where something stands in a job.
+#pragma once
+
+#include <cstdint>
+
+namespace axisgate::rml1 {
+
+struct Place {
+  std::uint64_t offset = 0;  // bytes, from 0
+  std::uint64_t line = 1;    // ends at LF
+  std::uint64_t column = 1;  // bytes, from 1
+
+  friend bool operator==(const Place&, const Place&) = default;
+};
+
+}  // namespace axisgate::rml1

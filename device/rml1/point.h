@@ -1,0 +1,21 @@
+// A place of the tool, in steps.
+#pragma once
+
+#include <cmath>
+
+namespace axisgate::rml1 {
+
+struct Point {
+  double x = 0, y = 0, z = 0;
+
+  friend bool operator==(const Point&, const Point&) = default;
+  friend Point operator+(const Point& a, const Point& b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  friend Point operator-(const Point& a, const Point& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  friend Point operator*(const Point& a, double factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
+};
+
+inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
+// To whole steps, halves away from zero.
+inline Point rounded(const Point& p) { return {std::round(p.x), std::round(p.y), std::round(p.z)}; }
+
+}  // namespace axisgate::rml1
