@@ -3,6 +3,7 @@
 #include <iterator>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill_verbs.h"
 #include "clients/axisctl/options.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
@@ -13,7 +14,8 @@ namespace {
 struct Row {
   Verb verb;
   int (*run)(const Session&);
-  bool waits = false;  // --wait
+  bool waits = false;                               // --wait
+  int (*without_daemon)(const Options&) = nullptr;  // instead of run
 };
 
 constexpr Row kRows[] = {
@@ -70,6 +72,8 @@ constexpr Row kRows[] = {
     {Verb::positions, list_positions},
     {Verb::go, go_to_position, true},
     {Verb::forget, forget_position, true},
+    {Verb::mill_check, nullptr, false, mill_check},
+    {Verb::mill_preview, nullptr, false, mill_preview},
 };
 
 constexpr bool in_order() {
@@ -78,11 +82,12 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::forget) + 1);
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_preview) + 1);
 
 int run(const Options& options) {
-  const Session session{options, Connection(options.target)};
   const Row& row = kRows[static_cast<std::size_t>(options.verb)];
+  if (row.without_daemon != nullptr) return row.without_daemon(options);
+  const Session session{options, Connection(options.target)};
   return row.waits ? with_lease(session, row.run) : row.run(session);
 }
 

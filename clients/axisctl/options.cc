@@ -1,4 +1,4 @@
-// CLI11 takes eight seconds to compile: only this unit and setting_options.cc include it.
+// CLI11 takes eight seconds to compile: only this unit, setting_options.cc and mill_options.cc include it.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
@@ -299,6 +299,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_simulator_verb(app, options);
   add_recording_verbs(app, options);
   add_setting_verbs(app, options);
+  add_mill_verbs(app, options);
   CLI::App* help =
       app.add_subcommand("help", "this, or about one verb, or: units, paths, scans, leases, settings, triggers");
   help->add_option("TOPIC", help_topic)->type_name("");

@@ -62,7 +62,9 @@ enum class Verb {
   save,
   positions,
   go,
-  forget
+  forget,
+  mill_check,
+  mill_preview
 };
 
 // The way to the daemon.
@@ -72,6 +74,15 @@ struct Target {
   std::string ca;           // a PEM file: who may have signed the daemon's certificate; empty: whom this machine trusts
   std::string certificate;  // a PEM file, to be known by; empty: a token
   std::string key;
+};
+
+// Of the verbs that judge jobs for mills.
+struct MillOptions {
+  std::string file;     // the job; "-" is the standard input
+  std::string profile;  // a shipped one's name, or a file
+  std::string origin;   // "10,10,5", mm; empty: not known
+  std::string stock;    // the same
+  std::string output;   // preview: the picture
 };
 
 struct Options {
@@ -118,6 +129,7 @@ struct Options {
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
   int days = 90;                               // token create: until it expires
+  MillOptions mill;
 };
 
 // The options, or the exit code with which to leave at once: help was shown, or the usage was wrong and that was said.

@@ -21,4 +21,7 @@ void add_axes(CLI::App& verb, Options& options);
 // setting_options.cc
 void add_setting_verbs(CLI::App& app, Options& options);
 
+// mill_options.cc
+void add_mill_verbs(CLI::App& app, Options& options);
+
 }  // namespace axisgate::axisctl

@@ -99,11 +99,6 @@ void Clipper::drive_to(const Point& target, const Driven& driven) {
   outside_ = false;
 }
 
-void Clipper::drive_height(double z, const Driven& driven) {
-  drive(Piece::commanded, box_.held({tool_.x, tool_.y, z}), driven);
-  commanded_.z = z;
-}
-
 void Clipper::shift(double z, const Box& box) {
   box_ = box;
   commanded_.z += z;

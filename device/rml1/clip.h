@@ -41,8 +41,6 @@ class Clipper {
   void move_to(const Point& target, const Driven& driven);
   // Whatever was commanded: straight to a place inside, which is then the commanded one.
   void drive_to(const Point& target, const Driven& driven);
-  // Z alone, wherever the commanded place is.
-  void drive_height(double z, const Driven& driven);
   // Another Z0: the same machine place has other coordinates.
   void shift(double z, const Box& box);
 

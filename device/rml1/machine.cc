@@ -10,8 +10,11 @@ namespace {
 
 constexpr double kFar = 1e12;  // steps: no edge
 
-// A length in steps; what a decimal number in mm leaves beside a whole number of them is not meant.
-double whole(double steps) { return std::floor(steps + 1e-6); }
+// What a decimal number in mm leaves beside a whole number of steps is not meant.
+double snapped(double steps) {
+  const double whole = std::round(steps);
+  return std::abs(steps - whole) < 1e-6 ? whole : steps;
+}
 
 }  // namespace
 
@@ -24,26 +27,25 @@ Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnosti
       surface_known_(origin.has_value()),
       clipper_({}, {}),
       rpm_(profile.spindle.maximum_rpm) {
-  const double below_top = origin ? std::round(profile.steps(origin->z)) : whole(profile.steps(profile.z_mm));
+  const double below_top = origin ? snapped(profile.steps(origin->z)) : snapped(profile.steps(profile.z_mm));
   z0_ = profile.top - profile.up * below_top;
-  set_area();
-  clipper_ = Clipper(clipper_.box(), {0, 0, clipper_.box().highest.z});
+  clipper_ = Clipper(area(), {0, 0, area().highest.z});
   commanded_ = clipper_.tool();
   set_defaults();
 }
 
 // Where nothing is known of X and Y they have no edge; where nothing is known of Z0 it may lie anywhere on the travel.
-void Machine::set_area() {
-  const double travel = whole(profile_.steps(profile_.z_mm));
+Box Machine::area() const {
+  const double travel = snapped(profile_.steps(profile_.z_mm));
   const double top = above_surface(profile_.top);
   Box box{{-kFar, -kFar, surface_known_ ? top - travel : -travel}, {kFar, kFar, top}};
   if (origin_) {
-    box.lowest.x = -std::round(profile_.steps(origin_->x));
-    box.lowest.y = -std::round(profile_.steps(origin_->y));
-    box.highest.x = box.lowest.x + whole(profile_.steps(profile_.x_mm));
-    box.highest.y = box.lowest.y + whole(profile_.steps(profile_.y_mm));
+    box.lowest.x = -snapped(profile_.steps(origin_->x));
+    box.lowest.y = -snapped(profile_.steps(origin_->y));
+    box.highest.x = box.lowest.x + snapped(profile_.steps(profile_.x_mm));
+    box.highest.y = box.lowest.y + snapped(profile_.steps(profile_.y_mm));
   }
-  clipper_.shift(0, box);
+  return box;
 }
 
 void Machine::execute(const Instruction& instruction) {
@@ -105,9 +107,9 @@ void Machine::plot(const Instruction& instruction) {
   const bool lowered = keeps ? lowered_ : instruction.row->tool == Tool::lowered;
   if (instruction.first) take_tool(lowered, instruction);
   if (instruction.count == 0) return;
-  commanded_.x = target(instruction.values[0], commanded_.x);
-  commanded_.y = target(instruction.values[1], commanded_.y);
-  Point there = rounded(commanded_);
+  Point there = clipper_.commanded();
+  there.x = aim(commanded_.x, instruction.values[0]);
+  there.y = aim(commanded_.y, instruction.values[1]);
   if (profile_.holds_flat_commands) {
     const Point held = box().held(there);
     there = {held.x, held.y, there.z};
@@ -121,31 +123,32 @@ void Machine::take_tool(bool lowered, const Instruction& instruction) {
   if (lowered || lowered_) dwell();
   lowered_ = lowered;
   commanded_.z = lowered ? z1_ : z2();
-  move_to(rounded(commanded_), z_speed_, instruction);
+  move_height(z_speed_, instruction);
 }
 
 void Machine::feed(const Instruction& instruction) {
   if (instruction.count == 0) return;
   if (instruction.first) dwell();
   const double before = commanded_.z;
-  commanded_ = {target(instruction.values[0], commanded_.x), target(instruction.values[1], commanded_.y),
-                target(instruction.values[2], commanded_.z)};
+  const Point there = {aim(commanded_.x, instruction.values[0]), aim(commanded_.y, instruction.values[1]),
+                       aim(commanded_.z, instruction.values[2])};
   if (commanded_.z > before) listener_.lifted(relative_ ? instruction.values[2] : commanded_.z, instruction);
-  move_to(rounded(commanded_), z_speed_, instruction);
+  move_to(there, z_speed_, instruction);
 }
 
 // !ZE. "Axes for which nothing is specified keep their present location."
 void Machine::extension(const Instruction& instruction) {
   if (instruction.first) dwell();
   const AxisTarget* rotation = nullptr;
+  Point there = clipper_.commanded();
   for (const AxisTarget& axis : instruction.axes) {
     const bool here = profile_.axes.find(axis.letter) != std::string::npos;
     if (here && axis.letter == 'X') {
-      commanded_.x = target(axis.value, commanded_.x);
+      there.x = aim(commanded_.x, axis.value);
     } else if (here && axis.letter == 'Y') {
-      commanded_.y = target(axis.value, commanded_.y);
+      there.y = aim(commanded_.y, axis.value);
     } else if (here && axis.letter == 'Z') {
-      commanded_.z = target(axis.value, commanded_.z);
+      there.z = aim(commanded_.z, axis.value);
     } else if (profile_.rotary && axis.letter == profile_.rotary->letter) {
       rotation = &axis;
     } else if (!other_axis_told_) {
@@ -155,7 +158,7 @@ void Machine::extension(const Instruction& instruction) {
       });
     }
   }
-  move_to(rounded(commanded_), z_speed_, instruction);
+  move_to(there, z_speed_, instruction);
   if (rotation != nullptr) turn(*rotation, instruction);
 }
 
@@ -170,6 +173,7 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
               .lowered = lowered_,
               .turning = turning_,
               .end = instruction.end,
+              .row = instruction.row,
               .place = instruction.place};
   listener_.turned(way / profile_.rotary->degrees_per_s, beside);
 }
@@ -238,7 +242,7 @@ void Machine::set_spindle(const Instruction& instruction) {
 
 bool Machine::within_travel(double height, const Instruction& instruction) {
   const double below_top = profile_.up * (profile_.top - height);
-  const double travel = whole(profile_.steps(profile_.z_mm));
+  const double travel = snapped(profile_.steps(profile_.z_mm));
   if (below_top >= 0 && below_top <= travel) return true;
   const double bottom = profile_.top - profile_.up * travel;
   diagnostics_.error(3, instruction.places[0], instruction.row->section, [&] {
@@ -254,7 +258,7 @@ void Machine::set_height(const Instruction& instruction) {
   const double height = target(instruction.values[0], height_of(commanded_.z));
   if (!within_travel(height, instruction)) return;
   commanded_.z = above_surface(height);
-  clipper_.drive_height(std::round(commanded_.z), driven(z_speed_, instruction));
+  move_height(z_speed_, instruction);
 }
 
 void Machine::set_surface(const Instruction& instruction) {
@@ -265,8 +269,7 @@ void Machine::set_surface(const Instruction& instruction) {
   z0_ = height;
   surface_known_ = surface_known_ || !given || !relative_;
   commanded_.z += shift;
-  clipper_.shift(shift, box());
-  set_area();
+  clipper_.shift(shift, area());
 }
 
 void Machine::pause(const Instruction& instruction) {
@@ -276,6 +279,18 @@ void Machine::pause(const Instruction& instruction) {
 
 // "ends operation of the command now being executed" (4-2): the machine stands where the tool is.
 void Machine::quit() { commanded_ = tool(); }
+
+// Sets where an axis is commanded to, and tells the step that this means.
+double Machine::aim(double& commanded, double value) const {
+  commanded = target(value, commanded);
+  return std::round(commanded);
+}
+
+void Machine::move_height(double speed, const Instruction& instruction) {
+  Point there = clipper_.commanded();
+  there.z = std::round(commanded_.z);
+  move_to(there, speed, instruction);
+}
 
 void Machine::move_to(const Point& there, double speed, const Instruction& instruction) {
   listener_.commanded(there, instruction);
@@ -302,8 +317,8 @@ void Machine::drive(Piece piece, const Point& from, const Point& to, double spee
   if (piece == Piece::along) speed = z_speed_;  // "at the speed set by the !ZZ command" (5-1 E, J)
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
-  listener_.moved(
-      {from, to, possible(speed, to - from), lowered_ && by.row->deed == Deed::plot, turning_, by.end, by.place});
+  listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->deed == Deed::plot, turning_, by.end,
+                   by.row, by.place});
 }
 
 // No axis goes faster than it can.

@@ -20,12 +20,13 @@ struct Origin {
 
 // A straight piece of the real path.
 struct Move {
-  Point from, to;         // steps, in workpiece coordinates
-  double speed = 0;       // mm/s, as commanded and within the axes' highest
-  bool lowered = false;   // by a command that keeps the tool lowered
-  bool turning = false;   // whether the spindle turns
-  std::uint64_t end = 0;  // bytes of the job that had to come before
-  Place place;            // of the command
+  Point from, to;            // steps, in workpiece coordinates
+  double speed = 0;          // mm/s, as commanded and within the axes' highest
+  bool lowered = false;      // by a command that keeps the tool lowered
+  bool turning = false;      // whether the spindle turns
+  std::uint64_t end = 0;     // bytes of the job that had to come before
+  const Row* row = nullptr;  // the command
+  Place place;               // where it begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   bool cuts() const { return lowered || below_surface(); }
@@ -79,10 +80,12 @@ class Machine : public ParserListener {
   void set_surface(const Instruction& instruction);
   void pause(const Instruction& instruction);
 
-  void set_area();
+  Box area() const;
   bool within_travel(double height, const Instruction& instruction);
   double target(double value, double present) const { return relative_ ? present + value : value; }
+  double aim(double& commanded, double value) const;
   void move_to(const Point& target, double speed, const Instruction& instruction);
+  void move_height(double speed, const Instruction& instruction);
   void dwell();
   Clipper::Driven driven(double speed, const Instruction& instruction, bool starts_spindle = true);
   void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by, bool starts_spindle);

@@ -14,6 +14,10 @@ bool is_delimiter(char c) { return static_cast<unsigned char>(c) <= 0x20 || c ==
 bool is_of_a_number(char c) { return NumberReader::may_begin(c) || c == ','; }
 bool has_eighth_bit(char c) { return (static_cast<unsigned char>(c) & 0x80u) != 0; }
 
+std::string shown(char c) {
+  return c == '!' ? "that is ! alone" : c < 0x20 || c == 0x7F ? "of this code" : std::string(1, c);
+}
+
 std::vector<Row> rows_of(const Dialect& dialect, std::span<const Row> more) {
   std::vector<Row> rows(more.begin(), more.end());
   if (dialect.tolerates("J")) rows.push_back(tolerated_row("J"));
@@ -180,10 +184,12 @@ bool Parser::common_second(char c) {
 }
 
 void Parser::unknown() {
-  const int number = called_ && !has_eighth_bit(first_) ? 2 : 1;
-  diagnostics_.error(number, name_place_, number == 2 ? "3-1" : "2-3", [number, c = first_] {
-    if (has_eighth_bit(c)) return "a byte of 0x80 or more is no part of RML-1";
-    return number == 2 ? "^ is followed by something other than a mode 2 command" : "there is no such command";
+  const bool eighth_bit = has_eighth_bit(first_);
+  const int number = called_ && !eighth_bit ? 2 : 1;
+  diagnostics_.error(number, name_place_, number == 2 ? "3-1" : "2-3", [&]() -> std::string {
+    if (eighth_bit) return "a byte of 0x80 or more is no part of RML-1";
+    if (number == 2) return fmt::format("^ is followed by {}, which begins no mode 2 command", shown(first_));
+    return fmt::format("there is no command {}{}", state_ == State::common_second ? "!" : "", shown(first_));
   });
   called_ = false;
   state_ = State::search;

@@ -15,7 +15,5 @@ struct Point {
 };
 
 inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
-// To whole steps, halves away from zero.
-inline Point rounded(const Point& p) { return {std::round(p.x), std::round(p.y), std::round(p.z)}; }
 
 }  // namespace axisgate::rml1

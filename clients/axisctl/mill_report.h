@@ -1,0 +1,21 @@
+// What a job is told, for people and for programs.
+#pragma once
+
+#include <string>
+
+#include "device/rml1/check.h"
+
+namespace axisgate::axisctl {
+
+// `job.rml:3:7: error: error 2: ... [2-3]` for each, in the order of the job, and how many are not shown.
+void print_diagnostics(const std::string& file, const rml1::Diagnostics& diagnostics);
+// What the job does on this machine, in mm.
+void print_summary(const rml1::Check& check, const rml1::Profile& profile, bool origin_known);
+
+// One object for each diagnostic, and one of the job. Steps of the workpiece system.
+void print_json(const rml1::Check& check);
+
+// "12 s", "3 min 5 s", "2 h 10 min"
+std::string time_text(double seconds);
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,125 @@
+#include "clients/axisctl/mill_verbs.h"
+
+#include <fmt/format.h>
+
+#include <cerrno>
+#include <charconv>
+#include <cstdio>
+#include <cstring>
+#include <fstream>
+#include <memory>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill_profiles.h"
+#include "clients/axisctl/mill_report.h"
+#include "device/rml1/picture.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+using namespace rml1;
+
+constexpr std::size_t kPiece = 1 << 16;
+
+// "X,Y,Z" in mm.
+Point lengths(const std::string& text, const char* option) {
+  double values[3] = {};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  bool good = true;
+  for (int index = 0; index < 3 && good; ++index) {
+    const auto [stop, error] = std::from_chars(at, end, values[index]);
+    good = error == std::errc() && (index == 2 ? stop == end : stop != end && *stop == ',');
+    at = stop + 1;
+  }
+  if (good) return {values[0], values[1], values[2]};
+  throw usage(fmt::format("{} will not do for {}", text, option), "use three lengths in mm, as 10,10,5.5");
+}
+
+CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
+  CheckOptions options;
+  options.others = known_mills();
+  if (!asked.origin.empty()) {
+    const Point p = lengths(asked.origin, "--origin");
+    if (p.z < 0 || p.z > profile.z_mm) {
+      throw usage(fmt::format("--origin has Z0 {} mm below the top", p.z),
+                  fmt::format("Z travels {} mm on the {}: use 0 to {}", profile.z_mm, profile.name, profile.z_mm));
+    }
+    options.origin = Origin{p.x, p.y, p.z};
+  }
+  if (!asked.stock.empty()) {
+    const Point p = lengths(asked.stock, "--stock");
+    if (p.x <= 0 || p.y <= 0 || p.z <= 0)
+      throw usage("--stock has no size", "use its three lengths in mm, as 80,50,10");
+    options.stock = Stock{p.x, p.y, p.z};
+  }
+  return options;
+}
+
+// Throws Failure when it cannot be read.
+void read_job(const std::string& name, Check& check) {
+  const auto close = [](std::FILE* file) { return file == stdin ? 0 : std::fclose(file); };
+  errno = 0;
+  const std::unique_ptr<std::FILE, decltype(close)> file(name == "-" ? stdin : std::fopen(name.c_str(), "rb"), close);
+  const auto cannot = [&name] {
+    return usage(fmt::format("{} cannot be read: {}", name, std::strerror(errno)), "name the file of a job");
+  };
+  if (!file) throw cannot();
+  std::vector<char> bytes(kPiece);
+  while (const std::size_t count = std::fread(bytes.data(), 1, bytes.size(), file.get())) {
+    check.feed({bytes.data(), count});
+  }
+  if (std::ferror(file.get()) != 0) throw cannot();
+  check.finish();
+}
+
+bool write_text(const std::string& file, const std::string& text) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  out.close();
+  return !out.fail();
+}
+
+}  // namespace
+
+int mill_check(const Options& options) {
+  const Profile profile = mill_profile(options.mill.profile);
+  const CheckOptions asked = check_options(options.mill, profile);
+  Check check(profile, asked);
+  read_job(options.mill.file, check);
+  if (options.json) {
+    print_json(check);
+  } else {
+    print_diagnostics(options.mill.file, check.diagnostics());
+    if (!check.is_g_code()) print_summary(check, profile, asked.origin.has_value());
+  }
+  return check.diagnostics().count(Severity::error) == 0 ? kDone : kMotionFailed;
+}
+
+int mill_preview(const Options& options) {
+  const std::string& output = options.mill.output;
+  const bool svg = output.ends_with(".svg");
+  if (!svg && !output.ends_with(".png"))
+    throw usage(output + " is no picture", "name a file that ends in .svg or .png");
+  const Profile profile = mill_profile(options.mill.profile);
+  const CheckOptions asked = check_options(options.mill, profile);
+  Strokes strokes;
+  Check check(profile, asked, &strokes);
+  read_job(options.mill.file, check);
+  if (check.is_g_code()) {
+    print_diagnostics(options.mill.file, check.diagnostics());
+    return kMotionFailed;
+  }
+  const Picture picture =
+      make_picture(options.mill.file, check, profile, asked.stock, asked.origin.has_value(), strokes);
+  errno = 0;
+  const bool written = svg ? write_text(output, to_svg(picture)) : write_png(picture, output);
+  if (!written) {
+    throw usage(fmt::format("{} cannot be written: {}", output, std::strerror(errno)),
+                "name a file in a folder of yours");
+  }
+  return kDone;
+}
+
+}  // namespace axisgate::axisctl

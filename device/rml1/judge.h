@@ -1,0 +1,70 @@
+// What saves a workpiece: judged on what is commanded and on what is driven.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "device/rml1/bounds.h"
+#include "device/rml1/machine.h"
+
+namespace axisgate::rml1 {
+
+// In mm, from the work origin: X and Y to the right and away, Z down from Z0.
+struct Stock {
+  double x = 0, y = 0, z = 0;
+};
+
+// A machine that the job may have been made for instead.
+struct KnownMachine {
+  std::string name;
+  double step_mm = 0, z_mm = 0;
+};
+
+// Each warning is told once, at the first command that gives cause.
+class Judge {
+ public:
+  Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, std::vector<KnownMachine> others,
+        Diagnostics& diagnostics)
+      : profile_(profile),
+        origin_known_(origin_known),
+        stock_(stock),
+        others_(std::move(others)),
+        diagnostics_(diagnostics) {}
+
+  void moved(const Move& move);
+  void commanded(const Point& target, const Box& box, const Instruction& by);
+  void lifted(double steps, const Instruction& by);
+  void finish(const Machine& machine);
+
+ private:
+  enum class Cause {
+    outside_stock,
+    too_deep,
+    no_spindle,
+    on_the_surface,
+    cuts_outside_area,
+    travels_outside_area,
+    below_bottom,
+    lift
+  };
+
+  template <class Text>
+  void warn_once(Cause cause, const Place& place, std::string_view section, Text&& text);
+  void judge_stock(const Move& move);
+  void judge_size(const Reach& reach, double area_mm, std::string_view axis, const Place& place);
+  double mm(double steps) const { return steps * profile_.step_mm; }
+
+  const Profile& profile_;
+  bool origin_known_;
+  std::optional<Stock> stock_;
+  std::vector<KnownMachine> others_;
+  Diagnostics& diagnostics_;
+  std::set<Cause> told_;
+  Bounds asked_;  // of what was commanded
+  Place widest_x_, widest_y_, deepest_;
+  std::optional<Place> last_;
+};
+
+}  // namespace axisgate::rml1

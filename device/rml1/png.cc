@@ -1,0 +1,84 @@
+#include <cairo.h>
+
+#include <charconv>
+#include <memory>
+
+#include "device/rml1/picture.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+constexpr double kPixels = 2;  // a pixel of the picture's
+
+void set_colour(cairo_t* cairo, const char* colour, double opacity = 1) {
+  unsigned value = 0;
+  (void)std::from_chars(colour + 1, colour + 7, value, 16);
+  cairo_set_source_rgba(cairo, (value >> 16) / 255.0, (value >> 8 & 255) / 255.0, (value & 255) / 255.0, opacity);
+}
+
+void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
+  static constexpr double kDashes[] = {6, 4};
+  cairo_rectangle(cairo, one.x, one.y, one.width, one.height);
+  switch (one.kind) {
+    case Picture::Rectangle::Kind::work_area:
+      set_colour(cairo, "#555555");
+      cairo_set_dash(cairo, kDashes, 2, 0);
+      cairo_stroke(cairo);
+      cairo_set_dash(cairo, nullptr, 0, 0);
+      return;
+    case Picture::Rectangle::Kind::stock:
+      set_colour(cairo, "#e8d8b8", 0.5);
+      cairo_fill(cairo);
+      return;
+    case Picture::Rectangle::Kind::swatch:
+      set_colour(cairo, kShadeColours[static_cast<std::size_t>(one.shade)]);
+      cairo_fill(cairo);
+  }
+}
+
+void draw_view(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
+  const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
+  const auto point = [&](const std::array<float, 3>& p, auto to) {
+    to(cairo, view.x + p[across] * view.scale, view.y - p[up] * view.scale);
+  };
+  for (int shade = 0; shade < kShades; ++shade) {
+    set_colour(cairo, kShadeColours[static_cast<std::size_t>(shade)]);
+    cairo_set_line_width(cairo, shade == 0 ? 0.6 : 1);
+    for (const Strokes::Stroke& stroke : picture.strokes->all()) {
+      if (picture.strokes->shade(stroke) != shade) continue;
+      point(stroke.from, cairo_move_to);
+      point(stroke.to, cairo_line_to);
+      cairo_stroke(cairo);  // one long path would be slow to draw
+    }
+  }
+  set_colour(cairo, "#0060c0");
+  cairo_move_to(cairo, view.x - 6, view.y);
+  cairo_rel_line_to(cairo, 12, 0);
+  cairo_move_to(cairo, view.x, view.y - 6);
+  cairo_rel_line_to(cairo, 0, 12);
+  cairo_stroke(cairo);
+}
+
+}  // namespace
+
+bool write_png(const Picture& picture, const std::string& file) {
+  const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(picture.width * kPixels),
+                                 static_cast<int>(picture.height * kPixels)),
+      cairo_surface_destroy);
+  const std::unique_ptr<cairo_t, decltype(&cairo_destroy)> cairo(cairo_create(surface.get()), cairo_destroy);
+  cairo_scale(cairo.get(), kPixels, kPixels);
+  set_colour(cairo.get(), "#ffffff");
+  cairo_paint(cairo.get());
+  for (const Picture::Rectangle& one : picture.rectangles) draw_rectangle(cairo.get(), one);
+  for (const Picture::View& view : picture.views) draw_view(cairo.get(), picture, view);
+  set_colour(cairo.get(), "#222222");
+  for (const Picture::Label& label : picture.labels) {
+    cairo_set_font_size(cairo.get(), label.heading ? 18 : 12);
+    cairo_move_to(cairo.get(), label.x, label.y);
+    cairo_show_text(cairo.get(), label.text.c_str());
+  }
+  return cairo_surface_write_to_png(surface.get(), file.c_str()) == CAIRO_STATUS_SUCCESS;
+}
+
+}  // namespace axisgate::rml1
