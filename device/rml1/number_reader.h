@@ -8,6 +8,7 @@ namespace axisgate::rml1 {
 // A sign or none, digits, a point or none, digits. What a number cannot take ends it.
 class NumberReader {
  public:
+  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
   static bool may_begin(char c) { return is_digit(c) || c == '+' || c == '-' || c == '.'; }
 
   // `c` may begin a number.
@@ -29,7 +30,6 @@ class NumberReader {
   double value() const;
 
  private:
-  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
   void digit(char c) {
     digits_ = true;
     if (mantissa_ < kFull && decimals_ < kDecimals) {
