@@ -8,14 +8,14 @@
 #include <set>
 #include <tuple>
 
+#include "device/core/config_file.h"
+#include "device/core/config_table.h"
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
 #include "server/config_axis.h"
-#include "device/core/config_file.h"
 #include "server/config_limits.h"
 #include "server/config_name.h"
 #include "server/config_network.h"
-#include "device/core/config_table.h"
 #include "server/config_words.h"
 #include "server/default_socket.h"
 #include "server/explain.h"

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "server/access/access.h"
 #include "device/core/config_table.h"
+#include "server/access/access.h"
 
 namespace axisgate::server {
 

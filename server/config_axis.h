@@ -5,8 +5,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shrc203/profile.h"
 #include "device/core/config_table.h"
+#include "device/shrc203/profile.h"
 
 namespace axisgate::server {
 

@@ -4,8 +4,8 @@
 #include <string_view>
 #include <vector>
 
-#include "server/access/identity_limits.h"
 #include "device/core/config_table.h"
+#include "server/access/identity_limits.h"
 
 namespace axisgate::server {
 

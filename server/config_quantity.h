@@ -4,9 +4,9 @@
 #include <optional>
 #include <string_view>
 
+#include "device/core/config_table.h"
 #include "device/core/quantity.h"
 #include "device/shrc203/profile.h"
-#include "device/core/config_table.h"
 
 namespace axisgate::server {
 

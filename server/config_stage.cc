@@ -8,8 +8,8 @@
 #include <string>
 #include <utility>
 
-#include "device/core/quantity.h"
 #include "device/core/config_file.h"
+#include "device/core/quantity.h"
 #include "server/config_quantity.h"
 #include "server/config_words.h"
 #include "server/explain.h"

@@ -5,23 +5,10 @@
 
 #include <cmath>
 
-#include "tests/rml1/mill.h"
-#include "tests/rml1/paragraphs.h"
+#include "tests/rml1/clipping_cases.h"
 
 namespace axisgate::rml1 {
 namespace {
-
-// X 0 to 1000, Y 0 to 1000, Z -1000 to 500.
-Profile small_mill() {
-  Profile profile = test_profile();
-  profile.step_mm = 0.01;
-  profile.x_mm = profile.y_mm = 10;
-  profile.z_mm = 15;
-  profile.default_z1 = -200;
-  profile.default_z2 = 300;
-  return profile;
-}
-constexpr Origin kOrigin{0, 0, 5};
 
 std::string text(const Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
 
@@ -38,25 +25,13 @@ std::vector<std::string> corners(const std::vector<Move>& moves, std::size_t beg
   return found;
 }
 
-std::string joined(const Paragraph& one, bool judged) {
-  std::string job;
-  bool begun = false;
-  for (const auto& [mark, words] : one.lines) {
-    begun = begun || mark == "begin";
-    if (mark == "job" && begun == judged) job += words;
-  }
-  return job;
-}
-
 class Clipping : public testing::TestWithParam<Paragraph> {};
 
 TEST_P(Clipping, DrivesWhatWasWorkedOutByHand) {
-  const std::string before = joined(GetParam(), false);
-  const std::string job = before + joined(GetParam(), true);
-  const std::size_t begin = play(before, small_mill(), kOrigin).moves.size();
-  const Played played = play(job, small_mill(), kOrigin);
-  EXPECT_THAT(corners(played.moves, begin), testing::ElementsAreArray(GetParam().all("move"))) << job;
-  EXPECT_EQ(text(played.final), GetParam().all("final").at(0)) << job;
+  const ClippingCase played = play_case(GetParam());
+  EXPECT_THAT(corners(played.whole.moves, played.begin), testing::ElementsAreArray(GetParam().all("move")))
+      << played.job;
+  EXPECT_EQ(text(played.whole.final), GetParam().all("final").at(0)) << played.job;
 }
 
 INSTANTIATE_TEST_SUITE_P(Cases, Clipping, testing::ValuesIn(paragraphs("clipping/cases.txt")), [](const auto& one) {

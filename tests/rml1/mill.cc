@@ -23,7 +23,7 @@ class Witness : public ParserListener, public MachineListener {
   void turned(double seconds, const Move&) override { played.waits.push_back(fmt::format("turn {}", seconds)); }
   void spun_up(double seconds) override { played.waits.push_back(fmt::format("spin up {}", seconds)); }
   void dwelt(double seconds) override { played.waits.push_back(fmt::format("dwell {}", seconds)); }
-  void commanded(const Point&, const Instruction&) override {}
+  void commanded(const Point& target, const Instruction&) override { played.commanded.push_back(target); }
   void lifted(double, const Instruction&) override {}
 
   void end() {

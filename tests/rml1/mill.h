@@ -17,6 +17,7 @@ struct Played {
   std::vector<Diagnostic> diagnostics;
   std::vector<Move> moves;
   std::vector<std::string> waits;  // "spin up 2", "dwell 0.5", "turn 3"
+  std::vector<Point> commanded;    // where each commanded path ends
   Point final;
   Box box;
 };

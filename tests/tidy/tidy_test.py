@@ -262,6 +262,7 @@ class Text(Tree):
         for content in ("a\nb \n", "a\nb\t\n", "a\nb\r\n"):
             self.assertEqual(self.findings("deploy/a.toml", content), ["2: trailing-whitespace"])
         self.assert_clean("deploy/a.toml", "a\n\n  b\n")
+        self.assert_clean("tests/fuzz/corpus/a.rml", "PA1,2;\r\n")
 
 
 class Format(Tree):

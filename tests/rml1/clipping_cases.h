@@ -1,0 +1,21 @@
+// The geometries of clipping/cases.txt, and what the machine makes of them.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tests/rml1/mill.h"
+#include "tests/rml1/paragraphs.h"
+
+namespace axisgate::rml1 {
+
+struct ClippingCase {
+  std::string job;
+  Played whole;
+  std::size_t begin = 0;         // the first of its moves that is judged
+  std::vector<Point> commanded;  // from the place where that begins
+};
+
+ClippingCase play_case(const Paragraph& geometry);
+
+}  // namespace axisgate::rml1
