@@ -21,12 +21,13 @@ FROM debian:bookworm-slim
 # is fixed, so that a mounted folder or a tmpfs for the socket can be given to it.
 RUN apt-get update --quiet \
  && apt-get install --quiet --yes --no-install-recommends \
-      libfmt9 libgrpc++1.51 libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 libprotobuf32 libspdlog1.10 \
-      libtomlplusplus3 \
+      fonts-dejavu-core libcairo2 libfmt9 libgrpc++1.51 libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 \
+      libprotobuf32 libspdlog1.10 libtomlplusplus3 \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 203 --no-create-home --groups dialout axisgate \
  && install --directory --owner axisgate --group axisgate /run/axisgate /var/lib/axisgate
 COPY --from=build /src/build/bin/axisgated /src/build/bin/axisctl /usr/local/bin/
+COPY --from=build /src/deploy/mills /usr/local/share/axisgate/mills
 ARG REVISION
 LABEL org.opencontainers.image.title="axisgate" \
       org.opencontainers.image.description="Shares the serial line of a SHRC-203 stage controller over gRPC" \

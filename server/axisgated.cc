@@ -51,8 +51,8 @@ int complain(int exit_code, const std::string& what) {
   return exit_code;
 }
 
-int complain(const std::vector<server::ConfigError>& errors) {
-  for (const server::ConfigError& error : errors) fmt::print(stderr, "{}\n", to_string(error));
+int complain(const std::vector<ConfigError>& errors) {
+  for (const ConfigError& error : errors) fmt::print(stderr, "{}\n", to_string(error));
   return kExitUsage;
 }
 
@@ -115,7 +115,7 @@ int main_program(int count, char** words) {
     return complain(kExitUsage, fmt::format("{}; see --help", error.what()));
   }
   const bool from_file = !arguments.config.empty();
-  const server::Configured<server::Config> config =
+  const Configured<server::Config> config =
       from_file ? server::load_config(arguments.config) : server::default_config();
   if (!config) return complain(config.error());
   if (!arguments.check_config) return serve(*config);

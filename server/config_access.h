@@ -6,6 +6,7 @@
 
 #include "device/core/config_table.h"
 #include "server/access/access.h"
+#include "server/config.h"
 
 namespace axisgate::server {
 

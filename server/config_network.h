@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/core/config_table.h"
+#include "server/config.h"
 
 namespace axisgate::server {
 

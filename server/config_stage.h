@@ -7,6 +7,7 @@
 
 #include "device/core/config_table.h"
 #include "device/shrc203/profile.h"
+#include "server/config.h"
 
 namespace axisgate::server {
 

@@ -104,6 +104,10 @@ call() {
   in_container axisctl status && in_container axisctl home && in_container axisctl move 1=+1mm --relative
 }
 
+check_job() {
+  in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' | axisctl mill check - --profile mdx-20"
+}
+
 check_user() {
   [[ "$(in_container id --user)" == 203 ]] && [[ "$(in_container id --groups --name)" == "axisgate dialout" ]] &&
     [[ "$(in_container stat --format %u /proc/1)" == 203 ]]
@@ -153,6 +157,7 @@ prove() {
   timed "podman run" start_container
   timed "the health check" wait_until_up
   timed "axisctl status, home, move" call
+  timed "axisctl mill check" check_job
   timed "runs as its own user" check_user
   timed "no compiler, no -dev package" check_contents
   timed "the end by SIGTERM" end_container
