@@ -85,6 +85,16 @@ axisctl lease list)"},
     {"record", "", "axisctl record --seconds 1 --output stage.recording"},
     {"replay", "", "axisctl replay stage.recording"},
     {"support", "", "axisctl support --output report.txt"},
+    {"mill",
+     R"(Jobs in RML-1 are read, played on a model of the machine and judged; nothing is sent, and no daemon is needed. The
+profile tells what the machine is like: the name of one in deploy/mills, or a copy of it that you have changed. --origin
+tells where the work origin lies: X and Y from the home corner, Z how far Z0 is below the top of its travel. Without it
+only sizes are judged. With --stock a cut beside or below the workpiece is warned of. `mill check` exits 1 when the job
+has an error. `mill preview` draws it from above, from the front and from the side.)",
+     R"(printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill check - --profile mdx-20
+printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2
+printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
+printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg)"},
     {"units",
      R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the axis's own unit, which the
 configuration names. A speed is an amount a second; the /s may be left out. Nothing is ever rounded: what is not a whole
