@@ -50,7 +50,7 @@ void Check::moved(const Move& move) {
   const Point way = (move.to - move.from) * profile_.step_mm;
   const double distance = length(way);
   summary_.distance_mm += distance;
-  if (move.cuts()) summary_.cutting_mm += distance;
+  summary_.cutting_mm += distance * move.cutting_part();
   plane_known_ = plane_known_ || move.row->deed == Deed::home || way.x != 0 || way.y != 0;
   if (plane_known_) {
     summary_.bounds.take(move.from);

@@ -30,7 +30,8 @@ class Clipper {
  public:
   using Driven = std::function<void(Piece, const Point& from, const Point& to)>;
 
-  Clipper(const Box& box, const Point& begin) : box_(box), commanded_(begin), tool_(box.held(begin)) {}
+  // It begins inside: at the nearest place to `begin`.
+  Clipper(const Box& box, const Point& begin) : box_(box), commanded_(box.held(begin)), tool_(commanded_) {}
 
   const Box& box() const { return box_; }
   const Point& commanded() const { return commanded_; }

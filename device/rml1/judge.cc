@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace axisgate::rml1 {
@@ -121,7 +122,7 @@ void Judge::finish(const Machine& machine) {
   // What lies above the top is clipped (3-2 PU), and no size.
   Reach depth;
   depth.take(0);
-  depth.take(asked_.z.any ? asked_.z.lowest : 0);
+  depth.take(std::min(0.0, asked_.z.lowest));
   judge_size(depth, profile_.z_mm, "Z", deepest_);
   const double z = machine.tool().z;
   if (!last_ || z > 0 || (z == 0 && !machine.tool_lowered())) return;

@@ -18,6 +18,12 @@ double snapped(double steps) {
 
 }  // namespace
 
+double Move::cutting_part() const {
+  if (!cuts()) return 0;
+  const double higher = std::max(from.z, to.z), lower = std::min(from.z, to.z);
+  return higher > 0 ? lower / (lower - higher) : 1;
+}
+
 Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics,
                  MachineListener& listener)
     : profile_(profile),

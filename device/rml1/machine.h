@@ -29,7 +29,9 @@ struct Move {
   Place place;               // where it begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
-  bool cuts() const { return lowered || below_surface(); }
+  // Along the surface too, where the tool is lowered.
+  bool cuts() const { return below_surface() || (lowered && from.z == 0 && to.z == 0); }
+  double cutting_part() const;  // of its length, 0 to 1
 };
 
 class MachineListener {

@@ -362,8 +362,10 @@ void Parser::finish() {
     diagnostics_.error(11, escape_place_, "4-1", [] { return "the job ends within a device control sequence"; });
   }
   if (state_ == State::axes) {
-    diagnostics_.add(0, Severity::warning, instruction_.place, "3-3",
-                     [] { return "!ZE has no terminator: its last group is not executed"; });
+    diagnostics_.add(0, Severity::warning, instruction_.place, "3-3", [] {
+      return "!ZE has no terminator: what stands behind its last separator is not executed, and the next job's first "
+             "bytes are taken for it";
+    });
   } else {
     end_last_command();
   }
