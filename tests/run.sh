@@ -119,6 +119,8 @@ main() {
   run_ctest
   if [[ "$preset" == dev ]]; then
     run_unittest tests/integration
+    say "fuzzers, for a moment"
+    check "$root/tests/fuzz.sh" 10
   fi
   printf '\n'
   summarise
