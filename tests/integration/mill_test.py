@@ -170,7 +170,7 @@ class Refusals(InAFolder):
 
     def test_lengths_that_are_none(self):
         for option in ("--origin", "--stock"):
-            for value in ("10,10", "1,2,3,4", "a,b,c", ",,", "1,2,3mm"):
+            for value in ("10,10", "1,2,3,4", "a,b,c", ",,", "1,2,3mm", "", "nan,1,1", "1,1,inf"):
                 with self.subTest(f"{option} {value}"):
                     self.refused("-", "--profile", PROFILE, option, value)
         self.assertIn("60.5", self.refused("-", "--profile", PROFILE, "--origin", "10,10,60.6"))

@@ -36,6 +36,12 @@ class Warnings(InAFolder):
         self.silent("Z0,0,200,0,0,-10,0,0,200,801,0,200;")
         self.silent(HEAD + "PD801,0;PU;", *ORIGIN)
 
+    def test_a_slope_through_the_side_of_the_stock(self):
+        """From 10 deep at X 790 to 10 above at 900: out of the stock at 800, 8.2 deep, and on the surface at 845."""
+        self.gives("outside.* stock", "Z0,0,200;Z790,0,-10;Z900,0,10;", "Z900")
+        self.gives("outside.* stock", "Z0,0,200;Z900,0,200;Z700,0,-100;Z700,0,200;", "Z700")
+        self.silent("Z0,0,200;Z790,0,-10;Z800,0,0;Z900,0,10;")
+
     def test_deeper_than_the_stock(self):
         self.gives("thick", "!PZ-201,200;PD100,0;PU;", "PD100")
         self.gives("thick", "Z0,0,200,0,0,-201,0,0,200;", "Z0")
@@ -95,10 +101,18 @@ class Warnings(InAFolder):
             self.silent(HEAD + f"PD100,0;^PR;Z0,0,{lift};^PA;Z0,0,-10;PU;")
             self.silent(HEAD + f"PD100,0;!PZ-100,{lift};PU;", "--stock", "20,20,5")
 
+    def test_a_job_that_is_nothing_but_a_lift(self):
+        """From the top, 800, to 800 + 2420."""
+        self.silent("^PR;Z0,0,2420;^PA;")
+        self.silent("!PZ-100,2421;PU;")
+
     def test_a_part_that_fits_only_in_the_other_unit(self):
         """12200 steps are 305 mm of 0.025 mm, and 122 mm of 0.01 mm."""
         self.gives("fits", HEAD + "PD12200,0;PU;", "PD12200", "--stock", "400,400,9")
         self.silent(HEAD + "PD8128,0;PU;", "--stock", "400,400,9")
+        # 203.2 mm, all of X; 122 mm in X, but 160 mm in Y.
+        self.gives("fits", HEAD + "PD20320,0;PU;", "PD20320", "--stock", "600,400,9")
+        self.assertEqual(Checked(HEAD + "PD12200,16000;PU;").about("fits"), [])
         for steps, profile in ((30000, "mdx-20"), (30501, "mdx-40"), (20321, "srm-20")):
             checked = Checked(HEAD + f"PD{steps},0;PU;", profile=profile)
             self.assertEqual((len(checked.about("larger")), checked.about("fits")), (1, []))
@@ -126,6 +140,10 @@ class Warnings(InAFolder):
         for job in ("PD100,0;PU;", "PD;!ZM0;", "PD;H;", "PD;IN;", "Z0,0,-1,0,0,1;", "PD;^PR;Z0,0,101;"):
             self.silent(HEAD + job)
 
+    def test_an_end_on_the_surface(self):
+        for job in ("!PZ0,200;PD100,0;", "PD100,0;^PR;Z0,0,100;^PA;"):
+            self.assertEqual(Checked(HEAD + job).about("below|-0.00"), [])
+
     def test_esc_k(self):
         for job in (HEAD + "\x1b.K", "\x1b.K" + HEAD):
             self.gives("ESC", job, "\x1b", severity="error")
@@ -144,6 +162,9 @@ class Warnings(InAFolder):
         job = HEAD + "PD900,0;PU;PD900,900;PU;" * 1000
         checked = Checked(job, *ORIGIN, *STOCK)
         self.assertEqual([each["offset"] for each in checked.told], [len(HEAD)])
+
+    def test_small_matters_hide_none(self):
+        self.gives("!NR", "J1;" * 110 + "!NR;", "!NR")
 
     def test_a_good_job_is_good_on_each_machine(self):
         for name in SHIPPED:

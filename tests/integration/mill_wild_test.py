@@ -70,6 +70,10 @@ class FabModules(Wild):
         self.assertEqual(checked.summary["bounds"], {"min": {"x": 0, "y": 0, "z": -4},
                                                      "max": {"x": 400, "y": 6096, "z": 1200}})
 
+    def test_the_way_to_the_far_edge_is_travel(self):
+        """PU with Z2 above the top runs X and Y there at PU's own speed (guideline 3-2 PU): 142.4 mm at 15 mm/s."""
+        self.takes(self.silent(fab()), Ways(*FAB_WAYS.moves, (28, 4), (142.4, 15)), fab())
+
     def test_an_origin_away_from_home_makes_it_a_note(self):
         checked = self.told(fab(), "--origin", "10,10,30")
         self.assertEqual([(each["severity"], each["line"], each["column"]) for each in checked.told], [("note", 9, 17)])
