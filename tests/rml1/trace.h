@@ -1,0 +1,44 @@
+// What came of a played job, short enough to be compared by eye.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/rml1/check.h"
+#include "tests/rml1/mill.h"
+
+namespace axisgate::rml1 {
+
+// Z from -1050 to 5000 with test_profile(), X and Y from -10000 to 50500.
+inline constexpr Origin kMidway{100, 100, 50};
+
+inline std::string text(const Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
+
+// Where the moves end.
+inline std::vector<std::string> ends(const Played& played) {
+  std::vector<std::string> found;
+  for (const Move& move : played.moves) found.push_back(text(move.to));
+  return found;
+}
+
+// "error 3 at 6", "warning 0 at 0".
+inline std::vector<std::string> told(const std::vector<Diagnostic>& diagnostics) {
+  std::vector<std::string> found;
+  for (const Diagnostic& one : diagnostics) {
+    found.push_back(fmt::format("{} {} at {}", name(one.severity), one.number, one.place.offset));
+  }
+  return found;
+}
+
+// `profile` outlives what comes back.
+inline std::unique_ptr<Check> checked(const std::string& job, const Profile& profile, CheckOptions options = {}) {
+  auto check = std::make_unique<Check>(profile, std::move(options));
+  check->feed(job);
+  check->finish();
+  return check;
+}
+
+}  // namespace axisgate::rml1
