@@ -8,8 +8,8 @@
 #include <set>
 #include <tuple>
 
-#include "device/core/config_file.h"
-#include "device/core/config_table.h"
+#include "device/config/config_file.h"
+#include "device/config/config_table.h"
 #include "device/shrc203/simulator/options.h"
 #include "server/config_access.h"
 #include "server/config_axis.h"

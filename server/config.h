@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "device/core/config_error.h"
+#include "device/config/config_error.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
 #include "device/shrc203/profile.h"

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/core/config_table.h"
+#include "device/config/config_table.h"
 #include "server/access/access.h"
 #include "server/config.h"
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/core/config_table.h"
+#include "device/config/config_table.h"
 #include "device/shrc203/profile.h"
 #include "server/config.h"
 

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string_view>
 
-#include "device/core/config_table.h"
+#include "device/config/config_table.h"
 #include "device/core/quantity.h"
 #include "device/shrc203/profile.h"
 #include "server/config.h"

@@ -8,7 +8,7 @@
 #include <string>
 #include <utility>
 
-#include "device/core/config_file.h"
+#include "device/config/config_file.h"
 #include "device/core/quantity.h"
 #include "server/config_quantity.h"
 #include "server/config_words.h"

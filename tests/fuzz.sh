@@ -1,47 +1,69 @@
 #!/usr/bin/env bash
-# Fuzzes the RML-1 parser, and parser with machine, with libFuzzer.
-# usage: tests/fuzz.sh [SECONDS]     for each of the two; without it 1800, which makes an hour on one core. What is found
-#                                    stays in build-fuzz/, with the line that shows it again.
+# Fuzzes the RML-1 parser, and parser with machine and pictures, with libFuzzer.
+# usage: tests/fuzz.sh [SECONDS]     so long for each of the two, from what was found before on; 1800 make an hour. Without
+#                                    it the same 10,000 jobs each time. What fails stays in build-fuzz/, is tried first from
+#                                    then on, and is told with the line that shows it again.
 set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
-seconds="${1:-1800}"
+seconds="${1-}"
 build="$root/build-fuzz"
 launcher="$(command -v ccache || true)"
 # libstdc++ 12 uses what it calls deprecated itself.
-flags=(-std=c++20 -Wno-deprecated-declarations -g -O1 -I"$root" -fsanitize=address,undefined -fno-sanitize-recover=undefined)
-coverage=(-fsanitize=fuzzer-no-link)
+flags=(-std=c++20 -Wno-deprecated-declarations -g -O1 -I"$root" -fsanitize=address,undefined
+  -fno-sanitize-recover=undefined)
+sources=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
+
+object_of() {
+  printf '%s/%s.o' "$build" "${1//\//_}"
+}
 
 compile() {
-  local object="$build/${1//\//_}.o"
-  $launcher clang++-19 "${flags[@]}" "${coverage[@]}" -c "$root/$1" -o "$object"
-  objects+=("$object")
+  $launcher clang++-19 "${flags[@]}" -fsanitize=fuzzer-no-link -c "$1" -o "$(object_of "$1")"
+}
+
+run() {
+  local target="$1"
+  shift
+  "$build/$target" -max_len=4096 -timeout=10 -artifact_prefix="$build/$target-" "$@" >> "$build/$target.log" 2>&1 || {
+    tail -n 60 "$build/$target.log"
+    printf 'tests/fuzz.sh: see it again: %s\n' "$build/$target $build/$target-crash-..."
+    exit 1
+  }
 }
 
 fuzz() {
-  local target="$1" corpus="$build/corpus-$1"
-  clang++-19 "${flags[@]}" -fsanitize=fuzzer "$build/tests_fuzz_$target.cc.o" "${objects[@]}" -lfmt -o "$build/$target"
-  mkdir -p "$corpus"
-  "$build/$target" -max_total_time="$seconds" -max_len=4096 -timeout=10 -print_final_stats=1 -verbosity=1 \
-    -artifact_prefix="$build/$target-" "$corpus" "$root/tests/fuzz/corpus" > "$build/$target.log" 2>&1 ||
-    { tail -n 60 "$build/$target.log"; exit 1; }
-  printf '%s: %s, %s\n' "$target" \
-    "$(sed -n 's/^stat::number_of_executed_units: */executions /p' "$build/$target.log")" \
+  local target="$1" corpus="$build/corpus-$1" failed
+  rm -f "$build/$target.log"
+  for failed in "$build/$target"-{crash,timeout,oom}-*; do
+    if [[ -e "$failed" ]]; then run "$target" "$failed"; fi
+  done
+  if [[ -n "$seconds" ]]; then
+    mkdir -p "$corpus"
+    run "$target" -max_total_time="$seconds" -print_final_stats=1 "$corpus" tests/fuzz/corpus
+  else
+    rm -rf "$build/scratch"
+    mkdir "$build/scratch"  # libFuzzer writes into the first folder
+    run "$target" -runs=10000 -seed=1 -print_final_stats=1 "$build/scratch" tests/fuzz/corpus
+  fi
+  printf '%s: %s executions, %s\n' "$target" \
+    "$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$target.log" | tail -n 1)" \
     "$(grep -o 'cov: [0-9]* ft: [0-9]*' "$build/$target.log" | tail -n 1)"
 }
 
-mkdir -p "$build"
 cd "$root"
+mkdir -p "$build"
 objects=()
-for source in device/rml1/{axes_reader,check,clip,diagnostic,instruction_table,judge,machine,number_reader,parser,planner,profile}.cc \
-  device/core/{config_error,config_file}.cc tests/rml1/mill.cc tests/fuzz/grammar.cc; do
-  compile "$source"
+for source in "${sources[@]}"; do
+  # Pictures as PNG are cairo's.
+  if [[ "$source" != device/rml1/png.cc ]]; then
+    compile "$source"
+    objects+=("$(object_of "$source")")
+  fi
 done
-shared=("${objects[@]}")
 for target in parser_fuzz machine_fuzz; do
   compile "tests/fuzz/$target.cc"
-  objects=("${shared[@]}")
-done
-for target in parser_fuzz machine_fuzz; do
+  clang++-19 "${flags[@]}" -fsanitize=fuzzer "$(object_of "tests/fuzz/$target.cc")" "${objects[@]}" -lfmt \
+    -o "$build/$target"
   fuzz "$target"
 done

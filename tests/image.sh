@@ -22,7 +22,7 @@ container=""
 # The programs themselves are what tests/run.sh is for; here it is what they are built with, linked with and called by.
 input_paths() {
   git -C "$repository" ls-tree -r --name-only HEAD -- Dockerfile .dockerignore deploy/debian-packages.txt \
-    deploy/install-packages.sh CMakeLists.txt CMakePresets.json tests/image.sh tests/recorded-proof.sh |
+    deploy/install-packages.sh deploy/mills CMakeLists.txt CMakePresets.json tests/image.sh tests/recorded-proof.sh |
     sort
   git -C "$repository" ls-tree -r --name-only HEAD -- clients device proto server | grep 'CMakeLists\.txt$'
 }
@@ -105,7 +105,9 @@ call() {
 }
 
 check_job() {
-  in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' | axisctl mill check - --profile mdx-20"
+  in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' | axisctl mill check - --profile mdx-20" &&
+    in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' |
+      axisctl mill preview - --profile srm-20 --output /run/axisgate/job.png && test -s /run/axisgate/job.png"
 }
 
 check_user() {
@@ -157,7 +159,7 @@ prove() {
   timed "podman run" start_container
   timed "the health check" wait_until_up
   timed "axisctl status, home, move" call
-  timed "axisctl mill check" check_job
+  timed "axisctl mill check, mill preview" check_job
   timed "runs as its own user" check_user
   timed "no compiler, no -dev package" check_contents
   timed "the end by SIGTERM" end_container

@@ -120,7 +120,7 @@ main() {
   if [[ "$preset" == dev ]]; then
     run_unittest tests/integration
     say "fuzzers, for a moment"
-    check "$root/tests/fuzz.sh" 10
+    check "$root/tests/fuzz.sh"
   fi
   printf '\n'
   summarise

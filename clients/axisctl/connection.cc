@@ -61,7 +61,7 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
       return {kRefused, "UNIMPLEMENTED", fmt::format("what answers at {} does not know this call", target),
               "is it axisgated, and of this version?"};
     default:
-      return {kMotionFailed, fmt::format("GRPC_{}", static_cast<int>(status.error_code())), status.error_message(),
+      return {kFailed, fmt::format("GRPC_{}", static_cast<int>(status.error_code())), status.error_message(),
               "see the daemon's log"};
   }
 }

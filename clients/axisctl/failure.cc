@@ -20,7 +20,7 @@ int exit_code(v1::Reason reason) {
     case v1::REASON_TARGET_NOT_REACHED:
     case v1::REASON_OUTCOME_UNKNOWN:
     case v1::REASON_INTERNAL:
-      return kMotionFailed;
+      return kFailed;
     default:
       return kRefused;
   }

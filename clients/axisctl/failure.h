@@ -11,7 +11,7 @@ namespace axisgate::axisctl {
 // Documented in README.md and `axisctl help`.
 enum ExitCode : int {
   kDone = 0,
-  kMotionFailed = 1,  // or was stopped, or nobody can say
+  kFailed = 1,  // a motion, or it was stopped, or nobody can say; a job that has an error
   kUsage = 2,
   kRefused = 3,      // the request or the device's state
   kUnavailable = 4,  // no daemon, or the line is down
@@ -19,7 +19,7 @@ enum ExitCode : int {
 };
 
 struct Failure {
-  int exit_code = kMotionFailed;
+  int exit_code = kFailed;
   std::string reason;   // "OUTSIDE_TRAVEL"
   std::string message;  // one sentence: what, where, why
   std::string hint;     // what to do; may be empty

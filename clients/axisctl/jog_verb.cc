@@ -144,7 +144,7 @@ int jog(const Session& session) {
   v1::Motion motion = run(session, device, request, *stream, follower);
   if (motion.name().empty()) {
     session.connection.check(stream->Finish());
-    throw Failure{kMotionFailed, "INTERNAL", "the daemon ended the call without starting the jog", "see its log"};
+    throw Failure{kFailed, "INTERNAL", "the daemon ended the call without starting the jog", "see its log"};
   }
   // With the outcome known the status adds nothing; without it the daemon may still be there to be asked.
   if (motion.state() < v1::MOTION_STATE_SUCCEEDED) motion = await_outcome(session, motion.name());

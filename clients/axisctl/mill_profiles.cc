@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <filesystem>
 #include <system_error>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -29,16 +31,11 @@ std::vector<fs::path> shipped() {
   return files;
 }
 
-std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
-  return text;
-}
-
 fs::path file_of(const std::string& name) {
   if (name.find('/') != std::string::npos || name.ends_with(".toml")) return name;
   std::string known;
   for (const fs::path& file : shipped()) {
-    if (file.stem().string() == lower(name)) return file;
+    if (file.stem().string() == boost::algorithm::to_lower_copy(name)) return file;
     known += (known.empty() ? "" : ", ") + file.stem().string();
   }
   throw usage(fmt::format("there is no profile \"{}\"", name),
@@ -50,9 +47,8 @@ fs::path file_of(const std::string& name) {
 rml1::Profile mill_profile(const std::string& name) {
   const auto profile = rml1::load_profile(file_of(name).string());
   if (profile) return *profile;
-  std::string told;
-  for (const ConfigError& error : profile.error()) told += (told.empty() ? "" : "\n") + to_string(error);
-  throw usage(told, "correct the profile");
+  for (const ConfigError& error : profile.error()) print_note(to_string(error));
+  throw usage(fmt::format("the profile {} will not do", name), "correct what is told above");
 }
 
 std::vector<rml1::KnownMachine> known_mills() {

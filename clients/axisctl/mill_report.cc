@@ -31,6 +31,20 @@ std::string reach_text(std::string_view axis, const Reach& reach, double step_mm
   return fmt::format("{} {:.2f} to {:.2f} mm", axis, reach.lowest * step_mm, reach.highest * step_mm);
 }
 
+// "12 s", "3 min 5 s", "2 h 10 min"
+std::string time_text(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+// "6500", "400 to 1137"
+std::string range_text(const Reach& reach) {
+  return reach.size() == 0 ? fmt::format("{:g}", reach.lowest)
+                           : fmt::format("{:g} to {:g}", reach.lowest, reach.highest);
+}
+
 // -0.00 is shown as 0.00.
 double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
@@ -45,13 +59,6 @@ ordered_json end_of(const Bounds& bounds, double Reach::*end) {
 }
 
 }  // namespace
-
-std::string time_text(double seconds) {
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
 
 void print_diagnostics(const std::string& file, const Diagnostics& diagnostics) {
   for (const Diagnostic& one : in_order(diagnostics)) {
@@ -79,6 +86,7 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
                          job.spin_ups == 0   ? "never"
                          : job.spin_ups == 1 ? "once"
                                              : fmt::format("{} times", job.spin_ups)));
+  if (job.rpm.any) print_line(fmt::format("cuts at {} rpm", range_text(job.rpm)));
   if (!origin_known) print_line("without --origin only sizes are judged, and heights are as if Z0 lay at the bottom");
   const Diagnostics& told = check.diagnostics();
   print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),
@@ -100,18 +108,21 @@ void print_json(const Check& check) {
   }
   const Summary& job = check.summary();
   const Diagnostics& told = check.diagnostics();
-  print_line(ordered_json{{"final", to_json(job.final)},
-                          {"bounds", job.bounds.z.any ? ordered_json{{"min", end_of(job.bounds, &Reach::lowest)},
-                                                                     {"max", end_of(job.bounds, &Reach::highest)}}
-                                                      : ordered_json()},
-                          {"seconds", {{"low", job.seconds_low}, {"high", job.seconds_high}}},
-                          {"distance_mm", job.distance_mm},
-                          {"spin_ups", job.spin_ups},
-                          {"commands", job.commands},
-                          {"errors", told.count(Severity::error)},
-                          {"warnings", told.count(Severity::warning)},
-                          {"notes", told.count(Severity::note)},
-                          {"omitted", told.omitted()}}
+  print_line(ordered_json{
+      {"final", to_json(job.final)},
+      {"bounds", job.bounds.z.any ? ordered_json{{"min", end_of(job.bounds, &Reach::lowest)},
+                                                 {"max", end_of(job.bounds, &Reach::highest)}}
+                                  : ordered_json()},
+      {"seconds", {{"low", job.seconds_low}, {"high", job.seconds_high}}},
+      {"distance_mm", job.distance_mm},
+      {"cutting_mm", job.cutting_mm},
+      {"rpm", job.rpm.any ? ordered_json{{"low", job.rpm.lowest}, {"high", job.rpm.highest}} : ordered_json()},
+      {"spin_ups", job.spin_ups},
+      {"commands", job.commands},
+      {"errors", told.count(Severity::error)},
+      {"warnings", told.count(Severity::warning)},
+      {"notes", told.count(Severity::note)},
+      {"omitted", told.omitted()}}
                  .dump());
 }
 

@@ -15,7 +15,4 @@ void print_summary(const rml1::Check& check, const rml1::Profile& profile, bool 
 // One object for each diagnostic, and one of the job. Steps of the workpiece system.
 void print_json(const rml1::Check& check);
 
-// "12 s", "3 min 5 s", "2 h 10 min"
-std::string time_text(double seconds);
-
 }  // namespace axisgate::axisctl

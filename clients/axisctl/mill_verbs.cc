@@ -2,10 +2,13 @@
 
 #include <fmt/format.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cerrno>
 #include <charconv>
+#include <cmath>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <vector>
@@ -13,6 +16,7 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/mill_profiles.h"
 #include "clients/axisctl/mill_report.h"
+#include "clients/axisctl/print.h"
 #include "device/rml1/picture.h"
 
 namespace axisgate::axisctl {
@@ -21,6 +25,7 @@ namespace {
 using namespace rml1;
 
 constexpr std::size_t kPiece = 1 << 16;
+constexpr double kFarthest = 10'000;  // mm; as in profiles
 
 // "X,Y,Z" in mm.
 Point lengths(const std::string& text, const char* option) {
@@ -30,26 +35,27 @@ Point lengths(const std::string& text, const char* option) {
   bool good = true;
   for (int index = 0; index < 3 && good; ++index) {
     const auto [stop, error] = std::from_chars(at, end, values[index]);
-    good = error == std::errc() && (index == 2 ? stop == end : stop != end && *stop == ',');
+    good = error == std::errc() && std::abs(values[index]) <= kFarthest &&
+           (index == 2 ? stop == end : stop != end && *stop == ',');
     at = stop + 1;
   }
   if (good) return {values[0], values[1], values[2]};
-  throw usage(fmt::format("{} will not do for {}", text, option), "use three lengths in mm, as 10,10,5.5");
+  throw usage(fmt::format("\"{}\" will not do for {}", text, option), "use three lengths in mm, as 10,10,5.5");
 }
 
 CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
   CheckOptions options;
   options.others = known_mills();
-  if (!asked.origin.empty()) {
-    const Point p = lengths(asked.origin, "--origin");
+  if (asked.origin) {
+    const Point p = lengths(*asked.origin, "--origin");
     if (p.z < 0 || p.z > profile.z_mm) {
       throw usage(fmt::format("--origin has Z0 {} mm below the top", p.z),
                   fmt::format("Z travels {} mm on the {}: use 0 to {}", profile.z_mm, profile.name, profile.z_mm));
     }
     options.origin = Origin{p.x, p.y, p.z};
   }
-  if (!asked.stock.empty()) {
-    const Point p = lengths(asked.stock, "--stock");
+  if (asked.stock) {
+    const Point p = lengths(*asked.stock, "--stock");
     if (p.x <= 0 || p.y <= 0 || p.z <= 0)
       throw usage("--stock has no size", "use its three lengths in mm, as 80,50,10");
     options.stock = Stock{p.x, p.y, p.z};
@@ -94,14 +100,14 @@ int mill_check(const Options& options) {
     print_diagnostics(options.mill.file, check.diagnostics());
     if (!check.is_g_code()) print_summary(check, profile, asked.origin.has_value());
   }
-  return check.diagnostics().count(Severity::error) == 0 ? kDone : kMotionFailed;
+  return check.diagnostics().count(Severity::error) == 0 ? kDone : kFailed;
 }
 
 int mill_preview(const Options& options) {
   const std::string& output = options.mill.output;
-  const bool svg = output.ends_with(".svg");
-  if (!svg && !output.ends_with(".png"))
-    throw usage(output + " is no picture", "name a file that ends in .svg or .png");
+  const std::string ending = boost::algorithm::to_lower_copy(std::filesystem::path(output).extension().string());
+  const bool svg = ending == ".svg";
+  if (!svg && ending != ".png") throw usage(output + " is no picture", "name a file that ends in .svg or .png");
   const Profile profile = mill_profile(options.mill.profile);
   const CheckOptions asked = check_options(options.mill, profile);
   Strokes strokes;
@@ -109,7 +115,7 @@ int mill_preview(const Options& options) {
   read_job(options.mill.file, check);
   if (check.is_g_code()) {
     print_diagnostics(options.mill.file, check.diagnostics());
-    return kMotionFailed;
+    return kFailed;
   }
   const Picture picture =
       make_picture(options.mill.file, check, profile, asked.stock, asked.origin.has_value(), strokes);
@@ -118,6 +124,10 @@ int mill_preview(const Options& options) {
   if (!written) {
     throw usage(fmt::format("{} cannot be written: {}", output, std::strerror(errno)),
                 "name a file in a folder of yours");
+  }
+  if (const auto errors = check.diagnostics().count(Severity::error); errors > 0) {
+    print_note(
+        fmt::format("the job has {} {}: `axisctl mill check` tells them", errors, errors == 1 ? "error" : "errors"));
   }
   return kDone;
 }

@@ -78,11 +78,11 @@ struct Target {
 
 // Of the verbs that judge jobs for mills.
 struct MillOptions {
-  std::string file;     // the job; "-" is the standard input
-  std::string profile;  // a shipped one's name, or a file
-  std::string origin;   // "10,10,5", mm; empty: not known
-  std::string stock;    // the same
-  std::string output;   // preview: the picture
+  std::string file;                   // the job; "-" is the standard input
+  std::string profile;                // a shipped one's name, or a file
+  std::optional<std::string> origin;  // "10,10,5", mm
+  std::optional<std::string> stock;   // the same
+  std::string output;                 // preview: the picture
 };
 
 struct Options {

@@ -30,8 +30,8 @@ std::string scan_of(const Session& session, const v1::Device& device, const v1::
 
 Failure to_failure(const Session& session, const v1::Device& device, const v1::Motion& motion) {
   Failure failure = axisctl::to_failure(motion.problem());
-  failure.exit_code = kMotionFailed;
-  if (!motion.has_problem()) failure = {kMotionFailed, state_name(motion.state()), "the motion did not succeed", ""};
+  failure.exit_code = kFailed;
+  if (!motion.has_problem()) failure = {kFailed, state_name(motion.state()), "the motion did not succeed", ""};
   if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now at " + ends;
   failure.message += scan_of(session, device, motion);
   return failure;
@@ -55,7 +55,7 @@ v1::Motion await_outcome(const Session& session, const std::string& motion) {
   }
   const grpc::Status status = reader->Finish();
   if (status.ok() && response.motion().state() >= v1::MOTION_STATE_SUCCEEDED) return response.motion();
-  throw Failure{kMotionFailed, "OUTCOME_UNKNOWN",
+  throw Failure{kFailed, "OUTCOME_UNKNOWN",
                 fmt::format("the daemon was lost while motion {} ran: {}", last_part(motion), status.error_message()),
                 "it may be moving still: look with `axisctl status`, do not simply repeat it"};
 }

@@ -25,7 +25,7 @@ Output::~Output() {
 void Output::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0) return;
   throw Failure{
-      kMotionFailed, "NOT_WRITTEN",
+      kFailed, "NOT_WRITTEN",
       fmt::format("{} cannot be written further: {}", is_file() ? path_ : "the standard output", std::strerror(errno)),
       "what is there stays"};
 }

@@ -57,7 +57,7 @@ v1::Motion start_path(const Session& session, PathStream& stream, const v1::Devi
   v1::Motion motion;
   if (read_motion(stream, motion)) return motion;
   session.connection.check(stream.Finish());
-  throw Failure{kMotionFailed, "INTERNAL", "the daemon ended the call without starting the path", "see its log"};
+  throw Failure{kFailed, "INTERNAL", "the daemon ended the call without starting the path", "see its log"};
 }
 
 int run(const Session& session, const v1::Device& device, const std::vector<v1::Segment>& segments) {

@@ -103,7 +103,7 @@ void print_json(const google::protobuf::Message& message) {
   options.preserve_proto_field_names = true;
   std::string json;
   if (!google::protobuf::util::MessageToJsonString(message, &json, options).ok()) {
-    throw Failure{kMotionFailed, "INTERNAL", "the daemon sent text that is not UTF-8", "leave out --json"};
+    throw Failure{kFailed, "INTERNAL", "the daemon sent text that is not UTF-8", "leave out --json"};
   }
   print_line(json);
 }

@@ -85,10 +85,10 @@ int replay(const Session& session) {
   if (differences > 0) {
     print_line(fmt::format("{}: {} exchanges, {} {}", name, exchanges, differences,
                            differences == 1 ? "difference" : "differences"));
-    return kMotionFailed;
+    return kFailed;
   }
   if (exchanges == 0) {
-    throw Failure{kMotionFailed, "NOTHING_COMPARED", fmt::format("{} shows no exchange on a line that is up", name),
+    throw Failure{kFailed, "NOTHING_COMPARED", fmt::format("{} shows no exchange on a line that is up", name),
                   "record while the controller answers"};
   }
   print_line(fmt::format("{}: {} exchanges, no difference", name, exchanges));

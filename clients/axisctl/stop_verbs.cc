@@ -34,7 +34,7 @@ int report(const Session& session, const v1::Device& device, const Response& res
   if (response.has_problem()) throw to_failure(response.problem());
   for (const v1::AxisStop& stop : response.axes()) {
     if (!stop.has_ready() || !stop.ready()) {
-      throw Failure{kMotionFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not seen to stand still", stop.axis()),
+      throw Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not seen to stand still", stop.axis()),
                     "look at the stage"};
     }
   }

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 
+#include "device/rml1/characters.h"
+
 namespace axisgate::rml1 {
 namespace {
 
 constexpr std::string_view kSection = "3-3";
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool is_end(char c) { return c == ';' || c == '\r' || c == '\n'; }
 
 }  // namespace
@@ -27,7 +27,7 @@ AxesReader::Found AxesReader::take(char c, const Place& place) {
   if (state_ == State::skip) return is_end(c) ? Found::end : Found::nothing;
   if (is_blank(c)) return Found::nothing;
   if (state_ == State::value) {
-    if (NumberReader::may_begin(c)) {
+    if (begins_number(c)) {
       number_.begin(c);
       number_place_ = place;
       state_ = State::number;
@@ -48,8 +48,8 @@ AxesReader::Found AxesReader::letter(char c, const Place& place) {
     return c == ':' ? Found::nothing : Found::end;
   }
   if (is_letter(c)) {
-    add(Place(place));
-    target_.letter = static_cast<char>(c & ~0x20);
+    target_ = {.letter = capital(c), .value = 0, .point = false, .place = place};
+    state_ = State::value;
     const auto same = [this](const AxisTarget& target) { return target.letter == target_.letter; };
     if (std::any_of(targets_.begin(), targets_.begin() + static_cast<std::ptrdiff_t>(count_), same)) {
       fail(2, place, "an axis is named twice in one group: this group and all behind it are skipped");
@@ -59,15 +59,9 @@ AxesReader::Found AxesReader::letter(char c, const Place& place) {
     return Found::nothing;
   }
   fail(3, place,
-       NumberReader::may_begin(c) ? "a number without an axis: this group and all behind it are skipped"
-                                  : "no letter of an axis: this group and all behind it are skipped");
+       begins_number(c) ? "a number without an axis: this group and all behind it are skipped"
+                        : "no letter of an axis: this group and all behind it are skipped");
   return Found::nothing;
-}
-
-void AxesReader::add(const Place& place) {
-  target_ = {};
-  target_.place = place;
-  state_ = State::value;
 }
 
 void AxesReader::end_number() {

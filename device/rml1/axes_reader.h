@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "device/rml1/diagnostic.h"
@@ -31,7 +33,6 @@ class AxesReader {
   enum class State : std::uint8_t { letter, value, number, skip };
 
   Found letter(char c, const Place& place);
-  void add(const Place& place);
   void end_number();
   void fail(int number, const Place& place, std::string_view why);
   bool move_apart(char letter) const;

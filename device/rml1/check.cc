@@ -4,34 +4,48 @@
 
 namespace axisgate::rml1 {
 
-Check::Check(const Profile& profile, CheckOptions options, MachineListener* moves)
+Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
     : profile_(profile),
       moves_(moves),
+      origin_known_(options.origin.has_value()),
       machine_(profile, options.origin, diagnostics_, *this),
       parser_(profile.dialect, diagnostics_, machine_),
-      judge_(profile, options.origin.has_value(), options.stock, std::move(options.others), diagnostics_),
+      judge_(profile, origin_known_, options.stock, std::move(options.others), diagnostics_),
       best_(profile.acceleration.best, profile.acceleration.corner_mm),
-      worst_(profile.acceleration.worst, std::nullopt) {}
+      worst_(profile.acceleration.worst, std::nullopt, 1 + profile.acceleration.slower) {}
 
 void Check::feed(std::string_view bytes) {
-  if (!g_code_ && !refuse_g_code(bytes)) parser_.feed(bytes);
+  if (told_ == JobKind::Told::nothing_yet) bytes = recognise(bytes);
+  if (!is_g_code()) parser_.feed(bytes);
 }
 
-bool Check::refuse_g_code(std::string_view bytes) {
-  for (const char c : bytes) {
-    if (told_ != JobKind::Told::nothing_yet) break;
+// What is left of the bytes when the kind is known. Until then the parser gets all but a letter that may begin G-code.
+std::string_view Check::recognise(std::string_view bytes) {
+  while (told_ == JobKind::Told::nothing_yet && !bytes.empty()) {
+    const char c = bytes.front();
     told_ = kind_.take(c);
+    if (told_ == JobKind::Told::nothing_yet) {
+      bytes.remove_prefix(1);
+      if (kind_.waits()) {
+        held_ += c;
+      } else {
+        parser_.feed({&c, 1});
+      }
+    }
   }
-  g_code_ = told_ == JobKind::Told::g_code;
-  if (!g_code_) return false;
-  diagnostics_.error(0, kind_.place(), "1-2", [] {
-    return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
-  });
-  return true;
+  if (is_g_code()) {
+    diagnostics_.error(0, kind_.place(), "1-2", [] {
+      return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
+    });
+  } else if (told_ == JobKind::Told::rml) {
+    parser_.feed(std::exchange(held_, {}));
+  }
+  return bytes;
 }
 
 void Check::finish() {
-  if (!g_code_) {
+  if (!is_g_code()) {
+    parser_.feed(held_);
     parser_.finish();
     judge_.finish(machine_);
   }
@@ -50,38 +64,37 @@ void Check::moved(const Move& move) {
   const Point way = (move.to - move.from) * profile_.step_mm;
   const double distance = length(way);
   summary_.distance_mm += distance;
+  if (move.cuts() && move.turning) summary_.rpm.take(machine_.rpm());
   summary_.cutting_mm += distance * move.cutting_part();
-  plane_known_ = plane_known_ || move.row->deed == Deed::home || way.x != 0 || way.y != 0;
+  plane_known_ = plane_known_ || move.deed == Deed::home || way.x != 0 || way.y != 0;
   if (plane_known_) {
     summary_.bounds.take(move.from);
     summary_.bounds.take(move.to);
   } else {
     summary_.bounds.z.take(move.to.z);
   }
-  best_.move(way, move.speed, arrival(move.end));
+  if (!is_assumed(move)) best_.move(way, move.speed, arrival(move.end));
+  begun_ = true;
   worst_.move(way, move.speed, arrival(move.end));
   judge_.moved(move);
   if (moves_ != nullptr) moves_->moved(move);
 }
 
-void Check::turned(double seconds, const Move& beside) {
-  pause(seconds);
-  if (moves_ != nullptr) moves_->turned(seconds, beside);
+// Where Z0 is not known, nobody knows from how high the tool comes down at first.
+bool Check::is_assumed(const Move& move) const {
+  return !begun_ && !origin_known_ && move.from.x == move.to.x && move.from.y == move.to.y;
 }
 
-void Check::spun_up(double seconds) {
-  ++summary_.spin_ups;
-  pause(seconds);
+void Check::waited(Wait what, double seconds, std::uint64_t end) {
+  if (what == Wait::spin_up) ++summary_.spin_ups;
+  best_.pause(seconds, arrival(end));
+  worst_.pause(seconds, arrival(end));
 }
 
-void Check::dwelt(double seconds) { pause(seconds); }
-
-void Check::pause(double seconds) {
-  best_.pause(seconds);
-  worst_.pause(seconds);
+void Check::commanded(const Point& target, bool height_alone, const Instruction& by) {
+  judge_.commanded(target, height_alone, machine_.box(), by);
 }
 
-void Check::commanded(const Point& target, const Instruction& by) { judge_.commanded(target, machine_.box(), by); }
 void Check::lifted(double steps, const Instruction& by) { judge_.lifted(steps, by); }
 
 }  // namespace axisgate::rml1

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -29,46 +30,46 @@ struct Summary {
   double seconds_low = 0, seconds_high = 0;
   double distance_mm = 0, cutting_mm = 0;
   std::uint64_t spin_ups = 0;
+  Reach rpm;  // at which it cuts
   std::uint64_t commands = 0;
 };
 
 class Check : private MachineListener {
  public:
   // `moves` hears of each real move, too. Everything referred to outlives this.
-  Check(const Profile& profile, CheckOptions options, MachineListener* moves = nullptr);
+  Check(const Profile& profile, CheckOptions options, MoveListener* moves = nullptr);
 
   void feed(std::string_view bytes);
   void finish();
 
-  bool is_g_code() const { return g_code_; }
+  bool is_g_code() const { return told_ == JobKind::Told::g_code; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const Summary& summary() const { return summary_; }  // after finish()
   const Machine& machine() const { return machine_; }
 
  private:
   void moved(const Move& move) override;
-  void turned(double seconds, const Move& beside) override;
-  void spun_up(double seconds) override;
-  void dwelt(double seconds) override;
-  void commanded(const Point& target, const Instruction& by) override;
+  void waited(Wait what, double seconds, std::uint64_t end) override;
+  void commanded(const Point& target, bool height_alone, const Instruction& by) override;
   void lifted(double steps, const Instruction& by) override;
 
-  bool refuse_g_code(std::string_view bytes);
-  void pause(double seconds);
+  std::string_view recognise(std::string_view bytes);
   double arrival(std::uint64_t end) const;
+  bool is_assumed(const Move& move) const;
 
   const Profile& profile_;
-  MachineListener* moves_;
+  MoveListener* moves_;
+  bool origin_known_;
   Diagnostics diagnostics_;
   JobKind kind_;
   JobKind::Told told_ = JobKind::Told::nothing_yet;
-  bool g_code_ = false;
+  std::string held_;  // a letter, until what stands behind it tells the kind
   Machine machine_;
   Parser parser_;
   Judge judge_;
   Planner best_, worst_;
   Summary summary_;
-  bool plane_known_ = false;
+  bool plane_known_ = false, begun_ = false;
 };
 
 }  // namespace axisgate::rml1

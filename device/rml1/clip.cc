@@ -73,9 +73,7 @@ void Clipper::follow(const Point& from, const Point& to, const Driven& driven) {
   double begin = 0;
   for (const double end : {crossings[0], crossings[1], 1.0}) {
     if (end <= begin || end > 1) continue;
-    const double middle = from.z + way * (begin + end) / 2;
-    const bool held = middle < box_.lowest.z || middle > box_.highest.z;
-    drive(held ? Piece::along : Piece::commanded, box_.held(at(from, to, end)), driven);
+    drive(Piece::commanded, box_.held(at(from, to, end)), driven);
     begin = end;
   }
 }

@@ -20,7 +20,6 @@ struct Box {
 // How a piece of the real path came about: at whose speed it is driven.
 enum class Piece {
   commanded,  // as it was commanded
-  along,      // at the top or the bottom while the commanded place is above or below
   raise,      // on the way back to where the commanded path comes in
   across,
   descent,

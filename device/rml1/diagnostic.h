@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "device/rml1/place.h"
@@ -22,17 +23,19 @@ struct Diagnostic {
   std::string text;
 };
 
-// The first hundred in the order of their finding, and a count of all; an error takes the place of the last that is
-// none.
+// The first hundred in the order of their finding, and a count of all. When they are full, an error takes the place of
+// the last that is none, and what is no error that of the last whose words stand there many times.
 class Diagnostics {
  public:
-  static constexpr std::size_t kKept = 100;
+  static constexpr std::size_t kKept = 100, kSame = 10;
 
-  // `text` is called only for what is kept: a job may have millions.
+  // `text` is not called for an error that is not kept: a job may have millions.
   template <class Text>
   void add(int number, Severity severity, const Place& place, std::string_view section, Text&& text) {
     ++counts_[static_cast<std::size_t>(severity)];
-    if (make_room(severity)) kept_.push_back({number, severity, place, section, std::string(text())});
+    if (severity == Severity::error && !make_room_for_error()) return;
+    Diagnostic one{number, severity, place, section, std::string(text())};
+    if (severity == Severity::error || make_room_for(one.text)) kept_.push_back(std::move(one));
   }
   template <class Text>
   void error(int number, const Place& place, std::string_view section, Text&& text) {
@@ -44,7 +47,10 @@ class Diagnostics {
   std::uint64_t omitted() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
 
  private:
-  bool make_room(Severity severity);
+  bool make_room_for_error();
+  bool make_room_for(const std::string& text);
+  template <class Which>
+  bool drop_last(Which which);
 
   std::vector<Diagnostic> kept_;
   std::uint64_t counts_[3] = {};

@@ -1,93 +1,76 @@
 #include "device/rml1/instruction_table.h"
 
-#include <cctype>
-
 namespace axisgate::rml1 {
 namespace {
 
 constexpr Parameter kCoordinate{};
 // W, !DW: "0 to 32,767 msec", else error 3.
-constexpr Parameter kMilliseconds{Type::integer, 0, kIntHighest, true, true};
+constexpr Parameter kMilliseconds{true, 0, kIntHighest, true, true};
 // F, VS: "No error is generated"; "float for noninteger values".
-constexpr Parameter kPlaneSpeed{Type::real, kIntLowest, kIntHighest, false, false};
+constexpr Parameter kPlaneSpeed{false, kIntLowest, kIntHighest, false, false};
 // V, !VZ: "An out-of-range parameter results in error 3".
-constexpr Parameter kHeightSpeed{Type::real, kIntLowest, kIntHighest, true, true};
+constexpr Parameter kHeightSpeed{false, kIntLowest, kIntHighest, true, true};
 // @, !PZ: "Error3 results if Z1 is higher than zero or if Z2 is less than zero". The machine knows its Z range.
-constexpr Parameter kZ1{Type::long_integer, kLongLowest, 0, true, true};
-constexpr Parameter kZ2{Type::long_integer, 0, kLongHighest, true, false};
-constexpr Parameter kSwitch{Type::integer, kIntLowest, kIntHighest, false, false};
+constexpr Parameter kZ1{true, kLongLowest, 0, true, true};
+constexpr Parameter kZ2{true, 0, kLongHighest, true, false};
+constexpr Parameter kSwitch{true, kIntLowest, kIntHighest, false, false};
 // !RC: "A negative parameter results in error 3. Parameters exceeding 8388607 also".
-constexpr Parameter kRevolutions{Type::long_integer, 0, kLongHighest, true, true};
+constexpr Parameter kRevolutions{true, 0, kLongHighest, true, true};
 // !ZM, !ZO: "when a float value is input the decimal-fraction portion is ignored". The machine knows its Z range.
-constexpr Parameter kMachineHeight{Type::long_integer, kLongLowest, kLongHighest, true, true};
+constexpr Parameter kMachineHeight{true, kLongLowest, kLongHighest, true, true};
 
-constexpr Row plot(std::string_view name, Family family, Coordinates coordinates, Tool tool) {
-  return {name,
-          Deed::plot,
-          family,
-          family == Family::one_letter ? "3-1" : "3-2",
-          Takes::sets,
-          2,
-          coordinates,
-          tool,
-          {kCoordinate, kCoordinate}};
+constexpr Row plot(std::string_view name, Coordinates coordinates, Tool tool) {
+  return {name,        Deed::plot, name.size() == 1 ? "3-1" : "3-2", Takes::sets, 2,
+          coordinates, tool,       {kCoordinate, kCoordinate}};
 }
 
-constexpr Row nothing(std::string_view name, Deed deed, Family family, std::string_view section,
+constexpr Row nothing(std::string_view name, Deed deed, std::string_view section,
                       Coordinates coordinates = Coordinates::kept, Tool tool = Tool::kept) {
-  return {name, deed, family, section, Takes::nothing, 0, coordinates, tool, {}};
+  return {name, deed, section, Takes::nothing, 0, coordinates, tool, {}};
 }
 
-constexpr Row one(std::string_view name, Deed deed, Family family, std::string_view section, Parameter parameter) {
-  return {name, deed, family, section, Takes::up_to, 1, Coordinates::kept, Tool::kept, {parameter}};
+constexpr Row one(std::string_view name, Deed deed, std::string_view section, Parameter parameter) {
+  return {name, deed, section, Takes::up_to, 1, Coordinates::kept, Tool::kept, {parameter}};
 }
 
-constexpr Row heights(std::string_view name, Family family, std::string_view section) {
-  return {name, Deed::heights, family, section, Takes::up_to, 2, Coordinates::kept, Tool::kept, {kZ1, kZ2}};
+constexpr Row heights(std::string_view name, std::string_view section) {
+  return {name, Deed::heights, section, Takes::up_to, 2, Coordinates::kept, Tool::kept, {kZ1, kZ2}};
 }
 
-constexpr Row feed(std::string_view name, Family family, std::string_view section) {
-  return {name,
-          Deed::feed,
-          family,
-          section,
-          Takes::sets,
-          3,
-          Coordinates::kept,
-          Tool::kept,
-          {kCoordinate, kCoordinate, kCoordinate}};
+constexpr Row feed(std::string_view name, std::string_view section) {
+  return {name, Deed::feed,        section,    Takes::sets,
+          3,    Coordinates::kept, Tool::kept, {kCoordinate, kCoordinate, kCoordinate}};
 }
 
-using enum Family;
 constexpr Row kRows[] = {
-    heights("@", one_letter, "3-1"),
-    plot("D", one_letter, Coordinates::absolute, Tool::lowered),
-    plot("I", one_letter, Coordinates::relative, Tool::lowered),
-    plot("M", one_letter, Coordinates::absolute, Tool::raised),
-    plot("R", one_letter, Coordinates::relative, Tool::raised),
-    nothing("^", Deed::call, one_letter, "3-1"),
-    nothing("H", Deed::home, one_letter, "3-1", Coordinates::absolute, Tool::raised),
-    one("F", Deed::plane_speed, one_letter, "3-1", kPlaneSpeed),
-    one("V", Deed::height_speed, one_letter, "3-1", kHeightSpeed),
-    one("W", Deed::dwell, one_letter, "3-1", kMilliseconds),
-    feed("Z", one_letter, "3-1"),
-    nothing("DF", Deed::defaults, two_letters, "3-2", Coordinates::absolute),
-    nothing("IN", Deed::initialize, two_letters, "3-2", Coordinates::absolute, Tool::raised),
-    plot("PA", two_letters, Coordinates::absolute, Tool::kept),
-    plot("PD", two_letters, Coordinates::kept, Tool::lowered),
-    plot("PR", two_letters, Coordinates::relative, Tool::kept),
-    plot("PU", two_letters, Coordinates::kept, Tool::raised),
-    one("VS", Deed::plane_speed, two_letters, "3-2", kPlaneSpeed),
-    one("!DW", Deed::dwell, common, "3-3", kMilliseconds),
-    one("!MC", Deed::spindle, common, "3-3", kSwitch),
-    nothing("!NR", Deed::pause, common, "3-3"),
-    heights("!PZ", common, "3-3"),
-    one("!RC", Deed::revolutions, common, "3-3", kRevolutions),
-    one("!VZ", Deed::height_speed, common, "3-3", kHeightSpeed),
-    one("!ZM", Deed::height, common, "3-3", kMachineHeight),
-    one("!ZO", Deed::surface, common, "3-3", kMachineHeight),
-    {"!ZE", Deed::extension, common, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {kCoordinate}},
-    feed("!ZZ", common, "3-3"),
+    heights("@", "3-1"),
+    plot("D", Coordinates::absolute, Tool::lowered),
+    plot("I", Coordinates::relative, Tool::lowered),
+    plot("M", Coordinates::absolute, Tool::raised),
+    plot("R", Coordinates::relative, Tool::raised),
+    nothing("^", Deed::call, "3-1"),
+    nothing("H", Deed::home, "3-1", Coordinates::absolute, Tool::raised),
+    one("F", Deed::plane_speed, "3-1", kPlaneSpeed),
+    one("V", Deed::height_speed, "3-1", kHeightSpeed),
+    one("W", Deed::dwell, "3-1", kMilliseconds),
+    feed("Z", "3-1"),
+    nothing("DF", Deed::defaults, "3-2", Coordinates::absolute),
+    nothing("IN", Deed::initialize, "3-2", Coordinates::absolute, Tool::raised),
+    plot("PA", Coordinates::absolute, Tool::kept),
+    plot("PD", Coordinates::kept, Tool::lowered),
+    plot("PR", Coordinates::relative, Tool::kept),
+    plot("PU", Coordinates::kept, Tool::raised),
+    one("VS", Deed::plane_speed, "3-2", kPlaneSpeed),
+    one("!DW", Deed::dwell, "3-3", kMilliseconds),
+    one("!MC", Deed::spindle, "3-3", kSwitch),
+    nothing("!NR", Deed::pause, "3-3"),
+    heights("!PZ", "3-3"),
+    one("!RC", Deed::revolutions, "3-3", kRevolutions),
+    one("!VZ", Deed::height_speed, "3-3", kHeightSpeed),
+    one("!ZM", Deed::height, "3-3", kMachineHeight),
+    one("!ZO", Deed::surface, "3-3", kMachineHeight),
+    {"!ZE", Deed::extension, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {kCoordinate}},
+    feed("!ZZ", "3-3"),
 };
 
 constexpr Row beyond(Row row) {
@@ -96,8 +79,8 @@ constexpr Row beyond(Row row) {
 }
 
 constexpr Row kTolerated[] = {
-    beyond(one("J", Deed::ignored, one_letter, "2-2", kSwitch)),
-    beyond(one("!", Deed::spindle, common, "2-2", kSwitch)),
+    beyond(one("J", Deed::ignored, "2-2", kSwitch)),
+    beyond(one("!", Deed::spindle, "2-2", kSwitch)),
 };
 
 }  // namespace
@@ -115,7 +98,7 @@ InstructionTable::InstructionTable(std::span<const Row> rows, std::span<const Ro
     const auto first = static_cast<unsigned char>(row.name[0]);
     if (row.name.size() == 1) {
       letters_[first] = number;
-      if (std::isalpha(first) != 0) letters_[first | 0x20u] = number;
+      if (is_letter(row.name[0])) letters_[first | 0x20u] = number;
     } else if (row.name.size() == 2) {
       pairs_[index(row.name[0], row.name[1])] = number;
       begins_pair_[letter_index(row.name[0])] = true;

@@ -3,11 +3,12 @@
 
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "device/rml1/characters.h"
 
 namespace axisgate::rml1 {
 
@@ -31,8 +32,6 @@ enum class Deed : std::uint8_t {
   ignored,       // beyond the guideline, and without effect
 };
 
-enum class Family : std::uint8_t { one_letter, two_letters, common };
-
 // What a command leaves in effect (guideline 5-3).
 enum class Coordinates : std::uint8_t { kept, absolute, relative };
 enum class Tool : std::uint8_t { kept, raised, lowered };
@@ -44,22 +43,20 @@ enum class Takes : std::uint8_t {
   axes,   // letters with numbers (3-3 !ZE)
 };
 
-// Guideline 2-3.
-enum class Type : std::uint8_t { integer, long_integer, real };
+// The types int and long, and that of float, of guideline 2-3.
 inline constexpr double kIntLowest = -32768, kIntHighest = 32767;
 inline constexpr double kLongLowest = -8388608, kLongHighest = 8388607;
 
 struct Parameter {
-  Type type = Type::real;
+  bool whole = false;  // what a fraction adds is ignored
   double lowest = kLongLowest, highest = kLongHighest;
   // Beyond lowest or highest is error 3; the nearest of them where it is not stated (2-3, 2-5).
   bool lowest_stated = false, highest_stated = false;
 };
 
 struct Row {
-  std::string_view name;  // in capitals
+  std::string_view name;  // one letter or symbol, two letters, or ! and two letters; in capitals
   Deed deed = Deed::ignored;
-  Family family = Family::one_letter;
   std::string_view section;
   Takes takes = Takes::nothing;
   std::uint8_t count = 0;
@@ -84,7 +81,7 @@ class InstructionTable {
   bool begins_pair(char letter) const { return begins_pair_[letter_index(letter)]; }
 
  private:
-  static std::size_t letter_index(char letter) { return static_cast<std::size_t>((letter | 0x20) - 'a'); }
+  static std::size_t letter_index(char letter) { return static_cast<std::size_t>(capital(letter) - 'A'); }
   static std::size_t index(char first, char second) { return letter_index(first) * 26 + letter_index(second); }
   template <class Places>
   const Row* at(const Places& places, std::size_t where) const {

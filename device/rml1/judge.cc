@@ -8,9 +8,10 @@
 namespace axisgate::rml1 {
 namespace {
 
-// The two lengths of a step that there are among these machines.
-constexpr double kSteps[] = {0.01, 0.025};
 constexpr double kHalfStep = 0.5;
+
+// `p`, or where the way from it to `other` goes through the surface. One of them lies below.
+Point sunk(const Point& p, const Point& other) { return p.z <= 0 ? p : p + (other - p) * (p.z / (p.z - other.z)); }
 
 bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -23,15 +24,14 @@ void Judge::warn_once(Cause cause, const Place& place, std::string_view section,
 
 void Judge::moved(const Move& move) {
   last_ = move.place;
-  if (!move.below_surface()) {
-    const bool travels = move.row->deed == Deed::plot && !move.lowered && move.from.z <= 0 && move.from.z == move.to.z;
-    if (travels) {
-      warn_once(Cause::on_the_surface, move.place, "3-2",
-                [] { return "travels at Z2 = 0: with the tool on the surface of the workpiece"; });
-    }
-    return;
+  if (move.deed == Deed::plot && !move.lowered && move.from.z <= 0 && move.from.z == move.to.z) {
+    warn_once(Cause::on_the_surface, move.place, "3-2",
+              [] { return "travels at Z2 = 0: with the tool on the surface of the workpiece"; });
   }
-  if (!move.turning) {
+  if (!move.below_surface()) return;
+  const Point way = move.to - move.from;
+  const bool lifts = way.x == 0 && way.y == 0 && way.z > 0;
+  if (!move.turning && !lifts) {
     warn_once(Cause::no_spindle, move.place, "5-2", [] {
       return "goes below the surface while the spindle stands still: !MC0 forbids it, and !MC1 permits it again";
     });
@@ -42,12 +42,12 @@ void Judge::moved(const Move& move) {
 void Judge::judge_stock(const Move& move) {
   const double x = profile_.steps(stock_->x) + kHalfStep, y = profile_.steps(stock_->y) + kHalfStep;
   const double bottom = -profile_.steps(stock_->z) - kHalfStep;
-  for (const Point& p : {move.from, move.to}) {
-    if (p.z >= 0) continue;
+  // The stock has no dents: what is below the surface lies inside, if both of its ends do.
+  for (const Point& p : {sunk(move.from, move.to), sunk(move.to, move.from)}) {
     if (p.x < -kHalfStep || p.y < -kHalfStep || p.x > x || p.y > y) {
       warn_once(Cause::outside_stock, move.place, "5-1", [&] {
-        return fmt::format("below the surface outside of the stock, at X {:.2f} mm, Y {:.2f} mm, {:.2f} mm deep",
-                           mm(p.x), mm(p.y), -mm(p.z));
+        return fmt::format("below the surface outside of the stock, towards X {:.2f} mm, Y {:.2f} mm", mm(p.x),
+                           mm(p.y));
       });
     }
     if (p.z < bottom) {
@@ -59,18 +59,24 @@ void Judge::judge_stock(const Move& move) {
   }
 }
 
-void Judge::commanded(const Point& target, const Box& box, const Instruction& by) {
+void Judge::commanded(const Point& target, bool height_alone, const Box& box, const Instruction& by) {
   const Bounds before = asked_;
-  asked_.take(target);
+  asked_.z.take(target.z);
+  if (!height_alone) {
+    asked_.x.take(target.x);
+    asked_.y.take(target.y);
+  }
   if (asked_.x.size() > before.x.size()) widest_x_ = by.place;
   if (asked_.y.size() > before.y.size()) widest_y_ = by.place;
   if (asked_.z.lowest < before.z.lowest) deepest_ = by.place;
-  if (!origin_known_) return;
+  if (!origin_known_ || height_alone) return;
   if (!box.over(target)) {
     const bool cuts = target.z < 0;
     const auto text = [&] {
       return fmt::format("leaves the work area to X {:.2f} mm, Y {:.2f} mm: {}", mm(target.x), mm(target.y),
-                         cuts ? "what lies outside is not cut" : "it is not driven there");
+                         !cuts                          ? "it is not driven there"
+                         : profile_.holds_flat_commands ? "it cuts along the edge instead"
+                                                        : "what lies outside is not cut");
     };
     if (cuts) warn_once(Cause::cuts_outside_area, by.place, "5-1", text);
     if (!cuts && told_.insert(Cause::travels_outside_area).second) {
@@ -100,16 +106,36 @@ void Judge::lifted(double steps, const Instruction& by) {
   }
 }
 
-void Judge::judge_size(const Reach& reach, double area_mm, std::string_view axis, const Place& place) {
-  const double size = reach.size();
-  if (mm(size) <= area_mm + profile_.step_mm / 2) return;
-  diagnostics_.error(0, place, "5-1", [&] {
-    return fmt::format("larger than the machine: {:.2f} mm in {}, where the {} has {:.2f} mm", mm(size), axis,
-                       profile_.name, area_mm);
-  });
-  for (const double step : kSteps) {
-    if (same(step, profile_.step_mm) || size * step > area_mm) continue;
-    diagnostics_.add(0, Severity::warning, place, "1-1", [&] {
+bool Judge::fits(double size, double area_mm, double step_mm) const { return size * step_mm <= area_mm + step_mm / 2; }
+
+void Judge::judge_sizes() {
+  // What lies above the top is clipped (3-2 PU), and no size.
+  Reach depth;
+  depth.take(0);
+  depth.take(std::min(0.0, asked_.z.lowest));
+  struct Size {
+    std::string_view axis;
+    double steps, area_mm;
+    Place place;
+  };
+  const Size sizes[] = {{"X", asked_.x.size(), profile_.x_mm, widest_x_},
+                        {"Y", asked_.y.size(), profile_.y_mm, widest_y_},
+                        {"Z", depth.size(), profile_.z_mm, deepest_}};
+  std::optional<Place> first;
+  for (const Size& size : sizes) {
+    if (fits(size.steps, size.area_mm, profile_.step_mm)) continue;
+    if (!first) first = size.place;
+    diagnostics_.error(0, size.place, "5-1", [&] {
+      return fmt::format("larger than the machine: {:.2f} mm in {}, where the {} has {:.2f} mm", mm(size.steps),
+                         size.axis, profile_.name, size.area_mm);
+    });
+  }
+  std::set<double> steps;
+  for (const KnownMachine& other : others_) steps.insert(other.step_mm);
+  for (const double step : steps) {
+    const auto fits_then = [&](const Size& size) { return fits(size.steps, size.area_mm, step); };
+    if (!first || same(step, profile_.step_mm) || !std::ranges::all_of(sizes, fits_then)) continue;
+    diagnostics_.add(0, Severity::warning, *first, "1-1", [&] {
       return fmt::format("it fits if a step is {} mm, and here it is {} mm: is it the right profile?", step,
                          profile_.step_mm);
     });
@@ -117,17 +143,13 @@ void Judge::judge_size(const Reach& reach, double area_mm, std::string_view axis
 }
 
 void Judge::finish(const Machine& machine) {
-  judge_size(asked_.x, profile_.x_mm, "X", widest_x_);
-  judge_size(asked_.y, profile_.y_mm, "Y", widest_y_);
-  // What lies above the top is clipped (3-2 PU), and no size.
-  Reach depth;
-  depth.take(0);
-  depth.take(std::min(0.0, asked_.z.lowest));
-  judge_size(depth, profile_.z_mm, "Z", deepest_);
+  judge_sizes();
   const double z = machine.tool().z;
   if (!last_ || z > 0 || (z == 0 && !machine.tool_lowered())) return;
-  diagnostics_.add(0, Severity::warning, *last_, "3-2",
-                   [&] { return fmt::format("the job ends with the tool down, {:.2f} mm below the surface", -mm(z)); });
+  diagnostics_.add(0, Severity::warning, *last_, "3-2", [&] {
+    return z == 0 ? std::string("the job ends with the tool down, on the surface")
+                  : fmt::format("the job ends with the tool down, {:.2f} mm below the surface", -mm(z));
+  });
 }
 
 }  // namespace axisgate::rml1

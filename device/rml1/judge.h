@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/rml1/bounds.h"
@@ -34,7 +35,7 @@ class Judge {
         diagnostics_(diagnostics) {}
 
   void moved(const Move& move);
-  void commanded(const Point& target, const Box& box, const Instruction& by);
+  void commanded(const Point& target, bool height_alone, const Box& box, const Instruction& by);
   void lifted(double steps, const Instruction& by);
   void finish(const Machine& machine);
 
@@ -53,7 +54,8 @@ class Judge {
   template <class Text>
   void warn_once(Cause cause, const Place& place, std::string_view section, Text&& text);
   void judge_stock(const Move& move);
-  void judge_size(const Reach& reach, double area_mm, std::string_view axis, const Place& place);
+  void judge_sizes();
+  bool fits(double size, double area_mm, double step_mm) const;
   double mm(double steps) const { return steps * profile_.step_mm; }
 
   const Profile& profile_;

@@ -4,11 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kFar = 1e12;  // steps: no edge
+constexpr double kFar = std::numeric_limits<double>::infinity();  // no edge
 
 // What a decimal number in mm leaves beside a whole number of steps is not meant.
 double snapped(double steps) {
@@ -32,7 +33,7 @@ Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnosti
       listener_(listener),
       surface_known_(origin.has_value()),
       clipper_({}, {}),
-      rpm_(profile.spindle.maximum_rpm) {
+      rpm_(profile.spindle.rpm(0)) {
   const double below_top = origin ? snapped(profile.steps(origin->z)) : snapped(profile.steps(profile.z_mm));
   z0_ = profile.top - profile.up * below_top;
   clipper_ = Clipper(area(), {0, 0, area().highest.z});
@@ -55,7 +56,13 @@ Box Machine::area() const {
 }
 
 void Machine::execute(const Instruction& instruction) {
-  bind(*instruction.row);
+  const Row& row = *instruction.row;
+  if (row.coordinates != Coordinates::kept) relative_ = row.coordinates == Coordinates::relative;
+  perform(instruction);
+  if (row.tool != Tool::kept) lowered_ = row.tool == Tool::lowered;
+}
+
+void Machine::perform(const Instruction& instruction) {
   const bool given = instruction.count > 0 && instruction.given[0];
   const double value = instruction.values[0];
   switch (instruction.row->deed) {
@@ -101,10 +108,6 @@ void Machine::execute(const Instruction& instruction) {
   }
 }
 
-void Machine::bind(const Row& row) {
-  if (row.coordinates != Coordinates::kept) relative_ = row.coordinates == Coordinates::relative;
-}
-
 // D I M R PA PR PU PD. "PA command without parameters effects a change to the absolute-coordinate mode" (3-2), and
 // moves nothing; with parameters PA and PR go to the height of the last command that took the tool up or down (5-3).
 void Machine::plot(const Instruction& instruction) {
@@ -116,17 +119,13 @@ void Machine::plot(const Instruction& instruction) {
   Point there = clipper_.commanded();
   there.x = aim(commanded_.x, instruction.values[0]);
   there.y = aim(commanded_.y, instruction.values[1]);
-  if (profile_.holds_flat_commands) {
-    const Point held = box().held(there);
-    there = {held.x, held.y, there.z};
-  }
   move_to(there, lowered ? cutting_speed_ : profile_.speed.travel, instruction);
 }
 
 // Dwell: "just before the PD tool-down operation or just before moving the XY plane", and "just before changing from
 // tool-down to tool-up with PU" (3-1 W).
 void Machine::take_tool(bool lowered, const Instruction& instruction) {
-  if (lowered || lowered_) dwell();
+  if (lowered || lowered_) dwell(instruction);
   lowered_ = lowered;
   commanded_.z = lowered ? z1_ : z2();
   move_height(z_speed_, instruction);
@@ -134,7 +133,7 @@ void Machine::take_tool(bool lowered, const Instruction& instruction) {
 
 void Machine::feed(const Instruction& instruction) {
   if (instruction.count == 0) return;
-  if (instruction.first) dwell();
+  if (instruction.first) dwell(instruction);
   const double before = commanded_.z;
   const Point there = {aim(commanded_.x, instruction.values[0]), aim(commanded_.y, instruction.values[1]),
                        aim(commanded_.z, instruction.values[2])};
@@ -144,7 +143,7 @@ void Machine::feed(const Instruction& instruction) {
 
 // !ZE. "Axes for which nothing is specified keep their present location."
 void Machine::extension(const Instruction& instruction) {
-  if (instruction.first) dwell();
+  if (instruction.first) dwell(instruction);
   const AxisTarget* rotation = nullptr;
   Point there = clipper_.commanded();
   for (const AxisTarget& axis : instruction.axes) {
@@ -164,6 +163,8 @@ void Machine::extension(const Instruction& instruction) {
       });
     }
   }
+  const double lift = there.z - clipper_.commanded().z;
+  if (lift > 0) listener_.lifted(relative_ ? lift : commanded_.z, instruction);
   move_to(there, z_speed_, instruction);
   if (rotation != nullptr) turn(*rotation, instruction);
 }
@@ -174,14 +175,8 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
   const double way = std::abs(there - angle_);
   angle_ = there;
   if (way == 0) return;
-  Move beside{.from = tool(),
-              .to = tool(),
-              .lowered = lowered_,
-              .turning = turning_,
-              .end = instruction.end,
-              .row = instruction.row,
-              .place = instruction.place};
-  listener_.turned(way / profile_.rotary->degrees_per_s, beside);
+  start_spindle(instruction);
+  listener_.waited(Wait::turn, way / profile_.rotary->degrees_per_s, instruction.end);
 }
 
 // "This moves the tool to the uppermost position, then moves to the workpiece-coordinate origin point on the XY plane.
@@ -191,26 +186,26 @@ void Machine::home(const Instruction& instruction) {
   clipper_.drive_to({tool().x, tool().y, top}, driven(profile_.speed.travel_z, instruction, false));
   clipper_.drive_to({0, 0, top}, driven(profile_.speed.travel, instruction, false));
   commanded_ = tool();
-  lowered_ = false;
   turning_ = false;
 }
 
 // As DF, the tool to its upper height, the spindle stops, and the present place is the commanded one (3-2 IN).
 void Machine::initialize(const Instruction& instruction) {
+  // DF initializes !PZ to a value that "varies according to the model": it may be the one that was set.
+  const bool set_to_surface = z2() <= 0;
   set_defaults();
-  if (z2() <= 0) {
-    diagnostics_.add(0, Severity::warning, instruction.place, "3-2", [] {
-      return "IN takes the tool to Z2, which is no height above Z0: it comes down to the surface";
+  if (box().highest.z > 0 && (z2() <= 0 || set_to_surface)) {
+    diagnostics_.add(0, Severity::warning, instruction.place, "3-2", [certain = z2() <= 0] {
+      return certain ? "IN takes the tool to Z2 = 0: to the surface of the workpiece"
+                     : "Z2 = 0 was set: a machine that keeps it over IN takes the tool to the surface";
     });
   }
   clipper_.drive_to({tool().x, tool().y, z2()}, driven(z_speed_, instruction, false));
   commanded_ = tool();
-  lowered_ = false;
   turning_ = false;
 }
 
 void Machine::set_defaults() {
-  relative_ = false;
   cutting_speed_ = profile_.speed.cutting_default;
   z_speed_ = profile_.speed.z_default;
   dwell_s_ = 0;
@@ -246,12 +241,15 @@ void Machine::set_spindle(const Instruction& instruction) {
   if (!permitted_) turning_ = false;
 }
 
-bool Machine::within_travel(double height, const Instruction& instruction) {
+// Where Z0 is not known nobody can tell where a relative height lies.
+bool Machine::reachable(double height, const Instruction& instruction) {
+  if (relative_ && !surface_known_) return true;
   const double below_top = profile_.up * (profile_.top - height);
   const double travel = snapped(profile_.steps(profile_.z_mm));
   if (below_top >= 0 && below_top <= travel) return true;
   const double bottom = profile_.top - profile_.up * travel;
-  diagnostics_.error(3, instruction.places[0], instruction.row->section, [&] {
+  const Place& place = instruction.count > 0 ? instruction.places[0] : instruction.place;
+  diagnostics_.error(3, place, instruction.row->section, [&] {
     return fmt::format("the machine coordinate {} is outside of Z's travel, {} to {}", height,
                        std::min(profile_.top, bottom), std::max(profile_.top, bottom));
   });
@@ -262,7 +260,7 @@ bool Machine::within_travel(double height, const Instruction& instruction) {
 void Machine::set_height(const Instruction& instruction) {
   if (instruction.count == 0) return;
   const double height = target(instruction.values[0], height_of(commanded_.z));
-  if (!within_travel(height, instruction)) return;
+  if (!reachable(height, instruction)) return;
   commanded_.z = above_surface(height);
   move_height(z_speed_, instruction);
 }
@@ -270,7 +268,7 @@ void Machine::set_height(const Instruction& instruction) {
 void Machine::set_surface(const Instruction& instruction) {
   const bool given = instruction.count > 0;
   const double height = given ? target(instruction.values[0], height_of(commanded_.z)) : profile_.default_z0;
-  if (!within_travel(height, instruction)) return;
+  if (!reachable(height, instruction)) return;
   const double shift = profile_.up * (z0_ - height);
   z0_ = height;
   surface_known_ = surface_known_ || !given || !relative_;
@@ -283,8 +281,11 @@ void Machine::pause(const Instruction& instruction) {
                    [] { return "!NR pauses the machine until somebody lets it go on at its panel"; });
 }
 
-// "ends operation of the command now being executed" (4-2): the machine stands where the tool is.
-void Machine::quit() { commanded_ = tool(); }
+// "ends operation of the command now being executed" (4-2): what is commanded is where the tool stands.
+void Machine::quit() {
+  clipper_.drive_to(tool(), [](Piece, const Point&, const Point&) {});
+  commanded_ = tool();
+}
 
 // Sets where an axis is commanded to, and tells the step that this means.
 double Machine::aim(double& commanded, double value) const {
@@ -295,16 +296,25 @@ double Machine::aim(double& commanded, double value) const {
 void Machine::move_height(double speed, const Instruction& instruction) {
   Point there = clipper_.commanded();
   there.z = std::round(commanded_.z);
-  move_to(there, speed, instruction);
+  move_to(there, speed, instruction, true);
 }
 
-void Machine::move_to(const Point& there, double speed, const Instruction& instruction) {
-  listener_.commanded(there, instruction);
-  clipper_.move_to(there, driven(speed, instruction));
+void Machine::move_to(const Point& there, double speed, const Instruction& instruction, bool height_alone) {
+  listener_.commanded(there, height_alone, instruction);
+  const bool holds = profile_.holds_flat_commands && instruction.row->deed == Deed::plot;
+  const Point held = box().held(there);
+  clipper_.move_to(holds ? Point{held.x, held.y, there.z} : there, driven(speed, instruction));
 }
 
-void Machine::dwell() {
-  if (dwell_s_ > 0) listener_.dwelt(dwell_s_);
+void Machine::dwell(const Instruction& instruction) {
+  if (dwell_s_ > 0) listener_.waited(Wait::dwell, dwell_s_, instruction.end);
+}
+
+// "the spindle motor is made to rotate from a stopped state, and then the movement is performed" (3-3 !MC).
+void Machine::start_spindle(const Instruction& instruction) {
+  if (!permitted_ || turning_) return;
+  turning_ = true;
+  listener_.waited(Wait::spin_up, profile_.spindle.spin_up_s, instruction.end);
 }
 
 Clipper::Driven Machine::driven(double speed, const Instruction& by, bool starts_spindle) {
@@ -315,16 +325,11 @@ Clipper::Driven Machine::driven(double speed, const Instruction& by, bool starts
 
 void Machine::drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by,
                     bool starts_spindle) {
-  // "the spindle motor is made to rotate from a stopped state, and then the movement is performed" (3-3 !MC).
-  if (starts_spindle && permitted_ && !turning_) {
-    turning_ = true;
-    listener_.spun_up(profile_.spindle.spin_up_s);
-  }
-  if (piece == Piece::along) speed = z_speed_;  // "at the speed set by the !ZZ command" (5-1 E, J)
+  if (starts_spindle) start_spindle(by);
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
   listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->deed == Deed::plot, turning_, by.end,
-                   by.row, by.place});
+                   by.row->deed, by.place});
 }
 
 // No axis goes faster than it can.

@@ -2,8 +2,8 @@
 // 3, 5-2, 5-3).
 #pragma once
 
+#include <cstdint>
 #include <optional>
-#include <string_view>
 
 #include "device/rml1/clip.h"
 #include "device/rml1/diagnostic.h"
@@ -20,13 +20,13 @@ struct Origin {
 
 // A straight piece of the real path.
 struct Move {
-  Point from, to;            // steps, in workpiece coordinates
-  double speed = 0;          // mm/s, as commanded and within the axes' highest
-  bool lowered = false;      // by a command that keeps the tool lowered
-  bool turning = false;      // whether the spindle turns
-  std::uint64_t end = 0;     // bytes of the job that had to come before
-  const Row* row = nullptr;  // the command
-  Place place;               // where it begins
+  Point from, to;          // steps, in workpiece coordinates; never the same
+  double speed = 0;        // mm/s, as commanded and within the axes' highest
+  bool lowered = false;    // by a command that keeps the tool lowered
+  bool turning = false;    // whether the spindle turns
+  std::uint64_t end = 0;   // bytes of the job that had to come before
+  Deed deed = Deed::plot;  // of the command
+  Place place;             // where it begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   // Along the surface too, where the tool is lowered.
@@ -34,16 +34,21 @@ struct Move {
   double cutting_part() const;  // of its length, 0 to 1
 };
 
-class MachineListener {
+class MoveListener {
  public:
-  virtual ~MachineListener() = default;
+  virtual ~MoveListener() = default;
   virtual void moved(const Move& move) = 0;
-  // An axis of rotation turns, while nothing else moves.
-  virtual void turned(double seconds, const Move& beside) = 0;
-  virtual void spun_up(double seconds) = 0;
-  virtual void dwelt(double seconds) = 0;
-  // A path was commanded to there, whatever clipping made of it. Steps, in workpiece coordinates.
-  virtual void commanded(const Point& target, const Instruction& by) = 0;
+};
+
+enum class Wait : std::uint8_t { spin_up, dwell, turn };  // turn: of an axis of rotation, while nothing else moves
+
+class MachineListener : public MoveListener {
+ public:
+  // `end`: bytes of the job that had to come before.
+  virtual void waited(Wait what, double seconds, std::uint64_t end) = 0;
+  // A path was commanded to there, whatever clipping made of it, or only to that height. Steps, in workpiece
+  // coordinates.
+  virtual void commanded(const Point& target, bool height_alone, const Instruction& by) = 0;
   // The tool was lifted by so many steps, or to that height above Z0, by a command.
   virtual void lifted(double steps, const Instruction& by) = 0;
 };
@@ -56,7 +61,6 @@ class Machine : public ParserListener {
   void quit() override;
 
   const Point& tool() const { return clipper_.tool(); }
-  const Point& commanded() const { return commanded_; }
   const Box& box() const { return clipper_.box(); }
   bool tool_lowered() const { return lowered_; }
   bool spindle_turns() const { return turning_; }
@@ -67,7 +71,7 @@ class Machine : public ParserListener {
   double rpm() const { return rpm_; }
 
  private:
-  void bind(const Row& row);
+  void perform(const Instruction& instruction);
   void plot(const Instruction& instruction);
   void take_tool(bool lowered, const Instruction& instruction);
   void feed(const Instruction& instruction);
@@ -83,12 +87,13 @@ class Machine : public ParserListener {
   void pause(const Instruction& instruction);
 
   Box area() const;
-  bool within_travel(double height, const Instruction& instruction);
+  bool reachable(double height, const Instruction& instruction);
   double target(double value, double present) const { return relative_ ? present + value : value; }
   double aim(double& commanded, double value) const;
-  void move_to(const Point& target, double speed, const Instruction& instruction);
+  void move_to(const Point& target, double speed, const Instruction& instruction, bool height_alone = false);
   void move_height(double speed, const Instruction& instruction);
-  void dwell();
+  void dwell(const Instruction& instruction);
+  void start_spindle(const Instruction& instruction);
   Clipper::Driven driven(double speed, const Instruction& instruction, bool starts_spindle = true);
   void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by, bool starts_spindle);
   double possible(double speed, const Point& way) const;

@@ -3,15 +3,14 @@
 
 #include <cstdint>
 
+#include "device/rml1/characters.h"
+
 namespace axisgate::rml1 {
 
 // A sign or none, digits, a point or none, digits. What a number cannot take ends it.
 class NumberReader {
  public:
-  static bool is_digit(char c) { return c >= '0' && c <= '9'; }
-  static bool may_begin(char c) { return is_digit(c) || c == '+' || c == '-' || c == '.'; }
-
-  // `c` may begin a number.
+  // `c` begins a number.
   void begin(char c);
   // False: the number has ended before `c`.
   bool take(char c) {

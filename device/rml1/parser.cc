@@ -5,14 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "device/rml1/characters.h"
+
 namespace axisgate::rml1 {
 namespace {
 
-bool is_letter(char c) { return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z'); }
-bool is_blank(char c) { return c == ' ' || c == '\t'; }
-bool is_delimiter(char c) { return static_cast<unsigned char>(c) <= 0x20 || c == ';'; }
-bool is_of_a_number(char c) { return NumberReader::may_begin(c) || c == ','; }
-bool has_eighth_bit(char c) { return (static_cast<unsigned char>(c) & 0x80u) != 0; }
+bool is_of_a_number(char c) { return begins_number(c) || c == ','; }
 
 std::string shown(char c) {
   return c == '!' ? "that is ! alone" : c < 0x20 || c == 0x7F ? "of this code" : std::string(1, c);
@@ -30,10 +28,7 @@ bool Dialect::tolerates(std::string_view name) const {
   return std::find(tolerated.begin(), tolerated.end(), name) != tolerated.end();
 }
 
-Parser::Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener)
-    : Parser(dialect, {}, diagnostics, listener) {}
-
-Parser::Parser(const Dialect& dialect, std::span<const Row> more, Diagnostics& diagnostics, ParserListener& listener)
+Parser::Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener, std::span<const Row> more)
     : diagnostics_(diagnostics),
       listener_(listener),
       table_(guideline_rows(), rows_of(dialect, more)),
@@ -43,7 +38,7 @@ Parser::Parser(const Dialect& dialect, std::span<const Row> more, Diagnostics& d
 
 void Parser::feed(std::string_view bytes) {
   for (const char c : bytes) {
-    if (state_ == State::number && NumberReader::is_digit(c) && control_.idle()) {
+    if (state_ == State::number && is_digit(c) && control_.idle()) {
       (void)number_.take(c);  // most of the bytes of most jobs
     } else if (c != DeviceControl::kEscape && control_.idle()) {
       take(c);
@@ -64,7 +59,7 @@ void Parser::control(char c) {
       if (c == DeviceControl::kEscape) escape_place_ = place();
       return;
     case DeviceControl::Found::escape:
-      take(DeviceControl::kEscape);
+      take_at(escape_place_, DeviceControl::kEscape);
       control(c);
       return;
     case DeviceControl::Found::quit:
@@ -82,6 +77,14 @@ void Parser::control(char c) {
       take(c);
       return;
   }
+}
+
+// A byte that was held back: it stands in the same line.
+void Parser::take_at(const Place& place, char c) {
+  const auto here = offset_;
+  offset_ = place.offset;
+  take(c);
+  offset_ = here;
 }
 
 void Parser::take(char c) {
@@ -154,7 +157,7 @@ bool Parser::second_letter(char c) {
     begin_command(*single);
     return false;
   }
-  unknown();
+  unknown(c);
   // "it is necessary to get one more letter" (2-5).
   return is_letter(c);
 }
@@ -181,17 +184,18 @@ bool Parser::common_second(char c) {
     begin_command(*row);
     return true;
   }
-  unknown();
+  unknown(c);
   return is_letter(c);
 }
 
-void Parser::unknown() {
+void Parser::unknown(char second) {
   const bool eighth_bit = has_eighth_bit(first_);
   const int number = called_ && !eighth_bit ? 2 : 1;
   diagnostics_.error(number, name_place_, number == 2 ? "3-1" : "2-3", [&]() -> std::string {
     if (eighth_bit) return "a byte of 0x80 or more is no part of RML-1";
     if (number == 2) return fmt::format("^ is followed by {}, which begins no mode 2 command", shown(first_));
-    return fmt::format("there is no command {}{}", state_ == State::common_second ? "!" : "", shown(first_));
+    return fmt::format("there is no command {}{}{}", state_ == State::common_second ? "!" : "", shown(first_),
+                       is_letter(second) ? std::string(1, second) : "");
   });
   called_ = false;
   state_ = State::search;
@@ -242,7 +246,7 @@ bool Parser::in_axes(char c) {
 
 bool Parser::begin_list(char c) {
   if (is_blank(c)) return true;
-  if (NumberReader::may_begin(c)) {
+  if (begins_number(c)) {
     begin_number(c);
     return true;
   }
@@ -299,7 +303,7 @@ void Parser::take_value(double value) {
 
 double Parser::in_range(const Parameter& parameter, double value, bool& good) {
   const bool low = value<parameter.lowest, high = value> parameter.highest;
-  if (!low && !high) return parameter.type == Type::real ? value : std::trunc(value);
+  if (!low && !high) return parameter.whole ? std::trunc(value) : value;
   if (low ? parameter.lowest_stated : parameter.highest_stated) {
     diagnostics_.error(3, number_place_, row_->section, [&] {
       return fmt::format("{} takes {} to {}: this number is not used", row_->name, parameter.lowest, parameter.highest);

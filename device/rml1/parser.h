@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -31,15 +32,13 @@ class ParserListener : public InstructionListener {
 // Not thread safe. The listener is called while bytes are fed.
 class Parser {
  public:
-  Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener);
-  // With rows beside the guideline's.
-  Parser(const Dialect& dialect, std::span<const Row> more, Diagnostics& diagnostics, ParserListener& listener);
+  // `more`: rows beside the guideline's, for tests of the parameters' reading.
+  Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener, std::span<const Row> more = {});
 
   void feed(std::string_view bytes);
   void finish();  // the job ends here
 
-  std::uint64_t commands() const { return commands_; }                         // that exist, executed or in error
-  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // of the next byte
+  std::uint64_t commands() const { return commands_; }  // that exist, executed or in error
 
  private:
   enum class State : std::uint8_t {
@@ -55,8 +54,10 @@ class Parser {
     axes,  // !ZE
   };
 
+  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // of the next byte
   void control(char c);
   void take(char c);
+  void take_at(const Place& place, char c);
   bool step(char c);
   bool search(char c);
   bool second_letter(char c);
@@ -75,7 +76,7 @@ class Parser {
   bool list_full() const { return row_->takes == Takes::up_to && instruction_.count == row_->count; }
   void end_list();
   void emit();
-  void unknown();
+  void unknown(char second = 0);  // the name that began with first_
   void end_last_command();
 
   Diagnostics& diagnostics_;

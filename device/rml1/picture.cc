@@ -42,6 +42,11 @@ class Layout {
     picture_.height = lower + shown.z.size() * scale_ + kMargin;
   }
 
+  Picture picture(const Strokes& strokes) {
+    picture_.strokes = &strokes;
+    return picture_;
+  }
+
   void add_box(Picture::Rectangle::Kind kind, const Point& lowest, const Point& highest) {
     for (const Picture::View& view : picture_.views) {
       const double left = view.x + part(lowest, view.across) * scale_;
@@ -67,8 +72,6 @@ class Layout {
     picture_.height = y + kMargin;
   }
 
-  Picture picture_;
-
  private:
   void place(std::size_t index, int across, int up, double left, double top) {
     const auto reach = [this](int axis) { return axis == 0 ? shown_.x : axis == 1 ? shown_.y : shown_.z; };
@@ -80,7 +83,13 @@ class Layout {
   Bounds shown_;
   const Profile& profile_;
   double scale_ = 1;
+  Picture picture_;
 };
+
+std::string range_text(const Reach& reach) {
+  return reach.size() == 0 ? fmt::format("{:g}", reach.lowest)
+                           : fmt::format("{:g} to {:g}", reach.lowest, reach.highest);
+}
 
 std::vector<std::string> legend(const Check& check, const Profile& profile, const Strokes& strokes) {
   const Summary& job = check.summary();
@@ -90,7 +99,8 @@ std::vector<std::string> legend(const Check& check, const Profile& profile, cons
       fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; {:.0f} to {:.0f} s, by assumed "
                   "accelerations",
                   job.commands, job.distance_mm, job.cutting_mm, job.seconds_low, job.seconds_high));
-  if (feeds.any) lines.push_back(fmt::format("cuts at {:.2g} to {:.2g} mm/s", feeds.lowest, feeds.highest));
+  if (feeds.any)
+    lines.push_back(fmt::format("cuts at {} mm/s, {} rpm", range_text(feeds), job.rpm.any ? range_text(job.rpm) : "0"));
   lines.push_back(
       fmt::format("steps of {} mm; dashed: work area; filled: stock; cross: work origin, Z0", profile.step_mm));
   return lines;
@@ -130,8 +140,7 @@ Picture make_picture(const std::string& title, const Check& check, const Profile
                    {profile.steps(stock->x), profile.steps(stock->y), 0});
   }
   layout.add_legend(legend(check, profile, strokes), -strokes.lowest() * profile.step_mm);
-  layout.picture_.strokes = &strokes;
-  return layout.picture_;
+  return layout.picture(strokes);
 }
 
 }  // namespace axisgate::rml1

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,7 +15,7 @@ inline constexpr int kShades = 9;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
 // Collects the moves while a job is checked.
-class Strokes : public MachineListener {
+class Strokes : public MoveListener {
  public:
   struct Stroke {
     std::array<float, 3> from, to;  // steps
@@ -24,11 +23,6 @@ class Strokes : public MachineListener {
   };
 
   void moved(const Move& move) override;
-  void turned(double, const Move&) override {}
-  void spun_up(double) override {}
-  void dwelt(double) override {}
-  void commanded(const Point&, const Instruction&) override {}
-  void lifted(double, const Instruction&) override {}
 
   const std::vector<Stroke>& all() const { return all_; }
   double lowest() const { return lowest_; }      // steps; 0 or below

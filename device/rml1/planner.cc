@@ -21,7 +21,7 @@ void Planner::move(const Point& way, double speed, double arrival) {
   if (waiting_.size() > kLookAhead) drive_first();
 }
 
-void Planner::pause(double seconds) { clock_ = finish() + seconds; }
+void Planner::pause(double seconds, double arrival) { clock_ = std::max(finish(), arrival) + seconds; }
 
 double Planner::finish() {
   while (!waiting_.empty()) drive_first();
@@ -66,7 +66,7 @@ double Planner::duration(const Segment& segment, double entry, double exit) cons
   const double fastest = std::sqrt(top);
   const double ramps = (2 * top - entry - exit) / (2 * acceleration_);
   const double changing = (2 * fastest - std::sqrt(entry) - std::sqrt(exit)) / acceleration_;
-  return changing + std::max(0.0, segment.length - ramps) / fastest;
+  return slower_ * (changing + std::max(0.0, segment.length - ramps) / fastest);
 }
 
 }  // namespace axisgate::rml1

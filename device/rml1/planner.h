@@ -12,12 +12,14 @@ namespace axisgate::rml1 {
 // One way of driving, on one clock. Moves may come before their bytes: they wait for them.
 class Planner {
  public:
-  // mm/s2; how far a corner may be cut, in mm: none, and every move ends at rest.
-  Planner(double acceleration, std::optional<double> corner_mm) : acceleration_(acceleration), corner_(corner_mm) {}
+  // mm/s2; how far a corner may be cut, in mm: none, and every move ends at rest; how many times as long each move
+  // takes.
+  Planner(double acceleration, std::optional<double> corner_mm, double slower = 1)
+      : acceleration_(acceleration), corner_(corner_mm), slower_(slower) {}
 
   // `way` in mm, not nothing; mm/s; seconds from the job's beginning until it can be known to the machine.
   void move(const Point& way, double speed, double arrival);
-  void pause(double seconds);
+  void pause(double seconds, double arrival);
   // Seconds from the job's beginning until everything stands.
   double finish();
 
@@ -40,6 +42,7 @@ class Planner {
 
   double acceleration_;
   std::optional<double> corner_;
+  double slower_;
   std::deque<Segment> waiting_;
   double entry_ = 0;  // of the first that waits, mm2/s2
   double clock_ = 0;

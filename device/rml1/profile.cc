@@ -4,8 +4,8 @@
 #include <array>
 #include <cmath>
 
-#include "device/core/config_file.h"
-#include "device/core/config_table.h"
+#include "device/config/config_file.h"
+#include "device/config/config_table.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -25,6 +25,7 @@ class ProfileReader {
     Profile profile;
     ConfigTable root(source, "", file_, errors_);
     profile.name = needed(root, "name", root.text("name"), "the machine's name");
+    if (profile.name.empty() && root.has("name")) root.error("name", "is empty; use the machine's name");
     profile.step_mm = above_zero(root, "step_mm", 10, "the way of one step in mm, 0.01");
     section(root, "area", [&](ConfigTable& table) { read_area(table, profile); });
     section(root, "z", [&](ConfigTable& table) { read_z(table, profile); });
@@ -89,9 +90,9 @@ class ProfileReader {
   static void read_z(ConfigTable& table, Profile& profile) {
     profile.top = steps(table, "top");
     constexpr std::string_view kAllowed = "1 where machine coordinates of Z grow upward, or -1";
-    const auto up = needed(table, "up", table.integer("up", -1, 1), kAllowed);
-    if (up == 0 && table.has("up")) table.error("up", "will not do; use " + std::string(kAllowed));
-    profile.up = static_cast<int>(up);
+    const auto up = table.integer("up", -1, 1);
+    if (up == 0) table.error("up", "0 will not do; use " + std::string(kAllowed));
+    profile.up = static_cast<int>(needed(table, "up", up, kAllowed));
     profile.default_z0 = steps(table, "default_z0");
   }
 
@@ -101,41 +102,47 @@ class ProfileReader {
     profile.default_z2 = table.number("default_z2", 0, kStepsMax, "a number of steps above Z0");
   }
 
-  static void read_speed(ConfigTable& table, Speeds& speeds) {
+  void read_speed(ConfigTable& table, Speeds& speeds) {
     speeds.travel = speed(table, "travel");
     speeds.travel_z = speed(table, "travel_z");
     read_range(table, "cutting", speeds.cutting_minimum, speeds.cutting_maximum, speeds.cutting_default);
     read_range(table, "z", speeds.z_minimum, speeds.z_maximum, speeds.z_default);
   }
 
-  static void read_range(ConfigTable& table, const std::string& what, double& lowest, double& highest,
-                         double& otherwise) {
+  void read_range(ConfigTable& table, const std::string& what, double& lowest, double& highest, double& otherwise) {
+    const std::size_t errors = errors_.size();
     lowest = speed(table, what + "_minimum");
     highest = speed(table, what + "_maximum");
     otherwise = speed(table, what + "_default");
-    if (lowest > highest) table.error(what + "_minimum", "is more than " + what + "_maximum");
-    if (otherwise < lowest || otherwise > highest) {
+    if (errors_.size() != errors) return;
+    if (lowest > highest) {
+      table.error(what + "_minimum", "is more than " + what + "_maximum");
+    } else if (otherwise < lowest || otherwise > highest) {
       table.error(what + "_default", "does not lie between " + what + "_minimum and " + what + "_maximum");
     }
   }
 
-  static void read_acceleration(ConfigTable& table, Acceleration& acceleration) {
+  void read_acceleration(ConfigTable& table, Acceleration& acceleration) {
+    const std::size_t errors = errors_.size();
     constexpr std::string_view kAllowed = "an acceleration in mm/s2 above 0";
     acceleration.best = above_zero(table, "best", 1e6, kAllowed);
     acceleration.worst = above_zero(table, "worst", 1e6, kAllowed);
     constexpr std::string_view kCorner = "a length in mm, 0.02";
     acceleration.corner_mm = needed(table, "corner_mm", table.number("corner_mm", 0, 10, kCorner), kCorner);
-    if (acceleration.worst > acceleration.best) table.error("worst", "is more than best");
+    acceleration.slower = table.number("slower", 0, 10, "a part from 0 to 10, 0.5").value_or(0);
+    if (errors_.size() == errors && acceleration.worst > acceleration.best) table.error("worst", "is more than best");
   }
 
-  static void read_spindle(ConfigTable& table, Spindle& spindle) {
+  void read_spindle(ConfigTable& table, Spindle& spindle) {
+    const std::size_t errors = errors_.size();
     const auto law = table.choice<Spindle::Law>("speeds", kLaws);
     if (!law && !table.has("speeds")) table.missing("speeds", "\"fixed\", \"stages\" or \"direct\"");
     spindle.law = law.value_or(Spindle::Law::fixed);
     constexpr std::string_view kRpm = "revolutions per minute";
     spindle.minimum_rpm = above_zero(table, "minimum_rpm", 1e6, kRpm);
     spindle.maximum_rpm = above_zero(table, "maximum_rpm", 1e6, kRpm);
-    if (spindle.minimum_rpm > spindle.maximum_rpm) table.error("minimum_rpm", "is more than maximum_rpm");
+    if (errors_.size() == errors && spindle.minimum_rpm > spindle.maximum_rpm)
+      table.error("minimum_rpm", "is more than maximum_rpm");
     spindle.stage_0_rpm = table.number("stage_0_rpm", 0, 1e6, kRpm);
     spindle.rpm_per_stage = table.number("rpm_per_stage", 0, 1e6, kRpm);
     constexpr std::string_view kSeconds = "seconds from 0 to 600";

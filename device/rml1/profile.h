@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "device/core/config_error.h"
+#include "device/config/config_error.h"
 #include "device/rml1/parser.h"
 
 namespace axisgate::rml1 {
@@ -19,6 +19,7 @@ struct Speeds {
 struct Acceleration {
   double best = 0, worst = 0;  // mm/s2: of the low and of the high end of a job's time
   double corner_mm = 0;        // how far a corner may be cut
+  double slower = 0;           // by which part a real run may be slower still, at the high end
 };
 
 struct Spindle {

@@ -41,7 +41,7 @@ std::string escaped(const std::string& text) {
     if (c == '<' || c == '>' || c == '&' || c == '"') {
       safe += fmt::format("&#{};", static_cast<int>(c));
     } else {
-      safe += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
+      safe += c < 0x20 ? '?' : c;  // nor is a file's name always UTF-8
     }
   }
   return safe;

@@ -1,5 +1,6 @@
 #include "tests/fuzz/grammar.h"
 
+#include <algorithm>
 #include <array>
 #include <random>
 #include <string_view>

@@ -1,8 +1,8 @@
-// Whatever the job, the tool stays in the work area, and its time is a time.
+// Whatever the job, the tool stays in the work area, its time is a time, and it can be drawn.
 #include <cmath>
 #include <cstdlib>
 
-#include "device/rml1/check.h"
+#include "device/rml1/picture.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/rml1/mill.h"
 
@@ -10,32 +10,17 @@ namespace {
 
 using namespace axisgate::rml1;
 
-class Guard : public MachineListener {
+class Guard : public MoveListener {
  public:
-  explicit Guard(const Profile& profile) : profile_(profile) {}
-
   void moved(const Move& move) override {
-    const bool known = std::isfinite(move.speed) && move.speed > 0 && move.from != move.to;
-    if (!known || (check != nullptr && !within(move))) std::abort();
+    strokes.moved(move);
+    const Box& box = check->machine().box();
+    const bool inside = box.held(move.from) == move.from && box.held(move.to) == move.to;
+    if (!inside || !std::isfinite(move.speed) || move.speed <= 0 || move.from == move.to) std::abort();
   }
-  void turned(double seconds, const Move&) override { require(seconds); }
-  void spun_up(double seconds) override { require(seconds); }
-  void dwelt(double seconds) override { require(seconds); }
-  void commanded(const Point&, const Instruction&) override {}
-  void lifted(double, const Instruction&) override {}
 
   const Check* check = nullptr;
-
- private:
-  static void require(double seconds) {
-    if (!std::isfinite(seconds) || seconds < 0) std::abort();
-  }
-  bool within(const Move& move) const {
-    const Box& box = check->machine().box();
-    return box.held(move.from) == move.from && box.held(move.to) == move.to;
-  }
-
-  const Profile& profile_;
+  Strokes strokes;
 };
 
 void require(bool good) {
@@ -50,7 +35,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   // Some with an origin, some without; both follow from the job.
   if (size % 3 != 0) options.origin = Origin{static_cast<double>(size % 400), 100, static_cast<double>(size % 60)};
   if (size % 2 != 0) options.stock = Stock{50, 40, 3};
-  Guard guard(profile);
+  Guard guard;
   Check check(profile, options, &guard);
   guard.check = &check;
   check.feed({reinterpret_cast<const char*>(data), size});
@@ -59,6 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(std::isfinite(summary.seconds_high) && std::isfinite(summary.distance_mm));
   require(summary.seconds_low >= 0 && summary.seconds_low <= summary.seconds_high * (1 + 1e-9) + 1e-9);
   require(check.machine().box().held(summary.final) == summary.final);
+  const bool known = options.origin.has_value();
+  require(!to_svg(make_picture("job", check, profile, options.stock, known, guard.strokes)).empty());
   require(check.diagnostics().kept().size() <= Diagnostics::kKept);
   return 0;
 }

@@ -1,4 +1,5 @@
 // Whatever the bytes and wherever they are cut, the parser tells the same.
+#include <algorithm>
 #include <cstdlib>
 #include <vector>
 
@@ -16,7 +17,7 @@ class Listener : public ParserListener {
     for (std::size_t index = 0; index < instruction.count; ++index) {
       if (instruction.given[index]) told.push_back(instruction.values[index]);
     }
-    for (const AxisTarget& axis : instruction.axes) told.push_back(axis.letter + axis.value);
+    for (const AxisTarget& axis : instruction.axes) told.insert(told.end(), {1.0 * axis.letter, axis.value});
   }
   void quit() override { told.push_back(-1); }
 

@@ -153,7 +153,7 @@ class Refusals(InAFolder):
     def refused(self, *arguments, verb="check", job=b""):
         answer = mill(verb, *arguments, job=job)
         self.assertEqual((answer.returncode, answer.stdout), (2, b""), arguments)
-        self.assertRegex(answer.stderr.decode(), r"\Aaxisctl: [A-Z_]+: [^\n]+\n\Z")
+        self.assertRegex(answer.stderr.decode(), r"\A(axisctl: \S+?:[^\n]+\n)*axisctl: [A-Z_]+: [^\n]+\n\Z")
         return answer.stderr.decode()
 
     def test_what_cannot_be_read(self):

@@ -10,16 +10,9 @@ namespace axisgate::rml1 {
 namespace {
 
 // The guideline's own examples of the parameter reader use a command that it does not have (2-5).
-constexpr Parameter kInt{Type::integer, kIntLowest, kIntHighest, false, false};
-constexpr Row kIp[] = {{"IP",
-                        Deed::ignored,
-                        Family::two_letters,
-                        "2-5",
-                        Takes::up_to,
-                        4,
-                        Coordinates::kept,
-                        Tool::kept,
-                        {kInt, kInt, kInt, kInt}}};
+constexpr Parameter kInt{true, kIntLowest, kIntHighest, false, false};
+constexpr Row kIp[] = {
+    {"IP", Deed::ignored, "2-5", Takes::up_to, 4, Coordinates::kept, Tool::kept, {kInt, kInt, kInt, kInt}}};
 
 std::span<const Row> rows_for(const Paragraph& example) {
   return example.all("%").empty() ? std::span<const Row>() : std::span<const Row>(kIp);

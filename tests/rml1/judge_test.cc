@@ -40,7 +40,7 @@ Judged sizes_only(const std::string& job) { return judge(job, {}); }
 TEST(Stock, IsLeftBelowTheSurface) {
   const Judged found = with_stock("Z0,0,0;Z1001,0,-100;Z3000,0,-100;Z0,-1,-1;PU;");
   EXPECT_THAT(found.told, ElementsAre("warning 0 at 7 [5-1]"));
-  EXPECT_THAT(found.text, HasSubstr("outside of the stock, at X 10.01 mm, Y 0.00 mm, 1.00 mm deep"));
+  EXPECT_THAT(found.text, HasSubstr("outside of the stock, towards X 10.01 mm, Y 0.00 mm"));
   EXPECT_THAT(with_stock("Z0,0,0;Z-1,0,-1;PU;").told, ElementsAre("warning 0 at 7 [5-1]"));
   EXPECT_THAT(with_stock("Z0,0,0;Z0,1001,-1;PU;").told, ElementsAre("warning 0 at 7 [5-1]"));
 }
@@ -134,10 +134,11 @@ TEST(Size, InZCountsFromTheSurfaceDown) {
 TEST(Size, FitsTheOtherUnit) {
   Profile profile = test_profile();
   profile.step_mm = 0.025;
-  const auto check = checked("PU0,0;PU24201,0;", profile);
+  const CheckOptions options{{}, {}, {{"another", 0.01, 60.5}}};
+  const auto check = checked("PU0,0;PU24201,0;", profile, options);
   EXPECT_THAT(all(*check), ElementsAre("error 0 at 6 [5-1]", "warning 0 at 6 [1-1]"));
   EXPECT_THAT(check->diagnostics().kept()[1].text, HasSubstr("if a step is 0.01 mm"));
-  EXPECT_THAT(judge("PU0,0;PU60501,0;", {}, profile).told, ElementsAre("error 0 at 6 [5-1]"));
+  EXPECT_THAT(judge("PU0,0;PU60501,0;", options, profile).told, ElementsAre("error 0 at 6 [5-1]"));
 }
 
 TEST(End, WithTheToolDown) {

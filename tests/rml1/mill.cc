@@ -20,10 +20,11 @@ class Witness : public ParserListener, public MachineListener {
   void quit() override { machine_.quit(); }
 
   void moved(const Move& move) override { played.moves.push_back(move); }
-  void turned(double seconds, const Move&) override { played.waits.push_back(fmt::format("turn {}", seconds)); }
-  void spun_up(double seconds) override { played.waits.push_back(fmt::format("spin up {}", seconds)); }
-  void dwelt(double seconds) override { played.waits.push_back(fmt::format("dwell {}", seconds)); }
-  void commanded(const Point& target, const Instruction&) override { played.commanded.push_back(target); }
+  void waited(Wait what, double seconds, std::uint64_t) override {
+    constexpr const char* kNames[] = {"spin up", "dwell", "turn"};
+    played.waits.push_back(fmt::format("{} {}", kNames[static_cast<std::size_t>(what)], seconds));
+  }
+  void commanded(const Point& target, bool, const Instruction&) override { played.commanded.push_back(target); }
   void lifted(double, const Instruction&) override {}
 
   void end() {
@@ -80,7 +81,7 @@ Played play(const std::string& job, const Profile& profile, std::optional<Origin
             std::span<const Row> more_rows, const std::vector<std::size_t>& cuts) {
   Diagnostics diagnostics;
   Witness witness(profile, origin, diagnostics);
-  Parser parser(profile.dialect, more_rows, diagnostics, witness);
+  Parser parser(profile.dialect, diagnostics, witness, more_rows);
   std::size_t begin = 0;
   for (const std::size_t cut : cuts) {
     parser.feed(std::string_view(job).substr(begin, cut - begin));

@@ -10,7 +10,7 @@ namespace {
 
 // What is left of the text, once the number has ended.
 std::string read(NumberReader& reader, const std::string& text) {
-  EXPECT_TRUE(NumberReader::may_begin(text.at(0)));
+  EXPECT_TRUE(begins_number(text.at(0)));
   reader.begin(text[0]);
   std::size_t at = 1;
   while (at < text.size() && reader.take(text[at])) ++at;
@@ -97,9 +97,9 @@ TEST(NumberReader, TakesAnyNumberOfDigits) {
 
 TEST(NumberReader, BeginsOnlyWithItsOwnBytes) {
   int count = 0;
-  for (int code = 0; code < 256; ++code) count += NumberReader::may_begin(static_cast<char>(code)) ? 1 : 0;
+  for (int code = 0; code < 256; ++code) count += begins_number(static_cast<char>(code)) ? 1 : 0;
   EXPECT_EQ(count, 13);
-  for (const char c : std::string("0123456789+-.")) EXPECT_TRUE(NumberReader::may_begin(c));
+  for (const char c : std::string("0123456789+-.")) EXPECT_TRUE(begins_number(c));
 }
 
 }  // namespace

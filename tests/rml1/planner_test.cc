@@ -97,9 +97,9 @@ TEST(Planner, WaitsForTheBytesOfAMove) {
 TEST(Planner, StandsStillForAPause) {
   for (const std::optional<double> corner : {std::optional<double>(kCorner), std::optional<double>()}) {
     Planner planner(kAcceleration, corner);
-    planner.pause(1);
+    planner.pause(1, 0);
     planner.move({5, 0, 0}, 10, 0);
-    planner.pause(2);
+    planner.pause(2, 0);
     planner.move({5, 0, 0}, 10, 0);
     EXPECT_NEAR(planner.finish(), 3 + 2 * 0.6, 1e-9);
   }
@@ -190,7 +190,7 @@ TEST(Planner, LowEndIsNeverAboveTheHighEnd) {
       arrival += static_cast<double>(random() % 1000) * longest / 2e4;
       for (Planner* planner : {&low, &high}) {
         planner->move(leg.way, leg.speed, arrival);
-        if (leg.speed > 14.5) planner->pause(0.25);
+        if (leg.speed > 14.5) planner->pause(0.25, 0);
       }
     }
     const double least = low.finish(), most = high.finish();

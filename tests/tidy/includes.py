@@ -16,7 +16,7 @@ _GATEWAY_PARSERS = ("device/shrc203/command_table.h", "device/shrc203/codec.h")
 # Lowest first. Folders on one floor are siblings and may not include each other; the files directly in server/ wire the
 # folders beside them.
 _FLOORS = {
-    "device/core": 0, "device/*": 1, "server/*": 2, "server": 3, "server/rpc": 4, "clients": 5, "tests": 6
+    "device/core": 0, "device/config": 0, "device/*": 1, "server/*": 2, "server": 3, "server/rpc": 4, "clients": 5, "tests": 6
 }
 
 

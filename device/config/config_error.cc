@@ -1,4 +1,4 @@
-#include "device/core/config_error.h"
+#include "device/config/config_error.h"
 
 #include <fmt/format.h>
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/core/config_error.h"
+#include "device/config/config_error.h"
 
 namespace axisgate {
 

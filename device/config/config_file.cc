@@ -1,4 +1,4 @@
-#include "device/core/config_file.h"
+#include "device/config/config_file.h"
 
 #include <fmt/format.h>
 

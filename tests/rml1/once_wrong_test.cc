@@ -1,0 +1,125 @@
+// What was wrong once, each with the smallest job that showed it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "tests/rml1/trace.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+using testing::ElementsAre;
+using testing::IsEmpty;
+
+// "If X and Y movement is necessary thereafter, the movement is performed at the maximum height", and "PU operates at a
+// particular specified speed" (3-2 PU): 15 mm/s here, not V.
+TEST(OnceWrong, TravelAtTheTopWentAtTheSpeedOfZ) {
+  for (const char* job : {"V1;@-9,9000;PU100,0;", "V1;@-9,9000;M100,0;", "V1;@-9,9000;PA100,0;"}) {
+    const Played found = play(job, test_profile(), kMidway);
+    ASSERT_EQ(found.moves.size(), 1u) << job;
+    EXPECT_EQ(found.moves[0].speed, 15) << job;
+  }
+  EXPECT_EQ(play("V1;F7;@-1000;!ZO-6000;PD100,0;", test_profile(), kMidway).moves.back().speed, 7);
+}
+
+// Nobody knows there where Z0 lies.
+TEST(OnceWrong, RelativeHeightsWithoutAnOriginWereErrors) {
+  for (const char* job : {"PD;PR;!ZM50;PU;", "PD;PR;!ZO0;PU;"}) {
+    EXPECT_THAT(told(play(job, test_profile()).diagnostics), IsEmpty()) << job;
+  }
+}
+
+// "ends operation of the command now being executed" (4-2), half way out of the area at Y = 150.
+TEST(OnceWrong, QuitLeftTheCommandedPlaceWhereItWas) {
+  EXPECT_EQ(text(play("Z0,0,0;Z-20000,300,0;\x1B.K!ZEX100;", test_profile(), kMidway).final), "100 150 0");
+}
+
+// "A value of 0 is the lowest spindle speed"; "Models that are not capable of saving the spindle speed use the minimum
+// speed" (3-3 !RC).
+TEST(OnceWrong, TheSpindleBeganAtItsHighestSpeed) {
+  Profile profile = test_profile();
+  profile.spindle.law = Spindle::Law::stages;
+  profile.spindle.minimum_rpm = 1000;
+  EXPECT_EQ(checked("", profile)->machine().rpm(), 1000);
+}
+
+TEST(OnceWrong, ATurnAloneDidNotStartTheSpindle) {
+  EXPECT_THAT(play("!ZEA90;", test_profile(), kMidway).waits, ElementsAre("spin up 2", "turn 9"));
+}
+
+// 297 bytes at 300 baud come in 9.9 s.
+TEST(OnceWrong, SpinUpDidNotWaitForItsCommand) {
+  Profile profile = test_profile();
+  profile.baud = 300;
+  const CheckOptions options{kMidway, {}, {}};
+  const auto late = checked(std::string(297, ' ') + "PD;", profile, options)->summary();
+  const auto early = checked("PD;", profile, options)->summary();
+  EXPECT_NEAR(late.seconds_low - early.seconds_low, 9.9, 1e-6);
+  EXPECT_NEAR(late.seconds_high - early.seconds_high, 9.9, 1e-6);
+}
+
+// Ten mm left of the home corner: the tool begins at the corner, and so does what is commanded.
+TEST(OnceWrong, AnOriginOutsideMovedNothing) {
+  EXPECT_EQ(text(play("!ZEY100;", test_profile(), Origin{-10, 5, 50}).final), "1000 100 5000");
+  EXPECT_EQ(text(play("PD;", test_profile(), Origin{-10, 5, 50}).final), "1000 0 -100");
+}
+
+TEST(OnceWrong, GCodeDependedOnTheSplit) {
+  const Profile profile = test_profile();
+  for (const std::string job : {"G\n0", "N;1",
+                                "G\x1B"
+                                "1",
+                                " \nG0", "G", "(", "G1", "\xEF\xBB\xBFG0"}) {
+    const auto whole = checked(job, profile);
+    for (std::size_t cut = 1; cut < job.size(); ++cut) {
+      Check check(profile, {});
+      check.feed(job.substr(0, cut));
+      check.feed(job.substr(cut));
+      check.finish();
+      EXPECT_EQ(told(check.diagnostics().kept()), told(whole->diagnostics().kept())) << job << " at " << cut;
+    }
+  }
+}
+
+// 150 mm wide, wherever the tool was before.
+TEST(OnceWrong, TheBeginningCountedAsSize) {
+  EXPECT_THAT(told(checked("PU50000,0;PD65000,0;PU50000,0;", test_profile())->diagnostics().kept()), IsEmpty());
+}
+
+// The tool is taken out of the groove.
+TEST(OnceWrong, ALiftWithTheSpindleStoppedWasCutting) {
+  EXPECT_THAT(told(checked("PU0,0;PD1000,0;!MC0;PU;", test_profile())->diagnostics().kept()), IsEmpty());
+}
+
+TEST(OnceWrong, WhatIsHeldAtTheEdgeWasSilent) {
+  Profile profile = test_profile();
+  profile.holds_flat_commands = true;
+  EXPECT_THAT(told(checked("PU0,0;PD-20000,0,0,0;PU;", profile, {kMidway, {}, {}})->diagnostics().kept()),
+              ElementsAre("warning 0 at 6"));
+}
+
+// ESC is the tenth byte.
+TEST(OnceWrong, AnEscapeInGroupsOfAxesWasToldAtTheNextByte) {
+  EXPECT_THAT(told(play("!ZE X100 \x1BY100;", test_profile(), kMidway).diagnostics), ElementsAre("error 3 at 9"));
+}
+
+// 6050 steps of 0.01 mm are its whole travel.
+TEST(OnceWrong, ALiftByExtensionAxesWasNotJudged) {
+  Profile profile = test_profile();
+  profile.step_mm = 0.025;
+  const CheckOptions options{kMidway, {}, {{"another", 0.01, 60.5}}};
+  for (const char* job : {"PU0,0;^PR;!ZE Z6050;", "PU0,0;^PR;Z0,0,6050;"}) {
+    EXPECT_THAT(told(checked(job, profile, options)->diagnostics().kept()), ElementsAre("warning 0 at 10")) << job;
+  }
+}
+
+// !ZO alone sets what the profile has.
+TEST(OnceWrong, AHeightOfTheProfileWasBlamedOnAnEarlierNumber) {
+  Profile profile = test_profile();
+  profile.default_z0 = 100;
+  EXPECT_THAT(told(play("PU0,0;!ZO;", profile, kMidway).diagnostics), ElementsAre("error 3 at 6"));
+}
+
+}  // namespace
+}  // namespace axisgate::rml1
