@@ -39,12 +39,6 @@ std::string time_text(double seconds) {
   return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
 }
 
-// "6500", "400 to 1137"
-std::string range_text(const Reach& reach) {
-  return reach.size() == 0 ? fmt::format("{:g}", reach.lowest)
-                           : fmt::format("{:g} to {:g}", reach.lowest, reach.highest);
-}
-
 // -0.00 is shown as 0.00.
 double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
@@ -86,7 +80,7 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
                          job.spin_ups == 0   ? "never"
                          : job.spin_ups == 1 ? "once"
                                              : fmt::format("{} times", job.spin_ups)));
-  if (job.rpm.any) print_line(fmt::format("cuts at {} rpm", range_text(job.rpm)));
+  if (job.rpm.any) print_line(fmt::format("cuts at {} rpm", to_string(job.rpm)));
   if (!origin_known) print_line("without --origin only sizes are judged, and heights are as if Z0 lay at the bottom");
   const Diagnostics& told = check.diagnostics();
   print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),

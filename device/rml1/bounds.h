@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <string>
 
 #include "device/rml1/point.h"
 
@@ -18,6 +19,8 @@ struct Reach {
   }
   double size() const { return highest - lowest; }
 };
+
+std::string to_string(const Reach& reach);  // "6500", "400 to 1137"
 
 struct Bounds {
   Reach x, y, z;

@@ -19,20 +19,11 @@ void Check::feed(std::string_view bytes) {
   if (!is_g_code()) parser_.feed(bytes);
 }
 
-// What is left of the bytes when the kind is known. Until then the parser gets all but a letter that may begin G-code.
+// What is left of the bytes when the kind is known; until then they are held.
 std::string_view Check::recognise(std::string_view bytes) {
-  while (told_ == JobKind::Told::nothing_yet && !bytes.empty()) {
-    const char c = bytes.front();
-    told_ = kind_.take(c);
-    if (told_ == JobKind::Told::nothing_yet) {
-      bytes.remove_prefix(1);
-      if (kind_.waits()) {
-        held_ += c;
-      } else {
-        parser_.feed({&c, 1});
-      }
-    }
-  }
+  std::size_t count = 0;
+  while (told_ == JobKind::Told::nothing_yet && count < bytes.size()) told_ = kind_.take(bytes[count++]);
+  held_ += bytes.substr(0, count);
   if (is_g_code()) {
     diagnostics_.error(0, kind_.place(), "1-2", [] {
       return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
@@ -40,7 +31,7 @@ std::string_view Check::recognise(std::string_view bytes) {
   } else if (told_ == JobKind::Told::rml) {
     parser_.feed(std::exchange(held_, {}));
   }
-  return bytes;
+  return bytes.substr(count);
 }
 
 void Check::finish() {

@@ -63,7 +63,7 @@ class Check : private MachineListener {
   Diagnostics diagnostics_;
   JobKind kind_;
   JobKind::Told told_ = JobKind::Told::nothing_yet;
-  std::string held_;  // a letter, until what stands behind it tells the kind
+  std::string held_;  // until the kind is told
   Machine machine_;
   Parser parser_;
   Judge judge_;

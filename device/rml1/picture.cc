@@ -86,11 +86,6 @@ class Layout {
   Picture picture_;
 };
 
-std::string range_text(const Reach& reach) {
-  return reach.size() == 0 ? fmt::format("{:g}", reach.lowest)
-                           : fmt::format("{:g} to {:g}", reach.lowest, reach.highest);
-}
-
 std::vector<std::string> legend(const Check& check, const Profile& profile, const Strokes& strokes) {
   const Summary& job = check.summary();
   const Reach& feeds = strokes.feeds();
@@ -100,7 +95,7 @@ std::vector<std::string> legend(const Check& check, const Profile& profile, cons
                   "accelerations",
                   job.commands, job.distance_mm, job.cutting_mm, job.seconds_low, job.seconds_high));
   if (feeds.any)
-    lines.push_back(fmt::format("cuts at {} mm/s, {} rpm", range_text(feeds), job.rpm.any ? range_text(job.rpm) : "0"));
+    lines.push_back(fmt::format("cuts at {} mm/s, {} rpm", to_string(feeds), job.rpm.any ? to_string(job.rpm) : "0"));
   lines.push_back(
       fmt::format("steps of {} mm; dashed: work area; filled: stock; cross: work origin, Z0", profile.step_mm));
   return lines;

@@ -225,7 +225,8 @@ class GCode(unittest.TestCase):
     def test_its_openings(self):
         for job, place in (("%\nO1000\n", 0), ("(a part)\nG21\n", 0), ("G21\nG90\n", 0), ("N10 G0 X0\n", 0),
                            ("O1000\n", 0), ("g0x0", 0), ("n5g1x1", 0), ("o0001", 0), (" \r\n\n\t G1 X1\n", 6),
-                           ("G 0 X1", 0), ("%", 0), ("G28\n" * 1000, 0)):
+                           ("G 0 X1", 0), ("%", 0), ("G28\n" * 1000, 0), ("; a part\nG21\n", 9),
+                           ("T1 M6\nM3 S8000\nG0 X1\n", 15)):
             with self.subTest(job[:20]):
                 checked = Checked(job)
                 self.assertEqual([(each["severity"], each["offset"]) for each in checked.told], [("error", place)])

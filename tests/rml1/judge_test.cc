@@ -169,6 +169,34 @@ TEST(GCode, IsRefusedWithoutAnythingElse) {
   }
 }
 
+TEST(GCode, IsToldBehindCommentsAndWordsOfBoth) {
+  struct Case {
+    const char* job;
+    Place place;
+  };
+  for (const auto& [job, place] : {Case{"; made by a program: PU, PD\n;\nG21\n", {30, 3, 1}},
+                                   {"T1 M6\r\nS1000M3 ; on\r\nG0 X1\r\n", {21, 3, 1}},
+                                   {"M05\n (off)\n", {5, 2, 2}},
+                                   {"X10.5 Y-2 F100 G1", {15, 1, 16}}}) {
+    const auto check = checked(job, test_profile());
+    EXPECT_TRUE(check->is_g_code()) << job;
+    EXPECT_EQ(check->diagnostics().kept().at(0).place, place) << job;
+  }
+}
+
+TEST(GCode, IsNotToldWithoutAWordOfItsOwn) {
+  for (const char* job : {"; G0 X1\nPU1,1;\nG0\n", "F4;G0\nPU1,1;G0\n", "M3\nT1\n", "; G0\n", "Z1 Y.X\nG0\n"}) {
+    EXPECT_FALSE(checked(job, test_profile())->is_g_code()) << job;
+  }
+}
+
+// What is held until the kind is told has an end.
+TEST(GCode, IsSoughtIn64KiB) {
+  const std::string comment = ";" + std::string(65532, 'a') + "\n";
+  EXPECT_TRUE(checked(comment + "G0", test_profile())->is_g_code());
+  EXPECT_FALSE(checked(";" + comment + "G0", test_profile())->is_g_code());
+}
+
 TEST(GCode, IsNotWhatOnlyBeginsLikeIt) {
   for (const char* job : {"GX1;", "N;PD;", "PD;G0;", "\x1B.K%", "!MC1;N10"}) {
     EXPECT_FALSE(checked(job, test_profile())->is_g_code()) << job;

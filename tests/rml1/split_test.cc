@@ -145,7 +145,8 @@ TEST(Split, OfLongJobs) {
 
 TEST(Split, OfGCode) {
   std::mt19937 random(6);
-  for (const char* job : {"%\nO1\n", "G0 X1\n", "N 10 G21\n", " \r\nG 0 X1", "GX;PD;", "N;1", "O", "G"}) {
+  for (const char* job : {"%\nO1\n", "G0 X1\n", "N 10 G21\n", " \r\nG 0 X1", "GX;PD;", "N;1", "O", "G",
+                          "; a\nT1 M6\nG0", "F4;V2\nM3.5\nPU1,1"}) {
     expect_same(job, random);
   }
 }
