@@ -31,14 +31,6 @@ std::string reach_text(std::string_view axis, const Reach& reach, double step_mm
   return fmt::format("{} {:.2f} to {:.2f} mm", axis, reach.lowest * step_mm, reach.highest * step_mm);
 }
 
-// "12 s", "3 min 5 s", "2 h 10 min"
-std::string time_text(double seconds) {
-  const auto whole = static_cast<long long>(std::llround(seconds));
-  if (whole < 60) return fmt::format("{} s", whole);
-  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
-  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
-}
-
 // -0.00 is shown as 0.00.
 double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
@@ -73,15 +65,20 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
     if (!part.empty()) reach += (reach.empty() ? "" : ", ") + part;
   }
   print_line(reach.empty() ? "nothing moves" : "reaches " + reach);
-  print_line(fmt::format("drives {:.0f} mm, of them {:.0f} mm cutting; takes {} to {}, by assumed accelerations",
-                         job.distance_mm, job.cutting_mm, time_text(job.seconds_low), time_text(job.seconds_high)));
-  print_line(fmt::format("ends at X {:.2f} mm, Y {:.2f} mm, Z {:.2f} mm; the spindle starts {}",
-                         plain(job.final.x) * step, plain(job.final.y) * step, plain(job.final.z) * step,
-                         job.spin_ups == 0   ? "never"
-                         : job.spin_ups == 1 ? "once"
-                                             : fmt::format("{} times", job.spin_ups)));
+  print_line(fmt::format("drives {:.0f} mm, of them {:.0f} mm cutting; takes {}, by assumed accelerations",
+                         job.distance_mm, job.cutting_mm, time_text(job)));
+  print_line(fmt::format("ends at X {:.2f} mm, Y {:.2f} mm, Z {:.2f} mm; the spindle {}", plain(job.final.x) * step,
+                         plain(job.final.y) * step, plain(job.final.z) * step,
+                         job.spin_ups == 0   ? "never starts"
+                         : job.spin_ups == 1 ? "starts once"
+                                             : fmt::format("starts {} times", job.spin_ups)));
   if (job.rpm.any) print_line(fmt::format("cuts at {} rpm", to_string(job.rpm)));
-  if (!origin_known) print_line("without --origin only sizes are judged, and heights are as if Z0 lay at the bottom");
+  if (check.machine().lowered_by_default()) {
+    print_line(fmt::format("lowers the tool before it sets Z1: Z {:.2f} mm is the profile's, a mill may have another",
+                           profile.default_z1 * step));
+  }
+  if (!origin_known)
+    print_line("without --origin the work area is not judged, and heights are as if Z0 lay at the bottom");
   const Diagnostics& told = check.diagnostics();
   print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),
                          counted(told.count(Severity::warning), "warning"),

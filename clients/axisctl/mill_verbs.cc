@@ -52,6 +52,12 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
       throw usage(fmt::format("--origin has Z0 {} mm below the top", p.z),
                   fmt::format("Z travels {} mm on the {}: use 0 to {}", profile.z_mm, profile.name, profile.z_mm));
     }
+    if (p.x < 0 || p.y < 0 || p.x > profile.x_mm || p.y > profile.y_mm) {
+      print_note(
+          fmt::format("--origin lies beside the work area of the {}, which is {} mm in X and {} mm in Y: the tool "
+                      "begins at its edge",
+                      profile.name, profile.x_mm, profile.y_mm));
+    }
     options.origin = Origin{p.x, p.y, p.z};
   }
   if (asked.stock) {
@@ -117,8 +123,8 @@ int mill_preview(const Options& options) {
     print_diagnostics(options.mill.file, check.diagnostics());
     return kFailed;
   }
-  const Picture picture =
-      make_picture(options.mill.file, check, profile, asked.stock, asked.origin.has_value(), strokes);
+  const std::string title = std::filesystem::path(options.mill.file).filename().string();
+  const Picture picture = make_picture(title, check, profile, asked.stock, asked.origin.has_value(), strokes);
   errno = 0;
   const bool written = svg ? write_text(output, to_svg(picture)) : write_png(picture, output);
   if (!written) {

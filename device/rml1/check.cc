@@ -1,8 +1,26 @@
 #include "device/rml1/check.h"
 
+#include <fmt/format.h>
+
+#include <cmath>
 #include <utility>
 
 namespace axisgate::rml1 {
+namespace {
+
+// "12 s", "3 min 5 s", "2 h 10 min"
+std::string duration(double seconds) {
+  const auto whole = static_cast<long long>(std::llround(seconds));
+  if (whole < 60) return fmt::format("{} s", whole);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+}  // namespace
+
+std::string time_text(const Summary& summary) {
+  return duration(summary.seconds_low) + " to " + duration(summary.seconds_high);
+}
 
 Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
     : profile_(profile),
@@ -12,7 +30,7 @@ Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
       parser_(profile.dialect, diagnostics_, machine_),
       judge_(profile, origin_known_, options.stock, std::move(options.others), diagnostics_),
       best_(profile.acceleration.best, profile.acceleration.corner_mm),
-      worst_(profile.acceleration.worst, std::nullopt, 1 + profile.acceleration.slower) {}
+      worst_(profile.acceleration.worst, profile.acceleration.corner_mm, 1 + profile.acceleration.slower) {}
 
 void Check::feed(std::string_view bytes) {
   if (told_ == JobKind::Told::nothing_yet) bytes = recognise(bytes);
@@ -57,14 +75,10 @@ void Check::moved(const Move& move) {
   summary_.distance_mm += distance;
   if (move.cuts() && move.turning) summary_.rpm.take(machine_.rpm());
   summary_.cutting_mm += distance * move.cutting_part();
-  plane_known_ = plane_known_ || move.deed == Deed::home || way.x != 0 || way.y != 0;
-  if (plane_known_) {
-    summary_.bounds.take(move.from);
-    summary_.bounds.take(move.to);
-  } else {
-    summary_.bounds.z.take(move.to.z);
-  }
-  if (!is_assumed(move)) best_.move(way, move.speed, arrival(move.end));
+  const bool assumed = begins_assumed(move);
+  summary_.bounds.take(assumed ? move.to : move.from);
+  summary_.bounds.take(move.to);
+  if (!assumed) best_.move(way, move.speed, arrival(move.end));
   begun_ = true;
   worst_.move(way, move.speed, arrival(move.end));
   judge_.moved(move);
@@ -72,7 +86,7 @@ void Check::moved(const Move& move) {
 }
 
 // Where Z0 is not known, nobody knows from how high the tool comes down at first.
-bool Check::is_assumed(const Move& move) const {
+bool Check::begins_assumed(const Move& move) const {
   return !begun_ && !origin_known_ && move.from.x == move.to.x && move.from.y == move.to.y;
 }
 
@@ -82,8 +96,8 @@ void Check::waited(Wait what, double seconds, std::uint64_t end) {
   worst_.pause(seconds, arrival(end));
 }
 
-void Check::commanded(const Point& target, bool height_alone, const Instruction& by) {
-  judge_.commanded(target, height_alone, machine_.box(), by);
+void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {
+  judge_.commanded(from, target, height_alone, machine_.box(), by);
 }
 
 void Check::lifted(double steps, const Instruction& by) { judge_.lifted(steps, by); }

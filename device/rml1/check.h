@@ -26,13 +26,15 @@ struct CheckOptions {
 // Steps of the workpiece system.
 struct Summary {
   Point final;    // where the tool really is
-  Bounds bounds;  // of where it really was; X and Y from the first move in them on
+  Bounds bounds;  // of what was really driven, but for an assumed height at which the job begins
   double seconds_low = 0, seconds_high = 0;
   double distance_mm = 0, cutting_mm = 0;
   std::uint64_t spin_ups = 0;
   Reach rpm;  // at which it cuts
   std::uint64_t commands = 0;
 };
+
+std::string time_text(const Summary& summary);  // "45 s to 1 min 30 s"
 
 class Check : private MachineListener {
  public:
@@ -50,12 +52,12 @@ class Check : private MachineListener {
  private:
   void moved(const Move& move) override;
   void waited(Wait what, double seconds, std::uint64_t end) override;
-  void commanded(const Point& target, bool height_alone, const Instruction& by) override;
+  void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) override;
   void lifted(double steps, const Instruction& by) override;
 
   std::string_view recognise(std::string_view bytes);
   double arrival(std::uint64_t end) const;
-  bool is_assumed(const Move& move) const;
+  bool begins_assumed(const Move& move) const;
 
   const Profile& profile_;
   MoveListener* moves_;
@@ -69,7 +71,7 @@ class Check : private MachineListener {
   Judge judge_;
   Planner best_, worst_;
   Summary summary_;
-  bool plane_known_ = false, begun_ = false;
+  bool begun_ = false;
 };
 
 }  // namespace axisgate::rml1

@@ -16,27 +16,30 @@ std::string_view name(Severity severity) {
   return "error";
 }
 
+// The last that is no error and of a kind that `which` accepts.
 template <class Which>
 bool Diagnostics::drop_last(Which which) {
-  const auto last = std::find_if(kept_.rbegin(), kept_.rend(), which);
-  if (last == kept_.rend()) return false;
-  kept_.erase(std::next(last).base());
-  return true;
+  for (std::size_t index = kept_.size(); index-- > 0;) {
+    if (kept_[index].severity == Severity::error || !which(kinds_[index])) continue;
+    kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(index));
+    kinds_.erase(kinds_.begin() + static_cast<std::ptrdiff_t>(index));
+    return true;
+  }
+  return false;
 }
 
 bool Diagnostics::make_room_for_error() {
-  return kept_.size() < kKept || drop_last([](const Diagnostic& one) { return one.severity != Severity::error; });
+  return kept_.size() < kKept || drop_last([](Kind) { return true; });
 }
 
-bool Diagnostics::make_room_for(const std::string& text) {
+bool Diagnostics::make_room_for(Kind kind) {
   if (kept_.size() < kKept) return true;
-  const auto times = [this](const std::string& words) {
-    return std::count_if(kept_.begin(), kept_.end(), [&](const Diagnostic& one) { return one.text == words; });
-  };
-  if (times(text) > 0) return false;
-  return drop_last([&](const Diagnostic& one) {
-    return one.severity != Severity::error && times(one.text) > static_cast<std::ptrdiff_t>(kSame);
-  });
+  if (times(kind) > 0) return false;
+  return drop_last([this](Kind other) { return times(other) > kSame; });
+}
+
+std::size_t Diagnostics::times(Kind kind) const {
+  return static_cast<std::size_t>(std::count(kinds_.begin(), kinds_.end(), kind));
 }
 
 }  // namespace axisgate::rml1

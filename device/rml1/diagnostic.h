@@ -24,18 +24,20 @@ struct Diagnostic {
 };
 
 // The first hundred in the order of their finding, and a count of all. When they are full, an error takes the place of
-// the last that is none, and what is no error that of the last whose words stand there many times.
+// the last that is none, and the first warning or note of its kind that of the last whose kind stands there many times.
 class Diagnostics {
  public:
   static constexpr std::size_t kKept = 100, kSame = 10;
 
-  // `text` is not called for an error that is not kept: a job may have millions.
+  // `text` is called only for what is kept: a job may have millions. Each place in the code that tells something is a
+  // kind.
   template <class Text>
   void add(int number, Severity severity, const Place& place, std::string_view section, Text&& text) {
+    static constexpr char kKind = 0;
     ++counts_[static_cast<std::size_t>(severity)];
-    if (severity == Severity::error && !make_room_for_error()) return;
-    Diagnostic one{number, severity, place, section, std::string(text())};
-    if (severity == Severity::error || make_room_for(one.text)) kept_.push_back(std::move(one));
+    if (severity == Severity::error ? !make_room_for_error() : !make_room_for(&kKind)) return;
+    kept_.push_back({number, severity, place, section, std::string(text())});
+    kinds_.push_back(&kKind);
   }
   template <class Text>
   void error(int number, const Place& place, std::string_view section, Text&& text) {
@@ -47,12 +49,16 @@ class Diagnostics {
   std::uint64_t omitted() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
 
  private:
+  using Kind = const void*;
+
   bool make_room_for_error();
-  bool make_room_for(const std::string& text);
+  bool make_room_for(Kind kind);
+  std::size_t times(Kind kind) const;
   template <class Which>
   bool drop_last(Which which);
 
   std::vector<Diagnostic> kept_;
+  std::vector<Kind> kinds_;  // of those kept
   std::uint64_t counts_[3] = {};
 };
 

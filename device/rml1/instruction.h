@@ -23,8 +23,8 @@ struct Instruction {
   const Row* row = nullptr;
   Place place;                        // of the command's first byte
   bool first = true;                  // of the command's sets
-  std::uint8_t count = 0;             // parameters, of those before them also what is missing
-  std::array<bool, 4> given = {};     // false: missing, or in error
+  std::uint8_t count = 0;             // of parameters
+  std::array<bool, 4> given = {};     // of the first `count`: false in error
   std::array<double, 4> values = {};  // within their range
   std::array<Place, 4> places = {};
   std::span<const AxisTarget> axes;  // !ZE: each letter once, at least one; valid during the call

@@ -69,7 +69,7 @@ constexpr Row kRows[] = {
     one("!VZ", Deed::height_speed, "3-3", kHeightSpeed),
     one("!ZM", Deed::height, "3-3", kMachineHeight),
     one("!ZO", Deed::surface, "3-3", kMachineHeight),
-    {"!ZE", Deed::extension, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {kCoordinate}},
+    {"!ZE", Deed::extension, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {}},
     feed("!ZZ", "3-3"),
 };
 

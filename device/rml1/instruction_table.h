@@ -38,7 +38,7 @@ enum class Tool : std::uint8_t { kept, raised, lowered };
 
 enum class Takes : std::uint8_t {
   nothing,
-  up_to,  // `count` numbers, each of which may be missing
+  up_to,  // `count` numbers, or fewer
   sets,   // of `count` numbers, as many as one likes
   axes,   // letters with numbers (3-3 !ZE)
 };

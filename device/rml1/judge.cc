@@ -29,9 +29,7 @@ void Judge::moved(const Move& move) {
               [] { return "travels at Z2 = 0: with the tool on the surface of the workpiece"; });
   }
   if (!move.below_surface()) return;
-  const Point way = move.to - move.from;
-  const bool lifts = way.x == 0 && way.y == 0 && way.z > 0;
-  if (!move.turning && !lifts) {
+  if (!move.turning && !move.lifts()) {
     warn_once(Cause::no_spindle, move.place, "5-2", [] {
       return "goes below the surface while the spindle stands still: !MC0 forbids it, and !MC1 permits it again";
     });
@@ -59,17 +57,28 @@ void Judge::judge_stock(const Move& move) {
   }
 }
 
-void Judge::commanded(const Point& target, bool height_alone, const Box& box, const Instruction& by) {
-  const Bounds before = asked_;
+void Judge::commanded(const Point& from, const Point& target, bool height_alone, const Box& box,
+                      const Instruction& by) {
+  const bool cuts = from.z < 0 || target.z < 0;
+  if (!asked_.z.any || target.z < asked_.z.lowest) deepest_ = by.place;
   asked_.z.take(target.z);
-  if (!height_alone) {
-    asked_.x.take(target.x);
-    asked_.y.take(target.y);
+  // A cut begins where the tool is; where it was before it travels, nobody knows. Where the origin is known, what of
+  // the travel is left out is known, too.
+  if (cuts || (!height_alone && !origin_known_)) take_plane(cuts ? from : target, target, by.place);
+  if (origin_known_) judge_area(target, box, by.place);
+}
+
+void Judge::take_plane(const Point& from, const Point& target, const Place& place) {
+  const Bounds before = asked_;
+  for (const Point& p : {from, target}) {
+    asked_.x.take(p.x);
+    asked_.y.take(p.y);
   }
-  if (asked_.x.size() > before.x.size()) widest_x_ = by.place;
-  if (asked_.y.size() > before.y.size()) widest_y_ = by.place;
-  if (asked_.z.lowest < before.z.lowest) deepest_ = by.place;
-  if (!origin_known_ || height_alone) return;
+  if (asked_.x.size() > before.x.size()) widest_x_ = place;
+  if (asked_.y.size() > before.y.size()) widest_y_ = place;
+}
+
+void Judge::judge_area(const Point& target, const Box& box, const Place& place) {
   if (!box.over(target)) {
     const bool cuts = target.z < 0;
     const auto text = [&] {
@@ -78,12 +87,12 @@ void Judge::commanded(const Point& target, bool height_alone, const Box& box, co
                          : profile_.holds_flat_commands ? "it cuts along the edge instead"
                                                         : "what lies outside is not cut");
     };
-    if (cuts) warn_once(Cause::cuts_outside_area, by.place, "5-1", text);
+    if (cuts) warn_once(Cause::cuts_outside_area, place, "5-1", text);
     if (!cuts && told_.insert(Cause::travels_outside_area).second) {
-      diagnostics_.add(0, Severity::note, by.place, "5-1", text);
+      diagnostics_.add(0, Severity::note, place, "5-1", text);
     }
   } else if (target.z < box.lowest.z) {
-    warn_once(Cause::below_bottom, by.place, "5-1", [&] {
+    warn_once(Cause::below_bottom, place, "5-1", [&] {
       return fmt::format("{:.2f} mm below the surface, and the machine reaches {:.2f} mm: it cuts less deep",
                          -mm(target.z), -mm(box.lowest.z));
     });
@@ -94,16 +103,20 @@ void Judge::commanded(const Point& target, bool height_alone, const Box& box, co
 void Judge::lifted(double steps, const Instruction& by) {
   const auto travel_of = [steps](double z_mm, double step) { return std::abs(z_mm / step - steps) <= kHalfStep; };
   if (told_.contains(Cause::lift) || travel_of(profile_.z_mm, profile_.step_mm)) return;
+  std::vector<std::string> names;
+  double step_mm = 0;
   for (const KnownMachine& other : others_) {
     if (same(other.step_mm, profile_.step_mm) || !travel_of(other.z_mm, other.step_mm)) continue;
-    warn_once(Cause::lift, by.place, "1-1", [&] {
-      return fmt::format(
-          "a lift of {:g} steps is the whole travel of the {}, whose step is {} mm; here it is {} mm: is it the right "
-          "profile?",
-          steps, other.name, other.step_mm, profile_.step_mm);
-    });
-    return;
+    names.push_back(other.name);
+    step_mm = other.step_mm;
   }
+  if (names.empty()) return;
+  warn_once(Cause::lift, by.place, "1-1", [&] {
+    return fmt::format(
+        "a lift of {:g} steps is the whole travel of the {}, with steps of {} mm; here they are {} mm: is it the right "
+        "profile?",
+        steps, fmt::join(names, " and the "), step_mm, profile_.step_mm);
+  });
 }
 
 bool Judge::fits(double size, double area_mm, double step_mm) const { return size * step_mm <= area_mm + step_mm / 2; }

@@ -35,7 +35,7 @@ class Judge {
         diagnostics_(diagnostics) {}
 
   void moved(const Move& move);
-  void commanded(const Point& target, bool height_alone, const Box& box, const Instruction& by);
+  void commanded(const Point& from, const Point& target, bool height_alone, const Box& box, const Instruction& by);
   void lifted(double steps, const Instruction& by);
   void finish(const Machine& machine);
 
@@ -54,6 +54,8 @@ class Judge {
   template <class Text>
   void warn_once(Cause cause, const Place& place, std::string_view section, Text&& text);
   void judge_stock(const Move& move);
+  void take_plane(const Point& from, const Point& target, const Place& place);
+  void judge_area(const Point& target, const Box& box, const Place& place);
   void judge_sizes();
   bool fits(double size, double area_mm, double step_mm) const;
   double mm(double steps) const { return steps * profile_.step_mm; }
@@ -64,7 +66,7 @@ class Judge {
   std::vector<KnownMachine> others_;
   Diagnostics& diagnostics_;
   std::set<Cause> told_;
-  Bounds asked_;  // of what was commanded
+  Bounds asked_;  // of what was commanded; X and Y of what cuts alone, where the origin is known
   Place widest_x_, widest_y_, deepest_;
   std::optional<Place> last_;
 };

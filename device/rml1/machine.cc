@@ -17,6 +17,19 @@ double snapped(double steps) {
   return std::abs(steps - whole) < 1e-6 ? whole : steps;
 }
 
+double Point::*part_of(char letter) {
+  switch (letter) {
+    case 'X':
+      return &Point::x;
+    case 'Y':
+      return &Point::y;
+    case 'Z':
+      return &Point::z;
+    default:
+      return nullptr;
+  }
+}
+
 }  // namespace
 
 double Move::cutting_part() const {
@@ -31,11 +44,11 @@ Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnosti
       origin_(origin),
       diagnostics_(diagnostics),
       listener_(listener),
-      surface_known_(origin.has_value()),
+      travel_(snapped(profile.steps(profile.z_mm))),
+      z0_unsure_(origin ? 0 : travel_),
       clipper_({}, {}),
       rpm_(profile.spindle.rpm(0)) {
-  const double below_top = origin ? snapped(profile.steps(origin->z)) : snapped(profile.steps(profile.z_mm));
-  z0_ = profile.top - profile.up * below_top;
+  z0_ = profile.top - profile.up * (origin ? snapped(profile.steps(origin->z)) : travel_);
   clipper_ = Clipper(area(), {0, 0, area().highest.z});
   commanded_ = clipper_.tool();
   set_defaults();
@@ -43,9 +56,8 @@ Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnosti
 
 // Where nothing is known of X and Y they have no edge; where nothing is known of Z0 it may lie anywhere on the travel.
 Box Machine::area() const {
-  const double travel = snapped(profile_.steps(profile_.z_mm));
   const double top = above_surface(profile_.top);
-  Box box{{-kFar, -kFar, surface_known_ ? top - travel : -travel}, {kFar, kFar, top}};
+  Box box{{-kFar, -kFar, top - z0_unsure_ - travel_}, {kFar, kFar, top}};
   if (origin_) {
     box.lowest.x = -snapped(profile_.steps(origin_->x));
     box.lowest.y = -snapped(profile_.steps(origin_->y));
@@ -127,8 +139,9 @@ void Machine::plot(const Instruction& instruction) {
 void Machine::take_tool(bool lowered, const Instruction& instruction) {
   if (lowered || lowered_) dwell(instruction);
   lowered_ = lowered;
+  lowered_by_default_ = lowered_by_default_ || (lowered && !z1_set_);
   commanded_.z = lowered ? z1_ : z2();
-  move_height(z_speed_, instruction);
+  move_height(commanded_.z, instruction);
 }
 
 void Machine::feed(const Instruction& instruction) {
@@ -146,26 +159,26 @@ void Machine::extension(const Instruction& instruction) {
   if (instruction.first) dwell(instruction);
   const AxisTarget* rotation = nullptr;
   Point there = clipper_.commanded();
+  bool moves = false;
   for (const AxisTarget& axis : instruction.axes) {
-    const bool here = profile_.axes.find(axis.letter) != std::string::npos;
-    if (here && axis.letter == 'X') {
-      there.x = aim(commanded_.x, axis.value);
-    } else if (here && axis.letter == 'Y') {
-      there.y = aim(commanded_.y, axis.value);
-    } else if (here && axis.letter == 'Z') {
-      there.z = aim(commanded_.z, axis.value);
+    if (const auto linear = profile_.axes.find(axis.letter) == std::string::npos ? nullptr : part_of(axis.letter)) {
+      there.*linear = aim(commanded_.*linear, axis.value);
+      moves = true;
     } else if (profile_.rotary && axis.letter == profile_.rotary->letter) {
       rotation = &axis;
     } else if (!other_axis_told_) {
       other_axis_told_ = true;
       diagnostics_.add(0, Severity::warning, axis.place, "3-3", [&] {
-        return fmt::format("the {} has no axis {}: what is told of it is ignored", profile_.name, axis.letter);
+        return fmt::format(
+            "the {0} has no axis {1}: what is told of it is ignored (where it has one, [rotary] belongs into its "
+            "profile)",
+            profile_.name, axis.letter);
       });
     }
   }
   const double lift = there.z - clipper_.commanded().z;
   if (lift > 0) listener_.lifted(relative_ ? lift : commanded_.z, instruction);
-  move_to(there, z_speed_, instruction);
+  if (moves) move_to(there, z_speed_, instruction);
   if (rotation != nullptr) turn(*rotation, instruction);
 }
 
@@ -183,8 +196,14 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
 // It then stops the spindle motor." Where the origin is outside, to the nearest place (3-1 H).
 void Machine::home(const Instruction& instruction) {
   const double top = box().highest.z;
-  clipper_.drive_to({tool().x, tool().y, top}, driven(profile_.speed.travel_z, instruction, false));
-  clipper_.drive_to({0, 0, top}, driven(profile_.speed.travel, instruction, false));
+  if (top > 0 && z2() <= 0) {
+    diagnostics_.add(0, Severity::warning, instruction.place, instruction.row->section, [] {
+      return "goes home while Z2 = 0: a machine that goes home at Z2, and not at the top, drags the tool over the "
+             "surface of the workpiece";
+    });
+  }
+  clipper_.drive_to({tool().x, tool().y, top}, driven(profile_.speed.travel_z, instruction));
+  clipper_.drive_to({0, 0, top}, driven(profile_.speed.travel, instruction));
   commanded_ = tool();
   turning_ = false;
 }
@@ -200,7 +219,7 @@ void Machine::initialize(const Instruction& instruction) {
                      : "Z2 = 0 was set: a machine that keeps it over IN takes the tool to the surface";
     });
   }
-  clipper_.drive_to({tool().x, tool().y, z2()}, driven(z_speed_, instruction, false));
+  clipper_.drive_to({tool().x, tool().y, z2()}, driven(z_speed_, instruction));
   commanded_ = tool();
   turning_ = false;
 }
@@ -210,17 +229,18 @@ void Machine::set_defaults() {
   z_speed_ = profile_.speed.z_default;
   dwell_s_ = 0;
   permitted_ = true;
+  default_heights();
+}
+
+void Machine::default_heights() {
   z1_ = profile_.default_z1;
+  z1_set_ = false;
   z2_ = profile_.default_z2;
 }
 
 // "If an error occurs with either Z1 or Z2, the setting is made for the one for which no error resulted" (3-3 !PZ).
 void Machine::set_heights(const Instruction& instruction) {
-  if (instruction.count == 0) {
-    z1_ = profile_.default_z1;
-    z2_ = profile_.default_z2;
-    return;
-  }
+  if (instruction.count == 0) return default_heights();
   if (instruction.given[0] && instruction.values[0] < box().lowest.z) {
     diagnostics_.error(3, instruction.places[0], instruction.row->section, [&] {
       return fmt::format("Z1 at {} lies below the work area, which ends at {}: it is not set", instruction.values[0],
@@ -228,6 +248,7 @@ void Machine::set_heights(const Instruction& instruction) {
     });
   } else if (instruction.given[0]) {
     z1_ = instruction.values[0];
+    z1_set_ = true;
   }
   if (instruction.count < 2 || !instruction.given[1]) return;
   z2_ = instruction.values[1];
@@ -241,13 +262,12 @@ void Machine::set_spindle(const Instruction& instruction) {
   if (!permitted_) turning_ = false;
 }
 
-// Where Z0 is not known nobody can tell where a relative height lies.
 bool Machine::reachable(double height, const Instruction& instruction) {
-  if (relative_ && !surface_known_) return true;
   const double below_top = profile_.up * (profile_.top - height);
-  const double travel = snapped(profile_.steps(profile_.z_mm));
-  if (below_top >= 0 && below_top <= travel) return true;
-  const double bottom = profile_.top - profile_.up * travel;
+  // A relative height counts from a Z0 that may lie higher than it is taken to lie.
+  const double lowest = travel_ + (relative_ ? z0_unsure_ : 0);
+  if (below_top >= 0 && below_top <= lowest) return true;
+  const double bottom = profile_.top - profile_.up * travel_;
   const Place& place = instruction.count > 0 ? instruction.places[0] : instruction.place;
   diagnostics_.error(3, place, instruction.row->section, [&] {
     return fmt::format("the machine coordinate {} is outside of Z's travel, {} to {}", height,
@@ -262,18 +282,26 @@ void Machine::set_height(const Instruction& instruction) {
   const double height = target(instruction.values[0], height_of(commanded_.z));
   if (!reachable(height, instruction)) return;
   commanded_.z = above_surface(height);
-  move_height(z_speed_, instruction);
+  move_height(above_surface(std::round(height)), instruction);
 }
 
 void Machine::set_surface(const Instruction& instruction) {
   const bool given = instruction.count > 0;
   const double height = given ? target(instruction.values[0], height_of(commanded_.z)) : profile_.default_z0;
   if (!reachable(height, instruction)) return;
-  const double shift = profile_.up * (z0_ - height);
-  z0_ = height;
-  surface_known_ = surface_known_ || !given || !relative_;
-  commanded_.z += shift;
-  clipper_.shift(shift, area());
+  const double shift = above_surface(height);
+  take_surface(height, given && relative_);
+  commanded_.z -= shift;
+  clipper_.shift(-shift, area());
+}
+
+// What was unsure before a relative height is unsure behind it, but for what would lie outside of the travel.
+void Machine::take_surface(double height, bool keeps_unsure) {
+  const double below_top = profile_.up * (profile_.top - height);
+  const double lowest = std::min(below_top, travel_);
+  const double highest = keeps_unsure ? std::max(0.0, below_top - z0_unsure_) : lowest;
+  z0_ = profile_.top - profile_.up * lowest;
+  z0_unsure_ = lowest - highest;
 }
 
 void Machine::pause(const Instruction& instruction) {
@@ -293,14 +321,15 @@ double Machine::aim(double& commanded, double value) const {
   return std::round(commanded);
 }
 
-void Machine::move_height(double speed, const Instruction& instruction) {
+void Machine::move_height(double z, const Instruction& instruction) {
   Point there = clipper_.commanded();
-  there.z = std::round(commanded_.z);
-  move_to(there, speed, instruction, true);
+  there.z = z;
+  move_to(there, z_speed_, instruction, true);
 }
 
 void Machine::move_to(const Point& there, double speed, const Instruction& instruction, bool height_alone) {
-  listener_.commanded(there, height_alone, instruction);
+  start_spindle(instruction);
+  listener_.commanded(clipper_.commanded(), there, height_alone, instruction);
   const bool holds = profile_.holds_flat_commands && instruction.row->deed == Deed::plot;
   const Point held = box().held(there);
   clipper_.move_to(holds ? Point{held.x, held.y, there.z} : there, driven(speed, instruction));
@@ -310,22 +339,18 @@ void Machine::dwell(const Instruction& instruction) {
   if (dwell_s_ > 0) listener_.waited(Wait::dwell, dwell_s_, instruction.end);
 }
 
-// "the spindle motor is made to rotate from a stopped state, and then the movement is performed" (3-3 !MC).
+// "At the time of a command that involves movement" (5-2), whether there is a way to go or not.
 void Machine::start_spindle(const Instruction& instruction) {
   if (!permitted_ || turning_) return;
   turning_ = true;
   listener_.waited(Wait::spin_up, profile_.spindle.spin_up_s, instruction.end);
 }
 
-Clipper::Driven Machine::driven(double speed, const Instruction& by, bool starts_spindle) {
-  return [this, speed, &by, starts_spindle](Piece piece, const Point& from, const Point& to) {
-    drive(piece, from, to, speed, by, starts_spindle);
-  };
+Clipper::Driven Machine::driven(double speed, const Instruction& by) {
+  return [this, speed, &by](Piece piece, const Point& from, const Point& to) { drive(piece, from, to, speed, by); };
 }
 
-void Machine::drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by,
-                    bool starts_spindle) {
-  if (starts_spindle) start_spindle(by);
+void Machine::drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by) {
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
   listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->deed == Deed::plot, turning_, by.end,

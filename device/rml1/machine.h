@@ -29,6 +29,7 @@ struct Move {
   Place place;             // where it begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
+  bool lifts() const { return from.x == to.x && from.y == to.y && to.z > from.z; }
   // Along the surface too, where the tool is lowered.
   bool cuts() const { return below_surface() || (lowered && from.z == 0 && to.z == 0); }
   double cutting_part() const;  // of its length, 0 to 1
@@ -46,9 +47,8 @@ class MachineListener : public MoveListener {
  public:
   // `end`: bytes of the job that had to come before.
   virtual void waited(Wait what, double seconds, std::uint64_t end) = 0;
-  // A path was commanded to there, whatever clipping made of it, or only to that height. Steps, in workpiece
-  // coordinates.
-  virtual void commanded(const Point& target, bool height_alone, const Instruction& by) = 0;
+  // A straight path was commanded, whatever clipping makes of it; or only a height. Steps, in workpiece coordinates.
+  virtual void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) = 0;
   // The tool was lifted by so many steps, or to that height above Z0, by a command.
   virtual void lifted(double steps, const Instruction& by) = 0;
 };
@@ -65,6 +65,7 @@ class Machine : public ParserListener {
   bool tool_lowered() const { return lowered_; }
   bool spindle_turns() const { return turning_; }
   double z1() const { return z1_; }
+  bool lowered_by_default() const { return lowered_by_default_; }  // to a Z1 that the job had not set
   double z2() const { return z2_.value_or(box().highest.z); }
   double cutting_speed() const { return cutting_speed_; }  // mm/s
   double z_speed() const { return z_speed_; }              // mm/s
@@ -80,10 +81,12 @@ class Machine : public ParserListener {
   void home(const Instruction& instruction);
   void initialize(const Instruction& instruction);
   void set_defaults();
+  void default_heights();
   void set_heights(const Instruction& instruction);
   void set_spindle(const Instruction& instruction);
   void set_height(const Instruction& instruction);
   void set_surface(const Instruction& instruction);
+  void take_surface(double height, bool keeps_unsure);
   void pause(const Instruction& instruction);
 
   Box area() const;
@@ -91,11 +94,11 @@ class Machine : public ParserListener {
   double target(double value, double present) const { return relative_ ? present + value : value; }
   double aim(double& commanded, double value) const;
   void move_to(const Point& target, double speed, const Instruction& instruction, bool height_alone = false);
-  void move_height(double speed, const Instruction& instruction);
+  void move_height(double z, const Instruction& instruction);
   void dwell(const Instruction& instruction);
   void start_spindle(const Instruction& instruction);
-  Clipper::Driven driven(double speed, const Instruction& instruction, bool starts_spindle = true);
-  void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by, bool starts_spindle);
+  Clipper::Driven driven(double speed, const Instruction& instruction);
+  void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by);
   double possible(double speed, const Point& way) const;
   double height_of(double z) const { return z0_ + profile_.up * z; }                  // machine coordinate
   double above_surface(double height) const { return profile_.up * (height - z0_); }  // of a machine coordinate
@@ -105,12 +108,14 @@ class Machine : public ParserListener {
   Diagnostics& diagnostics_;
   MachineListener& listener_;
 
-  double z0_ = 0;  // machine coordinate, in steps
-  bool surface_known_ = false;
+  const double travel_;   // of Z, in steps
+  double z0_ = 0;         // machine coordinate, in steps, of the lowest place where Z0 may lie
+  double z0_unsure_ = 0;  // by how many steps Z0 may lie higher
   Clipper clipper_;
   Point commanded_;  // not rounded: the sums of PR are not either
   bool relative_ = false, lowered_ = false;
   double z1_ = 0;
+  bool z1_set_ = false, lowered_by_default_ = false;
   std::optional<double> z2_;  // none: the top
   double cutting_speed_ = 0, z_speed_ = 0;
   double dwell_s_ = 0;

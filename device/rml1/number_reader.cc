@@ -18,8 +18,7 @@ double NumberReader::value() const {
                                        1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16, 1e17, 1e18};
   double value = static_cast<double>(mantissa_);
   if (decimals_ > 0) value /= kPowers[decimals_];
-  // Digits without end: far beyond any range, but not beyond a double.
-  if (tens_ > 0) value *= std::pow(10, tens_ < 200 ? tens_ : 200);
+  if (tens_ > 0) value *= std::pow(10, tens_);
   return negative_ ? -value : value;
 }
 

@@ -34,7 +34,7 @@ class NumberReader {
     if (mantissa_ < kFull && decimals_ < kDecimals) {
       mantissa_ = mantissa_ * 10 + static_cast<std::uint64_t>(c - '0');
       if (point_) ++decimals_;
-    } else if (!point_) {
+    } else if (!point_ && tens_ < kTens) {
       ++tens_;
     }
   }
@@ -42,6 +42,8 @@ class NumberReader {
   // Below it one more digit fits. What does not is far below anything that a step could show.
   static constexpr std::uint64_t kFull = 100'000'000'000'000'000;
   static constexpr int kDecimals = 18;
+  // Digits without end: far beyond any range, but not beyond a double.
+  static constexpr int kTens = 200;
 
   std::uint64_t mantissa_ = 0;
   int decimals_ = 0, tens_ = 0;

@@ -193,9 +193,10 @@ void Parser::unknown(char second) {
   const int number = called_ && !eighth_bit ? 2 : 1;
   diagnostics_.error(number, name_place_, number == 2 ? "3-1" : "2-3", [&]() -> std::string {
     if (eighth_bit) return "a byte of 0x80 or more is no part of RML-1";
-    if (number == 2) return fmt::format("^ is followed by {}, which begins no mode 2 command", shown(first_));
-    return fmt::format("there is no command {}{}{}", state_ == State::common_second ? "!" : "", shown(first_),
-                       is_letter(second) ? std::string(1, second) : "");
+    const std::string name = fmt::format("{}{}{}", state_ == State::common_second ? "!" : "", shown(first_),
+                                         is_letter(second) ? std::string(1, second) : "");
+    if (number == 2) return fmt::format("^ is followed by {}, which is no mode 2 command", name);
+    return "there is no command " + name;
   });
   called_ = false;
   state_ = State::search;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/locale/encoding_utf.hpp>
 #include <cmath>
 
 namespace axisgate::rml1 {
@@ -56,13 +57,16 @@ class Layout {
     }
   }
 
+  const std::vector<Picture::Rectangle>& rectangles() const { return picture_.rectangles; }
+
   void add_heading(const std::string& title) { picture_.labels.push_back({kMargin, kMargin * 0.6, title, true}); }
 
   void add_legend(const std::vector<std::string>& lines, double deepest_mm) {
     double y = picture_.height;
     for (const std::string& line : lines) picture_.labels.push_back({kMargin, y += kLine, line});
     y += kLine;
-    for (int shade = 0; shade < kShades; ++shade) {
+    const int shades = deepest_mm > 0 ? kShades : 1;
+    for (int shade = 0; shade < shades; ++shade) {
       const double x = kMargin + shade * 100.0;
       picture_.rectangles.push_back({Picture::Rectangle::Kind::swatch, x, y, kSwatch, kSwatch, shade});
       picture_.labels.push_back(
@@ -86,18 +90,21 @@ class Layout {
   Picture picture_;
 };
 
-std::vector<std::string> legend(const Check& check, const Profile& profile, const Strokes& strokes) {
+std::vector<std::string> legend(const Check& check, const Profile& profile, const Strokes& strokes,
+                                const std::vector<Picture::Rectangle>& drawn) {
   const Summary& job = check.summary();
   const Reach& feeds = strokes.feeds();
   std::vector<std::string> lines;
-  lines.push_back(
-      fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; {:.0f} to {:.0f} s, by assumed "
-                  "accelerations",
-                  job.commands, job.distance_mm, job.cutting_mm, job.seconds_low, job.seconds_high));
+  lines.push_back(fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; {}, by assumed accelerations",
+                              job.commands, job.distance_mm, job.cutting_mm, time_text(job)));
   if (feeds.any)
     lines.push_back(fmt::format("cuts at {} mm/s, {} rpm", to_string(feeds), job.rpm.any ? to_string(job.rpm) : "0"));
-  lines.push_back(
-      fmt::format("steps of {} mm; dashed: work area; filled: stock; cross: work origin, Z0", profile.step_mm));
+  const auto shows = [&drawn](Picture::Rectangle::Kind kind) {
+    return std::any_of(drawn.begin(), drawn.end(), [kind](const auto& one) { return one.kind == kind; });
+  };
+  lines.push_back(fmt::format("steps of {} mm{}{}; cross: work origin, Z0", profile.step_mm,
+                              shows(Picture::Rectangle::Kind::work_area) ? "; dashed: work area" : "",
+                              shows(Picture::Rectangle::Kind::stock) ? "; filled: stock" : ""));
   return lines;
 }
 
@@ -107,12 +114,22 @@ const std::array<const char*, kShades> kShadeColours = {"#9aa5b1", "#fdcc8a", "#
                                                         "#d7301f", "#a50f15", "#7a0177", "#3f007d"};
 
 void Strokes::moved(const Move& move) {
+  if (move.from.z * move.to.z < 0) {
+    const Point surface = move.from + (move.to - move.from) * (move.from.z / (move.from.z - move.to.z));
+    add(move.from, surface, move.from.z < 0);
+    add(surface, move.to, move.to.z < 0);
+  } else {
+    add(move.from, move.to, move.cuts());
+  }
+  lowest_ = std::min({lowest_, move.from.z, move.to.z});
+  if (move.cuts() && !move.lifts()) feeds_.take(move.speed);
+}
+
+void Strokes::add(const Point& from, const Point& to, bool cuts) {
   const auto single = [](const Point& p) {
     return std::array<float, 3>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   };
-  all_.push_back({single(move.from), single(move.to), move.cuts()});
-  lowest_ = std::min({lowest_, move.from.z, move.to.z});
-  if (move.cuts()) feeds_.take(move.speed);
+  all_.push_back({single(from), single(to), cuts});
 }
 
 int Strokes::shade(const Stroke& stroke) const {
@@ -125,7 +142,8 @@ int Strokes::shade(const Stroke& stroke) const {
 Picture make_picture(const std::string& title, const Check& check, const Profile& profile, std::optional<Stock> stock,
                      bool origin_known, const Strokes& strokes) {
   Layout layout(extent(check, profile, stock, origin_known), profile);
-  layout.add_heading(title + " on the " + profile.name);
+  // A file's name may be of any bytes; what is no UTF-8 is left out.
+  layout.add_heading(boost::locale::conv::utf_to_utf<char>(title) + " on the " + profile.name);
   if (origin_known) {
     const Box& box = check.machine().box();
     layout.add_box(Picture::Rectangle::Kind::work_area, box.lowest, box.highest);
@@ -134,7 +152,7 @@ Picture make_picture(const std::string& title, const Check& check, const Profile
     layout.add_box(Picture::Rectangle::Kind::stock, {0, 0, -profile.steps(stock->z)},
                    {profile.steps(stock->x), profile.steps(stock->y), 0});
   }
-  layout.add_legend(legend(check, profile, strokes), -strokes.lowest() * profile.step_mm);
+  layout.add_legend(legend(check, profile, strokes, layout.rectangles()), -strokes.lowest() * profile.step_mm);
   return layout.picture(strokes);
 }
 

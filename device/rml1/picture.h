@@ -14,7 +14,7 @@ namespace axisgate::rml1 {
 inline constexpr int kShades = 9;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
-// Collects the moves while a job is checked.
+// Collects the moves while a job is checked: 28 bytes each, as many as there are.
 class Strokes : public MoveListener {
  public:
   struct Stroke {
@@ -26,10 +26,12 @@ class Strokes : public MoveListener {
 
   const std::vector<Stroke>& all() const { return all_; }
   double lowest() const { return lowest_; }      // steps; 0 or below
-  const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts
+  const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts on its way along or down
   int shade(const Stroke& stroke) const;
 
  private:
+  void add(const Point& from, const Point& to, bool cuts);
+
   std::vector<Stroke> all_;
   double lowest_ = 0;
   Reach feeds_;

@@ -11,10 +11,6 @@ void Planner::move(const Point& way, double speed, double arrival) {
   segment.speed = speed;
   segment.direction = way * (1 / segment.length);
   segment.arrival = arrival;
-  if (!corner_) {
-    clock_ = std::max(clock_, arrival) + duration(segment, 0, 0);
-    return;
-  }
   if (!waiting_.empty()) segment.entry_most = corner_speed(waiting_.back(), segment);
   waiting_.push_back(segment);
   plan_backwards();
@@ -29,7 +25,7 @@ double Planner::finish() {
   return clock_;
 }
 
-// The speed at which an arc that cuts the corner by `corner_` can be followed with the acceleration that there is.
+// The speed at which an arc that cuts the corner by `corner_mm_` can be followed with the acceleration that there is.
 double Planner::corner_speed(const Segment& before, const Segment& after) const {
   const Point& a = before.direction;
   const Point& b = after.direction;
@@ -37,7 +33,7 @@ double Planner::corner_speed(const Segment& before, const Segment& after) const 
   const double half_sine = std::sqrt(std::max(0.0, (1 - cosine) / 2));
   const double slower = std::min(before.speed, after.speed);
   if (half_sine > 0.999999) return slower * slower;
-  return std::min(slower * slower, acceleration_ * *corner_ * half_sine / (1 - half_sine));
+  return std::min(slower * slower, acceleration_ * corner_mm_ * half_sine / (1 - half_sine));
 }
 
 // Each must be able to stop before the end of the last. Before the first whose entry stays as it was, all do.

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <deque>
-#include <optional>
 
 #include "device/rml1/point.h"
 
@@ -12,10 +11,9 @@ namespace axisgate::rml1 {
 // One way of driving, on one clock. Moves may come before their bytes: they wait for them.
 class Planner {
  public:
-  // mm/s2; how far a corner may be cut, in mm: none, and every move ends at rest; how many times as long each move
-  // takes.
-  Planner(double acceleration, std::optional<double> corner_mm, double slower = 1)
-      : acceleration_(acceleration), corner_(corner_mm), slower_(slower) {}
+  // mm/s2; how far a corner may be cut, in mm; how many times as long each move takes.
+  Planner(double acceleration, double corner_mm, double slower = 1)
+      : acceleration_(acceleration), corner_mm_(corner_mm), slower_(slower) {}
 
   // `way` in mm, not nothing; mm/s; seconds from the job's beginning until it can be known to the machine.
   void move(const Point& way, double speed, double arrival);
@@ -41,7 +39,7 @@ class Planner {
   static constexpr std::size_t kLookAhead = 64;
 
   double acceleration_;
-  std::optional<double> corner_;
+  double corner_mm_;
   double slower_;
   std::deque<Segment> waiting_;
   double entry_ = 0;  // of the first that waits, mm2/s2

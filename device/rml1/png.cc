@@ -1,7 +1,9 @@
 #include <cairo.h>
 
+#include <array>
 #include <charconv>
 #include <memory>
+#include <vector>
 
 #include "device/rml1/picture.h"
 
@@ -38,22 +40,30 @@ void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
   }
 }
 
-void draw_view(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
+using Shaded = std::array<std::vector<const Strokes::Stroke*>, kShades>;
+
+Shaded by_shade(const Strokes& strokes) {
+  Shaded shaded;
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    shaded[static_cast<std::size_t>(strokes.shade(stroke))].push_back(&stroke);
+  }
+  return shaded;
+}
+
+void draw_view(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::View& view) {
   const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
   const auto point = [&](const std::array<float, 3>& p, auto to) {
     to(cairo, view.x + p[across] * view.scale, view.y - p[up] * view.scale);
   };
   // What is a pixel apart looks the same without smooth edges, and is drawn in a fraction of the time.
-  const bool many = picture.strokes->all().size() > kMany;
   cairo_set_antialias(cairo, many ? CAIRO_ANTIALIAS_NONE : CAIRO_ANTIALIAS_DEFAULT);
-  for (int shade = 0; shade < kShades; ++shade) {
-    set_colour(cairo, kShadeColours[static_cast<std::size_t>(shade)]);
+  for (std::size_t shade = 0; shade < shaded.size(); ++shade) {
+    set_colour(cairo, kShadeColours[shade]);
     cairo_set_line_width(cairo, shade == 0 ? 0.6 : 1);
     int waiting = 0;
-    for (const Strokes::Stroke& stroke : picture.strokes->all()) {
-      if (picture.strokes->shade(stroke) != shade) continue;
-      point(stroke.from, cairo_move_to);
-      point(stroke.to, cairo_line_to);
+    for (const Strokes::Stroke* stroke : shaded[shade]) {
+      point(stroke->from, cairo_move_to);
+      point(stroke->to, cairo_line_to);
       if (++waiting % kAtOnce == 0) cairo_stroke(cairo);
     }
     cairo_stroke(cairo);
@@ -79,14 +89,17 @@ bool write_png(const Picture& picture, const std::string& file) {
   set_colour(cairo.get(), "#ffffff");
   cairo_paint(cairo.get());
   for (const Picture::Rectangle& one : picture.rectangles) draw_rectangle(cairo.get(), one);
-  for (const Picture::View& view : picture.views) draw_view(cairo.get(), picture, view);
+  const Shaded shaded = by_shade(*picture.strokes);
+  const bool many = picture.strokes->all().size() > kMany;
+  for (const Picture::View& view : picture.views) draw_view(cairo.get(), shaded, many, view);
   set_colour(cairo.get(), "#222222");
   for (const Picture::Label& label : picture.labels) {
     cairo_set_font_size(cairo.get(), label.heading ? 18 : 12);
     cairo_move_to(cairo.get(), label.x, label.y);
     cairo_show_text(cairo.get(), label.text.c_str());
   }
-  return cairo_surface_write_to_png(surface.get(), file.c_str()) == CAIRO_STATUS_SUCCESS;
+  return cairo_status(cairo.get()) == CAIRO_STATUS_SUCCESS &&
+         cairo_surface_write_to_png(surface.get(), file.c_str()) == CAIRO_STATUS_SUCCESS;
 }
 
 }  // namespace axisgate::rml1

@@ -26,7 +26,8 @@ class ProfileReader {
     ConfigTable root(source, "", file_, errors_);
     profile.name = needed(root, "name", root.text("name"), "the machine's name");
     if (profile.name.empty() && root.has("name")) root.error("name", "is empty; use the machine's name");
-    profile.step_mm = above_zero(root, "step_mm", 10, "the way of one step in mm, 0.01");
+    constexpr std::string_view kStep = "the way of one step in mm, 0.0001 to 10";
+    profile.step_mm = needed(root, "step_mm", root.number("step_mm", 0.0001, 10, kStep), kStep);
     section(root, "area", [&](ConfigTable& table) { read_area(table, profile); });
     section(root, "z", [&](ConfigTable& table) { read_z(table, profile); });
     section(root, "tool", [&](ConfigTable& table) { read_tool(table, profile); });
@@ -155,10 +156,10 @@ class ProfileReader {
 
   static void read_axes(ConfigTable& table, Profile& profile) {
     if (const auto letters = table.text("letters")) profile.axes = *letters;
-    const auto capital = [](char c) { return c >= 'A' && c <= 'Z'; };
-    if (!std::all_of(profile.axes.begin(), profile.axes.end(), capital)) {
-      table.error("letters", "will not do; use capital letters, \"XYZ\"");
+    if (profile.axes.find_first_not_of("XYZ") != std::string::npos) {
+      table.error("letters", "will not do; use X, Y and Z: an axis of rotation has a table of its own, [rotary]");
     }
+    const auto capital = [](char c) { return c >= 'A' && c <= 'Z'; };
     for (const std::string& pair : table.texts("apart").value_or(std::vector<std::string>{})) {
       if (pair.size() == 2 && capital(pair[0]) && capital(pair[1])) {
         profile.dialect.apart.push_back(pair);
@@ -171,10 +172,10 @@ class ProfileReader {
   static void read_rotary(ConfigTable& table, Profile& profile) {
     Rotary rotary;
     const std::string letter = needed(table, "letter", table.text("letter"), "the letter of the axis, \"A\"");
-    if (letter.size() == 1 && letter[0] >= 'A' && letter[0] <= 'Z') {
+    if (letter.size() == 1 && letter[0] >= 'A' && letter[0] <= 'W') {
       rotary.letter = letter[0];
     } else if (table.has("letter")) {
-      table.error("letter", "will not do; use one capital letter, \"A\"");
+      table.error("letter", "will not do; use one capital letter that is not X, Y or Z, \"A\"");
     }
     rotary.hundredths = table.choice<bool>("unit", kRotaryUnits).value_or(false);
     rotary.degrees_per_s = above_zero(table, "speed_degrees_per_s", 1e5, "degrees per second");

@@ -1,5 +1,4 @@
-// Coordinates are whole steps, and the view scales them: numbers stay short, and lines are as thin as drawn however one
-// looks at them.
+// Coordinates are whole steps, and the view scales them: numbers stay short.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -41,7 +40,7 @@ std::string escaped(const std::string& text) {
     if (c == '<' || c == '>' || c == '&' || c == '"') {
       safe += fmt::format("&#{};", static_cast<int>(c));
     } else {
-      safe += c < 0x20 ? '?' : c;  // nor is a file's name always UTF-8
+      safe += static_cast<unsigned char>(c) < 0x20 ? '?' : c;
     }
   }
   return safe;
@@ -55,11 +54,17 @@ void add_view(std::string& svg, const Picture& picture, const Picture::View& vie
         std::lround(stroke.from[across]), std::lround(stroke.from[up]), std::lround(stroke.to[across]),
         std::lround(stroke.to[up]));
   }
-  svg += fmt::format("<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\">\n", view.scale,
-                     -view.scale, view.x, view.y);
+  // Not every reader knows strokes that are not scaled.
+  const double pixel = 1 / view.scale;
+  svg += fmt::format(
+      "<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\" stroke-width=\"{4:.6g}\">\n",
+      view.scale, -view.scale, view.x, view.y, pixel);
   for (std::size_t shade = 0; shade < paths.size(); ++shade) {
     if (!paths[shade].begun) continue;
-    svg += fmt::format("<path class=\"{}\" stroke=\"{}\" d=\"", shade == 0 ? "travel" : "cut", kShadeColours[shade]);
+    svg += shade == 0 ? fmt::format("<path class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"",
+                                    0.6 * pixel, 3 * pixel, 2 * pixel)
+                      : "<path class=\"cut\"";
+    svg += fmt::format(" stroke=\"{}\" d=\"", kShadeColours[shade]);
     svg += paths[shade].text;
     svg += "\"/>\n";
   }
@@ -85,8 +90,7 @@ std::string to_svg(const Picture& picture) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
       "{1:.0f}\">\n"
-      "<style>rect.page{{fill:#fff}}.view path{{fill:none;vector-effect:non-scaling-stroke;stroke-width:1;"
-      "stroke-linejoin:round}}.view path.travel{{stroke-width:.6;stroke-dasharray:3 2}}.area{{fill:none;stroke:#555;"
+      "<style>rect.page{{fill:#fff}}.view path{{fill:none;stroke-linejoin:round}}.area{{fill:none;stroke:#555;"
       "stroke-dasharray:6 4}}.stock{{fill:#e8d8b8;fill-opacity:.5;stroke:#a08040}}.origin{{fill:none;stroke:#0060c0;"
       "stroke-width:1.5}}text{{font:12px sans-serif;fill:#222}}text.heading{{font-size:18px;font-weight:bold}}"
       "</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",

@@ -6,6 +6,7 @@ Figures are those of an MDX-20 (deploy/mills): a step is 0.025 mm, the area 203.
 """
 
 import json
+import os
 import pathlib
 import re
 import struct
@@ -115,6 +116,19 @@ class Diagnostics(InAFolder):
                 counts = COUNTS.fullmatch(lines[-1]).groups()
                 self.assertEqual(counts, tuple(str(checked.summary[kind]) for kind in ("errors", "warnings", "notes")))
 
+    def test_a_depth_that_the_job_did_not_set_is_told(self):
+        told = "lowers the tool before it sets Z1: Z -2.50 mm is the profile's, a mill may have another"
+        for job in ("PD;PU;", "@;PD;PU;", HEAD + "DF;PD;PU;"):
+            self.assertIn(told, text_of(job, *ORIGIN), job)
+        for job in ("@-9;PD;PU;", "Z0,0,-9;PU;", "PU;"):
+            self.assertNotIn(told, text_of(job, *ORIGIN), job)
+
+    def test_an_origin_beside_the_machine_is_told(self):
+        for origin in ("-1,0,0", "0,152.5,0"):
+            answer = mill("check", "-", "--profile", PROFILE, "--origin", origin, job="H;")
+            self.assertIn(b"beside the work area", answer.stderr)
+            self.assertEqual(answer.returncode, 0)
+
     def test_shape_of_the_json(self):
         checked = Checked(HEAD + "PD800,0;PU;Q;", *ORIGIN)
         for each in checked.told:
@@ -123,8 +137,8 @@ class Diagnostics(InAFolder):
                               "section": str, "text": str})
         summary = checked.summary
         self.assertEqual(summary["final"], {"x": 800, "y": 0, "z": 200})
-        # Where the tool stood before the job is assumed, and not counted.
-        self.assertEqual(summary["bounds"], {"min": {"x": 0, "y": 0, "z": -100}, "max": {"x": 800, "y": 0, "z": 200}})
+        # All that is driven, from the top on, 20 mm above Z0.
+        self.assertEqual(summary["bounds"], {"min": {"x": 0, "y": 0, "z": -100}, "max": {"x": 800, "y": 0, "z": 800}})
         # From the top, 20 mm above Z0, to Z2 at 5 mm; to Z1, 2.5 mm below Z0; 20 mm along X; to Z2 again.
         self.assertAlmostEqual(summary["distance_mm"], 15 + 7.5 + 20 + 7.5, places=6)
         self.assertEqual([summary[key] for key in ("spin_ups", "commands", "errors", "warnings", "notes", "omitted")],
@@ -283,7 +297,7 @@ class Previews(InAFolder):
         words = self.words(self.svg(*ORIGIN))
         self.assertRegex(words, r"\b4 mm/s")
         seconds = Checked(self.JOB, *ORIGIN).summary["seconds"]
-        self.assertIn(f"{seconds['low']:.0f} to {seconds['high']:.0f} s", words)
+        self.assertIn(f"{seconds['low']:.0f} s to {seconds['high']:.0f} s", words)
         self.assertRegex(words, r"\b4\.50 mm")
 
     def test_names_are_no_markup(self):
@@ -292,6 +306,32 @@ class Previews(InAFolder):
         answer = mill("preview", str(path), "--profile", PROFILE, "-o", str(self.folder / "a.svg"))
         self.assertEqual(answer.returncode, 0)
         self.assertIn(path.name, self.words(xml.etree.ElementTree.parse(self.folder / "a.svg").getroot()))
+
+    def test_names_of_any_bytes(self):
+        """What is no UTF-8 is left out of a picture, and nothing else is."""
+        for name, shown in ((b"k\xc3\xb6rper.rml", "körper.rml on the"), (b"k\xffrper.rml", "krper.rml on the")):
+            path = os.fsencode(self.folder) + b"/" + name
+            with open(path, "wb") as file:
+                file.write(self.JOB.encode())
+            drawn = []
+            for picture in ("a.svg", "a.png"):
+                answer = mill("preview", path, "--profile", PROFILE, "-o", str(self.folder / picture))
+                self.assertEqual((answer.returncode, answer.stderr), (0, b""))
+                drawn.append(self.folder / picture)
+            self.assertIn(shown, self.words(xml.etree.ElementTree.parse(drawn[0]).getroot()))
+            # The legend is there, too: without it the PNG would have lost half of its bytes.
+            plain = self.drawn("plain.png")
+            self.assertGreater(drawn[1].stat().st_size, 0.9 * plain.stat().st_size)
+
+    def test_a_way_through_the_surface_is_cut_below_it(self):
+        """From 5 mm above to 2.5 mm below Z0: the lower third, in the front view."""
+        front = self.classed(self.svg(*ORIGIN, job="!PZ-100,200;PU0,0;Z300,0,-100;PU;"), "view")[1]
+        self.assertEqual(self.classed(front, "cut")[0].get("d").split("l")[0], "M200 0")
+
+    def test_nothing_is_cut(self):
+        words = self.words(self.svg(job="PU100,0;PU0,0;"))
+        self.assertIn("travel", words)
+        self.assertNotIn("0.00 mm", words)
 
     def test_a_png(self):
         content = self.drawn("job.png", *ORIGIN, *STOCK).read_bytes()

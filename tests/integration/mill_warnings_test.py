@@ -53,7 +53,6 @@ class Warnings(InAFolder):
             self.gives("Z2", f"!PZ-100,0;PU;{travel}", travel)
             self.silent(f"!PZ-100,1;PU;{travel}")
         self.silent("!PZ-100,0;PU;!PZ-100,1;PU200,0;")
-        self.silent("!PZ-100,0;H;")
 
     def test_homing_at_z2_on_the_surface(self):
         """IN makes Z2 what the machine has by itself (guideline 3-2 DF 6), which may be what was set, and takes the tool there."""
@@ -67,6 +66,8 @@ class Warnings(InAFolder):
                 else:
                     self.silent(job, *ORIGIN, profile=profile)
             self.silent(HEAD + "PD100,0;PU;H;", *ORIGIN, profile=profile)
+        self.gives("Z2 = 0", "!PZ-100,0;H;", "H")
+        self.silent("!PZ-100,1;H;")
 
     def test_no_spindle(self):
         self.gives("spindle", "!MC0;!PZ-100,200;PU0,0;PD100,0;PU;", "PD100")

@@ -94,8 +94,8 @@ std::string page(const std::vector<Paragraph>& cases) {
   std::string text = R"(# RML-1: clipping, case by case
 
 One geometry of each case A to Q of guideline 5-1; `tests/rml1/clipping/cases.txt` has them all, worked out by hand. Dashed
-red is commanded, blue is driven; the box is the work area, seen from the front, above and the right. Made by a test from
-what the machine drives; do not edit it.
+red is commanded, blue is driven; the box is the work area, seen from the front, above and the right. Made by a test, which
+draws what the machine drives; that it is what stands in the table, `Clipping` tests. Do not edit it.
 
 ![The cases A to Q](clipping.svg)
 

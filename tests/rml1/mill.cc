@@ -24,7 +24,9 @@ class Witness : public ParserListener, public MachineListener {
     constexpr const char* kNames[] = {"spin up", "dwell", "turn"};
     played.waits.push_back(fmt::format("{} {}", kNames[static_cast<std::size_t>(what)], seconds));
   }
-  void commanded(const Point& target, bool, const Instruction&) override { played.commanded.push_back(target); }
+  void commanded(const Point&, const Point& target, bool, const Instruction&) override {
+    played.commanded.push_back(target);
+  }
   void lifted(double, const Instruction&) override {}
 
   void end() {

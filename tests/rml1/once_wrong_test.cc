@@ -1,4 +1,5 @@
 // What was wrong once, each with the smallest job that showed it.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -119,6 +120,53 @@ TEST(OnceWrong, AHeightOfTheProfileWasBlamedOnAnEarlierNumber) {
   Profile profile = test_profile();
   profile.default_z0 = 100;
   EXPECT_THAT(told(play("PU0,0;!ZO;", profile, kMidway).diagnostics), ElementsAre("error 3 at 6"));
+}
+
+// Z travels 6050 steps, and nobody knows where Z0 lies; but it lies on the travel.
+TEST(OnceWrong, ARelativeSurfaceWithoutAnOriginHadNoEnd) {
+  const auto told_of = [](const char* job) { return told(play(job, test_profile()).diagnostics); };
+  EXPECT_THAT(told_of("PR;!ZO6051;"), ElementsAre("error 3 at 6"));
+  // From 100 below Z0 a whole travel down: only from the top to the bottom.
+  EXPECT_THAT(told_of("PD;PR;!ZO-5950;"), IsEmpty());
+  EXPECT_THAT(told_of("PD;PR;!ZO-5950;!ZO-5951;"), ElementsAre("error 3 at 18"));
+  for (const char* job : {"PD;PR;!ZO-5950;", "PD;PR;!ZO-6000;PD;", "PR;!ZO0;!ZO-100;PD9,9;"}) {
+    const Box box = play(job, test_profile()).box;
+    EXPECT_LE(box.lowest.z, box.highest.z) << job;
+  }
+}
+
+// The top is 493.2 steps above Z0.
+TEST(OnceWrong, TheTopWasRoundedDown) {
+  const Profile profile = test_profile();
+  const Origin origin{10, 10, 493.2 * profile.step_mm};
+  EXPECT_THAT(play("PU;", profile, origin).moves, IsEmpty());
+  EXPECT_THAT(play("!ZM0;", profile, origin).moves, IsEmpty());
+  EXPECT_NEAR(play("!ZM-10;", profile, origin).final.z, 483.2, 1e-9);
+}
+
+// A hole is drilled by PD alone. Z0 lies 10 steps above the bottom.
+TEST(OnceWrong, AHoleBelowTheBottomWasSilent) {
+  const Profile profile = test_profile();
+  const Origin origin{10, 10, profile.z_mm - 10 * profile.step_mm};
+  const auto check = checked("!PZ-5,9;PD;PU;!PZ-11,9;", profile, {origin, {}, {}});
+  EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre(testing::HasSubstr("error 3")));
+  EXPECT_THAT(told(checked("!PZ-5;!ZO-6047;PD;PU;", profile, {origin, {}, {}})->diagnostics().kept()),
+              ElementsAre("warning 0 at 15"));
+}
+
+TEST(OnceWrong, ACutFromTheBeginningHadNoSize) {
+  EXPECT_THAT(told(checked("PD65000,0;PU;", test_profile())->diagnostics().kept()), ElementsAre("error 0 at 0"));
+}
+
+// Where the origin is known, it is known that the way to a parking place is not driven beyond the edge.
+TEST(OnceWrong, ParkingOutsideWasLargerThanTheMachine) {
+  const auto check = checked("PU0,0;PD1000,0;PU65000,0;", test_profile(), {kMidway, {}, {}});
+  EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("note 0 at 15"));
+}
+
+TEST(OnceWrong, ANameBehindACircumflexWasToldInPart) {
+  EXPECT_THAT(play("^!XX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by !XX"));
+  EXPECT_THAT(play("^PX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by PX"));
 }
 
 }  // namespace

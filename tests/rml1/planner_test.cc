@@ -21,7 +21,7 @@ struct Leg {
   double arrival = 0;
 };
 
-double seconds(const std::vector<Leg>& legs, std::optional<double> corner = kCorner) {
+double seconds(const std::vector<Leg>& legs, double corner = kCorner) {
   Planner planner(kAcceleration, corner);
   for (const Leg& leg : legs) planner.move(leg.way, leg.speed, leg.arrival);
   return planner.finish();
@@ -51,7 +51,7 @@ TEST(Planner, TakesPiecesInOneLineAsOneMove) {
   EXPECT_NEAR(seconds(std::vector<Leg>(1000, {{0.03, 0, 0}})), trapezoid(30, 10), 1e-9);
 }
 
-TEST(Planner, StopsAfterEachMoveWithoutCorners) { EXPECT_NEAR(seconds({{{5, 0, 0}}, {{5, 0, 0}}}, {}), 1.2, 1e-12); }
+TEST(Planner, StopsAtACornerThatMayNotBeCut) { EXPECT_NEAR(seconds({{{5, 0, 0}}, {{0, 5, 0}}}, 0), 1.2, 1e-12); }
 
 TEST(Planner, StopsForAReversal) {
   EXPECT_NEAR(seconds({{{5, 0, 0}}, {{-5, 0, 0}}}), 1.2, 1e-9);
@@ -95,7 +95,7 @@ TEST(Planner, WaitsForTheBytesOfAMove) {
 }
 
 TEST(Planner, StandsStillForAPause) {
-  for (const std::optional<double> corner : {std::optional<double>(kCorner), std::optional<double>()}) {
+  for (const double corner : {kCorner, 0.0}) {
     Planner planner(kAcceleration, corner);
     planner.pause(1, 0);
     planner.move({5, 0, 0}, 10, 0);
@@ -184,7 +184,7 @@ TEST(Planner, LowEndIsNeverAboveTheHighEnd) {
   for (unsigned seed = 1; seed <= 40; ++seed) {
     std::mt19937 random(seed);
     const double longest = std::pow(10, static_cast<int>(seed % 5) - 2);
-    Planner low(kAcceleration * (1 + seed % 3), kCorner), high(kAcceleration, {});
+    Planner low(kAcceleration * (1 + seed % 3), kCorner), high(kAcceleration, kCorner, 1.5);
     double arrival = 0;
     for (const Leg& leg : chain(seed, longest / 100, longest)) {
       arrival += static_cast<double>(random() % 1000) * longest / 2e4;

@@ -200,7 +200,7 @@ struct Wrong {
 };
 
 TEST(Profile, TellsOfEachValueOutOfRange) {
-  const std::vector<Wrong> all = {{"step_mm", {"0", "-0.01", "11", "nan"}},
+  const std::vector<Wrong> all = {{"step_mm", {"0", "-0.01", "0.00009", "11", "nan"}},
                                   {"area.x_mm", {"0", "-1", "10001", "inf"}},
                                   {"area.y_mm", {"0", "-1", "10001"}},
                                   {"area.z_mm", {"0", "-1", "10001"}},
@@ -227,9 +227,9 @@ TEST(Profile, TellsOfEachValueOutOfRange) {
                                   {"spindle.rpm_per_stage", {"-1", "1000001"}},
                                   {"spindle.spin_up_s", {"-1", "601"}},
                                   {"line.baud", {"0", "299", "10000001", "9600.5"}},
-                                  {"axes.letters", {"\"xyz\"", "\"X1\"", "\"X Y\""}},
+                                  {"axes.letters", {"\"xyz\"", "\"X1\"", "\"X Y\"", "\"XYZA\""}},
                                   {"axes.apart", {"[\"Y\"]", "[\"YAB\"]", "[\"ya\"]", "[1]", "[\"YA\", \"Y1\"]"}},
-                                  {"rotary.letter", {"\"\"", "\"a\"", "\"AB\"", "\"1\""}},
+                                  {"rotary.letter", {"\"\"", "\"a\"", "\"AB\"", "\"1\"", "\"X\""}},
                                   {"rotary.unit", {"\"turns\""}},
                                   {"rotary.speed_degrees_per_s", {"0", "-1", "100001"}},
                                   {"extras.tolerated", {"[\"K\"]", "[\"!2\"]", "[\"j\"]", "[\"\"]"}},
@@ -246,6 +246,7 @@ TEST(Profile, TellsOfEachValueOutOfRange) {
 
 TEST(Profile, TakesTheEndsOfEachRange) {
   for (const auto& [key, value] : std::vector<std::pair<std::string, std::string>>{{"step_mm", "10"},
+                                                                                   {"step_mm", "0.0001"},
                                                                                    {"area.x_mm", "10000"},
                                                                                    {"z.top", "-1000000"},
                                                                                    {"z.up", "1"},

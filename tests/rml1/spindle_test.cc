@@ -23,17 +23,27 @@ INSTANTIATE_TEST_SUITE_P(Guideline52, Starts,
                          testing::Values("PD", "PD9,9", "PU9,9", "PA9,9", "PR9,9", "M9,9", "R9,9", "D", "D9,9", "I",
                                          "I9,9", "Z9,9,9", "!ZZ9,9,9", "!ZEX9", "!ZEZ9", "!ZM-10", "@-9,9;PU"));
 
+// "At the time of a command that involves movement": whether the tool is there already or not.
+class StartsInPlace : public testing::TestWithParam<const char*> {};
+TEST_P(StartsInPlace, WithACommandThatMayMove) {
+  const Played found = played(std::string(GetParam()) + ";");
+  EXPECT_THAT(found.waits, ElementsAre("spin up 2"));
+  EXPECT_THAT(found.moves, IsEmpty());
+}
+INSTANTIATE_TEST_SUITE_P(Guideline52, StartsInPlace,
+                         testing::Values("PU", "PU0,0", "M", "M0,0", "R0,0", "PA0,0", "Z0,0,5000", "!ZEX0", "!ZM0",
+                                         "^IN;!ZM0"));
+
 class DoesNotStart : public testing::TestWithParam<const char*> {};
-TEST_P(DoesNotStart, WhereNothingMoves) {
+TEST_P(DoesNotStart, WithoutACommandThatMoves) {
   const Played found = played(std::string(GetParam()) + ";");
   EXPECT_THAT(found.waits, IsEmpty());
   EXPECT_THAT(found.moves, IsEmpty());
 }
 INSTANTIATE_TEST_SUITE_P(Guideline52, DoesNotStart,
                          testing::Values("F5", "VS5", "V5", "!VZ5", "W0", "!DW0", "@-9,9", "!PZ-9,9", "!MC", "!MC1",
-                                         "!MC0", "!RC5", "!ZO-9", "!NR", "DF", "IN", "H", "PU", "PU0,0", "M0,0", "R0,0",
-                                         "PA", "PR", "PA0,0", "Z", "!ZZ", "Z0,0,5000", "!ZE", "!ZE::", "!ZEX0", "!ZM",
-                                         "!ZM0"));
+                                         "!MC0", "!RC5", "!ZO-9", "!NR", "DF", "IN", "H", "PA", "PR", "Z", "!ZZ",
+                                         "Z1,2", "!ZE", "!ZE::", "!ZEU9", "!ZM", "!ZM1"));
 
 struct SpinUps {
   const char* job;
