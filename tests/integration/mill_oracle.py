@@ -2,6 +2,16 @@
 
 It follows the RML-1 Programming Guideline (its sections are cited) and shares nothing with the programs under test.
 All coordinates are steps of the workpiece system: X and Y from the work origin, Z from Z0, upward positive.
+
+Where Z0 lies between two steps, plot and space commands go to whole steps above or below Z0, !ZM to whole steps of the
+machine, and a Z2 that is the top exactly to the top. Nothing is decided, and the answer here is no authority, where
+
+- !ZO is relative and the commanded height is between two steps of the machine (is the new Z0 rounded?);
+- a relative !ZM has a fraction, or its sum is less than a step from an end of travel (is the sum judged, or its target?);
+- a height is half way between two steps of the machine, or of the workpiece below Z0;
+- Z0 is moved, or !ZM relative, without an origin: where Z0 lies is not known then;
+- plot commands are held, and a three-axis command has left the area: nothing moves here until the path comes back (does
+  `PU` take the tool to the nearest place inside?).
 """
 
 import dataclasses
@@ -9,6 +19,8 @@ import math
 import re
 
 SAME_PLACE = 1e-6  # steps: two crossings of a side by the same line differ by rounding alone
+
+NEAR = 0.01  # steps: how far apart two answers may be
 
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)"
 BETWEEN = r"(?:[ \t]*,[ \t]*|[ \t]+)"
@@ -26,7 +38,8 @@ TO_RELATIVE = ("I", "R", "PR")
 @dataclasses.dataclass
 class Machine:
     """`top`, `up` and `default_z0` speak of machine coordinates; `origin` is X and Y of the work origin from the home
-    corner and the distance of Z0 below the top, in mm. None is the top of travel."""
+    corner and the distance of Z0 below the top, in mm: None if nothing of them is known. A `z2` or `default_z0` of None is
+    the top of travel. With `hold`, plot commands stop at the edge of the area in X and Y."""
 
     step_mm: float = 0.025
     area: tuple = (203.2, 152.4, 60.5)
@@ -34,27 +47,18 @@ class Machine:
     up: int = 1
     z1: int = -100
     z2: int | None = None
-    origin: tuple = (0.0, 0.0, 0.0)
+    origin: tuple | None = (0.0, 0.0, 0.0)
     default_z0: int | None = None
+    hold: bool = False
 
 
 class Bounds:
-    """An axis that nothing is known of stays None."""
-
     def __init__(self):
-        self.minimum = [None] * 3
-        self.maximum = [None] * 3
+        self.places = None
 
-    def add(self, place, axes):
-        for axis in axes:
-            value = place[axis]
-            if self.minimum[axis] is None:
-                self.minimum[axis] = self.maximum[axis] = value
-            self.minimum[axis] = min(self.minimum[axis], value)
-            self.maximum[axis] = max(self.maximum[axis], value)
-
-    def result(self):
-        return None if self.minimum[2] is None else (tuple(self.minimum), tuple(self.maximum))
+    def add(self, place):
+        ends = self.places or (place, place)
+        self.places = tuple(tuple(map(choose, end, place)) for choose, end in zip((min, max), ends))
 
 
 class Tool:
@@ -63,20 +67,28 @@ class Tool:
     def __init__(self, machine):
         self.up = machine.up
         self.machine_top = machine.top
-        self.low = [-machine.origin[axis] / machine.step_mm for axis in (0, 1)]
-        self.high = [self.low[axis] + machine.area[axis] / machine.step_mm for axis in (0, 1)]
-        self.travel = machine.area[2] / machine.step_mm
-        self.zero = machine.top - machine.up * machine.origin[2] / machine.step_mm
+        self.travel = self.depth = machine.area[2] / machine.step_mm
+        self.assumed = machine.origin is None
+        if self.assumed:
+            self._lie_anywhere()
+        else:
+            self.low = [-machine.origin[axis] / machine.step_mm for axis in (0, 1)]
+            self.high = [self.low[axis] + machine.area[axis] / machine.step_mm for axis in (0, 1)]
+            self.zero = machine.top - machine.up * machine.origin[2] / machine.step_mm
         self.real = self.path = self.held((0.0, 0.0, self.top()))
         self.bounds = Bounds()
-        self.begun = False
-        self.xy_known = False
+
+    def _lie_anywhere(self):
+        """Z0 may be at either end of its travel: the top is as far above it as can be, and the bottom as far below."""
+        self.low, self.high = [-math.inf] * 2, [math.inf] * 2
+        self.zero = self.machine_top - self.up * self.travel
+        self.depth = 2 * self.travel
 
     def top(self):
         return (self.machine_top - self.zero) * self.up
 
     def bottom(self):
-        return self.top() - self.travel
+        return self.top() - self.depth
 
     def held(self, place):
         x, y = (min(max(place[axis], self.low[axis]), self.high[axis]) for axis in (0, 1))
@@ -111,23 +123,16 @@ class Tool:
         self.move(entry)
 
     def move(self, place):
-        if math.dist(self.real[:2], place[:2]) > SAME_PLACE:
-            self.xy_known = True
-            self.begun = True
-        elif abs(self.real[2] - place[2]) <= SAME_PLACE:
-            self.real = place
-            return
-        axes = (0, 1, 2) if self.xy_known else (2,)
-        if self.begun:  # where the tool stood before the job is assumed: it counts if the job leaves it in X or Y
-            self.bounds.add(self.real, axes)
-        self.bounds.add(place, axes)
-        self.begun = True
+        alone = math.dist(self.real[:2], place[:2]) <= SAME_PLACE
+        if not alone or abs(self.real[2] - place[2]) > SAME_PLACE:
+            assumed = self.assumed and alone and self.bounds.places is None
+            self.bounds.add((*self.real[:2], place[2]) if assumed else self.real)
+            self.bounds.add(place)
         self.real = place
 
     def home(self):
         self.move((*self.real[:2], self.top()))
         self.move(self.held((0.0, 0.0, self.top())))
-        self.begun = self.xy_known = True
         self.path = self.real
 
     def move_zero(self, machine_z):
@@ -190,19 +195,20 @@ class Mill:
             self.commanded[2] = self._height()
             self.tool.follow((*self.tool.path[:2], self.commanded[2]))
         for pair in pairs:
-            self._go(dict(enumerate(pair)))
+            self._go(dict(enumerate(pair)), hold=self.machine.hold)
 
     def _height(self):
         if self.down:
             return self.z1
         return self.tool.top() if self.z2 is None else self.z2
 
-    def _go(self, values):
+    def _go(self, values, hold=False):
+        """A held target is driven to; a relative way counts from the one that was asked for."""
         goal = list(self.tool.path)
         for axis, value in values.items():
             self.commanded[axis] = value + (0 if self.absolute else self.commanded[axis])
             goal[axis] = whole(self.commanded[axis])
-        self.tool.follow(tuple(goal))
+        self.tool.follow((*self.tool.held(goal)[:2], goal[2]) if hold else tuple(goal))
 
     def _set_heights(self, numbers):
         if not numbers:
@@ -218,9 +224,9 @@ class Mill:
 
     def _move_to_machine_z(self, value):
         machine_z = self._machine_z(value)
-        if self.tool.reaches(machine_z):
-            self.commanded[2] = (machine_z - self.tool.zero) * self.tool.up
-            self.tool.follow((*self.tool.path[:2], self.commanded[2]))
+        if self.tool.reaches(whole(machine_z)):
+            self.commanded[2], target = ((z - self.tool.zero) * self.tool.up for z in (machine_z, whole(machine_z)))
+            self.tool.follow((*self.tool.path[:2], target))
 
     def _set_zero(self, numbers):
         default = self.machine.top if self.machine.default_z0 is None else self.machine.default_z0
@@ -251,6 +257,17 @@ def sets(numbers, size):
     return [numbers[first:first + size] for first in range(0, len(numbers) - size + 1, size)]
 
 
+def near(place, other):
+    return all(abs(a - b) <= NEAR for a, b in zip(place, other, strict=True))
+
+
+def agree(said, expected):
+    final, spread = said
+    if not near(final, expected[0]) or (spread is None) != (expected[1] is None):
+        return False
+    return spread is None or all(near(a, b) for a, b in zip(spread, expected[1]))
+
+
 def play(job, machine):
     """(final, bounds): bounds is (minimum, maximum), or None if nothing has moved."""
     mill = Mill(machine)
@@ -265,4 +282,4 @@ def play(job, machine):
             place = end
         else:
             mill.execute(name, [float(number) for number in re.findall(NUMBER, match[2])])
-    return mill.tool.real, mill.tool.bounds.result()
+    return mill.tool.real, mill.tool.bounds.places
