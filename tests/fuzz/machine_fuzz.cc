@@ -1,6 +1,9 @@
 // Whatever the job, the tool stays in the work area, its time is a time, and it can be drawn.
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <random>
+#include <string_view>
 
 #include "device/rml1/picture.h"
 #include "tests/fuzz/mutator.h"
@@ -10,39 +13,81 @@ namespace {
 
 using namespace axisgate::rml1;
 
+void require(bool good) {
+  if (!good) std::abort();
+}
+
+bool ordered(const Box& box) {
+  return box.lowest.x <= box.highest.x && box.lowest.y <= box.highest.y && box.lowest.z <= box.highest.z;
+}
+
 class Guard : public MoveListener {
  public:
   void moved(const Move& move) override {
     strokes.moved(move);
     const Box& box = check->machine().box();
-    const bool inside = box.held(move.from) == move.from && box.held(move.to) == move.to;
-    if (!inside || !std::isfinite(move.speed) || move.speed <= 0 || move.from == move.to) std::abort();
+    require(ordered(box));
+    require(box.held(move.from) == move.from && box.held(move.to) == move.to);
+    require(std::isfinite(move.speed) && move.speed > 0 && move.from != move.to);
   }
 
   const Check* check = nullptr;
   Strokes strokes;
 };
 
-void require(bool good) {
-  if (!good) std::abort();
+// What is chosen for a job is always the same, and another for nearly every other job.
+class Choice {
+ public:
+  explicit Choice(std::string_view job) : dice_(static_cast<std::uint32_t>(job.size() + 1)) {
+    for (const char c : job.substr(0, 8))
+      dice_.seed(static_cast<std::uint32_t>(dice_() + static_cast<unsigned char>(c)));
+  }
+  std::size_t below(std::size_t count) { return dice_() % count; }
+  bool yes() { return below(2) == 0; }
+
+ private:
+  std::minstd_rand dice_;
+};
+
+Profile chosen_profile(Choice& choice) {
+  Profile profile = test_profile();
+  if (choice.yes()) profile.baud = 9600;
+  profile.holds_flat_commands = choice.yes();
+  if (choice.yes()) profile.up = -1;
+  profile.rotary->hundredths = choice.yes();
+  if (choice.yes()) profile.dialect.tolerated = {"J", "!0", "!1"};
+  if (choice.yes()) profile.dialect.apart = {"XZ", "YA"};
+  if (choice.yes()) profile.default_z2 = 0;
+  return profile;
+}
+
+CheckOptions chosen_options(Choice& choice) {
+  CheckOptions options;
+  if (choice.below(3) != 0) {
+    options.origin = Origin{static_cast<double>(choice.below(400)), 100, static_cast<double>(choice.below(60))};
+  }
+  if (choice.yes()) options.stock = Stock{50, 40, 3};
+  if (choice.yes()) options.others = {{"other mill", 0.025, 155}};
+  return options;
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const Profile profile = test_profile();
-  CheckOptions options;
-  // Some with an origin, some without; both follow from the job.
-  if (size % 3 != 0) options.origin = Origin{static_cast<double>(size % 400), 100, static_cast<double>(size % 60)};
-  if (size % 2 != 0) options.stock = Stock{50, 40, 3};
+  const std::string_view job(reinterpret_cast<const char*>(data), size);
+  Choice choice(job);
+  const Profile profile = chosen_profile(choice);
+  const CheckOptions options = chosen_options(choice);
   Guard guard;
   Check check(profile, options, &guard);
   guard.check = &check;
-  check.feed({reinterpret_cast<const char*>(data), size});
+  const std::size_t piece = choice.below(3) == 0 ? 1 : choice.yes() ? 7 : size + 1;
+  for (std::size_t begin = 0; begin < size; begin += piece) check.feed(job.substr(begin, piece));
   check.finish();
   const Summary& summary = check.summary();
   require(std::isfinite(summary.seconds_high) && std::isfinite(summary.distance_mm));
   require(summary.seconds_low >= 0 && summary.seconds_low <= summary.seconds_high * (1 + 1e-9) + 1e-9);
+  require(ordered(check.machine().box()));
   require(check.machine().box().held(summary.final) == summary.final);
   const bool known = options.origin.has_value();
   require(!to_svg(make_picture("job", check, profile, options.stock, known, guard.strokes)).empty());
