@@ -10,9 +10,8 @@ seconds="${1-}"
 build="$root/build-fuzz"
 launcher="$(command -v ccache || true)"
 # libstdc++ 12 uses what it calls deprecated itself.
-flags=(-std=c++20 -Wno-deprecated-declarations -g -O1 -I"$root" -fsanitize=address,undefined
+flags=(-std=c++20 -Wno-deprecated-declarations -g -O1 -I"$root" "-fsanitize=address,undefined"
   -fno-sanitize-recover=undefined)
-sources=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
 
 object_of() {
   printf '%s/%s.o' "$build" "${1//\//_}"
@@ -23,11 +22,13 @@ compile() {
 }
 
 run() {
-  local target="$1"
+  local target="$1" failed
   shift
   "$build/$target" -max_len=4096 -timeout=10 -artifact_prefix="$build/$target-" "$@" >> "$build/$target.log" 2>&1 || {
     tail -n 60 "$build/$target.log"
-    printf 'tests/fuzz.sh: see it again: %s\n' "$build/$target $build/$target-crash-..."
+    failed="$(sed -n 's/.*Test unit written to //p' "$build/$target.log" | tail -n 1)"
+    # Nothing is written when what failed before fails again: then the same arguments show it.
+    printf 'tests/fuzz.sh: see it again: %s\n' "$build/$target ${failed:-$*}"
     exit 1
   }
 }
@@ -35,7 +36,7 @@ run() {
 fuzz() {
   local target="$1" corpus="$build/corpus-$1" failed
   rm -f "$build/$target.log"
-  for failed in "$build/$target"-{crash,timeout,oom}-*; do
+  for failed in "$build/$target"-{crash,leak,oom,timeout}-*; do
     if [[ -e "$failed" ]]; then run "$target" "$failed"; fi
   done
   if [[ -n "$seconds" ]]; then
@@ -53,6 +54,7 @@ fuzz() {
 
 cd "$root"
 mkdir -p "$build"
+sources=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
 objects=()
 for source in "${sources[@]}"; do
   # Pictures as PNG are cairo's.
