@@ -280,9 +280,10 @@ bool Machine::reachable(double height, const Instruction& instruction) {
 void Machine::set_height(const Instruction& instruction) {
   if (instruction.count == 0) return;
   const double height = target(instruction.values[0], height_of(commanded_.z));
-  if (!reachable(height, instruction)) return;
+  const double step = std::round(height);
+  if (!reachable(step, instruction)) return;
   commanded_.z = above_surface(height);
-  move_height(above_surface(std::round(height)), instruction);
+  move_height(above_surface(step), instruction);
 }
 
 void Machine::set_surface(const Instruction& instruction) {
@@ -330,7 +331,7 @@ void Machine::move_height(double z, const Instruction& instruction) {
 void Machine::move_to(const Point& there, double speed, const Instruction& instruction, bool height_alone) {
   start_spindle(instruction);
   listener_.commanded(clipper_.commanded(), there, height_alone, instruction);
-  const bool holds = profile_.holds_flat_commands && instruction.row->deed == Deed::plot;
+  const bool holds = profile_.holds_flat_commands && instruction.row->deed == Deed::plot && !height_alone;
   const Point held = box().held(there);
   clipper_.move_to(holds ? Point{held.x, held.y, there.z} : there, driven(speed, instruction));
 }

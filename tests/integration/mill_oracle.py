@@ -9,9 +9,7 @@ machine, and a Z2 that is the top exactly to the top. Nothing is decided, and th
 - !ZO is relative and the commanded height is between two steps of the machine (is the new Z0 rounded?);
 - a relative !ZM has a fraction, or its sum is less than a step from an end of travel (is the sum judged, or its target?);
 - a height is half way between two steps of the machine, or of the workpiece below Z0;
-- Z0 is moved, or !ZM relative, without an origin: where Z0 lies is not known then;
-- plot commands are held, and a three-axis command has left the area: nothing moves here until the path comes back (does
-  `PU` take the tool to the nearest place inside?).
+- Z0 is moved, or !ZM relative, without an origin: where Z0 lies is not known then.
 """
 
 import dataclasses

@@ -3,8 +3,8 @@
 
 A quarter of the jobs has no origin; of the others some have Z0 between two steps, some a mill that holds plot commands at
 the edge. Avoided is what mill_oracle.py has no answer for: !ZO and relative !ZM without an origin, relative !ZO where
-heights may be between two steps, fractions in relative !ZM and !ZO, plot commands that are held while a three-axis one
-has left the area. Sums near the end of travel, and half steps of Z, are too rare to be met.
+heights may be between two steps, fractions in relative !ZM and !ZO. Sums near the end of travel, and half steps of Z, are
+too rare to be met.
 """
 
 import concurrent.futures
@@ -183,7 +183,6 @@ class JobMaker:
 
     def _space(self):
         self.writer.command(self.chance.choice(("Z", "!ZZ")), self._values((0, 1, 2), least=1))
-        self._back_inside()
 
     def _extension(self):
         groups = []
@@ -191,12 +190,6 @@ class JobMaker:
             axes = self.chance.sample((0, 1, 2), self.chance.randint(0, 3))
             groups.append([(self.chance.choice(("XYZ"[axis], "xyz"[axis])), self._value(axis)) for axis in axes])
         self.writer.extension(groups)
-        self._back_inside()
-
-    def _back_inside(self):
-        if self.machine.hold:
-            self._mode(("PA",))
-            self.writer.command("Z", self._inside_xy() + [self._value(2)])
 
     def _heights(self):
         z1 = -self.chance.randint(0, int(self.travel)) if self.chance.random() < 0.9 else self.chance.randint(1, 50)
@@ -229,7 +222,7 @@ class JobMaker:
         x, y = self._inside_xy()
         away = [x + self.chance.choice((-1, 1)) * int(self.sizes[0] * 1.5), y + self.chance.randint(-9, 9)]
         self.writer.command("Z", [x, y, self._value(2), *away, self._value(2)])
-        if self.machine.hold or self.chance.random() < 0.5:
+        if self.chance.random() < 0.5:
             self.writer.command("Z", [x, y, self._value(2)])
         else:
             self.writer.command(self.chance.choice(("PU", "PD")), [x, y])

@@ -164,6 +164,23 @@ TEST(OnceWrong, ParkingOutsideWasLargerThanTheMachine) {
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("note 0 at 15"));
 }
 
+// PU performs "only a tool-up operation" (3-2): the tool waits where the path left, at X 300, Y 60.
+TEST(OnceWrong, ALiftOutsideWentToTheNearestEdge) {
+  Profile profile = test_profile();
+  profile.holds_flat_commands = true;
+  profile.x_mm = 4;
+  const Played found = play("Z500,100,-10;PU;", profile, Origin{1, 1, 0.5});
+  EXPECT_EQ(text(found.final), "300 60 14");
+}
+
+// 200 steps below the top is the bottom; the sum is 0.4 steps lower, and its step is not.
+TEST(OnceWrong, AHeightWhoseStepIsReachedWasAnError) {
+  Profile profile = test_profile();
+  profile.z_mm = 2;
+  const Played found = play("PA;Z0,0,-100;PR;!ZM-50;", profile, Origin{1, 1, 0.504});
+  EXPECT_THAT(found.diagnostics, IsEmpty());
+}
+
 TEST(OnceWrong, ANameBehindACircumflexWasToldInPart) {
   EXPECT_THAT(play("^!XX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by !XX"));
   EXPECT_THAT(play("^PX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by PX"));
