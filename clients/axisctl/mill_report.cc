@@ -80,6 +80,7 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
   if (!origin_known)
     print_line("without --origin the work area is not judged, and heights are as if Z0 lay at the bottom");
   const Diagnostics& told = check.diagnostics();
+  if (told.count(Severity::error) > job.commands) print_line("more errors than commands: is it a job in RML-1?");
   print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),
                          counted(told.count(Severity::warning), "warning"),
                          counted(told.count(Severity::note), "note")));

@@ -123,6 +123,12 @@ class Diagnostics(InAFolder):
         for job in ("@-9;PD;PU;", "Z0,0,-9;PU;", "PU;"):
             self.assertNotIn(told, text_of(job, *ORIGIN), job)
 
+    def test_what_is_no_job_is_asked_about(self):
+        asked = "more errors than commands: is it a job in RML-1?"
+        self.assertIn(asked, text_of("solid part\n facet normal 0 0 1\n  outer loop\n"))
+        self.assertNotIn(asked, text_of("Q;" + HEAD + "PD9,9;PU;"))
+        self.assertNotIn(asked, text_of(""))
+
     def test_an_origin_beside_the_machine_is_told(self):
         for origin in ("-1,0,0", "0,152.5,0"):
             answer = mill("check", "-", "--profile", PROFILE, "--origin", origin, job="H;")
