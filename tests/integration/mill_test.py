@@ -306,6 +306,13 @@ class Previews(InAFolder):
         self.assertIn(f"{seconds['low']:.0f} s to {seconds['high']:.0f} s", words)
         self.assertRegex(words, r"\b4\.50 mm")
 
+    def test_lines_are_a_pixel_wide_for_whoever_scales_them(self):
+        for view in self.classed(self.svg(*ORIGIN), "view"):
+            scale = float(view.get("transform").removeprefix("matrix(").split()[0])
+            self.assertAlmostEqual(float(view.get("stroke-width")) * scale, 1, places=4)
+            for path in self.classed(view, "travel"):
+                self.assertAlmostEqual(float(path.get("stroke-width")) * scale, 0.6, places=4)
+
     def test_names_are_no_markup(self):
         path = self.folder / "a<b>&\"c.rml"
         path.write_text(self.JOB, encoding="ascii")

@@ -3,6 +3,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <string>
+
 namespace axisgate::rml1 {
 namespace {
 
@@ -74,15 +76,51 @@ TEST(Diagnostics, NothingTakesThePlaceOfAnError) {
 }
 
 TEST(Diagnostics, MakeNoTextOfWhatIsNotKept) {
-  Diagnostics diagnostics;
-  int made = 0;
-  for (int index = 0; index < 1000; ++index) {
-    diagnostics.error(1, {}, "2-3", [&] {
-      ++made;
-      return "text";
-    });
+  for (const Severity severity : {Severity::note, Severity::warning, Severity::error}) {
+    Diagnostics diagnostics;
+    int made = 0;
+    for (int index = 0; index < 1000; ++index) {
+      diagnostics.add(1, severity, {}, "2-3", [&] {
+        ++made;
+        return "text";
+      });
+    }
+    EXPECT_EQ(made, 100) << name(severity);
   }
-  EXPECT_EQ(made, 100);
+}
+
+template <int kind>
+void add_kind(Diagnostics& diagnostics, int times) {
+  for (int time = 0; time < times; ++time) {
+    diagnostics.add(0, Severity::warning, {}, "2-5", [] { return std::to_string(kind); });
+  }
+}
+
+TEST(Diagnostics, TheFirstOfItsKindTakesThePlaceOfTheLastOfMany) {
+  Diagnostics diagnostics;
+  add_kind<1>(diagnostics, 89);
+  add_kind<2>(diagnostics, 11);
+  add_kind<3>(diagnostics, 5);
+  ASSERT_EQ(diagnostics.kept().size(), 100u);
+  EXPECT_EQ(diagnostics.kept()[98].text, "2");
+  EXPECT_EQ(diagnostics.kept()[99].text, "3");
+  // Ten of the second are not many.
+  add_kind<4>(diagnostics, 1);
+  EXPECT_EQ(diagnostics.kept()[87].text, "1");
+  EXPECT_EQ(diagnostics.kept()[88].text, "2");
+  EXPECT_EQ(diagnostics.kept()[99].text, "4");
+  EXPECT_EQ(diagnostics.omitted(), 6u);
+}
+
+TEST(Diagnostics, WhatStandsThereTenTimesIsNotMany) {
+  Diagnostics diagnostics;
+  add_kind<0>(diagnostics, 10), add_kind<1>(diagnostics, 10), add_kind<2>(diagnostics, 10);
+  add_kind<3>(diagnostics, 10), add_kind<4>(diagnostics, 10), add_kind<5>(diagnostics, 10);
+  add_kind<6>(diagnostics, 10), add_kind<7>(diagnostics, 10), add_kind<8>(diagnostics, 10);
+  add_kind<9>(diagnostics, 10);
+  add_kind<10>(diagnostics, 1);
+  EXPECT_EQ(diagnostics.kept().back().text, "9");
+  EXPECT_EQ(diagnostics.omitted(), 1u);
 }
 
 TEST(Diagnostics, HaveNamesOfSeverities) {
