@@ -21,6 +21,7 @@ TrialResult run(const Trial& trial) {
   result.virtual_time = world.now().time_since_epoch();
   result.exchanges = world.exchanges();
   result.barriers = world.barriers();
+  result.digest = world.wire().digest().value();
   result.faults_drawn = world.wire().faults_drawn();
   result.faults = world.wire().faults_by_kind();
   return result;

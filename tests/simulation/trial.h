@@ -24,6 +24,7 @@ struct TrialResult {
   std::string replay;                    // of a violation
   Duration virtual_time{};
   std::uint64_t exchanges = 0, barriers = 0, faults_drawn = 0;
+  std::uint64_t digest = 0;  // digest.h
   std::map<std::string, Wire::ByPhase> faults;
 };
 

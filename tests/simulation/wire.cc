@@ -157,6 +157,8 @@ void Wire::from_gateway(std::string_view bytes) {
   std::string line(bytes.substr(0, bytes.find('\r')));
   commands_.push_back(line);
   note(now_, "> " + line);
+  digest_.add(now_);
+  digest_.add(bytes);
   if (!open_) return;
   const Scripted fault = scripted(LineKind::command, line);
   to_device_free_ =
@@ -301,6 +303,8 @@ void Wire::deliver(const Delivery& delivery, TimePoint now) {
     return;
   }
   note(now, "< " + escaped(delivery.bytes));
+  digest_.add(now);
+  digest_.add(delivery.bytes);
   delivering_ = delivery.origin;
   delivering_->damaged = delivery.damaged || unended_damage_;
   unended_damage_ = delivering_->damaged && !delivery.bytes.ends_with(kEndOfLine);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "device/core/line_machine.h"
+#include "tests/simulation/digest.h"
 #include "tests/simulation/random.h"
 
 namespace axisgate::simulation {
@@ -122,6 +123,7 @@ class Wire {
   }
   const std::optional<Origin>& delivering() const { return delivering_; }
   const std::deque<std::string>& log() const { return log_; }
+  Digest& digest() { return digest_; }
   void note(TimePoint now, const std::string& text);
 
   // Faults count from 0 in the order in which they would strike; those named here do not.
@@ -200,6 +202,7 @@ class Wire {
   std::string device_partial_;
   std::optional<Origin> delivering_;
   std::deque<std::string> log_;
+  Digest digest_;
   bool damaging_ = false;        // the line that is being sent is no longer what it was
   bool unended_damage_ = false;  // the line that comes next to the gateway continues a damaged one
   int commands_damaged_ = 0;

@@ -130,12 +130,22 @@ void World::on_event(const Event& event, TimePoint at) {
     wire_.note(now_, fmt::format("   motion {} {} {}{}", changed->motion.id, name(changed->motion.kind),
                                  name(changed->motion.state),
                                  changed->motion.problem ? ": " + changed->motion.problem->message : ""));
+    digest(changed->motion);
     if (is_outcome(changed->motion.state)) {
       outcomes_.push_back(changed->motion);
       check_outcome(changed->motion);
     }
     if (on_motion) on_motion(changed->motion);
   }
+}
+
+void World::digest(const Motion& motion) {
+  Digest& digest = wire_.digest();
+  digest.add(motion.id);
+  digest.add(name(motion.kind));
+  digest.add(name(motion.state));
+  digest.add(motion.problem ? name(motion.problem->reason) : "");
+  for (const auto& result : motion.results) digest.add(static_cast<std::uint64_t>(result.command_pulses.value_or(-1)));
 }
 
 // Whatever answered an exchange must have been written by the device in answer to that very command.

@@ -85,6 +85,7 @@ class World : public shrc203::EventSink {
   void step(TimePoint limit);
   void check_exchange(const shrc203::ExchangeEnded& ended);
   void check_outcome(const shrc203::Motion& motion);
+  void digest(const shrc203::Motion& motion);
   void swap_unit(const std::string& serial_number, Duration unplugged_for);
   std::int64_t told_position(int axis) const;
   bool restarting() const;

@@ -21,6 +21,7 @@ struct Arguments {
   std::string profile = "hostile";
   std::uint64_t first_seed = 0;
   std::string without;
+  bool shapes = false, digests = false;
 };
 
 struct Totals {
@@ -75,14 +76,16 @@ int explore(const Arguments& arguments) {
     Trial trial;
     trial.seed = arguments.first_seed + i;
     trial.faults = *Faults::named(arguments.profile);
+    trial.shapes = arguments.shapes;
     trial.duration = std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(arguments.hours * 3600 / static_cast<double>(arguments.seeds)));
     const TrialResult result = run(trial);
     totals.add(result);
+    if (arguments.digests) fmt::print("{} {:016x}\n", trial.seed, result.digest);
     if (result.violation) tell_failure(trial, result);
     std::fflush(stdout);
   }
-  print(totals);
+  if (!arguments.digests) print(totals);
   return totals.failures == 0 ? 0 : 1;
 }
 
@@ -108,6 +111,8 @@ int main_program(int count, char** words) {
   program.add_option("--without", arguments.without, "Removes this guard")->check([](const std::string& name) {
     return guards::row_named(name) ? "" : "there is no guard " + name + "; --list-guards names them";
   });
+  program.add_flag("--shapes", arguments.shapes, "Callers draw curves, rest, come from one side, and scan, too");
+  program.add_flag("--digests", arguments.digests, "Prints one number for what each seed did, instead of the totals");
   bool list = false;
   program.add_flag("--list-guards", list, "Names the guards");
   CLI11_PARSE(program, count, words);
