@@ -14,16 +14,17 @@
 
 #include "server/access/access.h"
 #include "server/access/generation.h"
-#include "server/certificate_metrics.h"
-#include "server/config.h"
+#include "server/config/config.h"
 #include "server/connections/callers.h"
-#include "server/descriptor_limit.h"
+#include "server/connections/descriptor_limit.h"
+#include "server/devices/saved_positions.h"
 #include "server/end_signals.h"
 #include "server/explain.h"
 #include "server/gateway.h"
+#include "server/kinds.h"
 #include "server/logging.h"
+#include "server/metrics/certificate_metrics.h"
 #include "server/rpc/server.h"
-#include "server/saved_positions.h"
 
 namespace axisgate {
 namespace {
@@ -115,8 +116,8 @@ int main_program(int count, char** words) {
     return complain(kExitUsage, fmt::format("{}; see --help", error.what()));
   }
   const bool from_file = !arguments.config.empty();
-  const Configured<server::Config> config =
-      from_file ? server::load_config(arguments.config) : server::default_config();
+  const Configured<server::Config> config = from_file ? server::load_config(arguments.config, server::device_kinds())
+                                                      : server::default_config(server::device_kinds());
   if (!config) return complain(config.error());
   if (!arguments.check_config) return serve(*config);
   const std::size_t devices = config->devices.size();

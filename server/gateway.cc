@@ -7,7 +7,7 @@
 #include <random>
 #include <utility>
 
-#include "server/recording_file.h"
+#include "server/recording/recording_file.h"
 
 namespace axisgate::server {
 namespace {
@@ -36,7 +36,7 @@ Gateway::Gateway(const Config& config, std::uint32_t generation)
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, Strand(lines_.get_executor()));
-    devices_.push_back(std::make_unique<Device>(device.profile, std::move(line), Strand(lines_.get_executor()), events_,
+    devices_.push_back(std::make_unique<Device>(device, std::move(line), Strand(lines_.get_executor()), events_,
                                                 metrics_, posting_to(readers_), lease_tokens_));
   }
 }
@@ -74,10 +74,11 @@ void Gateway::wind_down(std::function<void()> done) {
 }
 
 Duration Gateway::wind_down_limit() const {
-  using shrc203::Controller;
+  using stage::StageController;
   const bool finishes = std::ranges::any_of(
-      devices_, [](const auto& device) { return device->profile().at_exit == shrc203::AtExit::finish; });
-  return Controller::kStopLimit + kLastExchangeLimit + (finishes ? Controller::kFinishLimit : Duration::zero());
+      devices_, [](const auto& device) { return device->profile().at_exit == stage::AtExit::finish; });
+  return StageController::kStopLimit + kLastExchangeLimit +
+         (finishes ? StageController::kFinishLimit : Duration::zero());
 }
 
 Device* Gateway::find(std::string_view name) const {

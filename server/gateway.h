@@ -11,10 +11,10 @@
 #include "device/core/time.h"
 #include "device/link/asio.h"
 #include "server/access/leases.h"
-#include "server/config.h"
-#include "server/device.h"
+#include "server/config/config.h"
+#include "server/devices/device.h"
 #include "server/events/event_bus.h"
-#include "server/metrics.h"
+#include "server/metrics/metrics.h"
 
 namespace axisgate::server {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "server/default_socket.h"
+#include "server/config/default_socket.h"
 
 namespace axisgate::axisctl {
 

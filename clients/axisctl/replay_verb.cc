@@ -13,8 +13,8 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
-#include "device/shrc203/recording.h"
-#include "device/shrc203/replay.h"
+#include "device/shrc203/recording/replay.h"
+#include "device/stage/recording/recording.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -59,7 +59,7 @@ std::vector<Part> read_parts(const std::string& file, const std::string& name) {
 }
 
 shrc203::ReplayReport replay_part(const Part& part, const std::string& name) {
-  const Result<shrc203::Recording> recording = shrc203::parse_recording(part.text);
+  const Result<stage::Recording> recording = stage::parse_recording(part.text);
   if (!recording) {
     const std::string from = part.first_line == 1 ? "" : fmt::format(" (counted from line {} on)", part.first_line);
     throw usage(fmt::format("{}{}: {}", name, from, recording.error().message), recording.error().hint);

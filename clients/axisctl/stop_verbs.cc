@@ -9,7 +9,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-std::string describe(const v1::Device& device, const v1::AxisStop& stop) {
+std::string describe_stop(const v1::Device& device, const v1::AxisStop& stop) {
   const v1::Axis& axis = find_axis(device, std::to_string(stop.axis()));
   std::string text = fmt::format("{}: ", label(axis));
   if (!stop.named()) {
@@ -29,7 +29,7 @@ int report(const Session& session, const v1::Device& device, const Response& res
   if (session.options.json) {
     print_json(response);
   } else {
-    for (const v1::AxisStop& stop : response.axes()) print_line(describe(device, stop));
+    for (const v1::AxisStop& stop : response.axes()) print_line(describe_stop(device, stop));
   }
   if (response.has_problem()) throw to_failure(response.problem());
   for (const v1::AxisStop& stop : response.axes()) {

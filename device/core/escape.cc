@@ -7,7 +7,7 @@ constexpr std::string_view kCut = "...";
 
 constexpr std::string_view kHexDigits = "0123456789ABCDEF";
 
-std::string escaped(char byte) {
+std::string escaped_byte(char byte) {
   switch (byte) {
     case '\r':
       return "\\r";
@@ -48,7 +48,7 @@ std::string escaped(std::string_view device_text, std::size_t bytes_max) {
   std::string text;
   std::size_t fits_with_cut = 0;
   for (const char byte : device_text) {
-    text += escaped(byte);
+    text += escaped_byte(byte);
     if (text.size() > bytes_max) return text.substr(0, fits_with_cut).append(cut);
     if (text.size() + cut.size() <= bytes_max) fits_with_cut = text.size();
   }
@@ -57,7 +57,7 @@ std::string escaped(std::string_view device_text, std::size_t bytes_max) {
 
 std::string quoted_bytes(std::string_view bytes) {
   std::string text = "\"";
-  for (const char byte : bytes) text += byte == '"' ? "\\\"" : escaped(byte);
+  for (const char byte : bytes) text += byte == '"' ? "\\\"" : escaped_byte(byte);
   return text + '"';
 }
 

@@ -67,18 +67,18 @@ std::string_view name(Reason reason);
 
 struct Problem {
   Reason reason = Reason::unspecified;
-  std::string message;      // one sentence for a person: what, where, why
-  std::string hint;         // what to do; may be empty
-  std::optional<int> axis;  // 1..3, where one axis is meant
-  std::string sent;         // the line concerned, without terminator; may be empty
-  std::string wire_reply;   // the device's answer, unescaped; may be empty
+  std::string message{};      // one sentence for a person: what, where, why
+  std::string hint{};         // what to do; may be empty
+  std::optional<int> axis{};  // 1..3, where one axis is meant
+  std::string sent{};         // the line concerned, without terminator; may be empty
+  std::string wire_reply{};   // the device's answer, unescaped; may be empty
 };
 
 template <class T>
 using Result = tl::expected<T, Problem>;
 
 inline tl::unexpected<Problem> fail(Reason reason, std::string message, std::string hint = {}) {
-  return tl::unexpected<Problem>(Problem{reason, std::move(message), std::move(hint), {}, {}, {}});
+  return tl::unexpected<Problem>(Problem{.reason = reason, .message = std::move(message), .hint = std::move(hint)});
 }
 
 }  // namespace axisgate

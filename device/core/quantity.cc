@@ -24,9 +24,9 @@ constexpr Spelling kSpellings[] = {
     {"\u00b0", Unit::degrees},
 };
 
-std::string quoted(std::string_view text) { return '"' + escaped(text) + '"'; }
+std::string in_quotes(std::string_view text) { return '"' + escaped(text) + '"'; }
 
-std::string shown(Decimal value, Unit unit) { return to_string(value).append(symbol(unit)); }
+std::string text_of(Decimal value, Unit unit) { return to_string(value).append(symbol(unit)); }
 
 // The power of ten between a unit and what Scale::per_pulse counts: nanometres, or millionths of a degree.
 int scale_units_exponent(Unit unit) {
@@ -86,13 +86,13 @@ Result<void> check_unit(Unit unit, const Scale& scale) {
 std::string range_hint(Unit unit, const Scale& scale) {
   const Result<Decimal> limit = from_pulses(kPulsesMax, unit, scale);
   if (unit == Unit::pulses || !limit) return "Ask for less.";
-  return "At " + pulse_text(scale) + " a pulse that is " + shown(*limit, unit) + " either way.";
+  return "At " + pulse_text(scale) + " a pulse that is " + text_of(*limit, unit) + " either way.";
 }
 
 tl::unexpected<Problem> out_of_range(const Quantity& quantity, const Scale& scale) {
   return fail(
       Reason::out_of_range,
-      quoted(shown(quantity.value, quantity.unit)) + " is beyond the 999,999,999 pulses that a command can carry",
+      in_quotes(text_of(quantity.value, quantity.unit)) + " is beyond the 999,999,999 pulses that a command can carry",
       range_hint(quantity.unit, scale));
 }
 
@@ -101,13 +101,13 @@ tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale&
                                           std::string_view per) {
   const auto nearest = [&](std::int64_t count) {
     const Result<Decimal> way = from_pulses(count, quantity.unit, scale);
-    return (way ? shown(*way, quantity.unit) : shown(Decimal{count, 0}, Unit::pulses)).append(per);
+    return (way ? text_of(*way, quantity.unit) : text_of(Decimal{count, 0}, Unit::pulses)).append(per);
   };
   const std::string size = quantity.unit == Unit::pulses ? "" : " of " + pulse_text(scale);
   const bool lowest = !per.empty() && below == 0;
   return fail(Reason::not_representable,
-              quoted(shown(quantity.value, quantity.unit).append(per)) + " is not a whole number of pulses" + size +
-                  (per.empty() ? "" : " a second") +
+              in_quotes(text_of(quantity.value, quantity.unit).append(per)) + " is not a whole number of pulses" +
+                  size + (per.empty() ? "" : " a second") +
                   (lowest ? "; the nearest is " : "; the nearest are " + nearest(below) + " and ") + nearest(below + 1),
               lowest ? "Ask for this: the gateway never rounds." : "Ask for one of these: the gateway never rounds.");
 }
@@ -150,19 +150,19 @@ Result<Unit> parse_unit(std::string_view text) {
   for (const Spelling& spelling : kSpellings) {
     if (text == spelling.text) return spelling.unit;
   }
-  return fail(Reason::unknown_unit, quoted(text) + " is not a unit", "Use pulse, nm, um, mm or deg.");
+  return fail(Reason::unknown_unit, in_quotes(text) + " is not a unit", "Use pulse, nm, um, mm or deg.");
 }
 
 Result<Quantity> parse_quantity(std::string_view text, Unit fallback) {
   if (text.ends_with("/s")) {
-    return fail(Reason::invalid_request, quoted(text) + " is a speed where a distance or position is wanted",
+    return fail(Reason::invalid_request, in_quotes(text) + " is a speed where a distance or position is wanted",
                 "Leave out the \"/s\".");
   }
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789"), text.size());
   const Result<Decimal> value = parse_decimal(text.substr(0, end));
   if (!value) {
     Problem problem = value.error();
-    if (problem.reason == Reason::invalid_request) problem.message = quoted(text) + " is not a number with a unit";
+    if (problem.reason == Reason::invalid_request) problem.message = in_quotes(text) + " is not a number with a unit";
     return tl::make_unexpected(problem);
   }
   if (end == text.size()) return Quantity{*value, fallback};
@@ -210,14 +210,15 @@ std::string pulse_text(const Scale& scale) {
 
 Result<Scale> scale_of(const Quantity& pulse) {
   if (pulse.unit == Unit::pulses || pulse.value.digits <= 0) {
-    return fail(Reason::invalid_request, quoted(shown(pulse.value, pulse.unit)) + " is no way of one pulse",
+    return fail(Reason::invalid_request, in_quotes(text_of(pulse.value, pulse.unit)) + " is no way of one pulse",
                 "Give a way above 0 in nm, um, mm or deg.");
   }
   const int decimals = pulse.value.decimals - scale_units_exponent(pulse.unit);
   const auto digits = times_power_of_ten(pulse.value.digits, -decimals);
   const auto per_pulse = digits ? to_decimal(*digits, std::max(decimals, 0)) : std::nullopt;
   if (!per_pulse) {
-    return fail(Reason::out_of_range, quoted(shown(pulse.value, pulse.unit)) + " has more than 18 digits as a pulse",
+    return fail(Reason::out_of_range,
+                in_quotes(text_of(pulse.value, pulse.unit)) + " has more than 18 digits as a pulse",
                 "Give a shorter way.");
   }
   return Scale{*per_pulse, pulse.unit == Unit::degrees};

@@ -5,6 +5,7 @@
 #include "device/core/escape.h"
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
+#include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
 
@@ -70,12 +71,9 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
     live->news.notify();
   }
   gate_.withdraw([this](MotionId id) { return live_.contains(id); },
-                 {Reason::not_sent,
-                  "the line to the controller was lost before the motion was sent: " + why,
-                  "try again when the device is up",
-                  {},
-                  {},
-                  {}});
+                 {.reason = Reason::not_sent,
+                  .message = "the line to the controller was lost before the motion was sent: " + why,
+                  .hint = "try again when the device is up"});
   if (!news) return;
   emit(LinkChanged{LinkState::down, why});
   publish_state();
@@ -141,7 +139,7 @@ Task<void> Controller::Impl::tell_notices(ProgramNotice::Kind kind) {
   NoticeCount& count = notices_[kind];
   while (count.untold > 0) {
     emit(ProgramNotice{kind, std::exchange(count.untold, 0)});
-    auto pause = tick_.wait_until(now_ + kNoticesApart);
+    auto pause = tick_.wait_until(now_ + kProgramNoticePause);
     co_await pause;
   }
   count.telling = false;
@@ -198,7 +196,7 @@ std::optional<Problem> Controller::Impl::may_write(const ExchangeRequest& reques
 void Controller::Impl::carry_out_orders() {
   const Orders orders = permission_.advance(now_);
   for (const StopOrder& order : orders.stops) {
-    const RequestContext gateway{.who = "the gateway on behalf of " + order.who, .request_id = {}, .not_after = {}};
+    const RequestContext gateway{.who = "the gateway on behalf of " + order.who};
     stop(order.axes, false, gateway, [this, id = order.id](const StopReport&) { permission_.stopped(id, now_); });
   }
   for (const EndedLease& lease : orders.restoring) executor_.spawn(restore_settings_of(lease));

@@ -1,169 +1,18 @@
 // One SHRC-203 as callers see it: the public face of this folder.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <map>
 #include <memory>
-#include <string>
-#include <variant>
+#include <string_view>
 #include <vector>
 
-#include "device/core/line_machine.h"
-#include "device/core/problem.h"
-#include "device/core/quantity.h"
-#include "device/shrc203/arc.h"
-#include "device/shrc203/event.h"
-#include "device/shrc203/motion.h"
-#include "device/shrc203/permission.h"
 #include "device/shrc203/profile.h"
-#include "device/shrc203/state.h"
+#include "device/shrc203/stage.h"
+#include "device/stage/stage_controller.h"
 
 namespace axisgate::shrc203 {
 
-// Who asks, and until when the asking counts. `not_after` bounds when a motion may start and how long a question may
-// wait; it never stops what has started.
-struct RequestContext {
-  std::string who;
-  std::string request_id{};
-  TimePoint not_after{};
-  std::uint64_t lease = 0;         // its fencing token; 0: none
-  std::uint64_t device_epoch = 0;  // State::device_epoch that the caller has in mind; 0: any
-  std::uint64_t frame_epoch = 0;   // the same of State::frame_epoch
-  std::string role{};              // a word of the configuration, "operator": for the travel envelope
-};
-
-// S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.
-struct SpeedProfile {
-  Quantity minimum;
-  Quantity maximum;
-  int acceleration_ms = 100;
-};
-
-struct AxisMove {
-  int axis = 0;
-  Quantity distance;  // a target, or a way when the request is relative
-  std::optional<SpeedProfile> profile;
-  std::optional<Quantity> approach{};  // the last way to the target, whatever side it is on; not 0
-};
-
-struct MoveRequest {
-  std::vector<AxisMove> moves;  // each axis once
-  bool relative = false;
-  RequestContext context;
-};
-
-// Mechanical origin return (manual 60) HRT:) or return to the logical origin (62) ZRT:).
-struct HomeRequest {
-  AxisSet axes;  // empty: all controllable axes
-  RequestContext context;
-};
-
-// A circle, an arc or a helix (manual 71) to 82)). Amounts of two axes stand in the order of `axes`.
-struct Curve {
-  struct Around {
-    std::array<Quantity, 2> center;
-    Rotation rotation = Rotation::clockwise;
-    std::variant<int, Decimal> extent = 1;  // whole turns, or degrees
-  };
-  struct Through {
-    std::array<Quantity, 2> point, end;
-  };
-  std::array<int, 2> axes{};  // ascending
-  std::variant<Around, Through> course;
-  std::optional<Quantity> rise;  // what axis 3 goes in one turn, or in all of less than one turn
-};
-
-// One stretch of a path. Several axes: a straight line or a curve, always relative on the wire. One axis: relative or
-// absolute. The same axes in every segment.
-struct Segment {
-  std::vector<AxisMove> moves;
-  bool relative = true;           // ways from where the segment begins, instead of places
-  std::optional<Quantity> speed;  // path speed of a line or curve (its lower axis's S), or one axis's maximum speed F
-  std::optional<int> acceleration_ms;
-  std::optional<Curve> curve{};  // instead of moves
-  Duration rest{};               // at READY before it, 0 to kRestMax
-  std::optional<int> inputs{};   // at READY before it, until I: shows them; 0 to 63
-
-  static constexpr Duration kRestMax = std::chrono::milliseconds(255'000);
-};
-
-// One axis over a range at constant speed, with a trigger pulse every `interval` pulses.
-struct ScanRequest {
-  int axis = 0;
-  Quantity from, to;              // places
-  std::optional<Quantity> speed;  // F; nothing: as set
-  std::optional<int> acceleration_ms;
-  bool by_scale = false;  // the interval is of scale pulses, in the direction of the scan
-  std::int64_t interval = 0;
-  RequestContext context;
-};
-
-// To a position that the controller keeps (manual 131) PIT:GRT, 136) PAV:GRT).
-struct GoToPositionRequest {
-  bool place = true;  // PIT:, else PAV:
-  int number = 0;     // 1 to 20
-  // What the controller must tell that it holds, by axis; anything else is refused with epoch_passed. Empty: anything,
-  // but not nothing. For a place whose coordinates may have been set anew since, or recomputed (manual 129)).
-  std::map<int, std::int64_t> expected;
-  RequestContext context;
-};
-
-struct PathRequest {
-  static constexpr std::size_t kSegmentsMax = 100'000;
-  std::vector<Segment> segments;
-  RequestContext context;
-};
-
-// Axes that run until they are stopped: J: (manual 88)). The caller says again and again that they shall.
-struct JogRequest {
-  struct Axis {
-    int axis = 0;
-    int direction = 1;              // or -1
-    std::optional<Quantity> speed;  // per second (93) JD:); nothing: S
-  };
-  std::vector<Axis> axes;  // each once
-  RequestContext context;
-};
-
-struct StopReport {
-  struct Axis {
-    int axis = 0;
-    std::string wire_reply;  // OK, NG, or empty: no answer, or none that can be believed
-    bool named = false;      // an axis without excitation is not named: L: would be refused (manual 65))
-    std::optional<bool> ready;
-    std::optional<std::int64_t> position_pulses;
-  };
-  std::vector<Axis> axes;
-  std::optional<Problem> problem;  // outcome_unknown, link_down, left_over_setting ...
-};
-
-// What became of the motions that there were when the gateway began to end.
-struct WindDownReport {
-  std::vector<Motion> motions;     // with their outcomes
-  std::optional<Problem> problem;  // of the stop: not written, or the axes were not seen to stand
-};
-
-struct ExecuteRequest {
-  std::vector<std::string> lines;  // one transaction: nobody else's motion comes between
-  RequestContext context;
-};
-
-// A transaction's news, in order: each line's reply, then each completion it caused, then the end.
-struct ExecuteEvent {
-  enum class Kind { reply, completion, ended };
-  Kind kind = Kind::reply;
-  std::size_t line = 0;    // index into the request's lines
-  std::string answer;      // the field asked for, OK, NG ...
-  std::string sent;        // what was really sent
-  std::string wire_reply;  // what really came
-  int axis = 0;            // a completion's
-  std::optional<Problem> problem;
-};
-
-// Not thread safe: every member is called on the device's strand. Callbacks are called on it too, after the call that
-// took them has returned or from within it, once each (ExecuteEvents until `ended`).
-class Controller : public LineMachine {
+// What its calls do is said by StageController. A jog is stopped by L:.
+class Controller : public StageController {
  public:
   // Everybody may use everything.
   Controller(Profile profile, ByteLink& link, EventSink& events);
@@ -176,73 +25,33 @@ class Controller : public LineMachine {
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
-
-  const Profile& profile() const;
-  const State& state() const;
-
-  // The state, read again from the device when it is older than `max_age`; link_down while the device is not up.
-  using OnState = std::function<void(Result<State>)>;
-  void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done);
-
-  // Answers once the motion has started (state running or already beyond), or with the problem that kept it from it.
-  using OnStarted = std::function<void(Result<Motion>)>;
-  void move(MoveRequest request, TimePoint now, OnStarted started);
-  void home(HomeRequest request, TimePoint now, OnStarted started);
-  void return_to_origin(HomeRequest request, TimePoint now, OnStarted started);
-  void run_path(PathRequest request, TimePoint now, OnStarted started);
-  void scan(ScanRequest request, TimePoint now, OnStarted started);
-  void go_to_position(GoToPositionRequest request, TimePoint now, OnStarted started);
-
-  // The axes run for as long as renew_jog() comes, at most kJogSilence apart: beyond that, at the end of the caller's
-  // right to them, and before a travel limit they are stopped by L:. Answers as move() does; with the motion's number
-  // at once, 0 where it was refused.
-  static constexpr Duration kJogSilence = std::chrono::milliseconds(500);
-  MotionId jog(JogRequest request, TimePoint now, OnStarted started);
-  // Lets it run on; at other speeds for the axes of `speeds` (directions do not count). unknown_axis, too_fast,
-  // out_of_range, not_found once it has ended.
-  Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now);
-  // Stops it: succeeded where the caller wanted that, else stopped, with the reason.
-  void end_jog(MotionId id, std::optional<Problem> why, TimePoint now);
-
-  // Whether the caller may change something of these axes now: lease_held, lease_lost, outside_lease, stopped_by,
-  // epoch_passed.
-  Result<void> check_use(const RequestContext& context, AxisSet axes);
-
-  // The same checks as above, and nothing is sent.
-  Result<void> check(const MoveRequest& request) const;
-  Result<void> check(const PathRequest& request) const;
-  Result<void> check(const ScanRequest& request) const;
-  Result<void> check(const GoToPositionRequest& request) const;
-  static Result<void> check(const ExecuteRequest& request);
-
-  // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.
-  using OnStopped = std::function<void(StopReport)>;
-  void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done);
-  void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done);
-
-  using OnDone = std::function<void(Result<void>)>;
-  void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done);
-
-  using OnExecute = std::function<void(const ExecuteEvent&)>;
-  void execute(ExecuteRequest request, TimePoint now, OnExecute event);
-
-  // The newest kMotionsKept motions; unfinished ones are always kept.
-  static constexpr std::size_t kMotionsKept = 1000;
-  std::vector<Motion> motions() const;  // oldest first
-  std::optional<Motion> find_motion(MotionId id) const;
-  void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done);
-
-  std::size_t queued(Lane lane) const;
-  // Answers to abandoned probes of the line that may still come.
-  int owed_answers() const;
-
-  // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
-  // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers
-  // when all have their outcomes, which are unknown after kStopLimit, and the exchange on the wire has ended; nothing
-  // but a stop is written any more then.
-  static constexpr Duration kFinishLimit = std::chrono::seconds(60), kStopLimit = std::chrono::seconds(10);
-  using OnWoundDown = std::function<void(WindDownReport)>;
-  void wind_down(TimePoint now, OnWoundDown done);
+  const Profile& profile() const override;
+  const State& state() const override;
+  void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) override;
+  void move(MoveRequest request, TimePoint now, OnStarted started) override;
+  void home(HomeRequest request, TimePoint now, OnStarted started) override;
+  void return_to_origin(HomeRequest request, TimePoint now, OnStarted started) override;
+  void run_path(PathRequest request, TimePoint now, OnStarted started) override;
+  void scan(ScanRequest request, TimePoint now, OnStarted started) override;
+  void go_to_position(GoToPositionRequest request, TimePoint now, OnStarted started) override;
+  MotionId jog(JogRequest request, TimePoint now, OnStarted started) override;
+  Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now) override;
+  void end_jog(MotionId id, std::optional<Problem> why, TimePoint now) override;
+  Result<void> check_use(const RequestContext& context, AxisSet axes) override;
+  Result<void> check(const MoveRequest& request) const override;
+  Result<void> check(const PathRequest& request) const override;
+  Result<void> check(const ScanRequest& request) const override;
+  Result<void> check(const GoToPositionRequest& request) const override;
+  void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) override;
+  void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) override;
+  void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) override;
+  void execute(ExecuteRequest request, TimePoint now, OnExecute event) override;
+  std::vector<Motion> motions() const override;
+  std::optional<Motion> find_motion(MotionId id) const override;
+  void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
+  std::size_t queued(Lane lane) const override;
+  int owed_answers() const override;
+  void wind_down(TimePoint now, OnWoundDown done) override;
 
   class Impl;  // controller_impl.h: this folder's own business
 

@@ -15,17 +15,20 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/core/task.h"
+#include "device/shrc203/command/builders.h"
 #include "device/shrc203/controller.h"
-#include "device/shrc203/line.h"
-#include "device/shrc203/motion_gate.h"
-#include "device/shrc203/path_plan.h"
-#include "device/shrc203/plan.h"
-#include "device/shrc203/registers.h"
-#include "device/shrc203/scan_plan.h"
-#include "device/shrc203/switch_audit.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/line/line.h"
+#include "device/shrc203/motion/motion_gate.h"
+#include "device/shrc203/motion/registers.h"
+#include "device/shrc203/planning/path_plan.h"
+#include "device/shrc203/planning/plan.h"
+#include "device/shrc203/planning/scan_plan.h"
+#include "device/shrc203/session/switch_audit.h"
 
 namespace axisgate::shrc203 {
 
@@ -142,7 +145,11 @@ class Controller::Impl : public LineListener {
   Task<void> look_for_restart(std::uint64_t connection);
 
   // reading.cc
-  Task<ExchangeResult> ask(std::string_view question, Lane lane, std::string caller, bool in_handshake = false);
+  using Question = commands::Question;
+  Task<ExchangeResult> ask(Command command, Lane lane, std::string caller, bool in_handshake = false);
+  Task<ExchangeResult> ask(Question question, Lane lane, std::string caller, bool in_handshake = false) {
+    return ask(commands::ask(question), lane, std::move(caller), in_handshake);
+  }
   // The same answer in a row: one byte that the line lost would make another of it. line_fault.
   Task<Result<Reply>> ask_twice(LiveMotionPtr live, Command question);
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
@@ -310,7 +317,7 @@ class Controller::Impl : public LineListener {
   // execute.cc
   void execute(ExecuteRequest request, OnExecute event);
   Task<void> run_transaction(ExecuteRequest request, std::vector<Command> commands, OnExecute event);
-  Result<void> may_wait_for_inputs(std::string_view what) const;  // "WI:"; not_allowed
+  Result<void> may_wait_for_inputs(std::string_view what) const;  // not_allowed
   void execute_stop(const Command& command, const ExecuteRequest& request, OnExecute event);
 
   // excursion.cc
@@ -388,13 +395,5 @@ class Controller::Impl : public LineListener {
   bool settled_ = false;           // the last reading was READY and nothing has happened since
   std::optional<Problem> ending_;  // what is told to everybody who comes too late
 };
-
-// Lines that begin a motion wait this long for it to begin, when the caller sets no limit.
-inline constexpr Duration kMotionLimit = std::chrono::seconds(5);
-inline constexpr Duration kQuestionLimit = std::chrono::seconds(20);
-// Inside a transaction an exchange waits for a barrier at most.
-inline constexpr Duration kStepLimit = std::chrono::seconds(30);
-inline constexpr Duration kNoticesApart = std::chrono::milliseconds(100);  // what a program tells unasked
-inline constexpr Duration kEndStepLimit = std::chrono::seconds(1);         // at the gateway's end
 
 }  // namespace axisgate::shrc203

@@ -11,17 +11,14 @@
 namespace axisgate::server {
 namespace {
 
-using shrc203::to_string;
-using shrc203::Use;
+using stage::to_string;
+using stage::Use;
 
 Problem stopped_problem(const Latch& latch, TimePoint now) {
-  return {Reason::stopped_by,
-          fmt::format("{} stopped {} {} ago: nothing moves there until you rearm", latch.by, to_string(latch.axes),
-                      for_people(now - latch.at)),
-          "find out why, then `axisctl rearm`",
-          {},
-          {},
-          {}};
+  return {.reason = Reason::stopped_by,
+          .message = fmt::format("{} stopped {} {} ago: nothing moves there until you rearm", latch.by,
+                                 to_string(latch.axes), for_people(now - latch.at)),
+          .hint = "find out why, then `axisctl rearm`"};
 }
 
 }  // namespace

@@ -11,8 +11,8 @@
 namespace axisgate::server {
 namespace {
 
-using shrc203::to_string;
-using shrc203::Use;
+using stage::to_string;
+using stage::Use;
 
 }  // namespace
 
@@ -23,12 +23,9 @@ Leases::Held* Leases::find(LeaseToken token) {
 
 Problem Leases::lost_problem(LeaseToken token) const {
   const auto ended = std::ranges::find_if(ended_, [token](const Ended& one) { return one.token == token; });
-  return {Reason::lease_lost,
-          ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + ended->why,
-          "acquire another one (`axisctl lease`)",
-          {},
-          {},
-          {}};
+  return {.reason = Reason::lease_lost,
+          .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + ended->why,
+          .hint = "acquire another one (`axisctl lease`)"};
 }
 
 Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {
@@ -170,12 +167,10 @@ std::optional<Duration> Leases::expected_wait(std::size_t place, TimePoint now) 
 std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
   const auto told = [&](const LeaseTerms& terms, const std::string& who, std::string_view does, TimePoint since) {
     const std::string purpose = terms.purpose.empty() ? "" : fmt::format(" (\"{}\")", terms.purpose);
-    return Problem{Reason::lease_held,
-                   fmt::format("{} {} {} for {}{}", who, does, to_string(terms.axes), for_people(now - since), purpose),
-                   "wait for your turn (--wait), or ask the holder to hand over",
-                   {},
-                   {},
-                   {}};
+    return Problem{
+        .reason = Reason::lease_held,
+        .message = fmt::format("{} {} {} for {}{}", who, does, to_string(terms.axes), for_people(now - since), purpose),
+        .hint = "wait for your turn (--wait), or ask the holder to hand over"};
   };
   for (const Held& held : held_) {
     if (held.lease.terms.axes.touches(axes)) {
@@ -303,7 +298,7 @@ void Leases::settings_restored(LeaseToken lease, TimePoint now) {
   settle(now);
 }
 
-shrc203::Orders Leases::advance(TimePoint now) {
+stage::Orders Leases::advance(TimePoint now) {
   expire(now);
   settle(now);
   return std::exchange(orders_, {});

@@ -16,13 +16,13 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/shrc203/permission.h"
+#include "device/stage/permission.h"
 
 namespace axisgate::server {
 
 using LeaseToken = std::uint64_t;  // 0 is none
-using shrc203::AxisSet;
-using shrc203::MotionId;
+using stage::AxisSet;
+using stage::MotionId;
 
 // Fencing tokens: later ones are greater, over restarts of the daemon too. Thread safe.
 class LeaseTokens {
@@ -78,7 +78,7 @@ struct WaitingLease {
 };
 
 // Not thread safe: lives on its device's strand. It moves nothing itself: what must stop is fetched by advance().
-class Leases : public shrc203::Permission {
+class Leases : public stage::Permission {
  public:
   static constexpr std::size_t kWaitingMax = 256;
 
@@ -118,13 +118,13 @@ class Leases : public shrc203::Permission {
   // Called after every change of what the members above tell. Must not call back.
   std::function<void(TimePoint now)> on_change;
 
-  Result<void> may_use(const shrc203::Use& use, TimePoint now) override;
-  void begin(const shrc203::Use& use, TimePoint now) override;
+  Result<void> may_use(const stage::Use& use, TimePoint now) override;
+  void begin(const stage::Use& use, TimePoint now) override;
   void end(MotionId motion, TimePoint now) override;
-  void stop_asked(const shrc203::Use& stop, TimePoint now) override;
+  void stop_asked(const stage::Use& stop, TimePoint now) override;
   void device_restarted(TimePoint now) override;
   void settings_changed(LeaseToken lease) override;
-  shrc203::Orders advance(TimePoint now) override;
+  stage::Orders advance(TimePoint now) override;
   void stopped(std::uint64_t order, TimePoint now) override;
   void settings_restored(LeaseToken lease, TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
@@ -143,7 +143,7 @@ class Leases : public shrc203::Permission {
     std::uint64_t order = 0;  // of a take-over: its stop, until that has been answered
   };
   struct Running {
-    shrc203::Use use;
+    stage::Use use;
     bool revoked = false;  // taken over: not a byte more
   };
   struct Borrowed {  // the last time that an axis was moved without a lease
@@ -154,8 +154,8 @@ class Leases : public shrc203::Permission {
   Held* find(LeaseToken token);
   Result<Held*> find_held(LeaseToken token, TimePoint now);
   Problem lost_problem(LeaseToken token) const;
-  Result<void> may_use_leased(const shrc203::Use& use, TimePoint now);
-  Result<void> may_borrow(const shrc203::Use& use, TimePoint now);
+  Result<void> may_use_leased(const stage::Use& use, TimePoint now);
+  Result<void> may_borrow(const stage::Use& use, TimePoint now);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
   void end_lease(Held& held, std::string why, bool goes_on);
@@ -180,14 +180,14 @@ class Leases : public shrc203::Permission {
   std::vector<Held> held_;
   std::deque<Waiting> waiting_;
   std::map<MotionId, Running> running_;
-  std::array<Borrowed, shrc203::kAxisCount> borrowed_;
+  std::array<Borrowed, stage::kAxisCount> borrowed_;
   std::vector<HeldBack> held_back_;
   struct Ended {
     LeaseToken token = 0;
     std::string why;
   };
   std::deque<Ended> ended_;
-  shrc203::Orders orders_;
+  stage::Orders orders_;
   std::uint64_t last_waiting_ = 0, last_order_ = 0;
 };
 

@@ -11,16 +11,15 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/shrc203/event.h"
+#include "device/stage/event.h"
 #include "server/events/wake_ups.h"
 #include "server/events/wall_time.h"
 
 namespace axisgate::server {
 
 // What is told to everybody, each exactly once and in order. Telemetry is not among it: newest.h.
-using Fact =
-    std::variant<shrc203::MotionChanged, shrc203::CompletionSeen, shrc203::PathProgress, shrc203::LinkChanged,
-                 shrc203::StopRequested, shrc203::ForeignMotion, shrc203::SwitchesChanged, shrc203::ProgramNotice>;
+using Fact = std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
+                          stage::StopRequested, stage::ForeignMotion, stage::SwitchesChanged, stage::ProgramNotice>;
 
 struct FactRecord {
   std::uint64_t revision = 0;  // counts from 1 as long as the daemon runs, over all devices

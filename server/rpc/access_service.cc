@@ -23,7 +23,7 @@ static_assert(static_cast<int>(Role::admin) == api::ROLE_ADMIN);
 
 void fill(google::protobuf::Timestamp& time, Calendar from) { time.set_seconds(from.time_since_epoch().count()); }
 
-api::Token to_proto(const Token& token) {
+api::Token message_of(const Token& token) {
   api::Token proto;
   proto.set_name(token.name);
   proto.set_role(static_cast<api::Role>(token.role));
@@ -80,7 +80,7 @@ grpc::ServerUnaryReactor* AccessService::CreateToken(grpc::CallbackServerContext
   spdlog::info("{} made the token {} ({})", caller(*context), request->name(), name(*role));
   call->answer([&](api::CreateTokenResponse& answer) {
     answer.set_secret(*secret);
-    *answer.mutable_token() = to_proto({request->name(), *role, begins, ends, {}, {}});
+    *answer.mutable_token() = message_of({request->name(), *role, begins, ends, {}, {}});
   });
   return call.get();
 }
@@ -89,7 +89,7 @@ grpc::ServerUnaryReactor* AccessService::ListTokens(grpc::CallbackServerContext*
                                                     api::ListTokensResponse* response) {
   const auto call = UnaryCall<api::ListTokensResponse>::start(response);
   call->answer([&](api::ListTokensResponse& answer) {
-    for (const Token& token : access_.tokens().list()) *answer.add_tokens() = to_proto(token);
+    for (const Token& token : access_.tokens().list()) *answer.add_tokens() = message_of(token);
   });
   return call.get();
 }

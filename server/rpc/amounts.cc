@@ -106,12 +106,12 @@ api::Unit to_proto(Unit unit) {
 }
 
 Result<int> to_axis(int number) {
-  if (number >= 1 && number <= shrc203::kAxisCount) return number;
+  if (number >= 1 && number <= stage::kAxisCount) return number;
   return fail(Reason::unknown_axis, fmt::format("there is no axis {}", number), "axes are 1, 2 and 3");
 }
 
-Result<shrc203::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
-  shrc203::AxisSet axes;
+Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
+  stage::AxisSet axes;
   for (const int number : numbers) {
     const Result<int> axis = to_axis(number);
     if (!axis) return tl::unexpected(axis.error());

@@ -6,7 +6,7 @@
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
 #include "device/core/quantity.h"
-#include "device/shrc203/axes.h"
+#include "device/stage/axes.h"
 
 namespace axisgate::rpc {
 
@@ -21,7 +21,7 @@ api::Speed to_speed(const Quantity& quantity);
 api::Unit to_proto(Unit unit);
 
 // Each 1 to 3, once: else unknown_axis or invalid_request. No axes stay no axes.
-Result<shrc203::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
+Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
 Result<int> to_axis(int number);
 
 }  // namespace axisgate::rpc

@@ -37,8 +37,8 @@ std::optional<TimePoint> not_after(const api::CallContext& context) {
   return server::to_monotonic(WallTime(std::chrono::duration_cast<WallTime::duration>(since_epoch)));
 }
 
-Result<shrc203::RequestContext> context_until(const grpc::CallbackServerContext& call, const api::CallContext& context,
-                                              TimePoint otherwise) {
+Result<stage::RequestContext> context_until(const grpc::CallbackServerContext& call, const api::CallContext& context,
+                                            TimePoint otherwise) {
   const std::string& id = context.request_id();
   const bool printable = std::all_of(id.begin(), id.end(), [](char c) { return c >= ' ' && c <= '~'; });
   if (id.size() > kRequestIdMax || !printable) {
@@ -47,19 +47,19 @@ Result<shrc203::RequestContext> context_until(const grpc::CallbackServerContext&
   }
   TimePoint until = not_after(context).value_or(otherwise);
   if (const auto deadline = call_deadline(call)) until = std::min(until, *deadline);
-  return shrc203::RequestContext{.who = caller(call),
-                                 .request_id = id,
-                                 .not_after = until,
-                                 .lease = context.lease_token(),
-                                 .device_epoch = context.device_epoch(),
-                                 .frame_epoch = context.frame_epoch()};
+  return stage::RequestContext{.who = caller(call),
+                               .request_id = id,
+                               .not_after = until,
+                               .lease = context.lease_token(),
+                               .device_epoch = context.device_epoch(),
+                               .frame_epoch = context.frame_epoch()};
 }
 
 }  // namespace
 
 std::string device_name(const server::Device& device) { return std::string(kDevices) + device.name(); }
 
-std::string motion_name(std::string_view device_of_config, shrc203::MotionId motion) {
+std::string motion_name(std::string_view device_of_config, stage::MotionId motion) {
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kMotions, motion);
 }
 
@@ -93,15 +93,15 @@ Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_
   return found;
 }
 
-Result<shrc203::Motion> find_motion(const shrc203::Controller& controller, shrc203::MotionId id) {
-  if (std::optional<shrc203::Motion> motion = controller.find_motion(id)) return *std::move(motion);
+Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id) {
+  if (std::optional<stage::Motion> motion = controller.find_motion(id)) return *std::move(motion);
   return fail(Reason::not_found, fmt::format("there is no motion {} on {}", id, controller.profile().name),
               fmt::format("the newest {} since the daemon started are kept; ListMotions shows them",
-                          shrc203::Controller::kMotionsKept));
+                          stage::StageController::kMotionsKept));
 }
 
-Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
-                                               const server::Access& access) {
+Result<stage::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
+                                             const server::Access& access) {
   auto asked = context_until(call, context, monotonic_now() + kMotionPatience);
   const Result<std::string> role = role_of(call, access);
   if (!role) return tl::unexpected(role.error());
@@ -109,19 +109,19 @@ Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext
   return asked;
 }
 
-Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerContext& call,
-                                                 const api::CallContext& context) {
+Result<stage::RequestContext> mutation_context(const grpc::CallbackServerContext& call,
+                                               const api::CallContext& context) {
   return context_until(call, context, call_deadline(call).value_or(monotonic_now() + kPatience));
 }
 
-shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context) {
-  shrc203::RequestContext asked = question_context(call);
+stage::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context) {
+  stage::RequestContext asked = question_context(call);
   asked.request_id = escaped(context.request_id(), kRequestIdMax);
   asked.lease = context.lease_token();
   return asked;
 }
 
-shrc203::RequestContext question_context(const grpc::CallbackServerContext& call) {
+stage::RequestContext question_context(const grpc::CallbackServerContext& call) {
   return {.who = caller(call), .not_after = call_deadline(call).value_or(monotonic_now() + kPatience)};
 }
 

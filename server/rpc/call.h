@@ -8,7 +8,7 @@
 
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
 #include "server/access/access.h"
 #include "server/gateway.h"
 
@@ -16,35 +16,35 @@ namespace axisgate::rpc {
 
 namespace api = axisgate::v1;
 
-std::string device_name(const server::Device& device);                                 // "devices/{d}"
-std::string motion_name(std::string_view device_of_config, shrc203::MotionId motion);  // "devices/{d}/motions/{id}"
+std::string device_name(const server::Device& device);                               // "devices/{d}"
+std::string motion_name(std::string_view device_of_config, stage::MotionId motion);  // "devices/{d}/motions/{id}"
 
 // invalid_request where the name is not "devices/{d}", unknown_device where no device is called so.
 Result<server::Device*> find_device(const server::Gateway& gateway, std::string_view name);
 
 struct MotionName {
   server::Device* device = nullptr;
-  shrc203::MotionId id = 0;
+  stage::MotionId id = 0;
 };
 // invalid_request where the name is not "devices/{d}/motions/{id}", unknown_device.
 Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name);
 
 // The motion, or not_found. On the device's strand.
-Result<shrc203::Motion> find_motion(const shrc203::Controller& controller, shrc203::MotionId id);
+Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id);
 
 // Contexts of requests that arrive now; invalid_request for a request_id that is too long or not printable ASCII.
 // All end at the call's own gRPC deadline at the latest.
 //
 // A motion may start until its not_after; without one, for 5 s.
-Result<shrc203::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
-                                               const server::Access& access);
+Result<stage::RequestContext> motion_context(const grpc::CallbackServerContext& call, const api::CallContext& context,
+                                             const server::Access& access);
 // Any other request that changes something counts until its not_after; without one, for 20 s or, with a gRPC deadline,
 // until that.
-Result<shrc203::RequestContext> mutation_context(const grpc::CallbackServerContext& call,
-                                                 const api::CallContext& context);
+Result<stage::RequestContext> mutation_context(const grpc::CallbackServerContext& call,
+                                               const api::CallContext& context);
 // A stop is never refused for its context, and asks for no not_after: it is waited for as long as for a question.
-shrc203::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context);
+stage::RequestContext stop_context(const grpc::CallbackServerContext& call, const api::CallContext& context);
 // A question counts until the call's deadline, or for 20 s.
-shrc203::RequestContext question_context(const grpc::CallbackServerContext& call);
+stage::RequestContext question_context(const grpc::CallbackServerContext& call);
 
 }  // namespace axisgate::rpc

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
-#include "device/shrc203/codec.h"
-#include "device/shrc203/command_table.h"
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/command/command_table.h"
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
 #include "server/rpc/execute_stream.h"
@@ -107,7 +107,7 @@ grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::Ca
   if (const Result<void> allowed = check_role(*request, *context, access_); !allowed) return new Ended(allowed.error());
   const Result<Duration> timeout = timeout_of(*request);
   if (!timeout) return new Ended(timeout.error());
-  Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  Result<stage::RequestContext> asked = mutation_context(*context, request->context());
   if (const auto role = role_of(*context, access_); asked && role) {
     asked->role = *role;
   } else if (asked) {
@@ -115,9 +115,9 @@ grpc::ServerWriteReactor<api::ExecuteResponse>* CommandService::Execute(grpc::Ca
   }
   if (!asked) return new Ended(asked.error());
   if (!request->context().has_not_after()) asked->not_after = monotonic_now() + *timeout;
-  shrc203::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};
+  stage::ExecuteRequest transaction{{request->lines().begin(), request->lines().end()}, *std::move(asked)};
   if (request->validate_only()) {
-    const Result<void> checked = shrc203::Controller::check(transaction);
+    const Result<void> checked = (*device)->kind().check_lines(transaction.lines);
     return checked ? new Ended(grpc::Status::OK) : new Ended(checked.error());
   }
   Result<StreamLimit::Place> place = streams_.take();

@@ -15,7 +15,7 @@ namespace {
 
 using server::Lease;
 using server::LeaseTerms;
-using shrc203::Controller;
+using stage::StageController;
 
 constexpr Duration kWaitMax = std::chrono::hours(24);
 
@@ -23,7 +23,7 @@ constexpr Duration kWaitMax = std::chrono::hours(24);
 struct Wish {
   server::Device* device = nullptr;
   LeaseTerms terms;
-  shrc203::RequestContext asked;
+  stage::RequestContext asked;
 };
 
 template <class Request>
@@ -32,7 +32,7 @@ Result<Wish> to_wish(const server::Gateway& gateway, const grpc::CallbackServerC
   if (!device) return tl::unexpected(device.error());
   Result<LeaseTerms> terms = to_terms(request.terms());
   if (!terms) return tl::unexpected(terms.error());
-  Result<shrc203::RequestContext> asked = mutation_context(call, request.context());
+  Result<stage::RequestContext> asked = mutation_context(call, request.context());
   if (!asked) return tl::unexpected(asked.error());
   return Wish{*device, *std::move(terms), *std::move(asked)};
 }
@@ -47,8 +47,9 @@ server::Leases::OnLease tell(const std::shared_ptr<UnaryCall<Response>>& call, s
     }
     const bool told = call->try_answer([&](Response& answer) { *answer.mutable_lease() = to_proto(*lease); });
     if (told) return;
-    device.post(
-        [&device, token = lease->token](Controller&, TimePoint later) { (void)device.leases().release(token, later); });
+    device.post([&device, token = lease->token](StageController&, TimePoint later) {
+      (void)device.leases().release(token, later);
+    });
   };
 }
 
@@ -67,12 +68,12 @@ grpc::ServerUnaryReactor* ControlService::AcquireLease(grpc::CallbackServerConte
     return call.get();
   }
   server::Device& device = *wish->device;
-  device.post([call, &device, wish = *wish, wait = *wait](Controller&, TimePoint now) {
+  device.post([call, &device, wish = *wish, wait = *wait](StageController&, TimePoint now) {
     const std::uint64_t id = device.leases().acquire(wish.terms, wish.asked.who, wait > Duration::zero(), now + wait,
                                                      now, tell(call, device));
     if (id == 0) return;
     call->when_cancelled([&device, id] {
-      device.post([&device, id](Controller&, TimePoint later) { device.leases().withdraw(id, later); });
+      device.post([&device, id](StageController&, TimePoint later) { device.leases().withdraw(id, later); });
     });
   });
   return call.get();
@@ -89,10 +90,11 @@ grpc::ServerUnaryReactor* ControlService::ReleaseLease(grpc::CallbackServerConte
   const auto call = UnaryCall<api::ReleaseLeaseResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, &device = **device, token = request->context().lease_token()](Controller&, TimePoint now) {
-    const Result<void> done = device.leases().release(token, now);
-    done ? call->answer([](api::ReleaseLeaseResponse&) {}) : static_cast<void>(call->refuse(done.error()));
-  });
+  (*device)->post(
+      [call, &device = **device, token = request->context().lease_token()](StageController&, TimePoint now) {
+        const Result<void> done = device.leases().release(token, now);
+        done ? call->answer([](api::ReleaseLeaseResponse&) {}) : static_cast<void>(call->refuse(done.error()));
+      });
   return call.get();
 }
 
@@ -103,7 +105,7 @@ grpc::ServerUnaryReactor* ControlService::HandOverLease(grpc::CallbackServerCont
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
   (*device)->post([call, &device = **device, token = request->context().lease_token(), to = request->to()](
-                      Controller&, TimePoint now) {
+                      StageController&, TimePoint now) {
     const Result<void> done = device.leases().hand_over(token, to, now);
     done ? call->answer([](api::HandOverLeaseResponse&) {}) : static_cast<void>(call->refuse(done.error()));
   });
@@ -121,7 +123,7 @@ grpc::ServerUnaryReactor* ControlService::TakeOverLease(grpc::CallbackServerCont
     return call.get();
   }
   server::Device& device = *wish->device;
-  device.post([call, &device, wish = *wish](Controller&, TimePoint now) {
+  device.post([call, &device, wish = *wish](StageController&, TimePoint now) {
     device.leases().take_over(wish.terms, wish.asked.who, now, tell(call, device));
   });
   return call.get();
@@ -142,10 +144,10 @@ grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* con
   const auto call = UnaryCall<api::RearmResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  const Result<stage::RequestContext> asked = mutation_context(*context, request->context());
   if (!asked) return call->refuse(asked.error());
-  (*device)->post([call, &device = **device, asked = *asked](Controller&, TimePoint now) {
-    const Result<shrc203::AxisSet> lifted = device.leases().rearm(asked.lease, asked.who, now);
+  (*device)->post([call, &device = **device, asked = *asked](StageController&, TimePoint now) {
+    const Result<stage::AxisSet> lifted = device.leases().rearm(asked.lease, asked.who, now);
     if (!lifted) {
       call->refuse(lifted.error());
       return;

@@ -16,8 +16,8 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::Curve;
-using shrc203::Rotation;
+using stage::Curve;
+using stage::Rotation;
 
 constexpr int kHelixAxis = 3;                           // manual 74) to 76), 80) to 82): z
 constexpr std::array<int, 2> kHelixPlane = {1, 2};      // the same: A is the only axis setting

@@ -3,7 +3,7 @@
 
 #include "axisgate/v1/stage.pb.h"
 #include "device/core/problem.h"
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
 
 namespace axisgate::rpc {
 
@@ -11,6 +11,6 @@ namespace api = axisgate::v1;
 
 // invalid_request where something is missing, doubled or of the wrong axes, unknown_axis, out_of_range for turns; of an
 // amount as to_quantity().
-Result<shrc203::Curve> to_curve(const api::Arc& arc);
+Result<stage::Curve> to_curve(const api::Arc& arc);
 
 }  // namespace axisgate::rpc

@@ -16,7 +16,7 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::Controller;
+using stage::StageController;
 
 constexpr Duration kIntervalMin = std::chrono::milliseconds(10);
 constexpr Duration kDurationMax = std::chrono::hours(24);
@@ -47,16 +47,16 @@ grpc::ServerUnaryReactor* DeviceService::GetDevice(grpc::CallbackServerContext* 
   const auto call = UnaryCall<api::GetDeviceResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->name());
   if (!device) return call->refuse(device.error());
-  const auto tell = [call, &device = **device](const shrc203::State& state) {
+  const auto tell = [call, &device = **device](const stage::State& state) {
     call->answer([&](api::GetDeviceResponse& answer) { *answer.mutable_device() = to_proto(device, state); });
   };
   if (!request->has_max_age()) {
-    (*device)->post([tell](Controller& controller, TimePoint) { tell(controller.state()); });
+    (*device)->post([tell](StageController& controller, TimePoint) { tell(controller.state()); });
     return call.get();
   }
   (*device)->post([call, tell, max_age = to_duration(request->max_age()), asked = question_context(*context)](
-                      Controller& controller, TimePoint now) {
-    controller.refresh(max_age, asked, now, [call, tell](const Result<shrc203::State>& state) {
+                      StageController& controller, TimePoint now) {
+    controller.refresh(max_age, asked, now, [call, tell](const Result<stage::State>& state) {
       state ? tell(*state) : static_cast<void>(call->refuse(state.error()));
     });
   });
@@ -79,13 +79,13 @@ grpc::ServerUnaryReactor* DeviceService::ClearErrors(grpc::CallbackServerContext
   const auto call = UnaryCall<api::ClearErrorsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->name());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::AxisSet> named = to_axes(request->axes());
+  const Result<stage::AxisSet> named = to_axes(request->axes());
   if (!named) return call->refuse(named.error());
-  const Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  const Result<stage::RequestContext> asked = mutation_context(*context, request->context());
   if (!asked) return call->refuse(asked.error());
   (*device)->post([call, named = *named, asked = *asked, validate_only = request->validate_only()](
-                      Controller& controller, TimePoint now) {
-    const Result<shrc203::AxisSet> axes = controllable_axes(named, controller.state());
+                      StageController& controller, TimePoint now) {
+    const Result<stage::AxisSet> axes = controllable_axes(named, controller.state());
     if (!axes) {
       call->refuse(axes.error());
     } else if (validate_only) {

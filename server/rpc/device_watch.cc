@@ -16,7 +16,7 @@ DeviceWatch* DeviceWatch::start(server::Gateway& gateway, server::Device& device
 }
 
 DeviceWatch::Next DeviceWatch::next() {
-  const server::Newest<shrc203::State>::Snapshot newest = device_.newest_state().get();
+  const server::Newest<stage::State>::Snapshot newest = device_.newest_state().get();
   if (newest.version == sent_) return Wait{};
   const TimePoint now = monotonic_now();
   if (now < earliest_) {

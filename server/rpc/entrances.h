@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "device/link/descriptor.h"
-#include "server/config.h"
+#include "server/config/config.h"
 #include "server/connections/acceptor.h"
 #include "server/connections/callers.h"
 #include "server/rpc/gatekeeper.h"

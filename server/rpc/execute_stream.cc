@@ -18,23 +18,20 @@ constexpr std::size_t kDeviceTextMax = 512;
 constexpr Duration kTimeoutGrace = std::chrono::milliseconds(100);
 
 Problem timed_out(Duration timeout) {
-  return {Reason::deadline_passed,
-          fmt::format("not all replies and completions came within {} s",
-                      std::chrono::duration_cast<std::chrono::duration<double>>(timeout).count()),
-          "what moves goes on: WatchDevice shows it, Stop ends it",
-          {},
-          {},
-          {}};
+  return {.reason = Reason::deadline_passed,
+          .message = fmt::format("not all replies and completions came within {} s",
+                                 std::chrono::duration_cast<std::chrono::duration<double>>(timeout).count()),
+          .hint = "what moves goes on: WatchDevice shows it, Stop ends it"};
 }
 
 }  // namespace
 
-ExecuteStream* ExecuteStream::start(server::Gateway& gateway, server::Device& device,
-                                    shrc203::ExecuteRequest transaction, Duration timeout, StreamLimit::Place place) {
+ExecuteStream* ExecuteStream::start(server::Gateway& gateway, server::Device& device, stage::ExecuteRequest transaction,
+                                    Duration timeout, StreamLimit::Place place) {
   std::shared_ptr<ExecuteStream> stream(new ExecuteStream(std::move(place)));
   stream->open();
-  device.post([stream, transaction = std::move(transaction)](shrc203::Controller& controller, TimePoint now) {
-    controller.execute(transaction, now, [stream](const shrc203::ExecuteEvent& event) { stream->on_event(event); });
+  device.post([stream, transaction = std::move(transaction)](stage::StageController& controller, TimePoint now) {
+    controller.execute(transaction, now, [stream](const stage::ExecuteEvent& event) { stream->on_event(event); });
   });
   gateway.after(timeout + kTimeoutGrace, [waiting = std::weak_ptr(stream), timeout] {
     if (const auto still = waiting.lock()) still->end(to_status(timed_out(timeout)));
@@ -42,8 +39,8 @@ ExecuteStream* ExecuteStream::start(server::Gateway& gateway, server::Device& de
   return stream.get();
 }
 
-void ExecuteStream::on_event(const shrc203::ExecuteEvent& event) {
-  using Kind = shrc203::ExecuteEvent::Kind;
+void ExecuteStream::on_event(const stage::ExecuteEvent& event) {
+  using Kind = stage::ExecuteEvent::Kind;
   if (event.kind == Kind::ended) return end(event.problem ? to_status(*event.problem) : grpc::Status::OK);
   api::ExecuteResponse response;
   if (event.kind == Kind::completion) {

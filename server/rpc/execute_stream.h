@@ -8,7 +8,7 @@
 #include <optional>
 
 #include "axisgate/v1/command.pb.h"
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
 #include "server/gateway.h"
 #include "server/rpc/pull_stream.h"
 #include "server/rpc/stream_limit.h"
@@ -19,13 +19,13 @@ namespace api = axisgate::v1;
 
 class ExecuteStream final : public PullStream<grpc::ServerWriteReactor<api::ExecuteResponse>, api::ExecuteResponse> {
  public:
-  static ExecuteStream* start(server::Gateway& gateway, server::Device& device, shrc203::ExecuteRequest transaction,
+  static ExecuteStream* start(server::Gateway& gateway, server::Device& device, stage::ExecuteRequest transaction,
                               Duration timeout, StreamLimit::Place place);
 
  private:
   explicit ExecuteStream(StreamLimit::Place place) : place_(std::move(place)) {}
 
-  void on_event(const shrc203::ExecuteEvent& event);
+  void on_event(const stage::ExecuteEvent& event);
   void end(grpc::Status status);
   Next next() override;
 

@@ -61,12 +61,9 @@ class FactReader {
 
 // How a stream ends that cannot go on: its reader was too slow, or asked for another run's revision.
 inline Problem compacted_problem() {
-  return {Reason::compacted,
-          "the events from the revision asked for on are not all kept",
-          "resume from metadata[\"resume_revision\"], and read the present state of what was missed",
-          {},
-          {},
-          {}};
+  return {.reason = Reason::compacted,
+          .message = "the events from the revision asked for on are not all kept",
+          .hint = "resume from metadata[\"resume_revision\"], and read the present state of what was missed"};
 }
 inline Metadata resume_at(std::uint64_t revision) { return {{"resume_revision", std::to_string(revision)}}; }
 inline grpc::Status compacted_status(FactReader::Compacted compacted) {

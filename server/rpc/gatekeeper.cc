@@ -128,13 +128,11 @@ Result<Caller> caller_with_role(const grpc::CallbackServerContext& call, const s
 
 Result<void> check_command_role(const std::string& line, const server::Caller& caller, const server::Access& access) {
   if (caller.role == Role::admin || !access.only_for_admins(line)) return {};
-  Problem problem{
-      Reason::not_allowed,
-      fmt::format("only an administrator may send this command, and {} is {}", caller.who, name(caller.role)),
-      "ask one, or leave it out of `admin_commands` in the configuration",
-      {},
-      line,
-      {}};
+  Problem problem{.reason = Reason::not_allowed,
+                  .message = fmt::format("only an administrator may send this command, and {} is {}", caller.who,
+                                         name(caller.role)),
+                  .hint = "ask one, or leave it out of `admin_commands` in the configuration",
+                  .sent = line};
   return tl::unexpected(std::move(problem));
 }
 

@@ -53,7 +53,7 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, con
                                                HealthCheckResponse* response) {
   const auto call = UnaryCall<HealthCheckResponse>::start(response);
   if (!is_service(request->service())) {
-    return call->refuse({Reason::not_found, "no service of that name is served here", "", {}, {}, {}});
+    return call->refuse({.reason = Reason::not_found, .message = "no service of that name is served here"});
   }
   call->answer([](HealthCheckResponse& answer) { answer.set_status(HealthCheckResponse::SERVING); });
   return call.get();

@@ -12,15 +12,15 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::Controller;
-using JogAxes = std::vector<shrc203::JogRequest::Axis>;
+using stage::StageController;
+using JogAxes = std::vector<stage::JogRequest::Axis>;
 
 // gRPC ends the reading alike for a client that has sent all and for one that broke off; only the second is then
 // cancelled, at once but after.
 constexpr Duration kBreakOffWait = std::chrono::milliseconds(10);
 
 const Problem kBrokenOff{
-    Reason::stopped, "the call of the jog broke off", "see whether the client still runs", {}, {}, {}};
+    .reason = Reason::stopped, .message = "the call of the jog broke off", .hint = "see whether the client still runs"};
 
 Result<JogAxes> to_jog_axes(const api::JogRequest& request, bool first) {
   JogAxes axes;
@@ -84,12 +84,12 @@ Result<void> JogRun::take_first() {
   const auto asked = motion_context(context_, incoming_.context(), access_);
   if (!asked) return tl::unexpected(asked.error());
   device_ = *device;
-  device_.load()->post([run = self<JogRun>(), request = shrc203::JogRequest{*axes, *asked}](
-                           Controller& controller, TimePoint now) { run->begin(controller, request, now); });
+  device_.load()->post([run = self<JogRun>(), request = stage::JogRequest{*axes, *asked}](
+                           StageController& controller, TimePoint now) { run->begin(controller, request, now); });
   return {};
 }
 
-void JogRun::begin(Controller& controller, shrc203::JogRequest request, TimePoint now) {
+void JogRun::begin(StageController& controller, stage::JogRequest request, TimePoint now) {
   if (over_ || cancelled()) return refuse(kBrokenOff);
   {
     // Facts of this device are published on this strand only: none about this jog lies before this revision.
@@ -97,13 +97,13 @@ void JogRun::begin(Controller& controller, shrc203::JogRequest request, TimePoin
     reader_.go_to(gateway_.events().newest_revision() + 1);
   }
   motion_ = controller.jog(std::move(request), now,
-                           [run = self<JogRun>()](const Result<shrc203::Motion>& motion) { run->show_or_end(motion); });
+                           [run = self<JogRun>()](const Result<stage::Motion>& motion) { run->show_or_end(motion); });
 }
 
 Result<void> JogRun::take_renewal() {
   const auto axes = to_jog_axes(incoming_, false);
   if (!axes) return tl::unexpected(axes.error());
-  device_.load()->post([run = self<JogRun>(), axes = *axes](Controller& controller, TimePoint now) {
+  device_.load()->post([run = self<JogRun>(), axes = *axes](StageController& controller, TimePoint now) {
     if (run->motion_ == 0 || run->over_) return;
     const Result<void> renewed = controller.renew_jog(run->motion_, axes, now);
     // Of a jog that has ended the outcome is told.
@@ -117,9 +117,11 @@ Result<void> JogRun::take_renewal() {
 void JogRun::stop(std::optional<Problem> why) {
   if (device_ == nullptr) {
     // Nothing was asked for.
-    return refuse({Reason::invalid_request, "the jog names no device and no axis", "send a first message", {}, {}, {}});
+    return refuse({.reason = Reason::invalid_request,
+                   .message = "the jog names no device and no axis",
+                   .hint = "send a first message"});
   }
-  device_.load()->post([run = self<JogRun>(), why = std::move(why)](Controller& controller, TimePoint now) {
+  device_.load()->post([run = self<JogRun>(), why = std::move(why)](StageController& controller, TimePoint now) {
     run->over_ = true;
     if (run->motion_ != 0) controller.end_jog(run->motion_, why, now);
   });
@@ -133,7 +135,7 @@ void JogRun::refuse(const Problem& problem) {
   pump();
 }
 
-void JogRun::show_or_end(const Result<shrc203::Motion>& motion) {
+void JogRun::show_or_end(const Result<stage::Motion>& motion) {
   if (!motion) return refuse(motion.error());
   {
     const std::lock_guard lock(mutex_);
@@ -143,10 +145,10 @@ void JogRun::show_or_end(const Result<shrc203::Motion>& motion) {
   pump();
 }
 
-void JogRun::show(const shrc203::Motion& motion, std::uint64_t revision) {
+void JogRun::show(const stage::Motion& motion, std::uint64_t revision) {
   due_.emplace();
   *due_->mutable_motion() = to_proto(device_.load()->name(), motion, revision);
-  if (shrc203::is_outcome(motion.state) && !end_) end_ = grpc::Status::OK;
+  if (stage::is_outcome(motion.state) && !end_) end_ = grpc::Status::OK;
 }
 
 JogRun::Next JogRun::next() {
@@ -162,7 +164,7 @@ void JogRun::read_changes() {
     if (std::holds_alternative<FactReader::Nothing>(reading)) return;
     if (std::holds_alternative<FactReader::Compacted>(reading)) return look();
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
-    const auto* change = std::get_if<shrc203::MotionChanged>(&record.fact);
+    const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
     if (change != nullptr && change->motion.id == shown_ && record.device == device_.load()->name()) {
       show(change->motion, record.revision);
     }
@@ -172,7 +174,7 @@ void JogRun::read_changes() {
 // Too slow for every change: the motion as it is now stands for those that were missed.
 void JogRun::look() {
   shown_ = 0;
-  device_.load()->post([run = self<JogRun>()](Controller& controller, TimePoint) {
+  device_.load()->post([run = self<JogRun>()](StageController& controller, TimePoint) {
     {
       const std::lock_guard lock(run->mutex_);
       run->reader_.go_to(run->gateway_.events().newest_revision() + 1);

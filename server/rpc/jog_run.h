@@ -35,15 +35,15 @@ class JogRun final : public PullStream<grpc::ServerBidiReactor<api::JogRequest, 
 
   Result<void> take_first();
   Result<void> take_renewal();
-  void begin(shrc203::Controller& controller, shrc203::JogRequest request, TimePoint now);
-  void show_or_end(const Result<shrc203::Motion>& motion);
+  void begin(stage::StageController& controller, stage::JogRequest request, TimePoint now);
+  void show_or_end(const Result<stage::Motion>& motion);
   void look();
   void refuse(const Problem& problem);
   void stop(std::optional<Problem> why);
 
   Next next() override;
   void read_changes();
-  void show(const shrc203::Motion& motion, std::uint64_t revision);
+  void show(const stage::Motion& motion, std::uint64_t revision);
   void closed() override { subscription_.reset(); }
 
   server::Gateway& gateway_;
@@ -54,12 +54,12 @@ class JogRun final : public PullStream<grpc::ServerBidiReactor<api::JogRequest, 
   std::atomic<server::Device*> device_ = nullptr;  // null: no message yet
 
   // On the device's strand.
-  shrc203::MotionId motion_ = 0;  // 0: none
-  bool over_ = false;             // the client wants no motion any more
+  stage::MotionId motion_ = 0;  // 0: none
+  bool over_ = false;           // the client wants no motion any more
 
   // Under the stream's lock.
   FactReader reader_;
-  shrc203::MotionId shown_ = 0;  // whose changes are read; 0: not started
+  stage::MotionId shown_ = 0;  // whose changes are read; 0: not started
   std::optional<api::JogResponse> due_;
   std::optional<grpc::Status> end_;  // after what is due
 

@@ -29,7 +29,7 @@ google::protobuf::Duration to_proto(Duration span) {
 google::protobuf::Timestamp to_proto(TimePoint time) { return rpc::to_proto(server::to_wall(time)); }
 
 template <class Repeated>
-void fill(Repeated& axes, shrc203::AxisSet set) {
+void fill(Repeated& axes, stage::AxisSet set) {
   for (const int axis : set.list()) axes.Add(axis);
 }
 
@@ -71,9 +71,9 @@ Result<Duration> to_span(const google::protobuf::Duration& duration, Duration mo
 
 Result<LeaseTerms> to_terms(const api::LeaseTerms& terms) {
   LeaseTerms wanted;
-  const Result<shrc203::AxisSet> axes = to_axes(terms.axes());
+  const Result<stage::AxisSet> axes = to_axes(terms.axes());
   if (!axes) return tl::unexpected(axes.error());
-  wanted.axes = axes->empty() ? shrc203::AxisSet::all() : *axes;
+  wanted.axes = axes->empty() ? stage::AxisSet::all() : *axes;
   if (terms.has_time_to_live()) {
     const auto live = to_span(terms.time_to_live(), LeaseTerms::kTimeToLiveMax, "terms.time_to_live");
     if (!live) return tl::unexpected(live.error());

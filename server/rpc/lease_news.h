@@ -8,7 +8,7 @@
 #include "axisgate/v1/control.pb.h"
 #include "device/core/problem.h"
 #include "server/access/leases.h"
-#include "server/device.h"
+#include "server/devices/device.h"
 
 namespace axisgate::rpc {
 

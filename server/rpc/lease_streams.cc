@@ -42,7 +42,7 @@ void LeaseKeeping::OnReadDone(bool ok) {
   const Result<server::Device*> device = find_device(gateway_, incoming_.device());
   if (!device) return end(to_status(device.error()));
   (*device)->post([keeping = self<LeaseKeeping>(), &device = **device, token = incoming_.lease_token()](
-                      shrc203::Controller&, TimePoint now) { keeping->keep(device, token, now); });
+                      stage::StageController&, TimePoint now) { keeping->keep(device, token, now); });
 }
 
 void LeaseKeeping::keep(server::Device& device, server::LeaseToken token, TimePoint now) {
@@ -73,7 +73,7 @@ void LeaseKeeping::OnCancel() {
     token = kept_;
   }
   if (device != nullptr) {
-    device->post([device, token](shrc203::Controller&, TimePoint now) { device->leases().lost(token, now); });
+    device->post([device, token](stage::StageController&, TimePoint now) { device->leases().lost(token, now); });
   }
   PullStream::OnCancel();
 }

@@ -18,8 +18,8 @@ MotionWatch* MotionWatch::start(server::Gateway& gateway, const MotionName& moti
 }
 
 void MotionWatch::look() {
-  motion_.device->post([watch = self<MotionWatch>()](shrc203::Controller& controller, TimePoint) {
-    const Result<shrc203::Motion> motion = find_motion(controller, watch->motion_.id);
+  motion_.device->post([watch = self<MotionWatch>()](stage::StageController& controller, TimePoint) {
+    const Result<stage::Motion> motion = find_motion(controller, watch->motion_.id);
     {
       const std::lock_guard lock(watch->mutex_);
       // Facts of this device are published on this strand only: none comes between the motion seen and this revision.
@@ -35,10 +35,10 @@ void MotionWatch::look() {
   });
 }
 
-void MotionWatch::show(const shrc203::Motion& motion, std::uint64_t revision) {
+void MotionWatch::show(const stage::Motion& motion, std::uint64_t revision) {
   due_.emplace();
   *due_->mutable_motion() = to_proto(motion_.device->name(), motion, revision);
-  if (shrc203::is_outcome(motion.state)) end_ = grpc::Status::OK;
+  if (stage::is_outcome(motion.state)) end_ = grpc::Status::OK;
 }
 
 MotionWatch::Next MotionWatch::next() {
@@ -52,7 +52,7 @@ MotionWatch::Next MotionWatch::next() {
       return Wait{};
     }
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
-    const auto* change = std::get_if<shrc203::MotionChanged>(&record.fact);
+    const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
     if (change != nullptr && change->motion.id == motion_.id && record.device == motion_.device->name()) {
       show(change->motion, record.revision);
     }

@@ -27,7 +27,7 @@ class MotionWatch final
       : bus_(gateway.events()), motion_(motion), place_(std::move(place)), reader_(gateway, 0) {}
 
   void look();
-  void show(const shrc203::Motion& motion, std::uint64_t revision);
+  void show(const stage::Motion& motion, std::uint64_t revision);
   Next next() override;
   void closed() override { subscription_.reset(); }
 

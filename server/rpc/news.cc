@@ -8,7 +8,7 @@
 
 #include "device/core/escape.h"
 #include "device/link/clock.h"
-#include "device/shrc203/envelope.h"
+#include "device/stage/envelope.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/status.h"
@@ -16,9 +16,9 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::LinkState;
-using shrc203::MotionKind;
-using shrc203::MotionState;
+using stage::LinkState;
+using stage::MotionKind;
+using stage::MotionState;
 
 api::LinkState to_link_state(LinkState state) {
   static_assert(static_cast<int>(LinkState::down) + 1 == api::LINK_STATE_DOWN);
@@ -42,32 +42,32 @@ api::MotionState to_motion_state(MotionState state) {
 }
 
 // Empty where it is not known or the axis is shown in a unit that does not fit its scale.
-std::string position(const shrc203::AxisState& axis, Unit unit) {
+std::string position(const stage::AxisState& axis, Unit unit) {
   if (!axis.position_pulses || (unit != Unit::pulses && !axis.scale)) return "";
   const Result<Decimal> shown = from_pulses(*axis.position_pulses, unit, axis.scale.value_or(Scale{}));
   return shown ? to_string(*shown) : "";
 }
 
-void fill_stage(int number, const shrc203::Profile& profile, const shrc203::State& state, api::Axis& axis) {
+void fill_stage(int number, const stage::Profile& profile, const stage::State& state, api::Axis& axis) {
   const auto& stage = profile.axes[static_cast<std::size_t>(number - 1)].stage;
   if (!stage) return;
   axis.set_stage(stage->model);
-  const auto fits = shrc203::Envelope(profile, state, "", "").check_stage(number);
+  const auto fits = stage::Envelope(profile, state, "", "").check_stage(number);
   if (!fits) axis.set_stage_problem(fits.error().message);
-  const shrc203::AxisState& now = state.axis(number);
+  const stage::AxisState& now = state.axis(number);
   if (!stage->modulo || !now.position_pulses || !now.scale) return;
   const Result<Decimal> place = within_turn(*now.position_pulses, *stage->modulo, *now.scale);
   if (place) axis.set_position_in_turn(to_string(*place));
 }
 
-void fill_limits(const shrc203::AxisProfile& profile, api::Axis& axis) {
+void fill_limits(const stage::AxisProfile& profile, api::Axis& axis) {
   if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
   if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
   if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
   axis.set_home_first(profile.home_first);
 }
 
-void fill_axis(int number, const shrc203::AxisProfile& profile, const shrc203::AxisState& state, api::Axis& axis) {
+void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisState& state, api::Axis& axis) {
   axis.set_number(number);
   axis.set_name(profile.name);
   axis.set_unit(to_proto(profile.unit));
@@ -104,24 +104,24 @@ struct EventFiller {
   const server::FactRecord& record;
   api::Event& event;
 
-  void operator()(const shrc203::MotionChanged& change) const {
+  void operator()(const stage::MotionChanged& change) const {
     *event.mutable_motion() = to_proto(record.device, change.motion, record.revision);
   }
-  void operator()(const shrc203::CompletionSeen& seen) const {
+  void operator()(const stage::CompletionSeen& seen) const {
     event.mutable_completion()->set_axis(seen.axis);
     if (seen.motion != 0) event.mutable_completion()->set_motion(motion_name(record.device, seen.motion));
   }
-  void operator()(const shrc203::PathProgress& progress) const {
+  void operator()(const stage::PathProgress& progress) const {
     *event.mutable_path_progress() = to_proto(record.device, progress);
   }
-  void operator()(const shrc203::LinkChanged& change) const {
+  void operator()(const stage::LinkChanged& change) const {
     event.mutable_link()->set_state(to_link_state(change.link));
     event.mutable_link()->set_why(change.why);
   }
-  void operator()(const shrc203::ForeignMotion& motion) const {
+  void operator()(const stage::ForeignMotion& motion) const {
     for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
-  void operator()(const shrc203::SwitchesChanged& change) const {
+  void operator()(const stage::SwitchesChanged& change) const {
     api::SwitchesChanged& told = *event.mutable_switches_changed();
     told.set_who(change.who);
     told.set_unknown(change.unknown);
@@ -133,12 +133,12 @@ struct EventFiller {
       proto.set_after(escaped(one.after));
     }
   }
-  void operator()(const shrc203::ProgramNotice& notice) const {
-    static_assert(static_cast<int>(shrc203::ProgramNotice::Kind::trigger) + 1 == api::ProgramNotice::KIND_TRIGGER);
+  void operator()(const stage::ProgramNotice& notice) const {
+    static_assert(static_cast<int>(stage::ProgramNotice::Kind::trigger) + 1 == api::ProgramNotice::KIND_TRIGGER);
     event.mutable_program_notice()->set_kind(static_cast<api::ProgramNotice::Kind>(static_cast<int>(notice.kind) + 1));
     event.mutable_program_notice()->set_count(notice.count);
   }
-  void operator()(const shrc203::StopRequested& stop) const {
+  void operator()(const stage::StopRequested& stop) const {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
     event.mutable_stop_requested()->set_emergency(stop.emergency);
     event.mutable_stop_requested()->set_who(stop.who);
@@ -147,8 +147,8 @@ struct EventFiller {
 
 }  // namespace
 
-void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto) {
-  using Target = shrc203::Trigger::Target;
+void fill_trigger(const stage::Trigger& trigger, api::Trigger& proto) {
+  using Target = stage::Trigger::Target;
   static_assert(static_cast<int>(Target::none) + 1 == api::Trigger::TARGET_NONE);
   static_assert(static_cast<int>(Target::scale_minus) + 1 == api::Trigger::TARGET_SCALE_MINUS);
   proto.set_target(static_cast<api::Trigger::Target>(static_cast<int>(trigger.target) + 1));
@@ -165,10 +165,10 @@ google::protobuf::Timestamp to_proto(server::WallTime time) {
   return stamp;
 }
 
-api::Device to_proto(const server::Device& device, const shrc203::State& state) {
+api::Device to_proto(const server::Device& device, const stage::State& state) {
   api::Device proto;
   proto.set_name(device_name(device));
-  proto.set_kind("shrc203");
+  proto.set_kind(std::string(device.kind().name()));
   proto.set_link(to_link_state(state.link));
   proto.set_link_problem(state.link_problem);
   proto.set_vendor(escaped(state.vendor));
@@ -179,7 +179,7 @@ api::Device to_proto(const server::Device& device, const shrc203::State& state) 
   proto.set_format(escaped(state.format));
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
-  for (int number = 1; number <= shrc203::kAxisCount; ++number) {
+  for (int number = 1; number <= stage::kAxisCount; ++number) {
     api::Axis& axis = *proto.add_axes();
     fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number), axis);
     fill_stage(number, device.profile(), state, axis);
@@ -201,7 +201,7 @@ struct Moment {
   }
 };
 
-api::Scan to_proto(const shrc203::ScanResult& scan) {
+api::Scan to_proto(const stage::ScanResult& scan) {
   api::Scan proto;
   proto.set_run_from_pulses(scan.run_from);
   proto.set_run_to_pulses(scan.run_to);
@@ -211,19 +211,19 @@ api::Scan to_proto(const shrc203::ScanResult& scan) {
   return proto;
 }
 
-void set_times(api::Motion& proto, const shrc203::Motion& motion, const Moment& moment) {
+void set_times(api::Motion& proto, const stage::Motion& motion, const Moment& moment) {
   *proto.mutable_create_time() = to_proto(moment.at(motion.created));
   if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(moment.at(motion.started));
   if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(moment.at(motion.ended));
 }
 
-api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, std::uint64_t revision) {
+api::Motion to_proto(const std::string& device, const stage::Motion& motion, std::uint64_t revision) {
   api::Motion proto;
   proto.set_name(motion_name(device, motion.id));
   proto.set_kind(to_motion_kind(motion.kind));
   proto.set_state(to_motion_state(motion.state));
   for (const int axis : motion.axes.list()) proto.add_axes(axis);
-  for (const shrc203::AxisResult& result : motion.results) {
+  for (const stage::AxisResult& result : motion.results) {
     api::AxisResult& one = *proto.add_results();
     one.set_axis(result.axis);
     if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
@@ -242,8 +242,8 @@ api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, s
   return proto;
 }
 
-api::PathProgress to_proto(const std::string& device, const shrc203::PathProgress& progress) {
-  using Step = shrc203::PathProgress::Step;
+api::PathProgress to_proto(const std::string& device, const stage::PathProgress& progress) {
+  using Step = stage::PathProgress::Step;
   static_assert(static_cast<int>(Step::sent) + 1 == api::PathProgress::STEP_SENT);
   static_assert(static_cast<int>(Step::underrun) + 1 == api::PathProgress::STEP_UNDERRUN);
   api::PathProgress proto;
@@ -261,15 +261,15 @@ api::Event to_proto(const server::FactRecord& record, const std::string& run) {
   event.set_device("devices/" + record.device);
   event.set_run(run);
   std::visit(EventFiller{record, event}, record.fact);
-  if (const auto* changed = std::get_if<shrc203::MotionChanged>(&record.fact)) {
+  if (const auto* changed = std::get_if<stage::MotionChanged>(&record.fact)) {
     set_times(*event.mutable_motion(), changed->motion, {record.monotonic, record.time});
   }
   return event;
 }
 
 template <class Response>
-void fill(Response& response, const shrc203::StopReport& report) {
-  for (const shrc203::StopReport::Axis& axis : report.axes) {
+void fill(Response& response, const stage::StopReport& report) {
+  for (const stage::StopReport::Axis& axis : report.axes) {
     api::AxisStop& one = *response.add_axes();
     one.set_axis(axis.axis);
     one.set_wire_reply(escaped(axis.wire_reply));
@@ -280,7 +280,7 @@ void fill(Response& response, const shrc203::StopReport& report) {
   if (report.problem) *response.mutable_problem() = to_proto(*report.problem);
 }
 
-template void fill(api::StopResponse&, const shrc203::StopReport&);
-template void fill(api::EmergencyStopResponse&, const shrc203::StopReport&);
+template void fill(api::StopResponse&, const stage::StopReport&);
+template void fill(api::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

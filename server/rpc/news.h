@@ -9,8 +9,8 @@
 #include "axisgate/v1/event.pb.h"
 #include "axisgate/v1/motion.pb.h"
 #include "axisgate/v1/stage.pb.h"
-#include "device/shrc203/controller.h"
-#include "server/device.h"
+#include "device/stage/stage_controller.h"
+#include "server/devices/device.h"
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
 
@@ -21,22 +21,22 @@ namespace api = axisgate::v1;
 google::protobuf::Timestamp to_proto(server::WallTime time);
 
 // With the state's age as of now.
-void fill_trigger(const shrc203::Trigger& trigger, api::Trigger& proto);
+void fill_trigger(const stage::Trigger& trigger, api::Trigger& proto);
 
-api::Device to_proto(const server::Device& device, const shrc203::State& state);
+api::Device to_proto(const server::Device& device, const stage::State& state);
 
 // `revision` is that of the newest fact about the motion, 0 when not known.
-api::Motion to_proto(const std::string& device, const shrc203::Motion& motion, std::uint64_t revision);
+api::Motion to_proto(const std::string& device, const stage::Motion& motion, std::uint64_t revision);
 
-api::PathProgress to_proto(const std::string& device, const shrc203::PathProgress& progress);
+api::PathProgress to_proto(const std::string& device, const stage::PathProgress& progress);
 
 api::Event to_proto(const server::FactRecord& record, const std::string& run);
 
 // StopResponse and EmergencyStopResponse alike.
 template <class Response>
-void fill(Response& response, const shrc203::StopReport& report);
+void fill(Response& response, const stage::StopReport& report);
 
-extern template void fill(api::StopResponse&, const shrc203::StopReport&);
-extern template void fill(api::EmergencyStopResponse&, const shrc203::StopReport&);
+extern template void fill(api::StopResponse&, const stage::StopReport&);
+extern template void fill(api::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

@@ -57,7 +57,7 @@ Result<void> PathRun::take(const api::PathHeader& header) {
   const Result<server::Device*> device = find_device(gateway_, header.device());
   if (!device) return tl::unexpected(device.error());
   // Checked now, so that nobody sends a long path for nothing; counted from the path's end, in begin().
-  const Result<shrc203::RequestContext> asked = motion_context(context_, header.context(), access_);
+  const Result<stage::RequestContext> asked = motion_context(context_, header.context(), access_);
   if (!asked) return tl::unexpected(asked.error());
   header_context_ = header.context();
   validate_only_ = header.validate_only();
@@ -67,11 +67,11 @@ Result<void> PathRun::take(const api::PathHeader& header) {
 
 Result<void> PathRun::take(const api::Segment& segment) {
   const std::size_t number = path_.segments.size() + 1;
-  if (number > shrc203::PathRequest::kSegmentsMax) {
+  if (number > stage::PathRequest::kSegmentsMax) {
     return fail(Reason::invalid_request, fmt::format("segment {} is one too many", number),
-                fmt::format("a path has at most {} segments", shrc203::PathRequest::kSegmentsMax));
+                fmt::format("a path has at most {} segments", stage::PathRequest::kSegmentsMax));
   }
-  Result<shrc203::Segment> stretch = to_segment(segment);
+  Result<stage::Segment> stretch = to_segment(segment);
   if (!stretch) {
     Problem problem = stretch.error();
     problem.message = fmt::format("segment {}: {}", number, problem.message);
@@ -84,15 +84,17 @@ Result<void> PathRun::take(const api::Segment& segment) {
 void PathRun::begin() {
   if (cancelled()) return;
   if (path_.segments.empty()) {
-    const Problem problem{
-        Reason::invalid_request, "the path has no segment", "send a header, then segments", {}, {}, {}};
+    const Problem problem{.reason = Reason::invalid_request,
+                          .message = "the path has no segment",
+                          .hint = "send a header, then segments"};
     return end(to_status(problem));
   }
   path_.context = motion_context(context_, header_context_, access_).value();
-  device_->post([run = self<PathRun>()](shrc203::Controller& controller, TimePoint now) { run->run(controller, now); });
+  device_->post(
+      [run = self<PathRun>()](stage::StageController& controller, TimePoint now) { run->run(controller, now); });
 }
 
-void PathRun::run(shrc203::Controller& controller, TimePoint now) {
+void PathRun::run(stage::StageController& controller, TimePoint now) {
   if (cancelled()) return;
   if (validate_only_) {
     const Result<void> checked = controller.check(path_);
@@ -104,10 +106,10 @@ void PathRun::run(shrc203::Controller& controller, TimePoint now) {
     reader_.go_to(gateway_.events().newest_revision() + 1);
   }
   controller.run_path(std::move(path_), now,
-                      [run = self<PathRun>()](const Result<shrc203::Motion>& motion) { run->on_started(motion); });
+                      [run = self<PathRun>()](const Result<stage::Motion>& motion) { run->on_started(motion); });
 }
 
-void PathRun::on_started(const Result<shrc203::Motion>& motion) {
+void PathRun::on_started(const Result<stage::Motion>& motion) {
   if (!motion) return end(to_status(motion.error()));
   {
     const std::lock_guard lock(mutex_);
@@ -144,12 +146,12 @@ void PathRun::read_progress() {
     }
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
     if (record.device != device_->name()) continue;
-    if (const auto* progress = std::get_if<shrc203::PathProgress>(&record.fact)) {
+    if (const auto* progress = std::get_if<stage::PathProgress>(&record.fact)) {
       if (progress->motion != motion_) continue;
       due_.emplace();
       *due_->mutable_progress() = to_proto(record.device, *progress);
-    } else if (const auto* change = std::get_if<shrc203::MotionChanged>(&record.fact)) {
-      if (change->motion.id != motion_ || !shrc203::is_outcome(change->motion.state)) continue;
+    } else if (const auto* change = std::get_if<stage::MotionChanged>(&record.fact)) {
+      if (change->motion.id != motion_ || !stage::is_outcome(change->motion.state)) continue;
       due_.emplace();
       *due_->mutable_motion() = to_proto(record.device, change->motion, record.revision);
       end_ = grpc::Status::OK;

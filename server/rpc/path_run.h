@@ -35,8 +35,8 @@ class PathRun final
   Result<void> take(const api::PathHeader& header);
   Result<void> take(const api::Segment& segment);
   void begin();
-  void run(shrc203::Controller& controller, TimePoint now);
-  void on_started(const Result<shrc203::Motion>& motion);
+  void run(stage::StageController& controller, TimePoint now);
+  void on_started(const Result<stage::Motion>& motion);
   void end(grpc::Status status);
 
   Next next() override;
@@ -53,11 +53,11 @@ class PathRun final
   server::Device* device_ = nullptr;  // null: no header yet
   api::CallContext header_context_;
   bool validate_only_ = false;
-  shrc203::PathRequest path_;
+  stage::PathRequest path_;
 
   // Under the stream's lock.
   FactReader reader_;
-  shrc203::MotionId motion_ = 0;  // 0: not started
+  stage::MotionId motion_ = 0;  // 0: not started
   std::optional<api::RunPathResponse> due_;
   std::optional<grpc::Status> end_;  // after what is due
 

@@ -17,11 +17,11 @@ namespace {
 
 using server::SavedPosition;
 using server::SavedPositions;
-using shrc203::Controller;
-using shrc203::ExecuteEvent;
+using stage::ExecuteEvent;
+using stage::StageController;
 
-Result<void> check_up(const shrc203::State& state) {
-  if (state.link == shrc203::LinkState::up || state.link == shrc203::LinkState::doubtful) return {};
+Result<void> check_up(const stage::State& state) {
+  if (state.link == stage::LinkState::up || state.link == stage::LinkState::doubtful) return {};
   return fail(Reason::link_down, "the device is not up: " + state.link_problem, "try again when it is up");
 }
 
@@ -47,12 +47,12 @@ struct Saving {
   std::optional<SavedPosition> before;  // what had the name
   std::vector<std::string> answers;     // to SET, GET and GET
 
-  Result<void> read(const ExecuteEvent& ended, const shrc203::State& state);
+  Result<void> read(const ExecuteEvent& ended, const stage::State& state);
   void refuse(const Problem& problem) const;
 };
 using SavingPtr = std::shared_ptr<Saving>;
 
-Result<void> Saving::read(const ExecuteEvent& ended, const shrc203::State& state) {
+Result<void> Saving::read(const ExecuteEvent& ended, const stage::State& state) {
   if (ended.problem && ended.problem->reason == Reason::not_found) {
     return fail(Reason::device_refused, "the controller took the position, and does not hold it",
                 "look at its mode: axisctl status");
@@ -75,7 +75,7 @@ void Saving::refuse(const Problem& problem) const {
   call->refuse(problem);
 }
 
-void keep(const SavingPtr& saving, const shrc203::State& state) {
+void keep(const SavingPtr& saving, const stage::State& state) {
   away_from_the_lines(saving->gateway, [saving, state] {
     if (const Result<void> kept = saving->positions.keep(saving->position); !kept) return saving->refuse(kept.error());
     saving->call->answer(
@@ -84,7 +84,7 @@ void keep(const SavingPtr& saving, const shrc203::State& state) {
 }
 
 // Sent and read back with nobody else's lines between.
-void save(const SavingPtr& saving, const shrc203::RequestContext& asked, Controller& controller, TimePoint now) {
+void save(const SavingPtr& saving, const stage::RequestContext& asked, StageController& controller, TimePoint now) {
   const std::string get = position_line(saving->position, "GET");
   controller.execute({{position_line(saving->position, "SET"), get, get}, asked}, now,
                      [saving, &controller](const ExecuteEvent& event) {
@@ -102,7 +102,7 @@ struct Removal {
   server::Gateway& gateway;
   SavedPositions& positions;
   SavedPosition position;
-  shrc203::RequestContext asked;
+  stage::RequestContext asked;
 
   void refuse(const Problem& problem) const { call->refuse(problem); }
 };
@@ -120,7 +120,7 @@ void forget(const RemovalPtr& removal) {
   });
 }
 
-void remove(const RemovalPtr& removal, Controller& controller, TimePoint now) {
+void remove(const RemovalPtr& removal, StageController& controller, TimePoint now) {
   controller.execute({{position_line(removal->position, "DEL")}, removal->asked}, now,
                      [removal](const ExecuteEvent& event) {
                        if (event.kind != ExecuteEvent::Kind::ended) return;
@@ -129,23 +129,23 @@ void remove(const RemovalPtr& removal, Controller& controller, TimePoint now) {
 }
 
 // Whether DEL is taken where nothing is, the manual does not say (127), 132)); so that is asked first.
-void remove_if_there(const RemovalPtr& removal, Controller& controller, TimePoint now) {
+void remove_if_there(const RemovalPtr& removal, StageController& controller, TimePoint now) {
   controller.execute(
       {{position_line(removal->position, "GET")}, removal->asked}, now, [removal](const ExecuteEvent& event) {
         if (event.kind != ExecuteEvent::Kind::ended) return;
         if (event.problem && event.problem->reason == Reason::not_found) return forget(removal);
         if (event.problem) return removal->refuse(*event.problem);
-        removal->device.post([removal](Controller& same, TimePoint then) { remove(removal, same, then); });
+        removal->device.post([removal](StageController& same, TimePoint then) { remove(removal, same, then); });
       });
 }
 
 // Answers with the motion, or says what has become of the position.
-Controller::OnStarted tell_started(UnaryCall<api::MoveToPositionResponse>::Handle call, server::Device& device,
-                                   SavedPositions& positions, SavedPosition position, bool compared,
-                                   Controller& controller) {
+StageController::OnStarted tell_started(UnaryCall<api::MoveToPositionResponse>::Handle call, server::Device& device,
+                                        SavedPositions& positions, SavedPosition position, bool compared,
+                                        StageController& controller) {
   return [call = std::move(call), &device, &positions, position = std::move(position), compared,
-          &controller](const Result<shrc203::Motion>& motion) {
-    const shrc203::State& state = controller.state();
+          &controller](const Result<stage::Motion>& motion) {
+    const stage::State& state = controller.state();
     if (!motion) {
       call->refuse(refusal_of(motion.error(), position, state, monotonic_now()));
       return;
@@ -167,11 +167,11 @@ grpc::ServerUnaryReactor* PositionService::SavePosition(grpc::CallbackServerCont
   if (!name) return call->refuse(name.error());
   const Result<bool> place = is_place(request->kind());
   if (!place) return call->refuse(place.error());
-  const Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  const Result<stage::RequestContext> asked = mutation_context(*context, request->context());
   if (!asked) return call->refuse(asked.error());
   name->device->post([call, name = *name, place = *place, only_new = request->keep_existing(),
                       validate_only = request->validate_only(), asked = *asked, &gateway = gateway_,
-                      &positions = positions_](Controller& controller, TimePoint now) {
+                      &positions = positions_](StageController& controller, TimePoint now) {
     const std::string& device = name.device->name();
     auto number = positions.take_number(device, name.name, place, only_new);
     if (!number) return static_cast<void>(call->refuse(number.error()));
@@ -191,7 +191,7 @@ grpc::ServerUnaryReactor* PositionService::ListPositions(grpc::CallbackServerCon
   const auto call = UnaryCall<api::ListPositionsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, &device = **device, &positions = positions_](Controller& controller, TimePoint) {
+  (*device)->post([call, &device = **device, &positions = positions_](StageController& controller, TimePoint) {
     call->answer([&](api::ListPositionsResponse& answer) {
       for (const SavedPosition& position : positions.list(device.name())) {
         *answer.add_positions() = to_proto(position, controller.state());
@@ -207,10 +207,10 @@ grpc::ServerUnaryReactor* PositionService::DeletePosition(grpc::CallbackServerCo
   const auto call = UnaryCall<api::DeletePositionResponse>::start(response);
   const Result<PositionName> name = find_position_name(gateway_, request->name());
   if (!name) return call->refuse(name.error());
-  const Result<shrc203::RequestContext> asked = mutation_context(*context, request->context());
+  const Result<stage::RequestContext> asked = mutation_context(*context, request->context());
   if (!asked) return call->refuse(asked.error());
   name->device->post([call, name = *name, asked = *asked, validate_only = request->validate_only(), &gateway = gateway_,
-                      &positions = positions_](Controller& controller, TimePoint now) {
+                      &positions = positions_](StageController& controller, TimePoint now) {
     const auto position = find_position(positions, name);
     if (!position) return static_cast<void>(call->refuse(position.error()));
     const auto allowed = controller.check_use(asked, controller.state().controllable());
@@ -230,15 +230,15 @@ grpc::ServerUnaryReactor* PositionService::MoveToPosition(grpc::CallbackServerCo
   const auto call = UnaryCall<api::MoveToPositionResponse>::start(response);
   const Result<PositionName> name = find_position_name(gateway_, request->name());
   if (!name) return call->refuse(name.error());
-  const Result<shrc203::RequestContext> asked = motion_context(*context, request->context(), access_);
+  const Result<stage::RequestContext> asked = motion_context(*context, request->context(), access_);
   if (!asked) return call->refuse(asked.error());
   name->device->post([call, name = *name, asked = *asked, validate_only = request->validate_only(),
-                      &positions = positions_](Controller& controller, TimePoint now) {
-    const shrc203::State& state = controller.state();
+                      &positions = positions_](StageController& controller, TimePoint now) {
+    const stage::State& state = controller.state();
     const auto position = find_position(positions, name);
     if (!position) return static_cast<void>(call->refuse(position.error()));
     if (const auto unit = check_unit(*position, state); !unit) return static_cast<void>(call->refuse(unit.error()));
-    const shrc203::GoToPositionRequest move{position->place, position->number, expected_of(*position, state), asked};
+    const stage::GoToPositionRequest move{position->place, position->number, expected_of(*position, state), asked};
     if (!validate_only) {
       const bool compared = !move.expected.empty();
       return controller.go_to_position(move, now,

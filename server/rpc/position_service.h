@@ -3,8 +3,8 @@
 
 #include "axisgate/v1/position.grpc.pb.h"
 #include "server/access/access.h"
+#include "server/devices/saved_positions.h"
 #include "server/gateway.h"
-#include "server/saved_positions.h"
 
 namespace axisgate::rpc {
 

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "device/shrc203/command_table.h"
-#include "device/shrc203/reply.h"
+#include "device/shrc203/command/command_table.h"
+#include "device/shrc203/command/reply.h"
 #include "server/access/spans.h"
 #include "server/rpc/call.h"
 #include "server/rpc/news.h"
@@ -18,8 +18,8 @@ namespace {
 constexpr std::string_view kPositions = "/positions/";
 
 // The controller was out of sight since it was last known to hold it, so that it may have restarted.
-bool lost_sight(const server::SavedPosition& position, const shrc203::State& state) {
-  const bool line = state.link == shrc203::LinkState::up || state.link == shrc203::LinkState::doubtful;
+bool lost_sight(const server::SavedPosition& position, const stage::State& state) {
+  const bool line = state.link == stage::LinkState::up || state.link == stage::LinkState::doubtful;
   return !line || !position.frame || position.frame->device_epoch != state.device_epoch;
 }
 
@@ -49,7 +49,7 @@ Result<server::SavedPosition> find_position(const server::SavedPositions& positi
               "`axisctl positions` lists those that there are");
 }
 
-Result<void> check_unit(const server::SavedPosition& position, const shrc203::State& state) {
+Result<void> check_unit(const server::SavedPosition& position, const stage::State& state) {
   if (state.serial_number.empty() || state.serial_number == position.serial_number) return {};
   return fail(Reason::epoch_passed,
               fmt::format("\"{}\" was saved in the controller {}, and this is {}", position.name,
@@ -57,7 +57,7 @@ Result<void> check_unit(const server::SavedPosition& position, const shrc203::St
               again(position));
 }
 
-api::Position to_proto(const server::SavedPosition& position, const shrc203::State& state) {
+api::Position to_proto(const server::SavedPosition& position, const stage::State& state) {
   api::Position proto;
   proto.set_name(fmt::format("devices/{}{}{}", position.device, kPositions, position.name));
   proto.set_kind(position.place ? api::POSITION_KIND_PLACE : api::POSITION_KIND_COORDINATES);
@@ -79,7 +79,7 @@ std::string position_line(const server::SavedPosition& position, std::string_vie
 
 Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position,
                                                      const std::vector<std::string>& answers,
-                                                     const shrc203::State& state) {
+                                                     const stage::State& state) {
   const std::string question = position_line(position, "GET");
   // One flipped bit would make another place of it, which would be refused later.
   if (answers.size() != 2 || answers[0] != answers[1]) {
@@ -94,24 +94,23 @@ Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition
     }
   }
   if (!coordinates.empty()) return coordinates;
-  return tl::unexpected(Problem{Reason::device_refused,
-                                "the controller saved the position, and does not tell its coordinates",
-                                "look at its mode: axisctl status",
-                                {},
-                                question,
-                                answers[0]});
+  return tl::unexpected(Problem{.reason = Reason::device_refused,
+                                .message = "the controller saved the position, and does not tell its coordinates",
+                                .hint = "look at its mode: axisctl status",
+                                .sent = question,
+                                .wire_reply = answers[0]});
 }
 
 // Manual 129): of a place it tells what its coordinates are by now. As long as the controller was never out of sight,
 // it holds the place; where its coordinates were set anew meanwhile, nothing is left to compare them with. After it was
 // out of sight, and in another run of the daemon, it is the same place only where it tells the same coordinates:
 // whether the frame is the same then, too, nobody knows. A set of coordinates stays as it is.
-std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const shrc203::State& state) {
+std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const stage::State& state) {
   const bool shifted = position.place && !lost_sight(position, state) && *position.frame != server::frame_of(state);
   return shifted ? std::map<int, std::int64_t>() : position.coordinates;
 }
 
-Problem refusal_of(Problem problem, const server::SavedPosition& position, const shrc203::State& state, TimePoint now) {
+Problem refusal_of(Problem problem, const server::SavedPosition& position, const stage::State& state, TimePoint now) {
   // What the controller told stands in no other refusal of that reason: those are of the caller's own epochs.
   if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
   problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);

@@ -7,9 +7,9 @@
 
 #include "axisgate/v1/position.pb.h"
 #include "device/core/problem.h"
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
+#include "server/devices/saved_positions.h"
 #include "server/gateway.h"
-#include "server/saved_positions.h"
 
 namespace axisgate::rpc {
 
@@ -26,9 +26,9 @@ Result<PositionName> find_position_name(const server::Gateway& gateway, std::str
 Result<server::SavedPosition> find_position(const server::SavedPositions& positions, const PositionName& name);
 
 // epoch_passed where another controller than the present one holds it.
-Result<void> check_unit(const server::SavedPosition& position, const shrc203::State& state);
+Result<void> check_unit(const server::SavedPosition& position, const stage::State& state);
 
-api::Position to_proto(const server::SavedPosition& position, const shrc203::State& state);
+api::Position to_proto(const server::SavedPosition& position, const stage::State& state);
 
 // "PIT:GET,3"
 std::string position_line(const server::SavedPosition& position, std::string_view verb);
@@ -36,12 +36,12 @@ std::string position_line(const server::SavedPosition& position, std::string_vie
 // By axis, of the answers to the same PIT:GET or PAV:GET sent twice. device_refused, line_fault.
 Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position,
                                                      const std::vector<std::string>& answers,
-                                                     const shrc203::State& state);
+                                                     const stage::State& state);
 
 // What the controller must tell, by axis; empty: it may tell anything, but must hold it.
-std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const shrc203::State& state);
+std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const stage::State& state);
 
 // Why a motion to it was refused, in its caller's words.
-Problem refusal_of(Problem problem, const server::SavedPosition& position, const shrc203::State& state, TimePoint now);
+Problem refusal_of(Problem problem, const server::SavedPosition& position, const stage::State& state, TimePoint now);
 
 }  // namespace axisgate::rpc

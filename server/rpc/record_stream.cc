@@ -9,7 +9,8 @@ RecordStream* RecordStream::start(server::Device& device, const api::RecordReque
   stream->open();
   // The subscription ends in closed(), before the stream does.
   stream->subscription_ = device.recorder().subscribe([raw = stream.get()] { raw->pump(); });
-  device.post([stream, skip_kept = request.skip_kept()](shrc203::Controller&, TimePoint) { stream->begin(skip_kept); });
+  device.post(
+      [stream, skip_kept = request.skip_kept()](stage::StageController&, TimePoint) { stream->begin(skip_kept); });
   return stream.get();
 }
 

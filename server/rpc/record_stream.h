@@ -8,7 +8,7 @@
 #include <string>
 
 #include "axisgate/v1/diagnostics.pb.h"
-#include "server/device.h"
+#include "server/devices/device.h"
 #include "server/rpc/pull_stream.h"
 #include "server/rpc/stream_limit.h"
 

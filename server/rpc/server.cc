@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
+#include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
 #include <spdlog/spdlog.h>
 
@@ -11,7 +12,26 @@
 #include <utility>
 #include <vector>
 
+#include "server/connections/callers.h"
+#include "server/connections/listener.h"
+#include "server/metrics/connection_metrics.h"
+#include "server/rpc/access_service.h"
+#include "server/rpc/call_limits.h"
+#include "server/rpc/command_service.h"
+#include "server/rpc/control_service.h"
+#include "server/rpc/device_service.h"
+#include "server/rpc/diagnostics_service.h"
+#include "server/rpc/entrances.h"
+#include "server/rpc/event_service.h"
+#include "server/rpc/health_service.h"
 #include "server/rpc/network_credentials.h"
+#include "server/rpc/position_service.h"
+#include "server/rpc/rpc_metrics.h"
+#include "server/rpc/setting_service.h"
+#include "server/rpc/simulator_service.h"
+#include "server/rpc/stage_service.h"
+#include "server/rpc/stop_only.h"
+#include "server/rpc/stream_limit.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -34,8 +54,57 @@ void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->mess
 
 }  // namespace
 
-Server::Server(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
-               std::unique_ptr<server::Listener> listener)
+class Server::Services {
+ public:
+  Services(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
+           std::unique_ptr<server::Listener> listener);
+  ~Services();
+
+  // Takes connections from now on. internal: gRPC does not start.
+  Result<void> serve(server::Gateway& gateway, const server::ConnectionLimits& limits);
+  server::Listener& listener() { return *listener_; }
+
+ private:
+  // A gRPC server and the ways into it.
+  struct Part {
+    std::unique_ptr<grpc::Server> server;
+    std::optional<Entrances> entrances;
+  };
+
+  void build_ordinary();
+  void build_reserve();
+  void build(grpc::ServerBuilder& builder, Part& part);
+
+  const server::Access& access_;
+  const std::optional<server::NetworkConfig> network_;
+  const int message_bytes_max_;
+  std::unique_ptr<server::Listener> listener_;
+  std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
+  RpcMetrics rpc_metrics_;
+  CallLimits call_limits_;
+  server::CallerSlots callers_;
+  StreamLimit streams_;
+  DeviceService devices_;
+  StageService stage_;
+  EventService events_;
+  CommandService commands_;
+  SettingService settings_;
+  SimulatorService simulators_;
+  PositionService positions_;
+  DiagnosticsService diagnostics_;
+  ControlService control_;
+  AccessService known_callers_;
+  HealthService health_;
+  StopService stops_;
+  NamesService names_;
+  RefusingService refusing_;
+  // Two, since how long a connection may be idle is a matter of the whole server.
+  Part ordinary_;
+  Part reserve_;
+};
+
+Server::Services::Services(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
+                           std::unique_ptr<server::Listener> listener)
     : access_(access),
       network_(gateway.config().network),
       message_bytes_max_(gateway.config().limits.message_bytes),
@@ -57,33 +126,24 @@ Server::Server(server::Gateway& gateway, server::Access& access, server::SavedPo
       stops_(stage_),
       names_(devices_) {}
 
-Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::Access& access,
-                                              server::SavedPositions& positions,
-                                              const server::ConnectionLimits& limits) {
-  gpr_set_log_function(log_quietly);
-  const server::Config& config = gateway.config();
-  const auto network = config.network ? std::optional(config.network->listen) : std::nullopt;
-  auto listener = server::Listener::open(config.listen, config.socket, network);
-  if (!listener) return tl::unexpected(listener.error());
-  allow_only_tls_13();
-  std::unique_ptr<Server> server(new Server(gateway, access, positions, *std::move(listener)));
-  server->build_ordinary();
-  server->build_reserve();
-  if (server->ordinary_.server == nullptr || server->reserve_.server == nullptr) {
+Result<void> Server::Services::serve(server::Gateway& gateway, const server::ConnectionLimits& limits) {
+  build_ordinary();
+  build_reserve();
+  if (ordinary_.server == nullptr || reserve_.server == nullptr) {
     return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
   }
-  server->listener_->start(limits, [raw = server.get()](Descriptor connection, server::Acceptor::Service service,
-                                                        server::Acceptor::Origin origin) {
-    const std::optional<uid_t> user = server::peer_uid(connection.get());
-    const auto slot = user ? std::optional(raw->callers_.slot_of(*user)) : std::nullopt;
-    Part& part = service == server::Acceptor::Service::all ? raw->ordinary_ : raw->reserve_;
-    part.entrances->enter(std::move(connection), origin, slot);
-  });
-  server->connection_metrics_.emplace(gateway.metrics(), [raw = server.get()] { return raw->connections(); });
-  return server;
+  listener_->start(limits,
+                   [this](Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin) {
+                     const std::optional<uid_t> user = server::peer_uid(connection.get());
+                     const auto slot = user ? std::optional(callers_.slot_of(*user)) : std::nullopt;
+                     Part& part = service == server::Acceptor::Service::all ? ordinary_ : reserve_;
+                     part.entrances->enter(std::move(connection), origin, slot);
+                   });
+  connection_metrics_.emplace(gateway.metrics(), [this] { return listener_->counts(); });
+  return {};
 }
 
-void Server::build_ordinary() {
+void Server::Services::build_ordinary() {
   grpc::reflection::InitProtoReflectionServerBuilderPlugin();
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kSilentMs);
@@ -95,7 +155,7 @@ void Server::build_ordinary() {
   build(builder, ordinary_);
 }
 
-void Server::build_reserve() {
+void Server::Services::build_reserve() {
   grpc::ServerBuilder builder;
   builder.AddChannelArgument(GRPC_ARG_SERVER_HANDSHAKE_TIMEOUT_MS, kReserveAgeMs);
   builder.AddChannelArgument(GRPC_ARG_MAX_CONNECTION_IDLE_MS, kReserveIdleMs);
@@ -108,7 +168,7 @@ void Server::build_reserve() {
 }
 
 // What both have in common.
-void Server::build(grpc::ServerBuilder& builder, Part& part) {
+void Server::Services::build(grpc::ServerBuilder& builder, Part& part) {
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(rpc_metrics_.interceptor());
   interceptors.push_back(call_limits_.interceptor());
@@ -118,7 +178,7 @@ void Server::build(grpc::ServerBuilder& builder, Part& part) {
   part.server = builder.BuildAndStart();
 }
 
-Server::~Server() {
+Server::Services::~Services() {
   connection_metrics_.reset();
   // gRPC would not close what is still handed to it.
   listener_.reset();
@@ -130,5 +190,31 @@ Server::~Server() {
     if (part->server != nullptr) part->server->Wait();
   }
 }
+
+Server::Server(std::unique_ptr<Services> services) : services_(std::move(services)) {}
+
+Server::~Server() = default;
+
+Result<std::unique_ptr<Server>> Server::start(server::Gateway& gateway, server::Access& access,
+                                              server::SavedPositions& positions,
+                                              const server::ConnectionLimits& limits) {
+  gpr_set_log_function(log_quietly);
+  const server::Config& config = gateway.config();
+  const auto network = config.network ? std::optional(config.network->listen) : std::nullopt;
+  auto listener = server::Listener::open(config.listen, config.socket, network);
+  if (!listener) return tl::unexpected(listener.error());
+  allow_only_tls_13();
+  auto services = std::make_unique<Services>(gateway, access, positions, *std::move(listener));
+  if (const auto serving = services->serve(gateway, limits); !serving) return tl::unexpected(serving.error());
+  return std::unique_ptr<Server>(new Server(std::move(services)));
+}
+
+const server::TcpAddress& Server::listen() const { return services_->listener().address(); }
+
+const std::string& Server::socket() const { return services_->listener().socket(); }
+
+const std::optional<server::TcpAddress>& Server::network() const { return services_->listener().network(); }
+
+server::ConnectionCounts Server::connections() { return services_->listener().counts(); }
 
 }  // namespace axisgate::rpc

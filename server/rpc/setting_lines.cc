@@ -10,9 +10,9 @@
 #include <optional>
 #include <utility>
 
-#include "device/shrc203/codec.h"
-#include "device/shrc203/reply.h"
-#include "device/shrc203/trigger.h"
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/command/reply.h"
+#include "device/shrc203/command/trigger.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/news.h"
 #include "server/rpc/targets.h"
@@ -21,7 +21,7 @@ namespace axisgate::rpc {
 namespace {
 
 using shrc203::Arguments;
-using shrc203::AxisSet;
+using stage::AxisSet;
 
 constexpr std::int32_t kNanosOfStep = 100'000'000;  // 0.1 s (manual 56))
 constexpr std::int64_t kSecondsMax = 255;
@@ -64,7 +64,7 @@ Arguments speed_of(int axis, std::int64_t pulses) {
 
 // Only what is given is sent: what is not may be a running motion's for now. S may not exceed F at any time (manual
 // 89)), so a lower F has S go before it, and a higher S goes behind its F.
-void add_speeds(int number, const api::Profile& profile, const shrc203::AxisState& present, Writer& writer) {
+void add_speeds(int number, const api::Profile& profile, const stage::AxisState& present, Writer& writer) {
   const auto pulses_of = [&](bool given, const api::Speed& speed) -> std::optional<std::int64_t> {
     if (!given) return {};
     const auto quantity = to_quantity(speed);
@@ -76,12 +76,10 @@ void add_speeds(int number, const api::Profile& profile, const shrc203::AxisStat
   const auto maximum = pulses_of(profile.has_maximum(), profile.maximum());
   if (minimum && maximum && *minimum > *maximum) {
     return writer.refuse(on_axis(
-        number, {Reason::out_of_range,
-                 fmt::format("the lowest speed S of {} pulses/s exceeds the highest, F of {}", *minimum, *maximum),
-                 "set F to S or higher",
-                 {},
-                 {},
-                 {}}));
+        number,
+        {.reason = Reason::out_of_range,
+         .message = fmt::format("the lowest speed S of {} pulses/s exceeds the highest, F of {}", *minimum, *maximum),
+         .hint = "set F to S or higher"}));
   }
   if (maximum && !minimum && present.minimum_speed.value_or(0) > *maximum) minimum = maximum;
   const bool first = minimum && (!maximum || *minimum <= present.maximum_speed.value_or(0));
@@ -94,8 +92,8 @@ void add_speeds(int number, const api::Profile& profile, const shrc203::AxisStat
 }
 
 // B: has no parts: what is not given is sent as it is.
-void add_origin_speeds(int number, const api::Profile& profile, const shrc203::AxisState& present, Writer& writer) {
-  shrc203::AxisState origin = present;
+void add_origin_speeds(int number, const api::Profile& profile, const stage::AxisState& present, Writer& writer) {
+  stage::AxisState origin = present;
   origin.minimum_speed.reset();
   origin.maximum_speed.reset();
   origin.acceleration_ms.reset();
@@ -115,7 +113,7 @@ void add_origin_speeds(int number, const api::Profile& profile, const shrc203::A
 }
 
 // Which it is, and that amounts can be converted there.
-Result<int> usable_axis(int number, const shrc203::State& state) {
+Result<int> usable_axis(int number, const stage::State& state) {
   const auto axis = to_axis(number);
   if (!axis) return axis;
   if (const auto good = controllable_axes(AxisSet::of(*axis), state); !good) return tl::unexpected(good.error());
@@ -124,18 +122,16 @@ Result<int> usable_axis(int number, const shrc203::State& state) {
               "try again when the device is up");
 }
 
-void add_axis(const api::AxisSettings& settings, const shrc203::State& state, Writer& writer) {
+void add_axis(const api::AxisSettings& settings, const stage::State& state, Writer& writer) {
   const auto axis = usable_axis(settings.axis(), state);
   if (!axis) return writer.refuse(axis.error());
   if (!settings.name_on_device().empty() || !settings.scale_resolution().empty()) {
-    return writer.refuse({Reason::invalid_request,
-                          "name_on_device and scale_resolution cannot be changed here",
-                          "the controller's memory switches have them",
-                          *axis,
-                          {},
-                          {}});
+    return writer.refuse({.reason = Reason::invalid_request,
+                          .message = "name_on_device and scale_resolution cannot be changed here",
+                          .hint = "the controller's memory switches have them",
+                          .axis = *axis});
   }
-  const shrc203::AxisState& present = state.axis(*axis);
+  const stage::AxisState& present = state.axis(*axis);
   if (settings.has_closed_loop()) {
     writer.add("F:", of_axis(*axis).add("f", settings.closed_loop() ? "0" : "1"));
   }
@@ -150,12 +146,9 @@ void add_settling(const google::protobuf::Duration& settling, Writer& writer) {
   const bool in_range =
       valid && settling.seconds() <= kSecondsMax && (settling.seconds() < kSecondsMax || settling.nanos() == 0);
   if (!in_range || settling.nanos() % kNanosOfStep != 0) {
-    return writer.refuse({in_range ? Reason::not_representable : Reason::out_of_range,
-                          "settling is 0 to 255 s in steps of 0.1 s",
-                          "give a multiple of 0.1 s",
-                          {},
-                          {},
-                          {}});
+    return writer.refuse({.reason = in_range ? Reason::not_representable : Reason::out_of_range,
+                          .message = "settling is 0 to 255 s in steps of 0.1 s",
+                          .hint = "give a multiple of 0.1 s"});
   }
   writer.add("W:", Arguments().add("w", std::to_string(settling.seconds() * 10 + settling.nanos() / kNanosOfStep)));
 }
@@ -179,8 +172,9 @@ void add_trigger(const api::Trigger& trigger, Writer& writer) {
       return;
     }
     default:
-      writer.refuse(
-          {Reason::invalid_request, "the trigger has no target", "name one; TARGET_NONE ends it", {}, {}, {}});
+      writer.refuse({.reason = Reason::invalid_request,
+                     .message = "the trigger has no target",
+                     .hint = "name one; TARGET_NONE ends it"});
   }
 }
 
@@ -191,7 +185,7 @@ bool stands_alone(const std::string& line) {
 
 }  // namespace
 
-Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const shrc203::State& state) {
+Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const stage::State& state) {
   const api::Settings& settings = request.settings();
   Writer writer;
   AxisSet axes;
@@ -199,8 +193,9 @@ Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const shrc203:
     add_axis(axis, state, writer);
     const auto number = to_axis(axis.axis());
     if (number && axes.has(*number)) {
-      writer.refuse(
-          {Reason::invalid_request, fmt::format("axis {} is named twice", *number), "name it once", {}, {}, {}});
+      writer.refuse({.reason = Reason::invalid_request,
+                     .message = fmt::format("axis {} is named twice", *number),
+                     .hint = "name it once"});
     }
     if (number) axes.add(*number);
   }
@@ -213,7 +208,9 @@ Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const shrc203:
   if (settings.has_mode()) writer.add("MODE:", Arguments().add("m", in_capitals(settings.mode())));
   if (settings.has_format()) writer.add("FMT:", Arguments().add("f", in_capitals(settings.format())));
   if (settings.has_inputs()) {
-    writer.refuse({Reason::invalid_request, "inputs are set by what is wired to them", "leave them out", {}, {}, {}});
+    writer.refuse({.reason = Reason::invalid_request,
+                   .message = "inputs are set by what is wired to them",
+                   .hint = "leave them out"});
   }
   Result<Lines> lines = writer.lines();
   if (lines && lines->empty()) {
@@ -226,7 +223,7 @@ Result<Lines> lines_of(const api::ChangeSettingsRequest& request, const shrc203:
   return lines;
 }
 
-Result<Lines> lines_of(const api::SetCoordinatesRequest& request, const shrc203::State& state) {
+Result<Lines> lines_of(const api::SetCoordinatesRequest& request, const stage::State& state) {
   AxisSet axes;
   std::map<int, std::int64_t> positions;
   std::optional<api::AxisCoordinate::CoordinateCase> way;
@@ -294,7 +291,7 @@ void fill_axis(std::string_view question, const std::string& answer, api::AxisSe
 
 }  // namespace
 
-void fill_setting(std::string_view question, const std::string& answer, const shrc203::State& state,
+void fill_setting(std::string_view question, const std::string& answer, const stage::State& state,
                   api::Settings& settings) {
   const int number = std::atoi(answer.c_str());
   if (question == "?:W") {
@@ -325,7 +322,7 @@ void fill_setting(std::string_view question, const std::string& answer, const sh
   }
 }
 
-void fill_known(const shrc203::State& state, api::Settings& settings) {
+void fill_known(const stage::State& state, api::Settings& settings) {
   if (state.outputs) settings.set_outputs(*state.outputs);
   if (state.trigger) fill_trigger(*state.trigger, *settings.mutable_trigger());
 }

@@ -15,8 +15,8 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::Controller;
-using shrc203::ExecuteEvent;
+using stage::ExecuteEvent;
+using stage::StageController;
 
 // What cannot be told while something moves is not waited for: what is known of it stands.
 constexpr Duration kAnswerLimit = std::chrono::seconds(2);
@@ -26,12 +26,11 @@ bool untold(const Problem& problem) {
 }
 
 Problem not_answered(std::string_view question, const std::string& reply) {
-  return {Reason::device_refused,
-          fmt::format("the controller refused {} ({})", question, reply),
-          "look at its mode: axisctl status",
-          {},
-          std::string(question),
-          reply};
+  return {.reason = Reason::device_refused,
+          .message = fmt::format("the controller refused {} ({})", question, reply),
+          .hint = "look at its mode: axisctl status",
+          .sent = std::string(question),
+          .wire_reply = reply};
 }
 
 // The answers, as they come; told when the last has.
@@ -43,7 +42,7 @@ struct Asking {
 };
 
 void take(const std::shared_ptr<Asking>& asking, std::string_view question, const ExecuteEvent& event,
-          const shrc203::State& state) {
+          const stage::State& state) {
   const bool refused = event.wire_reply.starts_with("NG");
   if (event.kind == ExecuteEvent::Kind::reply && refused) asking->problem = not_answered(question, event.wire_reply);
   if (event.kind == ExecuteEvent::Kind::reply && !refused) {
@@ -79,15 +78,12 @@ grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContex
   const auto call = UnaryCall<api::GetSettingsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, asked = question_context(*context)](Controller& controller, TimePoint now) {
-    const shrc203::LinkState link = controller.state().link;
-    if (link != shrc203::LinkState::up && link != shrc203::LinkState::doubtful) {
-      call->refuse({Reason::link_down,
-                    "the device is not up: " + controller.state().link_problem,
-                    "try again when it is up",
-                    {},
-                    {},
-                    {}});
+  (*device)->post([call, asked = question_context(*context)](StageController& controller, TimePoint now) {
+    const stage::LinkState link = controller.state().link;
+    if (link != stage::LinkState::up && link != stage::LinkState::doubtful) {
+      call->refuse({.reason = Reason::link_down,
+                    .message = "the device is not up: " + controller.state().link_problem,
+                    .hint = "try again when it is up"});
       return;
     }
     const auto asking = std::make_shared<Asking>();
@@ -113,21 +109,21 @@ grpc::ServerUnaryReactor* SettingService::change(const grpc::CallbackServerConte
   const auto call = UnaryCall<Response>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request.device());
   if (!device) return call->refuse(device.error());
-  Result<shrc203::RequestContext> asked = mutation_context(context, request.context());
+  Result<stage::RequestContext> asked = mutation_context(context, request.context());
   if (!asked) return call->refuse(asked.error());
   const Result<server::Caller> caller = caller_with_role(context, access_);
   if (!caller) return call->refuse(caller.error());
   if (const auto role = role_of(context, access_); role) asked->role = *role;
-  (*device)->post([call, request, to_lines, asked = *asked, caller = *caller, &access = access_](Controller& controller,
-                                                                                                 TimePoint now) {
+  (*device)->post([call, request, to_lines, asked = *asked, caller = *caller, &access = access_,
+                   &kind = (*device)->kind()](StageController& controller, TimePoint now) {
     const Result<Lines> lines = to_lines(request, controller.state());
     if (!lines) return static_cast<void>(call->refuse(lines.error()));
     if (const auto allowed = check_role(*lines, caller, access); !allowed) {
       return static_cast<void>(call->refuse(allowed.error()));
     }
-    const shrc203::ExecuteRequest transaction{*lines, asked};
+    const stage::ExecuteRequest transaction{*lines, asked};
     if (request.validate_only()) {
-      const Result<void> checked = Controller::check(transaction);
+      const Result<void> checked = kind.check_lines(transaction.lines);
       if (!checked) return static_cast<void>(call->refuse(checked.error()));
       return call->answer([](Response&) {});
     }
@@ -142,7 +138,7 @@ grpc::ServerUnaryReactor* SettingService::change(const grpc::CallbackServerConte
 grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerContext* context,
                                                          const api::ChangeSettingsRequest* request,
                                                          api::ChangeSettingsResponse* response) {
-  return change(*context, *request, response, [](const api::ChangeSettingsRequest& asked, const shrc203::State& state) {
+  return change(*context, *request, response, [](const api::ChangeSettingsRequest& asked, const stage::State& state) {
     return lines_of(asked, state);
   });
 }
@@ -150,7 +146,7 @@ grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerCon
 grpc::ServerUnaryReactor* SettingService::SetCoordinates(grpc::CallbackServerContext* context,
                                                          const api::SetCoordinatesRequest* request,
                                                          api::SetCoordinatesResponse* response) {
-  return change(*context, *request, response, [](const api::SetCoordinatesRequest& asked, const shrc203::State& state) {
+  return change(*context, *request, response, [](const api::SetCoordinatesRequest& asked, const stage::State& state) {
     return lines_of(asked, state);
   });
 }
@@ -159,14 +155,14 @@ grpc::ServerUnaryReactor* SettingService::FireTrigger(grpc::CallbackServerContex
                                                       const api::FireTriggerRequest* request,
                                                       api::FireTriggerResponse* response) {
   return change(*context, *request, response,
-                [](const auto&, const shrc203::State&) { return Result<Lines>(Lines{"T:M"}); });
+                [](const auto&, const stage::State&) { return Result<Lines>(Lines{"T:M"}); });
 }
 
 grpc::ServerUnaryReactor* SettingService::ResetDevice(grpc::CallbackServerContext* context,
                                                       const api::ResetDeviceRequest* request,
                                                       api::ResetDeviceResponse* response) {
   return change(*context, *request, response,
-                [](const auto&, const shrc203::State&) { return Result<Lines>(Lines{"RESET:"}); });
+                [](const auto&, const stage::State&) { return Result<Lines>(Lines{"RESET:"}); });
 }
 
 }  // namespace axisgate::rpc

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "device/shrc203/envelope.h"
+#include "device/stage/envelope.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
@@ -17,12 +17,12 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::Controller;
+using stage::StageController;
 
 // Answers a call with the motion that it started, or with what kept it from it. Called on the device's strand.
 template <class Response>
-Controller::OnStarted tell_started(std::shared_ptr<UnaryCall<Response>> call, server::Device& device) {
-  return [call = std::move(call), &device](const Result<shrc203::Motion>& motion) {
+StageController::OnStarted tell_started(std::shared_ptr<UnaryCall<Response>> call, server::Device& device) {
+  return [call = std::move(call), &device](const Result<stage::Motion>& motion) {
     if (!motion) {
       call->refuse(motion.error());
       return;
@@ -33,11 +33,10 @@ Controller::OnStarted tell_started(std::shared_ptr<UnaryCall<Response>> call, se
   };
 }
 
-Result<void> check_home(const shrc203::HomeRequest& home, const shrc203::Profile& profile,
-                        const shrc203::State& state) {
+Result<void> check_home(const stage::HomeRequest& home, const stage::Profile& profile, const stage::State& state) {
   const auto axes = controllable_axes(home.axes, state);
   if (!axes) return tl::unexpected(axes.error());
-  const shrc203::Envelope envelope(profile, state, home.context.who, "");
+  const stage::Envelope envelope(profile, state, home.context.who, "");
   for (const int axis : axes->list()) {
     if (const auto good = envelope.check_stage(axis); !good) return good;
   }
@@ -48,16 +47,17 @@ Result<void> check_home(const shrc203::HomeRequest& home, const shrc203::Profile
 template <class Response, class Request>
 grpc::ServerUnaryReactor* home(server::Gateway& gateway, const server::Access& access,
                                const grpc::CallbackServerContext& context, const Request& request, Response* response,
-                               void (Controller::*start)(shrc203::HomeRequest, TimePoint, Controller::OnStarted)) {
+                               void (StageController::*start)(stage::HomeRequest, TimePoint,
+                                                              StageController::OnStarted)) {
   const auto call = UnaryCall<Response>::start(response);
   const Result<server::Device*> device = find_device(gateway, request.device());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::AxisSet> named = to_axes(request.axes());
+  const Result<stage::AxisSet> named = to_axes(request.axes());
   if (!named) return call->refuse(named.error());
-  Result<shrc203::RequestContext> asked = motion_context(context, request.context(), access);
+  Result<stage::RequestContext> asked = motion_context(context, request.context(), access);
   if (!asked) return call->refuse(asked.error());
   (*device)->post([call, start, &device = **device, validate_only = request.validate_only(),
-                   home = shrc203::HomeRequest{*named, *std::move(asked)}](Controller& controller, TimePoint now) {
+                   home = stage::HomeRequest{*named, *std::move(asked)}](StageController& controller, TimePoint now) {
     if (!validate_only) {
       (controller.*start)(home, now, tell_started(call, device));
     } else if (const auto checked = check_home(home, device.profile(), controller.state()); !checked) {
@@ -70,8 +70,8 @@ grpc::ServerUnaryReactor* home(server::Gateway& gateway, const server::Access& a
 }
 
 template <class Response>
-Controller::OnStopped tell_stopped(std::shared_ptr<UnaryCall<Response>> call) {
-  return [call = std::move(call)](const shrc203::StopReport& report) {
+StageController::OnStopped tell_stopped(std::shared_ptr<UnaryCall<Response>> call) {
+  return [call = std::move(call)](const stage::StopReport& report) {
     call->answer([&](Response& answer) { fill(answer, report); });
   };
 }
@@ -83,12 +83,12 @@ grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* contex
   const auto call = UnaryCall<api::MoveResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::RequestContext> asked = motion_context(*context, request->context(), access_);
+  const Result<stage::RequestContext> asked = motion_context(*context, request->context(), access_);
   if (!asked) return call->refuse(asked.error());
   // The request is copied: a caller who leaves takes gRPC's own with it.
   (*device)->post(
-      [call, &device = **device, request = *request, asked = *asked](Controller& controller, TimePoint now) {
-        Result<shrc203::MoveRequest> move = to_move(request, controller.state(), asked);
+      [call, &device = **device, request = *request, asked = *asked](StageController& controller, TimePoint now) {
+        Result<stage::MoveRequest> move = to_move(request, controller.state(), asked);
         if (!move) {
           call->refuse(move.error());
         } else if (!request.validate_only()) {
@@ -104,13 +104,13 @@ grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* contex
 
 grpc::ServerUnaryReactor* StageService::Home(grpc::CallbackServerContext* context, const api::HomeRequest* request,
                                              api::HomeResponse* response) {
-  return home(gateway_, access_, *context, *request, response, &Controller::home);
+  return home(gateway_, access_, *context, *request, response, &StageController::home);
 }
 
 grpc::ServerUnaryReactor* StageService::ReturnToOrigin(grpc::CallbackServerContext* context,
                                                        const api::ReturnToOriginRequest* request,
                                                        api::ReturnToOriginResponse* response) {
-  return home(gateway_, access_, *context, *request, response, &Controller::return_to_origin);
+  return home(gateway_, access_, *context, *request, response, &StageController::return_to_origin);
 }
 
 grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* StageService::RunPath(
@@ -123,12 +123,12 @@ grpc::ServerUnaryReactor* StageService::Scan(grpc::CallbackServerContext* contex
   const auto call = UnaryCall<api::ScanResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  Result<shrc203::RequestContext> asked = motion_context(*context, request->context(), access_);
+  Result<stage::RequestContext> asked = motion_context(*context, request->context(), access_);
   if (!asked) return call->refuse(asked.error());
-  Result<shrc203::ScanRequest> scan = to_scan(*request, *std::move(asked));
+  Result<stage::ScanRequest> scan = to_scan(*request, *std::move(asked));
   if (!scan) return call->refuse(scan.error());
   (*device)->post([call, &device = **device, validate_only = request->validate_only(), scan = *std::move(scan)](
-                      Controller& controller, TimePoint now) {
+                      StageController& controller, TimePoint now) {
     if (!validate_only) {
       controller.scan(scan, now, tell_started(call, device));
     } else if (const Result<void> checked = controller.check(scan); !checked) {
@@ -149,12 +149,11 @@ grpc::ServerUnaryReactor* StageService::Stop(grpc::CallbackServerContext* contex
   const auto call = UnaryCall<api::StopResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  const Result<shrc203::AxisSet> axes = to_axes(request->axes());
+  const Result<stage::AxisSet> axes = to_axes(request->axes());
   if (!axes) return call->refuse(axes.error());
   (*device)->post(
-      [call, axes = *axes, asked = stop_context(*context, request->context())](Controller& controller, TimePoint now) {
-        controller.stop(axes, asked, now, tell_stopped(call));
-      });
+      [call, axes = *axes, asked = stop_context(*context, request->context())](
+          StageController& controller, TimePoint now) { controller.stop(axes, asked, now, tell_stopped(call)); });
   return call.get();
 }
 
@@ -164,9 +163,10 @@ grpc::ServerUnaryReactor* StageService::EmergencyStop(grpc::CallbackServerContex
   const auto call = UnaryCall<api::EmergencyStopResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, asked = stop_context(*context, request->context())](Controller& controller, TimePoint now) {
-    controller.emergency_stop(asked, now, tell_stopped(call));
-  });
+  (*device)->post(
+      [call, asked = stop_context(*context, request->context())](StageController& controller, TimePoint now) {
+        controller.emergency_stop(asked, now, tell_stopped(call));
+      });
   return call.get();
 }
 
@@ -175,7 +175,7 @@ grpc::ServerUnaryReactor* StageService::GetMotion(grpc::CallbackServerContext*, 
   const auto call = UnaryCall<api::GetMotionResponse>::start(response);
   const Result<MotionName> name = find_motion_name(gateway_, request->name());
   if (!name) return call->refuse(name.error());
-  name->device->post([call, name = *name](Controller& controller, TimePoint) {
+  name->device->post([call, name = *name](StageController& controller, TimePoint) {
     tell_started(call, *name.device)(find_motion(controller, name.id));
   });
   return call.get();
@@ -187,9 +187,9 @@ grpc::ServerUnaryReactor* StageService::ListMotions(grpc::CallbackServerContext*
   const auto call = UnaryCall<api::ListMotionsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, &device = **device](Controller& controller, TimePoint) {
+  (*device)->post([call, &device = **device](StageController& controller, TimePoint) {
     call->answer([&](api::ListMotionsResponse& answer) {
-      for (const shrc203::Motion& motion : controller.motions()) {
+      for (const stage::Motion& motion : controller.motions()) {
         *answer.add_motions() = to_proto(device.name(), motion, device.motion_revision(motion.id));
       }
     });
@@ -213,12 +213,12 @@ grpc::ServerUnaryReactor* StageService::CancelMotion(grpc::CallbackServerContext
   const auto call = UnaryCall<api::CancelMotionResponse>::start(response);
   const Result<MotionName> name = find_motion_name(gateway_, request->name());
   if (!name) return call->refuse(name.error());
-  name->device->post(
-      [call, id = name->id, asked = stop_context(*context, request->context())](Controller& controller, TimePoint now) {
-        controller.cancel_motion(id, asked, now, [call](const Result<void>& done) {
-          done ? call->answer([](api::CancelMotionResponse&) {}) : static_cast<void>(call->refuse(done.error()));
-        });
-      });
+  name->device->post([call, id = name->id, asked = stop_context(*context, request->context())](
+                         StageController& controller, TimePoint now) {
+    controller.cancel_motion(id, asked, now, [call](const Result<void>& done) {
+      done ? call->answer([](api::CancelMotionResponse&) {}) : static_cast<void>(call->refuse(done.error()));
+    });
+  });
   return call.get();
 }
 

@@ -7,15 +7,13 @@ namespace {
 
 grpc::Status refusal() {
   return to_status(
-      {Reason::queue_full,
-       "the daemon has no connection or descriptor left for this caller, and serves nothing but a stop on this "
-       "connection",
-       "close connections that nobody uses, and ask again in 1 s; or have the daemon's limit of open files "
-       "raised (ulimit -n, or LimitNOFILE= of its service), or `connections` in [limits] of its "
-       "configuration",
-       {},
-       {},
-       {}});
+      {.reason = Reason::queue_full,
+       .message =
+           "the daemon has no connection or descriptor left for this caller, and serves nothing but a stop on this "
+           "connection",
+       .hint = "close connections that nobody uses, and ask again in 1 s; or have the daemon's limit of open files "
+               "raised (ulimit -n, or LimitNOFILE= of its service), or `connections` in [limits] of its "
+               "configuration"});
 }
 
 class Refusal final : public grpc::ServerGenericBidiReactor {

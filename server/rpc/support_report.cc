@@ -9,7 +9,7 @@
 #include <boost/version.hpp>
 #include <utility>
 
-#include "server/config_text.h"
+#include "server/config/text.h"
 #include "server/machine.h"
 #include "server/rpc/news.h"
 

@@ -10,7 +10,7 @@
 
 #include "axisgate/v1/diagnostics.pb.h"
 #include "server/gateway.h"
-#include "server/redaction.h"
+#include "server/recording/redaction.h"
 #include "server/rpc/pull_stream.h"
 #include "server/rpc/stream_limit.h"
 

@@ -25,7 +25,7 @@ tl::unexpected<Problem> profile_needs(std::string_view what) {
 }
 
 // Manual 89) D:, S <= F: an axis's present S may lie above a new, lower F, which it then is lowered to.
-Result<Quantity> minimum_under(const Quantity& maximum, const shrc203::AxisState& axis) {
+Result<Quantity> minimum_under(const Quantity& maximum, const stage::AxisState& axis) {
   if (!axis.minimum_speed) return profile_needs("minimum speed S");
   if (maximum.unit != Unit::pulses && !axis.scale) return profile_needs("scale");
   const Result<std::int64_t> highest = to_pulses_per_second(maximum, axis.scale.value_or(Scale{}));
@@ -35,8 +35,8 @@ Result<Quantity> minimum_under(const Quantity& maximum, const shrc203::AxisState
 
 }  // namespace
 
-Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis) {
-  shrc203::SpeedProfile speeds;
+Result<stage::SpeedProfile> to_profile(const api::Profile& profile, const stage::AxisState& axis) {
+  stage::SpeedProfile speeds;
   if (profile.has_maximum()) {
     const Result<Quantity> maximum = to_quantity(profile.maximum());
     if (!maximum) return tl::unexpected(maximum.error());
@@ -58,18 +58,18 @@ namespace {
 
 constexpr int kInputsMax = 63;  // IN1 to IN6 (manual 95) I:)
 
-Result<shrc203::AxisMove> to_axis_move(int number, const api::Distance& distance) {
+Result<stage::AxisMove> to_axis_move(int number, const api::Distance& distance) {
   const Result<int> axis = to_axis(number);
   if (!axis) return tl::unexpected(axis.error());
   const Result<Quantity> quantity = to_quantity(distance);
   if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
-  return shrc203::AxisMove{*axis, *quantity, std::nullopt};
+  return stage::AxisMove{*axis, *quantity, std::nullopt};
 }
 
-Result<std::vector<shrc203::AxisMove>> to_axis_moves(const api::Segment& segment) {
-  std::vector<shrc203::AxisMove> moves;
+Result<std::vector<stage::AxisMove>> to_axis_moves(const api::Segment& segment) {
+  std::vector<stage::AxisMove> moves;
   const auto add = [&](const api::AxisDistance& part) -> Result<void> {
-    Result<shrc203::AxisMove> move = to_axis_move(part.axis(), part.distance());
+    Result<stage::AxisMove> move = to_axis_move(part.axis(), part.distance());
     if (!move) return tl::unexpected(move.error());
     moves.push_back(*std::move(move));
     return {};
@@ -94,8 +94,8 @@ Result<std::vector<shrc203::AxisMove>> to_axis_moves(const api::Segment& segment
 }
 
 // What goes before a segment, while the axes stand.
-Result<void> fill_halt(const api::Segment& segment, shrc203::Segment& stretch) {
-  constexpr auto most = std::chrono::duration_cast<std::chrono::milliseconds>(shrc203::Segment::kRestMax).count();
+Result<void> fill_halt(const api::Segment& segment, stage::Segment& stretch) {
+  constexpr auto most = std::chrono::duration_cast<std::chrono::milliseconds>(stage::Segment::kRestMax).count();
   if (segment.rest_ms() < 0 || segment.rest_ms() > most) {
     return fail(Reason::out_of_range, fmt::format("a rest of {} ms; 0 to {} ms are possible", segment.rest_ms(), most));
   }
@@ -118,16 +118,16 @@ Result<Quantity> to_approach(const api::Distance& way) {
 
 }  // namespace
 
-Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc203::State& state,
-                                     shrc203::RequestContext context) {
-  shrc203::MoveRequest move;
+Result<stage::MoveRequest> to_move(const api::MoveRequest& request, const stage::State& state,
+                                   stage::RequestContext context) {
+  stage::MoveRequest move;
   move.relative = request.relative();
   move.context = std::move(context);
   for (const api::AxisTarget& target : request.targets()) {
-    Result<shrc203::AxisMove> one = to_axis_move(target.axis(), target.distance());
+    Result<stage::AxisMove> one = to_axis_move(target.axis(), target.distance());
     if (!one) return tl::unexpected(one.error());
     if (target.has_profile()) {
-      const Result<shrc203::SpeedProfile> profile = to_profile(target.profile(), state.axis(target.axis()));
+      const Result<stage::SpeedProfile> profile = to_profile(target.profile(), state.axis(target.axis()));
       if (!profile) return tl::unexpected(on_axis(target.axis(), profile.error()));
       one->profile = *profile;
     }
@@ -141,14 +141,14 @@ Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc
   return move;
 }
 
-Result<shrc203::Segment> to_segment(const api::Segment& segment) {
-  shrc203::Segment stretch;
+Result<stage::Segment> to_segment(const api::Segment& segment) {
+  stage::Segment stretch;
   if (segment.has_arc()) {
-    Result<shrc203::Curve> curve = to_curve(segment.arc());
+    Result<stage::Curve> curve = to_curve(segment.arc());
     if (!curve) return tl::unexpected(curve.error());
     stretch.curve = *std::move(curve);
   } else {
-    Result<std::vector<shrc203::AxisMove>> moves = to_axis_moves(segment);
+    Result<std::vector<stage::AxisMove>> moves = to_axis_moves(segment);
     if (!moves) return tl::unexpected(moves.error());
     stretch.moves = *std::move(moves);
   }
@@ -164,10 +164,10 @@ Result<shrc203::Segment> to_segment(const api::Segment& segment) {
   return stretch;
 }
 
-Result<shrc203::ScanRequest> to_scan(const api::ScanRequest& request, shrc203::RequestContext context) {
+Result<stage::ScanRequest> to_scan(const api::ScanRequest& request, stage::RequestContext context) {
   const Result<int> axis = to_axis(request.axis());
   if (!axis) return tl::unexpected(axis.error());
-  shrc203::ScanRequest scan;
+  stage::ScanRequest scan;
   scan.axis = *axis;
   scan.context = std::move(context);
   for (const auto& [end, place] : {std::pair(&request.from(), &scan.from), {&request.to(), &scan.to}}) {
@@ -196,15 +196,15 @@ Result<shrc203::ScanRequest> to_scan(const api::ScanRequest& request, shrc203::R
               "set `drive_pulses` or `scale_pulses`");
 }
 
-Result<shrc203::AxisSet> controllable_axes(shrc203::AxisSet named, const shrc203::State& state) {
-  const shrc203::AxisSet controllable = state.controllable();
+Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::State& state) {
+  const stage::AxisSet controllable = state.controllable();
   if (controllable.empty()) {
     return fail(Reason::link_down, state.link_problem.empty() ? "the device has not told yet which axes it has"
                                                               : "the device cannot be asked: " + state.link_problem);
   }
   if (named.empty()) return controllable;
   if (controllable.contains(named)) return named;
-  const shrc203::AxisSet missing = named - controllable;
+  const stage::AxisSet missing = named - controllable;
   return fail(Reason::unknown_axis, fmt::format("{} cannot be moved here", to_string(missing)),
               fmt::format("the controller is set to {} (?:AXIS)", to_string(controllable)));
 }

@@ -3,29 +3,29 @@
 
 #include "axisgate/v1/stage.pb.h"
 #include "device/core/problem.h"
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
 
 namespace axisgate::rpc {
 
 namespace api = axisgate::v1;
 
 // What a profile leaves open is taken from the axis's present S, F and R in `state`.
-Result<shrc203::MoveRequest> to_move(const api::MoveRequest& request, const shrc203::State& state,
-                                     shrc203::RequestContext context);
+Result<stage::MoveRequest> to_move(const api::MoveRequest& request, const stage::State& state,
+                                   stage::RequestContext context);
 
 // Likewise. invalid_request where something is left open that is not known of the axis.
-Result<shrc203::SpeedProfile> to_profile(const api::Profile& profile, const shrc203::AxisState& axis);
+Result<stage::SpeedProfile> to_profile(const api::Profile& profile, const stage::AxisState& axis);
 
-Result<shrc203::Segment> to_segment(const api::Segment& segment);
+Result<stage::Segment> to_segment(const api::Segment& segment);
 
 // Ends, speed and interval are the controller's to judge.
-Result<shrc203::ScanRequest> to_scan(const api::ScanRequest& request, shrc203::RequestContext context);
+Result<stage::ScanRequest> to_scan(const api::ScanRequest& request, stage::RequestContext context);
 
 // "axis 1: ..."
 Problem on_axis(int axis, Problem problem);
 
 // The axes meant: all controllable ones where none is named; unknown_axis where one is not controllable; link_down
 // where it is not known which are.
-Result<shrc203::AxisSet> controllable_axes(shrc203::AxisSet named, const shrc203::State& state);
+Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::State& state);
 
 }  // namespace axisgate::rpc

@@ -12,7 +12,7 @@
 #include <set>
 #include <sstream>
 
-#include "device/shrc203/command_table.h"
+#include "device/shrc203/command/command_table.h"
 
 namespace axisgate::shrc203::conformance {
 namespace {

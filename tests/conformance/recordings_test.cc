@@ -10,7 +10,7 @@
 #include <ostream>
 #include <vector>
 
-#include "device/shrc203/replay.h"
+#include "device/shrc203/recording/replay.h"
 
 namespace axisgate::shrc203::conformance {
 namespace {

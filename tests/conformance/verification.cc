@@ -5,8 +5,8 @@
 
 #include <algorithm>
 
-#include "device/shrc203/codec.h"
-#include "device/shrc203/reply.h"
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/command/reply.h"
 #include "tests/unit/simulator_bench.h"
 
 namespace axisgate::shrc203::conformance {

@@ -61,7 +61,9 @@ struct Output {
 // The row's tests in a process of their own, so that no crash is taken for a failure.
 Output run_tests_of(const Row& row, const std::string& option) {
   const auto program = std::filesystem::read_symlink("/proc/self/exe").string();
-  const auto command = fmt::format("'{}' {} --gtest_filter='{}' --gtest_color=no 2>&1", program, option, row.tests);
+  const auto command = fmt::format(
+      "env --unset=GTEST_TOTAL_SHARDS --unset=GTEST_SHARD_INDEX '{}' {} --gtest_filter='{}' --gtest_color=no 2>&1",
+      program, option, row.tests);
   Output output;
   std::FILE* pipe = popen(command.c_str(), "r");
   if (!pipe) return output;

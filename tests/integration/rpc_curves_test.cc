@@ -15,8 +15,8 @@ namespace axisgate::rpc {
 namespace {
 
 using google::protobuf::TextFormat;
-using shrc203::Curve;
-using shrc203::Rotation;
+using stage::Curve;
+using stage::Rotation;
 using std::chrono::milliseconds;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
@@ -28,15 +28,15 @@ Message parsed(const std::string& text) {
   return message;
 }
 
-shrc203::Segment segment(const std::string& text) {
-  const Result<shrc203::Segment> result = to_segment(parsed<api::Segment>(text));
+stage::Segment segment(const std::string& text) {
+  const Result<stage::Segment> result = to_segment(parsed<api::Segment>(text));
   EXPECT_TRUE(result) << text << ": " << result.error().message;
-  return result.value_or(shrc203::Segment{});
+  return result.value_or(stage::Segment{});
 }
 
 // "INVALID_REQUEST: message"
 std::string refused(const std::string& text) {
-  const Result<shrc203::Segment> result = to_segment(parsed<api::Segment>(text));
+  const Result<stage::Segment> result = to_segment(parsed<api::Segment>(text));
   return result ? "taken" : std::string(name(result.error().reason)) + ": " + result.error().message;
 }
 
@@ -54,7 +54,7 @@ std::string around(const std::string& text, const std::string& rise = "") {
 std::string through(const std::string& text) { return "arc { through { " + text + " } }"; }
 
 TEST(Curves, AroundACenterByTurns) {
-  const shrc203::Segment taken = segment(around(std::string(kCenter) + kAround) + " relative: true");
+  const stage::Segment taken = segment(around(std::string(kCenter) + kAround) + " relative: true");
   EXPECT_TRUE(taken.moves.empty());
   EXPECT_TRUE(taken.relative);
   ASSERT_TRUE(taken.curve);
@@ -68,7 +68,7 @@ TEST(Curves, AroundACenterByTurns) {
 }
 
 TEST(Curves, AroundACenterByDegreesInPlacesOfAnotherPlane) {
-  const shrc203::Segment taken =
+  const stage::Segment taken =
       segment(around("center { axis: 3 distance { pulses: 7 } } center { axis: 2 distance { pulses: -8 } } "
                      "rotation: ROTATION_COUNTERCLOCKWISE degrees: \"22.5\""));
   EXPECT_FALSE(taken.relative);
@@ -82,7 +82,7 @@ TEST(Curves, AroundACenterByDegreesInPlacesOfAnotherPlane) {
 }
 
 TEST(Curves, ThroughAPoint) {
-  const shrc203::Segment taken =
+  const stage::Segment taken =
       segment(through("point { axis: 2 distance { um: \"4\" } } point { axis: 1 distance { um: \"3\" } } "
                       "end { axis: 1 distance { um: \"5\" } } end { axis: 2 distance { um: \"-6\" } }"));
   ASSERT_TRUE(taken.curve);
@@ -94,7 +94,7 @@ TEST(Curves, ThroughAPoint) {
 
 TEST(Curves, AHelixRisesAlongAxis3) {
   const std::string text = std::string(kCenter) + "rotation: ROTATION_CLOCKWISE turns: 1000";
-  const shrc203::Segment taken = segment(around(text, "rise { axis: 3 distance { um: \"-2\" } }"));
+  const stage::Segment taken = segment(around(text, "rise { axis: 3 distance { um: \"-2\" } }"));
   ASSERT_TRUE(taken.curve && taken.curve->rise);
   EXPECT_EQ(written(*taken.curve->rise), "-2um");
   EXPECT_EQ(std::get<int>(std::get<Curve::Around>(taken.curve->course).extent), 1000);
@@ -172,7 +172,7 @@ TEST(Moves, Approach) {
   EXPECT_EQ(move("approach {}").error().message, "axis 2: a distance has no amount");
 }
 
-Result<shrc203::ScanRequest> scan(const std::string& text) {
+Result<stage::ScanRequest> scan(const std::string& text) {
   return to_scan(parsed<api::ScanRequest>(text), {.who = "anna"});
 }
 
@@ -207,10 +207,10 @@ TEST(Scans, WhatIsMissingIsNamed) {
 }
 
 TEST(Scans, AreToldWithWhatIsKnown) {
-  shrc203::Motion motion;
-  motion.kind = shrc203::MotionKind::scan;
+  stage::Motion motion;
+  motion.kind = stage::MotionKind::scan;
   EXPECT_FALSE(to_proto("stage", motion, 1).has_scan());
-  motion.scan = shrc203::ScanResult{-200, 1300, 16, 11, {}};
+  motion.scan = stage::ScanResult{-200, 1300, 16, 11, {}};
   const api::Motion running = to_proto("stage", motion, 1);
   EXPECT_EQ(running.kind(), api::MOTION_KIND_SCAN);
   EXPECT_EQ(running.scan().run_from_pulses(), -200);
@@ -218,7 +218,7 @@ TEST(Scans, AreToldWithWhatIsKnown) {
   EXPECT_EQ(running.scan().expected_triggers(), 16);
   EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
   EXPECT_FALSE(running.scan().has_observed_triggers());
-  motion.scan = shrc203::ScanResult{0, 0, {}, {}, 0};
+  motion.scan = stage::ScanResult{0, 0, {}, {}, 0};
   const api::Motion ended = to_proto("stage", motion, 1);
   EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
   EXPECT_TRUE(ended.scan().has_observed_triggers());

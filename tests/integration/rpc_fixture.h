@@ -11,6 +11,7 @@
 #include <memory>
 #include <string>
 
+#include "axisgate/v1/access.grpc.pb.h"
 #include "axisgate/v1/command.grpc.pb.h"
 #include "axisgate/v1/control.grpc.pb.h"
 #include "axisgate/v1/device.grpc.pb.h"
@@ -19,17 +20,20 @@
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "server/access/access.h"
 #include "server/connections/callers.h"
+#include "server/devices/saved_positions.h"
 #include "server/events/wall_time.h"
 #include "server/gateway.h"
+#include "server/kinds.h"
 #include "server/rpc/server.h"
-#include "server/saved_positions.h"
 
 namespace axisgate::rpc {
+
+namespace api = axisgate::v1;
 
 class RpcTest : public ::testing::Test {
  protected:
   void SetUp() override {
-    server::Config config = server::default_config();
+    server::Config config = server::default_config(server::device_kinds());
     config.listen.port = 0;
     config.socket = directory_ + "/axisgate.sock";
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};

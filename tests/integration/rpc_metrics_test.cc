@@ -66,7 +66,7 @@ class RpcMetricsTest : public RpcTest {
   // Facts about nobody, so long that a few hundred fill what gRPC takes on for a reader.
   void publish(std::size_t facts) {
     const TimePoint now = monotonic_now();
-    const shrc203::StopRequested fact{shrc203::AxisSet::all(), false, std::string(4096, 'x')};
+    const stage::StopRequested fact{stage::AxisSet::all(), false, std::string(4096, 'x')};
     for (std::size_t i = 0; i < facts; ++i) gateway_->events().publish("nobody", fact, server::to_wall(now), now);
   }
 

@@ -13,9 +13,9 @@ class RpcStage : public RpcTest {
  protected:
   void configure(server::Config& config) override {
     auto& axes = config.devices[0].profile.axes;
-    axes[0].stage = shrc203::StageProfile{"Other", {{20, 0}, false}, {}};
+    axes[0].stage = stage::StageProfile{"Other", {{20, 0}, false}, {}};
     axes[1].unit = Unit::degrees;
-    axes[1].stage = shrc203::StageProfile{"Turner", {{10, 0}, true}, Decimal{5, 0}};
+    axes[1].stage = stage::StageProfile{"Turner", {{10, 0}, true}, Decimal{5, 0}};
   }
 
   api::Device device() {

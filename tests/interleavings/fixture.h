@@ -8,14 +8,14 @@
 #include <functional>
 #include <vector>
 
-#include "device/shrc203/reply.h"
+#include "device/shrc203/command/reply.h"
 #include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {
 
 class Interleavings : public testing::Test {
  protected:
-  using Axes = shrc203::AxisSet;
+  using Axes = stage::AxisSet;
 
   ~Interleavings() override {
     std::printf("%llu interleavings of %llu questions\n", static_cast<unsigned long long>(tried_),

@@ -5,9 +5,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/completions.h"
-#include "device/shrc203/reply.h"
-#include "device/shrc203/transaction_lines.h"
+#include "device/shrc203/command/reply.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/line/completions.h"
+#include "device/shrc203/transaction/transaction_lines.h"
 
 namespace axisgate::simulation {
 
@@ -19,7 +20,7 @@ namespace {
 
 constexpr Duration kAnswersAfter = milliseconds(1);
 // A motion is told to be READY no sooner.
-constexpr Duration kMovesFor = Completions::kStartSettles + milliseconds(50);
+constexpr Duration kMovesFor = kReadyOutdatedMax + milliseconds(50);
 constexpr Duration kNotLong = milliseconds(250);
 constexpr MotionId kFirstMotion = 1;
 
@@ -106,7 +107,7 @@ std::string Question::description() const {
 
 Interleaving::Interleaving(const Question& question, Choices& choices)
     : question_(question), choices_(choices), wire_line_(question.on_the_wire()) {
-  controller_ = std::make_unique<Controller>(Profile{}, *this, *this);
+  controller_ = std::make_unique<Controller>(shrc203::Profile{}, *this, *this);
 }
 
 Interleaving::~Interleaving() = default;
@@ -208,7 +209,7 @@ void Interleaving::check() {
   if (outcome_->state != MotionState::succeeded) wrong("the motion did not succeed");
   if (written_at_.has_value() == refused) wrong(refused ? "it was sent" : "it was never sent");
   if (refused || question_.row->needs.mode != Mode::host) return;
-  const bool waited = ready_seen_ && *written_at_ >= *ready_seen_ + Completions::kAfterReady;
+  const bool waited = ready_seen_ && *written_at_ >= *ready_seen_ + kCompletionAfterReadyMax;
   if (question_.waits() && !waited) wrong("it was sent while a number could come");
   if (!question_.waits() && *written_at_ > *asked_at_ + 2 * kAnswersAfter) wrong("it waited without need");
 }

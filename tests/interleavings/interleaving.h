@@ -10,7 +10,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shrc203/command_table.h"
+#include "device/shrc203/command/command_table.h"
 #include "device/shrc203/controller.h"
 
 namespace axisgate::simulation {
@@ -38,7 +38,7 @@ struct Question {
 
   const shrc203::CommandRow* row = nullptr;
   int value = 0;  // what the device answers; of several axes, for the lowest
-  shrc203::AxisSet controllable, moving;
+  stage::AxisSet controllable, moving;
   Moment moment = Moment::moving;
   Duration after_ready{};
   bool by_execute = false;  // the motion is a caller's own line, so that more motions may follow in it
@@ -57,7 +57,7 @@ struct Question {
 std::vector<int> values_of(const shrc203::CommandRow& row);
 
 // One run: a connect, a motion, the question, and all axis numbers, in the order that is chosen.
-class Interleaving : public ByteLink, public shrc203::EventSink {
+class Interleaving : public ByteLink, public stage::EventSink {
  public:
   Interleaving(const Question& question, Choices& choices);
   ~Interleaving() override;
@@ -76,7 +76,7 @@ class Interleaving : public ByteLink, public shrc203::EventSink {
 
   void write(std::string_view bytes) override;
   void reopen(Duration wait) override;
-  void on_event(const shrc203::Event& event, TimePoint now) override;
+  void on_event(const stage::Event& event, TimePoint now) override;
 
   std::string answer_to(const std::string& line);
   std::string of_each_axis(std::string_view field) const;
@@ -84,7 +84,7 @@ class Interleaving : public ByteLink, public shrc203::EventSink {
   bool begin();
   void ask();
   void execute(std::vector<std::string> lines, shrc203::Controller::OnExecute heard);
-  void heard(std::size_t caller, const shrc203::ExecuteEvent& event);
+  void heard(std::size_t caller, const stage::ExecuteEvent& event);
   void end();
   void check();
   void wrong(const std::string& what);
@@ -116,9 +116,9 @@ class Interleaving : public ByteLink, public shrc203::EventSink {
   bool started_ = false, busy_ = false, away_ = false, closed_ = false;  // what the device does, and its line
   bool asked_ = false, over_ = false;                                    // the question
   int readings_since_asked_ = 0;
-  shrc203::AxisSet outstanding_;
+  stage::AxisSet outstanding_;
   std::optional<TimePoint> ready_seen_, asked_at_, written_at_;
-  std::optional<shrc203::Motion> outcome_;
+  std::optional<stage::Motion> outcome_;
   std::map<int, int> told_, seen_;  // by axis: numbers that the device has told, and that the gateway has counted
   struct Caller {
     std::vector<std::string> answers;

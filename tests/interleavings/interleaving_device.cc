@@ -2,8 +2,9 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/codec.h"
-#include "device/shrc203/completions.h"
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/line/completions.h"
 #include "tests/interleavings/interleaving.h"
 
 namespace axisgate::simulation {
@@ -118,7 +119,7 @@ std::string Interleaving::answer_to(const std::string& line) {
 
 // A number comes while its axis moves, and for a little after READY has been read.
 bool Interleaving::may_complete() const {
-  return !closed_ && (!ready_seen_ || now_ <= *ready_seen_ + Completions::kAfterReady);
+  return !closed_ && (!ready_seen_ || now_ <= *ready_seen_ + kCompletionAfterReadyMax);
 }
 
 std::optional<int> Interleaving::chosen_axis() {

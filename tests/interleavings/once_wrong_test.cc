@@ -1,7 +1,8 @@
 // Orders of an answer and axis numbers in which a number was not counted once.
 #include <gtest/gtest.h>
 
-#include "device/shrc203/completions.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/line/completions.h"
 #include "tests/interleavings/fixture.h"
 
 namespace axisgate::simulation {
@@ -34,7 +35,7 @@ TEST_F(InterleavingsOnceWrong, ANumberIsCountedForEachCallerOfASharedExchange) {
 TEST_F(InterleavingsOnceWrong, ANumberIsForgottenWhenTheLastAnswerIsCertain) {
   Question question = question_of("?:O", AxisSet::of(1) | AxisSet::of(2), 1);
   question.moment = Moment::standing;
-  question.after_ready = Completions::kAfterReady - milliseconds(2);
+  question.after_ready = kCompletionAfterReadyMax - milliseconds(2);
   try_all(question);
 }
 
@@ -51,7 +52,7 @@ TEST_F(InterleavingsOnceWrong, JustBeforeNoNumberCanComeAnyMore) {
   for (const int before : {5, 2}) {
     each_question(closed_rows, counts(), [&](Question question) {
       question.moment = Moment::standing;
-      question.after_ready = Completions::kAfterReady - milliseconds(before);
+      question.after_ready = kCompletionAfterReadyMax - milliseconds(before);
       try_all(question);
     });
   }

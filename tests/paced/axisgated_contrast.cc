@@ -2,30 +2,57 @@
 // going first is needed for, and is for nothing else.
 #include <fmt/format.h>
 
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <string_view>
 
+#include "device/shrc203/controller.h"
+#include "device/shrc203/kind.h"
 #include "server/access/access.h"
-#include "server/config.h"
+#include "server/config/config.h"
 #include "server/connections/callers.h"
-#include "server/descriptor_limit.h"
+#include "server/connections/descriptor_limit.h"
+#include "server/devices/saved_positions.h"
 #include "server/end_signals.h"
 #include "server/gateway.h"
 #include "server/logging.h"
 #include "server/rpc/server.h"
-#include "server/saved_positions.h"
 
 namespace axisgate {
 namespace {
 
+// An SHRC-203 whose refills wait among questions.
+class Contrast final : public stage::Kind {
+ public:
+  std::string_view name() const override { return "shrc203"; }
+  std::span<const stage::KindSetting> settings() const override { return shrc203::kind().settings(); }
+  std::unique_ptr<stage::StageController> make_controller(const stage::Profile& profile, const stage::Words&,
+                                                          ByteLink& link, stage::EventSink& events,
+                                                          stage::Permission& permission) const override {
+    shrc203::Profile own{profile};
+    own.refills = shrc203::Refills::among_questions;
+    return std::make_unique<shrc203::Controller>(std::move(own), link, events, permission);
+  }
+  Result<void> check_lines(const std::vector<std::string>& lines) const override {
+    return shrc203::kind().check_lines(lines);
+  }
+  Result<void> check_option(std::string_view name, std::string_view value) const override {
+    return shrc203::kind().check_option(name, value);
+  }
+  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
+    return shrc203::kind().make_simulation(options, line);
+  }
+};
+
 int serve(const char* config_path) {
-  auto config = server::load_config(config_path);
+  static const Contrast contrast;
+  static const std::array<const stage::Kind*, 1> kinds = {&contrast};
+  auto config = server::load_config(config_path, kinds);
   if (!config) {
     for (const auto& error : config.error()) fmt::print(stderr, "{}\n", to_string(error));
     return 2;
   }
-  for (auto& device : config->devices) device.profile.refills = shrc203::Refills::among_questions;
   server::EndSignals end_signals;
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();

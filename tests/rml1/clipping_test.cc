@@ -6,11 +6,10 @@
 #include <cmath>
 
 #include "tests/rml1/clipping_cases.h"
+#include "tests/rml1/trace.h"
 
 namespace axisgate::rml1 {
 namespace {
-
-std::string text(const Point& p) { return fmt::format("{:g} {:g} {:g}", p.x, p.y, p.z); }
 
 // Pieces in one direction are one move.
 std::vector<std::string> corners(const std::vector<Move>& moves, std::size_t begin) {

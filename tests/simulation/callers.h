@@ -26,7 +26,7 @@ class Callers {
   void curved_path();
   void approach();
   void scan();
-  void allow_starts(shrc203::AxisSet axes);
+  void allow_starts(stage::AxisSet axes);
   void stop();
   void ask();
   void set_and_go();
@@ -36,7 +36,7 @@ class Callers {
   World& world_;
   Mishaps mishaps_;
   const bool shapes_;
-  std::array<int, shrc203::kAxisCount> starts_allowed_{};
+  std::array<int, stage::kAxisCount> starts_allowed_{};
   int unfinished_questions_ = 0;
 };
 

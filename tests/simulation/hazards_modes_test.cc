@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <numeric>
 
-#include "device/shrc203/codec.h"
+#include "device/shrc203/command/codec.h"
 #include "server/access/leases.h"
 #include "tests/simulation/scenario.h"
 

@@ -1,13 +1,13 @@
 // The recorder under everything the simulation can do to a line: the recording holds every byte, and the core does the
 // same again when it is fed with it.
-#include "device/shrc203/recorder.h"
+#include "device/stage/recording/recorder.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 
-#include "device/shrc203/replay.h"
+#include "device/shrc203/recording/replay.h"
 #include "tests/simulation/callers.h"
 #include "tests/simulation/scenario.h"
 

@@ -1,5 +1,5 @@
 // Each condition for NG that the manual names: the device refuses, and the gateway says why, or sees it coming.
-#include "device/shrc203/refusals.h"
+#include "device/shrc203/command/refusals.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -13,23 +13,23 @@ namespace axisgate::simulation {
 Setup quiet();
 
 using Ways = std::vector<std::pair<int, std::int64_t>>;  // axis, pulses
-shrc203::MoveRequest move_of(const World& world, const Ways& ways, bool relative);
+stage::MoveRequest move_of(const World& world, const Ways& ways, bool relative);
 void move_by(World& world, const Ways& ways);
 
 // A straight line of axes 1 and 2: -1000 and 2000 by turns of axis 1, 2000 each of axis 2, a tenth of a second each.
-shrc203::PathRequest line_of(const World& world, int segments);
-void home(World& world, shrc203::AxisSet axes);
-Reason reason_of(const shrc203::Motion& motion);  // unspecified when there is no problem
+stage::PathRequest line_of(const World& world, int segments);
+void home(World& world, stage::AxisSet axes);
+Reason reason_of(const stage::Motion& motion);  // unspecified when there is no problem
 
 // Both run the world to an answer; a motion's outcome at most `limit` later.
 std::vector<std::string> execute(World& world,
                                  std::vector<std::string> lines);  // replies, "completion 1", a problem's name
-shrc203::Motion outcome_of(World& world, std::size_t number, Duration limit = std::chrono::seconds(30));
+stage::Motion outcome_of(World& world, std::size_t number, Duration limit = std::chrono::seconds(30));
 
 // A move by `ways` that has succeeded.
 void moved(World& world, const Ways& ways);
 // A stop of all axes and what was reported of it.
-shrc203::StopReport stopped(World& world, Duration limit = std::chrono::seconds(60));
+stage::StopReport stopped(World& world, Duration limit = std::chrono::seconds(60));
 
 // The lines on the wire from `first` on that begin with `prefix`.
 int written(World& world, std::string_view prefix, std::size_t first = 0);

@@ -65,12 +65,12 @@ TEST(ShapedCallers, GetThroughOnAGoodLine) {
   World world(drawn_setup(5'000'000, Faults::none()));
   Callers callers(world, 5'000'000, 0, true);
   callers.act_for(std::chrono::minutes(10));
-  std::map<shrc203::MotionKind, int> well;
+  std::map<stage::MotionKind, int> well;
   for (const auto& motion : world.outcomes()) {
-    if (motion.state == shrc203::MotionState::succeeded) ++well[motion.kind];
+    if (motion.state == stage::MotionState::succeeded) ++well[motion.kind];
   }
-  EXPECT_GT(well[shrc203::MotionKind::scan], 5) << world.replay();
-  EXPECT_GT(well[shrc203::MotionKind::path], 20) << world.replay();
+  EXPECT_GT(well[stage::MotionKind::scan], 5) << world.replay();
+  EXPECT_GT(well[stage::MotionKind::path], 20) << world.replay();
   EXPECT_GT(written(world, "EP:2A"), 20) << world.replay();
   EXPECT_GT(written(world, "EP:1A"), 20) << world.replay();
   EXPECT_TRUE(world.violations().empty()) << world.violations().front();

@@ -34,16 +34,16 @@ class Users {
     server::LeaseToken token = 0;
     std::vector<server::LeaseToken> stale;
     TimePoint paused_until{};
-    shrc203::MotionId jog = 0;  // that it keeps going
+    stage::MotionId jog = 0;  // that it keeps going
   };
   // What was granted, as the ledger has it.
   struct Grant {
     std::string who;
-    shrc203::AxisSet axes;
+    stage::AxisSet axes;
     Duration time_to_live{};
     TimePoint valid_until{};
     server::AtLoss at_loss = server::AtLoss::stop;
-    shrc203::AxisSet latched;
+    stage::AxisSet latched;
     bool sped = false;   // it has set speeds of its own
     bool wired = false;  // ... outputs or a trigger
     bool over = false;   // released, handed over or taken over
@@ -64,14 +64,14 @@ class Users {
   void stop(User& user);
   void rearm(User& user);
   server::LeaseTerms drawn_terms();
-  shrc203::RequestContext context(const User& user, server::LeaseToken token);
+  stage::RequestContext context(const User& user, server::LeaseToken token);
   server::LeaseToken drawn_token(const User& user);
   void granted(User& user, const server::Lease& lease);
-  void on_news(const shrc203::Event& event);
-  void check_bytes(const shrc203::BytesWritten& written);
+  void on_news(const stage::Event& event);
+  void check_bytes(const stage::BytesWritten& written);
   void check_travel();
-  void check_speeds(const shrc203::BytesWritten& written);
-  void check_outputs(const shrc203::BytesWritten& written);
+  void check_speeds(const stage::BytesWritten& written);
+  void check_outputs(const stage::BytesWritten& written);
   void check_jogs();
   bool owned(const Grant& grant);
   const Grant* owner_of(int axis);
@@ -81,10 +81,10 @@ class Users {
   World world_;
   std::vector<User> users_;
   std::map<server::LeaseToken, Grant> grants_;
-  std::map<std::string, shrc203::AxisSet> held_back_;
-  std::map<shrc203::MotionId, server::LeaseToken> leases_of_;  // that they were asked for with
+  std::map<std::string, stage::AxisSet> held_back_;
+  std::map<stage::MotionId, server::LeaseToken> leases_of_;  // that they were asked for with
   server::LeaseToken asking_ = 0;
-  std::map<shrc203::MotionId, TimePoint> renewed_;  // jogs, when last
+  std::map<stage::MotionId, TimePoint> renewed_;  // jogs, when last
   Counts counts_;
 };
 

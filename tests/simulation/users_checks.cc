@@ -3,6 +3,7 @@
 
 #include <cstdlib>
 
+#include "device/shrc203/command/axes.h"
 #include "tests/simulation/users.h"
 
 namespace axisgate::simulation {

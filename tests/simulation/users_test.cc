@@ -9,8 +9,8 @@
 namespace axisgate::simulation {
 namespace {
 
-constexpr int kSeeds = 1000;
-constexpr int kSeedsACase = 10;
+constexpr int kUserSeeds = 1000;
+constexpr int kUserSeedsACase = 10;
 
 void hold(std::uint64_t seed) {
   static const char* const kProfiles[] = {"quiet", "mild", "rough", "hostile"};
@@ -27,13 +27,13 @@ TEST_P(UserSeeds, NobodyMovesWhatAnotherOwns) {
     if (GetParam() == 0) hold(std::strtoull(only, nullptr, 10));
     return;
   }
-  const int first = GetParam() * kSeedsACase;
-  for (int seed = first; seed < first + kSeedsACase && !HasFatalFailure(); ++seed) {
+  const int first = GetParam() * kUserSeedsACase;
+  for (int seed = first; seed < first + kUserSeedsACase && !HasFatalFailure(); ++seed) {
     hold(static_cast<std::uint64_t>(seed));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ordinary, UserSeeds, testing::Range(0, kSeeds / kSeedsACase));
+INSTANTIATE_TEST_SUITE_P(Ordinary, UserSeeds, testing::Range(0, kUserSeeds / kUserSeedsACase));
 
 // A jog that was sped up too near to its bound, or stopped too late before it where an answer was lost.
 class UserSeedsThatOnceFailed : public testing::TestWithParam<int> {};

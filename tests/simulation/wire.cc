@@ -13,8 +13,6 @@ namespace {
 constexpr std::size_t kLogLines = 120;
 constexpr std::string_view kEndOfLine = "\r\n";
 
-Duration milliseconds(std::int64_t count) { return std::chrono::milliseconds(count); }
-
 }  // namespace
 
 bool sets_motion(std::string_view command) {
@@ -204,7 +202,7 @@ void Wire::device_line(std::string text) {
   if (!is_reply) return notice_line(std::move(text), fault.delay);
   Duration extra = fault.delay;
   if (strikes(faults_.drop_reply, "reply: dropped")) return;
-  if (strikes(faults_.late_reply, "reply: late")) extra += milliseconds(random_.between(50, 900));
+  if (strikes(faults_.late_reply, "reply: late")) extra += std::chrono::milliseconds(random_.between(50, 900));
   const bool setting = text == "OK" || text == "OK_D";
   if (setting && strikes(faults_.false_ng, "reply: false NG")) text = random_.chance(0.5) ? "NG" : "NG_I";
   if (strikes(faults_.flip_reply, "line: reply flipped")) text = flipped(text, random_);
@@ -219,7 +217,7 @@ void Wire::device_line(std::string text) {
 void Wire::notice_line(std::string text, Duration extra) {
   const std::string number = text + "\r\n";
   if (strikes(faults_.drop_notice, "notice: dropped")) return;
-  if (strikes(faults_.late_notice, "notice: late")) extra += milliseconds(random_.between(5, 120));
+  if (strikes(faults_.late_notice, "notice: late")) extra += std::chrono::milliseconds(random_.between(5, 120));
   if (strikes_newly(faults_.flip_notice, "line: notice flipped")) text = flipped(text, damage_random_);
   text = with_bytes_damaged(std::move(text));
   const bool twice = strikes(faults_.double_notice, "notice: doubled");
@@ -233,7 +231,7 @@ void Wire::notice_line(std::string text, Duration extra) {
   held_notices_.emplace(at, Delivery{false, text, {Origin::Kind::notice, 0}, 0, damaging_});
   if (strikes(faults_.flood_notice, "notice: flood")) {
     for (int i = 0; i < random_.between(5, 20); ++i) {
-      held_notices_.emplace(now_ + milliseconds(random_.between(1, 120)),
+      held_notices_.emplace(now_ + std::chrono::milliseconds(random_.between(1, 120)),
                             Delivery{false, number, {Origin::Kind::notice, 0}, 0, false});
     }
   }
@@ -258,7 +256,7 @@ void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
     // answer by anybody.
     const auto middle = bytes.size() / 2 + 1;
     transit(at, Delivery{false, bytes.substr(0, middle), origin, 0, damaging_});
-    at += milliseconds(random_.between(1, 40));
+    at += std::chrono::milliseconds(random_.between(1, 40));
     to_gateway_free_ = std::max(to_gateway_free_, at);
     bytes.erase(0, middle);
   }

@@ -23,15 +23,15 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
-  shrc203::EventSink* listener = nullptr;     // hears every event too
-  shrc203::Permission* permission = nullptr;  // none: everybody may
-  bool callers_send_bare_go = false;          // else a bare G is taken for a fault of the gateway's own
+  stage::EventSink* listener = nullptr;     // hears every event too
+  stage::Permission* permission = nullptr;  // none: everybody may
+  bool callers_send_bare_go = false;        // else a bare G is taken for a fault of the gateway's own
 };
 
 // A setup whose open questions are drawn from the seed.
 Setup drawn_setup(std::uint64_t seed, const Faults& faults);
 
-class World : public shrc203::EventSink {
+class World : public stage::EventSink {
  public:
   explicit World(Setup setup);
   ~World() override;
@@ -46,7 +46,7 @@ class World : public shrc203::EventSink {
   // Runs until `done` holds; false when `limit` passed first.
   bool run_until(const std::function<bool()>& done, Duration limit);
   bool run_until_up() {
-    return run_until([this] { return controller_->state().link == shrc203::LinkState::up; }, std::chrono::seconds(60));
+    return run_until([this] { return controller_->state().link == stage::LinkState::up; }, std::chrono::seconds(60));
   }
   // The host sleeps: time has passed, and what came meanwhile comes first.
   void sleep_for(Duration duration) { now_ += duration; }
@@ -59,7 +59,7 @@ class World : public shrc203::EventSink {
   void return_of_the_unit(Duration unplugged_for);
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
-  shrc203::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
+  stage::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {
     return {std::move(who), "", now_ + limit};
   }
 
@@ -69,23 +69,23 @@ class World : public shrc203::EventSink {
   std::string replay() const;  // how to see a failure again
   Phase phase() const;
 
-  void on_event(const shrc203::Event& event, TimePoint now) override;
-  const std::vector<shrc203::Motion>& outcomes() const { return outcomes_; }
-  const std::vector<shrc203::PathProgress>& progress() const { return progress_; }
-  const std::vector<shrc203::CompletionSeen>& completions() const { return completions_; }
+  void on_event(const stage::Event& event, TimePoint now) override;
+  const std::vector<stage::Motion>& outcomes() const { return outcomes_; }
+  const std::vector<stage::PathProgress>& progress() const { return progress_; }
+  const std::vector<stage::CompletionSeen>& completions() const { return completions_; }
   std::uint64_t exchanges() const { return exchanges_; }
   std::uint64_t barriers() const { return barriers_; }
 
   // Called with each motion event, to watch more than the world itself does.
-  std::function<void(const shrc203::Motion&)> on_motion;
+  std::function<void(const stage::Motion&)> on_motion;
   // The same of every event.
-  std::function<void(const shrc203::Event&)> on_news;
+  std::function<void(const stage::Event&)> on_news;
 
  private:
   void step(TimePoint limit);
-  void check_exchange(const shrc203::ExchangeEnded& ended);
-  void check_outcome(const shrc203::Motion& motion);
-  void digest(const shrc203::Motion& motion);
+  void check_exchange(const stage::ExchangeEnded& ended);
+  void check_outcome(const stage::Motion& motion);
+  void digest(const stage::Motion& motion);
   void swap_unit(const std::string& serial_number, Duration unplugged_for);
   std::int64_t told_position(int axis) const;
   bool restarting() const;
@@ -99,16 +99,16 @@ class World : public shrc203::EventSink {
   std::optional<TimePoint> rebooted_;
   Duration restart_lasts_{};
   std::size_t written_before_reboot_ = 0;
-  std::array<std::int64_t, shrc203::kAxisCount> before_reboot_{};
+  std::array<std::int64_t, stage::kAxisCount> before_reboot_{};
   TimePoint now_{};
   std::multimap<TimePoint, std::function<void()>> deeds_;
   std::size_t written_when_last_ended_ = 0;  // commands, when an exchange last ended
   std::size_t written_before_visit_ = 0;     // commands, when another unit came
   int steps_here_ = 0;
   std::vector<std::string> violations_;
-  std::vector<shrc203::Motion> outcomes_;
-  std::vector<shrc203::PathProgress> progress_;
-  std::vector<shrc203::CompletionSeen> completions_;
+  std::vector<stage::Motion> outcomes_;
+  std::vector<stage::PathProgress> progress_;
+  std::vector<stage::CompletionSeen> completions_;
   std::uint64_t exchanges_ = 0, barriers_ = 0;
 };
 

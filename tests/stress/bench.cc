@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "device/link/clock.h"
+#include "server/kinds.h"
 
 namespace axisgate::stress {
 namespace {
@@ -64,11 +65,11 @@ Bench::~Bench() {
 server::Config Bench::config() const {
   server::Config config;
   for (std::size_t device = 0; device < kDevices; ++device) {
-    server::DeviceConfig one;
+    server::DeviceConfig one = server::default_config(server::device_kinds()).devices[0];
     one.profile.name = device_name(device);
     one.profile.serial_number = serial_number(device);
     // The simulator's axes do not keep each other waiting; one device makes use of it.
-    if (device == 0) one.profile.busy_scope = shrc203::Scope::axis;
+    if (device == 0) one.kind_settings["busy_scope"] = "axis";
     one.profile.baud = 4'000'000;
     one.profile.idle_poll = milliseconds(20);
     one.profile.moving_poll = milliseconds(10);
@@ -91,7 +92,7 @@ void Bench::plug(std::size_t device) {
 
 bool Bench::wait_until_link(std::size_t number, bool up) {
   const TimePoint limit = monotonic_now() + std::chrono::minutes(1);
-  while ((device(number).newest_state().get().value->link == shrc203::LinkState::up) != up) {
+  while ((device(number).newest_state().get().value->link == stage::LinkState::up) != up) {
     if (monotonic_now() > limit) return false;
     std::this_thread::sleep_for(milliseconds(1));  // between two looks; the limit above decides
   }

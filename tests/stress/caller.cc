@@ -10,7 +10,7 @@
 namespace axisgate::stress {
 namespace {
 
-using namespace shrc203;
+using namespace stage;
 
 struct KnownAnswer {
   std::string question;
@@ -62,7 +62,8 @@ void Caller::ask(int requests, std::size_t window) {
 
 void Caller::rearm(std::size_t device) {
   server::Device& there = bench_.device(device);
-  there.post([&there, who = name()](shrc203::Controller&, TimePoint now) { (void)there.leases().rearm(0, who, now); });
+  there.post(
+      [&there, who = name()](stage::StageController&, TimePoint now) { (void)there.leases().rearm(0, who, now); });
 }
 
 void Caller::flood(int requests) {
@@ -138,8 +139,10 @@ void Caller::execute(std::size_t device, std::vector<std::string> lines, std::ve
     }
   };
   ExecuteRequest request{std::move(lines), context(asked)};
-  bench_.device(device).post([request = std::move(request), heard = std::move(heard)](
-                                 Controller& controller, TimePoint now) { controller.execute(request, now, heard); });
+  bench_.device(device).post(
+      [request = std::move(request), heard = std::move(heard)](StageController& controller, TimePoint now) {
+        controller.execute(request, now, heard);
+      });
 }
 
 void Caller::refresh(std::size_t device) {
@@ -154,12 +157,12 @@ void Caller::refresh(std::size_t device) {
     asked->answered();
   };
   bench_.device(device).post(
-      [context = context(asked), heard = std::move(heard)](Controller& controller, TimePoint now) {
+      [context = context(asked), heard = std::move(heard)](StageController& controller, TimePoint now) {
         controller.refresh({}, context, now, heard);
       });
 }
 
-Controller::OnStarted Caller::on_started(const Ticket& asked, std::size_t device) {
+StageController::OnStarted Caller::on_started(const Ticket& asked, std::size_t device) {
   return [this, asked, device](Result<Motion> motion) {
     if (motion) {
       EXPECT_EQ(motion->request_id, asked->asked());
@@ -179,9 +182,10 @@ void Caller::move(std::size_t device) {
   // A stop may leave the setting of either kind behind; the next of its kind overwrites it.
   request.relative = draw(0, 1) == 0;
   request.moves.push_back({draw(1, kAxisCount), pulses(draw(-3000, 3000)), {}});
-  bench_.device(device).post([request, started = on_started(asked, device)](Controller& controller, TimePoint now) {
-    controller.move(request, now, started);
-  });
+  bench_.device(device).post(
+      [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
+        controller.move(request, now, started);
+      });
 }
 
 void Caller::path(std::size_t device) {
@@ -190,17 +194,19 @@ void Caller::path(std::size_t device) {
   request.context = context(asked);
   const int axis = draw(1, kAxisCount);
   for (const int way : {500, -500, 500, -500}) request.segments.push_back({{{axis, pulses(way), {}}}, true, {}, {}});
-  bench_.device(device).post([request, started = on_started(asked, device)](Controller& controller, TimePoint now) {
-    controller.run_path(request, now, started);
-  });
+  bench_.device(device).post(
+      [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
+        controller.run_path(request, now, started);
+      });
 }
 
 void Caller::home(std::size_t device) {
   const auto asked = ticket(device, "an origin return");
   HomeRequest request{AxisSet::of(draw(1, kAxisCount)), context(asked)};
-  bench_.device(device).post([request, started = on_started(asked, device)](Controller& controller, TimePoint now) {
-    controller.home(request, now, started);
-  });
+  bench_.device(device).post(
+      [request, started = on_started(asked, device)](StageController& controller, TimePoint now) {
+        controller.home(request, now, started);
+      });
 }
 
 void Caller::stop(std::size_t device) {
@@ -209,7 +215,7 @@ void Caller::stop(std::size_t device) {
     if (report.problem) expect_excuse(*report.problem, asked->asked());
     asked->answered();
   };
-  bench_.device(device).post([context = context(asked), stopped](Controller& controller, TimePoint now) {
+  bench_.device(device).post([context = context(asked), stopped](StageController& controller, TimePoint now) {
     controller.stop({}, context, now, stopped);
   });
 }
@@ -221,7 +227,7 @@ void Caller::cancel(std::size_t device) {
     asked->answered();
   };
   const MotionId motion = newest_motion_[device];
-  bench_.device(device).post([context = context(asked), motion, done](Controller& controller, TimePoint now) {
+  bench_.device(device).post([context = context(asked), motion, done](StageController& controller, TimePoint now) {
     controller.cancel_motion(motion, context, now, done);
   });
 }

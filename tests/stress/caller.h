@@ -8,7 +8,7 @@
 #include <random>
 #include <string>
 
-#include "device/shrc203/controller.h"
+#include "device/stage/stage_controller.h"
 #include "tests/stress/bench.h"
 #include "tests/stress/ledger.h"
 
@@ -48,8 +48,8 @@ class Caller {
 
   std::string name() const { return fmt::format("caller {}", number_); }
   Ticket ticket(std::size_t device, const std::string& what);
-  shrc203::RequestContext context(const Ticket& ticket) const;
-  shrc203::Controller::OnStarted on_started(const Ticket& ticket, std::size_t device);
+  stage::RequestContext context(const Ticket& ticket) const;
+  stage::StageController::OnStarted on_started(const Ticket& ticket, std::size_t device);
   int draw(int minimum, int maximum) { return std::uniform_int_distribution(minimum, maximum)(random_); }
 
   Bench& bench_;
@@ -58,7 +58,7 @@ class Caller {
   Ledger ledger_;
   std::atomic<int> right_answers_ = 0;
   std::atomic<int> motions_started_ = 0;
-  std::array<std::atomic<shrc203::MotionId>, kDevices> newest_motion_{};
+  std::array<std::atomic<stage::MotionId>, kDevices> newest_motion_{};
 };
 
 }  // namespace axisgate::stress

@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "device/link/clock.h"
-#include "device/shrc203/recording.h"
+#include "device/stage/recording/recording.h"
 #include "tests/stress/bench.h"
 #include "tests/stress/caller.h"
 #include "tests/stress/readers.h"
@@ -108,16 +108,16 @@ class GatewayUnderLoad : public GatewayStress {
   // Written by threads of their own to the very end, with all the connects of a pulled cable.
   void expect_whole_recordings() {
     for (std::size_t device = 0; device < kDevices; ++device) {
-      const Result<shrc203::Recording> recording = shrc203::parse_recording(bench_.recording(device));
+      const Result<stage::Recording> recording = stage::parse_recording(bench_.recording(device));
       ASSERT_TRUE(recording) << recording.error().message;
-      const auto told = [&](shrc203::RecordedRemark::Kind kind) {
-        return std::ranges::count_if(recording->lines, [&](const shrc203::RecordedLine& line) {
-          const auto* remark = std::get_if<shrc203::RecordedRemark>(&line.event);
+      const auto told = [&](stage::RecordedRemark::Kind kind) {
+        return std::ranges::count_if(recording->lines, [&](const stage::RecordedLine& line) {
+          const auto* remark = std::get_if<stage::RecordedRemark>(&line.event);
           return remark != nullptr && remark->kind == kind;
         });
       };
-      EXPECT_EQ(told(shrc203::RecordedRemark::Kind::note), 0) << "lines were lost";
-      EXPECT_GE(told(shrc203::RecordedRemark::Kind::up), 1);
+      EXPECT_EQ(told(stage::RecordedRemark::Kind::note), 0) << "lines were lost";
+      EXPECT_GE(told(stage::RecordedRemark::Kind::up), 1);
       EXPECT_GT(recording->lines.size(), 100u);
     }
   }

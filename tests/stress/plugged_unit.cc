@@ -22,8 +22,8 @@ PluggedUnit::PluggedUnit(const std::string& path, simulator::Options options) {
   Pty pty = opened(open_pty(path));
   PtyWatch watch = opened(PtyWatch::open(pty));
   line_ = std::make_shared<PtyLine>(boost::asio::make_strand(context_), std::move(pty), std::move(watch));
-  device_ = std::make_unique<simulator::PacedLine>(
-      simulator::Pacing{0, {}, 100}, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
+  device_ =
+      std::make_unique<PacedLine>(Pacing{0, {}, 100}, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
         return std::make_unique<simulator::Simulator>(std::move(options), inside);
       });
   line_->attach(*device_);

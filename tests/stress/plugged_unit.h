@@ -5,10 +5,10 @@
 #include <string>
 #include <thread>
 
+#include "device/core/paced_line.h"
 #include "device/link/asio.h"
 #include "device/link/pty_line.h"
 #include "device/shrc203/simulator/options.h"
-#include "device/shrc203/simulator/paced_line.h"
 
 namespace axisgate::stress {
 
@@ -24,7 +24,7 @@ class PluggedUnit {
  private:
   boost::asio::io_context context_{1};
   std::shared_ptr<PtyLine> line_;
-  std::unique_ptr<shrc203::simulator::PacedLine> device_;
+  std::unique_ptr<PacedLine> device_;
   std::thread thread_;
 };
 

@@ -14,7 +14,7 @@ constexpr std::size_t kPortion = 200;
 
 std::uint64_t publish_fact(server::EventBus& bus) {
   const TimePoint now = monotonic_now();
-  return bus.publish("nobody", shrc203::StopRequested{}, server::to_wall(now), now);
+  return bus.publish("nobody", stage::StopRequested{}, server::to_wall(now), now);
 }
 
 void take_a_breath() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }
@@ -38,18 +38,18 @@ void QuickReader::read() {
 }
 
 void QuickReader::follow(const server::FactRecord& record) {
-  const auto* changed = std::get_if<shrc203::MotionChanged>(&record.fact);
+  const auto* changed = std::get_if<stage::MotionChanged>(&record.fact);
   if (changed == nullptr) return;
   const auto [known, begun] = motions_.try_emplace({record.device, changed->motion.id}, changed->motion.state);
   if (begun) {
-    EXPECT_EQ(changed->motion.state, shrc203::MotionState::queued) << record.device << " " << changed->motion.id;
+    EXPECT_EQ(changed->motion.state, stage::MotionState::queued) << record.device << " " << changed->motion.id;
     ++motions_open_;
     return;
   }
   EXPECT_GT(changed->motion.state, known->second) << record.device << " " << changed->motion.id;
-  EXPECT_FALSE(shrc203::is_outcome(known->second)) << record.device << " " << changed->motion.id;
+  EXPECT_FALSE(stage::is_outcome(known->second)) << record.device << " " << changed->motion.id;
   known->second = changed->motion.state;
-  if (shrc203::is_outcome(known->second)) --motions_open_;
+  if (stage::is_outcome(known->second)) --motions_open_;
 }
 
 bool QuickReader::wait_until_all_ended() const {

@@ -32,7 +32,7 @@ class QuickReader {
   server::EventBus& bus_;
   std::atomic<std::uint64_t> next_ = 1;
   std::atomic<std::uint64_t> motions_open_ = 0;
-  std::map<std::pair<std::string, shrc203::MotionId>, shrc203::MotionState> motions_;
+  std::map<std::pair<std::string, stage::MotionId>, stage::MotionState> motions_;
   std::unique_ptr<server::WakeUps::Subscription> subscription_;  // the last member: gone before what it wakes
 };
 
@@ -44,7 +44,7 @@ class StateReader {
  private:
   void read();
 
-  server::Newest<shrc203::State>& states_;
+  server::Newest<stage::State>& states_;
   const std::size_t device_;
   std::uint64_t version_ = 0;
   std::unique_ptr<server::WakeUps::Subscription> subscription_;

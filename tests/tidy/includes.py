@@ -12,12 +12,40 @@ _CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/")
 _ASIO_FOLDERS = ("device/link/", "server/", "clients/")
 _DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
 _SIMULATOR = "device/shrc203/simulator/"
-_GATEWAY_PARSERS = ("device/shrc203/command_table.h", "device/shrc203/codec.h")
-# Lowest first. Folders on one floor are siblings and may not include each other; the files directly in server/ wire the
-# folders beside them.
+_GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
+# Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
+# a folder; the files directly in a folder lie on the floor given for it.
 _FLOORS = {
-    "device/core": 0, "device/config": 0, "device/*": 1, "server/*": 2, "server": 3, "server/rpc": 4, "clients": 5, "tests": 6
+    "device/core": (0,), "device/config": (0,), "device/stage": (1, 0), "device/*": (1, 1),
+    "device": (1, 2),
+    "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/connections": (2, 2),
+    "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
+    "server": (3,), "server/rpc": (4,), "clients": (5,), "tests": (6,),
 }
+# The rooms of a controller: what each is for stands in device/shrc203/README.md.
+_CONTROLLER = "device/shrc203/"
+_ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "motion": 4, "session": 4, "transaction": 5}
+_FACE = ("controller.h", "controller.cc", "controller_impl.h", "kind.h", "kind.cc")
+# Joins controller and simulator for those who choose a kind by its name.
+_KIND = "device/shrc203/kind.cc"
+# What still points upward, by file: a list that only shrinks.
+_EXCEPTIONS = {
+    ("device/shrc203/planning/feeding.cc", "device/shrc203/motion/registers.h"),
+    ("device/shrc203/planning/arc_lines.cc", "device/shrc203/transaction/transaction_lines.h"),
+    ("device/shrc203/planning/forecast.cc", "device/shrc203/transaction/transaction_lines.h"),
+    ("device/shrc203/session/explain.cc", "device/shrc203/transaction/transaction_lines.h"),
+    ("device/shrc203/session/lease_settings.cc", "device/shrc203/transaction/transaction_lines.h"),
+    ("server/config/network.cc", "server/connections/certificates.h"),
+    *((f"device/shrc203/{room}/{file}", "device/shrc203/controller_impl.h") for room, files in {
+        "motion": ("approach.cc", "home.cc", "jog.cc", "move.cc", "path.cc", "path_run.h", "positions.cc", "scan.cc",
+                   "speeds.cc", "watch.cc"),
+        "session": ("clear_errors.cc", "excursion.cc", "explain.cc", "handshake.cc", "lease_settings.cc", "reading.cc",
+                    "stop.cc", "wind_down.cc"),
+        "transaction": ("execute.cc", "execute_request.cc"),
+    }.items() for file in files),
+}
+# Who stands in whose place: the explanations that a plain file of server/ has for people, for every room.
+_FOR_ALL_OF_SERVER = ("server/explain.h",)
 
 
 def room_of(path):
@@ -31,7 +59,22 @@ def room_of(path):
     return _FLOORS.get(room, _FLOORS[f"{top}/*"]), room
 
 
+def controller_room_of(path):
+    """The floor and the room within device/shrc203, or nothing for what lies elsewhere and for the simulator."""
+    if not path.startswith(_CONTROLLER) or path.startswith(_SIMULATOR):
+        return None
+    *folders, name = path[len(_CONTROLLER):].split("/")
+    if not folders:
+        return (6, "face") if name in _FACE else (0, "types")
+    return _ROOMS.get(folders[0], 7), folders[0]
+
+
 def may_include(source, target):
+    if (source, target) in _EXCEPTIONS or target in _FOR_ALL_OF_SERVER and source.startswith("server/"):
+        return True
+    here, there = controller_room_of(source), controller_room_of(target)
+    if here and there:
+        return here == there or there[0] < here[0]
     here, there = room_of(source), room_of(target)
     if not here or not there or here == there or there[0] < here[0]:
         return True
@@ -67,18 +110,32 @@ def _check_target(file, number, target):
         yield file.finding(number, "floors", f"{room_of(file.path)[1]} may not include {target}",
                            "move what both need to a lower floor, or have the caller hand it in")
     in_simulator = file.path.startswith(_SIMULATOR)
-    if file.path.startswith("device/shrc203/") and not in_simulator and target.startswith(_SIMULATOR):
+    apart = file.path.startswith("device/shrc203/") and not in_simulator and file.path != _KIND
+    if apart and target.startswith(_SIMULATOR):
         yield file.finding(number, "simulator-apart", f"the gateway's side may not include {target}",
-                           "a device must not know that it may be simulated: wire it in server/")
+                           f"a device must not know that it may be simulated: wire it in {_KIND}")
     if in_simulator and target in _GATEWAY_PARSERS:
         yield file.finding(number, "simulator-apart", f"the simulator may not include {target}",
                            "parse with the simulator's own code, or a mistake would agree with itself")
+    if _names_a_kind(file.path, target):
+        yield file.finding(number, "kinds", f"{target} is of one kind of device",
+                           f"use device/stage; only {_KINDS} names the kinds")
     if _is_grpc(target) and _must_not_know_grpc(file.path):
         yield file.finding(number, "no-grpc", f"<{target}> is gRPC or protobuf",
                            "convert in server/rpc and pass a plain type")
     if re.match(r"boost/asio\b", target) and not file.path.startswith(_ASIO_FOLDERS):
         yield file.finding(number, "asio-in-link", f"<{target}> is Boost.Asio",
                            "put input and output behind device/link")
+
+
+# The one file that names the kinds of device, and those that do not get by without yet: a list that only shrinks.
+_KINDS = "server/kinds.cc"
+_KNOWS_A_KIND = ("server/rpc/command_service.cc", "server/rpc/positions.cc", "server/rpc/setting_lines.cc")
+
+
+def _names_a_kind(path, target):
+    of_a_kind = target.startswith("device/") and room_of(target)[0] == (1, 1) and room_of(target)[1] != "device/link"
+    return of_a_kind and path.startswith("server/") and path != _KINDS and path not in _KNOWS_A_KIND
 
 
 def _is_grpc(target):

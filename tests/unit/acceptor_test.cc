@@ -9,7 +9,7 @@
 
 #include "tests/unit/connection_fixtures.h"
 
-namespace axisgate::server {
+namespace axisgate::server::acceptor_test {
 namespace {
 
 using link_test::EventLoop;
@@ -205,4 +205,4 @@ TEST_F(AcceptorTest, WhatTheReserveNeedsIsTakenBackAfterAFloodBeyondOnesShare) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::acceptor_test

@@ -11,17 +11,17 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/arc.h"
 #include "device/shrc203/simulator/arcs.h"
+#include "device/shrc203/stage.h"
+#include "device/stage/arc.h"
 #include "tests/simulation/random.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::arc_seeds_test {
 namespace {
 
 using simulation::Random;
 
-constexpr double kPi = std::numbers::pi;
-constexpr std::int64_t kFurthest = 999'999'999;
+constexpr std::int64_t kAmountMax = 999'999'999;
 constexpr int kCases = 2000;
 constexpr int kSamples = 2000;
 
@@ -43,7 +43,7 @@ std::int64_t coordinate(Random& random) {
   if (random.chance(0.1)) return 0;
   std::int64_t size = 1;
   for (std::int64_t i = random.between(0, 8); i > 0; --i) size *= 10;
-  const std::int64_t amount = std::min(random.between(1, size * 10), kFurthest);
+  const std::int64_t amount = std::min(random.between(1, size * 10), kAmountMax);
   return random.chance(0.5) ? amount : -amount;
 }
 
@@ -113,7 +113,7 @@ void expect_on(const ArcEnd& end, Point place, double tolerance) {
 
 // What `degrees` about `center` come to, however the arc was made.
 void expect_turned(const Arc& arc, PlanePoint center, double degrees, Rotation way) {
-  const double sweep = (way == Rotation::clockwise ? -1 : 1) * degrees * kPi / 180;
+  const double sweep = (way == Rotation::clockwise ? -1 : 1) * degrees * std::numbers::pi / 180;
   const Point middle = as_point(center);
   const double radius = distance(middle, {});
   const double tolerance = 2e-3 + 1e-14 * radius * std::abs(sweep);
@@ -204,7 +204,7 @@ TEST(ArcSeeds, TheOtherWayIsTheRestOfTheCircle) {
     EXPECT_LT(distance(center_of(*one), center_of(*other)), 1e-12 * one->radius + 1e-6);
     EXPECT_EQ(end_of(*other), (ArcEnd{end.first, end.second, 70}));
     EXPECT_NE(rotation_of(*one), rotation_of(*other));
-    EXPECT_NEAR(std::abs(one->sweep) + std::abs(other->sweep), 2 * kPi, 1e-12);
+    EXPECT_NEAR(std::abs(one->sweep) + std::abs(other->sweep), 2 * std::numbers::pi, 1e-12);
     expect_extent_of(sampled(center_of(*other), other->sweep), center_of(*other), *other, 1e-3 + 1e-14 * one->radius);
   }
   EXPECT_GT(made, kCases / 2);
@@ -275,4 +275,4 @@ TEST(ArcSeeds, TheSimulatedControllerStaysWithinItAndEndsThere) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::arc_seeds_test

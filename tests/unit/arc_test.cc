@@ -1,5 +1,5 @@
 // Arcs and helices (manual 71) to 82)): the manual's own, those with a closed form, and what is none.
-#include "device/shrc203/arc.h"
+#include "device/stage/arc.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 #include <string>
 #include <utility>
 
-namespace axisgate::shrc203 {
+namespace axisgate::stage::arc_test {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
@@ -198,4 +198,4 @@ TEST(Arc, WithItsCenterWhereItStandsItGoesNowhere) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::stage::arc_test

@@ -1,10 +1,10 @@
-#include "device/shrc203/axes.h"
+#include "device/shrc203/command/axes.h"
 
 #include <gmock/gmock.h>
 
 #include <string>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::axes_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -118,4 +118,4 @@ TEST(Alphabets, TakeNothingElse) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::axes_test

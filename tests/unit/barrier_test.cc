@@ -1,4 +1,4 @@
-#include "device/shrc203/barrier.h"
+#include "device/shrc203/line/barrier.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::barrier_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -169,4 +169,4 @@ TEST_F(BarrierTest, AStopInBetweenBeginsItAnewWithoutTheEcho) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::barrier_test

@@ -1,11 +1,11 @@
 // Lines as callers write them and as they are sent; the examples are the manual's.
-#include "device/shrc203/codec.h"
+#include "device/shrc203/command/codec.h"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::codec_test {
 namespace {
 
 std::string sent(std::string_view written) {
@@ -202,4 +202,4 @@ TEST(Codec, AxesThatALetterDoesNotName) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::codec_test

@@ -3,9 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "server/config.h"
+#include "server/config/config.h"
+#include "server/kinds.h"
 
-namespace axisgate::server {
+namespace axisgate::server::config_axis_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -19,9 +20,9 @@ constexpr const char* kAxis =
     "[[device.axis]]\nnumber = 1\nunit = \"mm\"\n"
     "travel_minimum = \"-5\"\ntravel_maximum = \"5\"\nmaximum_speed = \"2\"\n";
 
-std::vector<std::string> errors_of(const std::string& lines) {
+std::vector<std::string> errors_of_axis(const std::string& lines) {
   std::vector<std::string> errors;
-  if (const auto config = parse_config(kAxis + lines, "lab.toml"); !config) {
+  if (const auto config = parse_config(kAxis + lines, "lab.toml", device_kinds()); !config) {
     for (const ConfigError& error : config.error()) errors.push_back(to_string(error));
   }
   return errors;
@@ -29,11 +30,11 @@ std::vector<std::string> errors_of(const std::string& lines) {
 
 // A table for operators; its keys begin in line 12.
 std::vector<std::string> errors_of_narrower(const std::string& lines) {
-  return errors_of("[[device.axis.narrower]]\nwhose = \"operator\"\n" + lines);
+  return errors_of_axis("[[device.axis.narrower]]\nwhose = \"operator\"\n" + lines);
 }
 
 std::vector<std::string> errors_of_whose(const std::string& whose) {
-  return errors_of("[[device.axis.narrower]]\nwhose = \"" + whose + "\"\nhome_first = true\n");
+  return errors_of_axis("[[device.axis.narrower]]\nwhose = \"" + whose + "\"\nhome_first = true\n");
 }
 
 TEST(ConfigAxis, NarrowerLimitsAreReadWhole) {
@@ -52,7 +53,7 @@ home_first = true
 [[device.axis]]
 number = 2
 )",
-                                   "lab.toml");
+                                   "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const auto& axes = config->devices.at(0).profile.axes;
   EXPECT_TRUE(axes[0].home_first);
@@ -73,8 +74,8 @@ number = 2
 }
 
 TEST(ConfigAxis, HomeFirstIsTrueOrFalse) {
-  EXPECT_THAT(errors_of("home_first = false\n"), IsEmpty());
-  EXPECT_THAT(errors_of("home_first = \"yes\"\n"),
+  EXPECT_THAT(errors_of_axis("home_first = false\n"), IsEmpty());
+  EXPECT_THAT(errors_of_axis("home_first = \"yes\"\n"),
               ElementsAre("lab.toml:10: device.axis.home_first: the text \"yes\" will not do; use true or false"));
 }
 
@@ -83,7 +84,7 @@ TEST(ConfigAxis, ItIsSaidWhomTheLimitsMean) {
                             "token student", "token night-scan"}) {
     EXPECT_THAT(errors_of_whose(whose), IsEmpty()) << whose;
   }
-  EXPECT_THAT(errors_of("[[device.axis.narrower]]\nhome_first = true\n"),
+  EXPECT_THAT(errors_of_axis("[[device.axis.narrower]]\nhome_first = true\n"),
               ElementsAre(StartsWith("lab.toml:10: device.axis.narrower.whose: is missing; use a role, \"operator\"")));
 }
 
@@ -167,4 +168,4 @@ TEST(ConfigAxis, OneTableForEach) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_axis_test

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-#include "server/config.h"
-#include "server/config_text.h"
+#include "server/config/config.h"
+#include "server/config/text.h"
+#include "server/kinds.h"
 
-namespace axisgate::server {
+namespace axisgate::server::config_limits_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -15,10 +16,11 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 Configured<Config> read(const std::string& lines) {
-  return parse_config("[limits]\n" + lines + "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n", "lab.toml");
+  return parse_config("[limits]\n" + lines + "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n", "lab.toml",
+                      device_kinds());
 }
 
-std::vector<std::string> errors_of(const std::string& lines) {
+std::vector<std::string> errors_of_limits(const std::string& lines) {
   std::vector<std::string> errors;
   if (const auto config = read(lines); !config) {
     for (const ConfigError& error : config.error()) errors.push_back(to_string(error));
@@ -48,15 +50,15 @@ TEST(ConfigLimits, AreReadAndWrittenWhole) {
 
 TEST(ConfigLimits, AreCheckedWithLineAndKey) {
   EXPECT_THAT(
-      errors_of("connections = 0\nstreams = 4097\ncalls = \"many\"\nmessage_bytes = 4095\n"),
+      errors_of_limits("connections = 0\nstreams = 4097\ncalls = \"many\"\nmessage_bytes = 4095\n"),
       ElementsAre("lab.toml:2: limits.connections: 0 is out of range; use a whole number from 1 to 4096",
                   "lab.toml:3: limits.streams: 4097 is out of range; use a whole number from 1 to 4096",
                   "lab.toml:4: limits.calls: the text \"many\" will not do; use a whole number from 1 to 65536",
                   "lab.toml:5: limits.message_bytes: 4095 is out of range; use a whole number from 4096 to 67108864"));
   EXPECT_THAT(
-      errors_of("requests = 5\n"),
+      errors_of_limits("requests = 5\n"),
       ElementsAre(StartsWith("lab.toml:2: limits.requests: is not a key here; use connections, streams, calls")));
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_limits_test

@@ -6,11 +6,12 @@
 #include <string>
 #include <vector>
 
-#include "server/certificates.h"
-#include "server/config.h"
+#include "server/config/config.h"
+#include "server/connections/certificates.h"
+#include "server/kinds.h"
 #include "tests/certificates/authority.h"
 
-namespace axisgate::server {
+namespace axisgate::server::config_network_test {
 namespace {
 
 using ::testing::AllOf;
@@ -30,7 +31,7 @@ class ConfigNetwork : public ::testing::Test {
 
   static Configured<Config> read(const std::string& lines) {
     return parse_config("[network]\n" + lines + "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n",
-                        "lab.toml");
+                        "lab.toml", device_kinds());
   }
 
   static std::vector<std::string> errors_of(const std::string& lines) {
@@ -100,4 +101,4 @@ TEST_F(ConfigNetwork, ExpiryIsThatOfTheFirstCertificate) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_network_test

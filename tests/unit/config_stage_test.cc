@@ -1,5 +1,3 @@
-#include "server/config_stage.h"
-
 #include <gmock/gmock.h>
 
 #include <cstdio>
@@ -8,9 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "server/config.h"
+#include "server/config/config.h"
+#include "server/config/stage.h"
+#include "server/kinds.h"
 
-namespace axisgate::server {
+namespace axisgate::server::config_stage_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -41,13 +41,13 @@ class ConfigStage : public testing::Test {
     std::ofstream(config_file) << "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n"
                                   "[[device.axis]]\nnumber = 1\nstage = \"stages/x.toml\"\n"
                                << lines;
-    return load_config(config_file);
+    return load_config(config_file, device_kinds());
   }
 
-  shrc203::AxisProfile axis(const std::string& stage, const std::string& lines = "") const {
+  stage::AxisProfile axis(const std::string& stage, const std::string& lines = "") const {
     const auto config = read(stage, lines);
     EXPECT_TRUE(config) << to_string(config.error().front());
-    return config ? config->devices.at(0).profile.axes[0] : shrc203::AxisProfile{};
+    return config ? config->devices.at(0).profile.axes[0] : stage::AxisProfile{};
   }
 
   // Without the folder in front.
@@ -230,7 +230,7 @@ TEST_F(ConfigStage, FilesThatCannotBeRead) {
   EXPECT_THAT(errors("name = \"x\n"), ElementsAre(StartsWith("stages/x.toml:1: is not TOML: ")));
   ASSERT_TRUE(read(kLinear));
   std::filesystem::remove(stage_file);
-  const auto missing = load_config(config_file);
+  const auto missing = load_config(config_file, device_kinds());
   ASSERT_FALSE(missing);
   EXPECT_EQ(
       to_string(missing.error().at(0)),
@@ -241,7 +241,7 @@ TEST_F(ConfigStage, FilesThatCannotBeRead) {
     const auto wrong = parse_config(std::string("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n"
                                                 "[[device.axis]]\nnumber = 1\nstage = ") +
                                         stage + "\n",
-                                    "lab.toml");
+                                    "lab.toml", device_kinds());
     ASSERT_FALSE(wrong);
     EXPECT_THAT(to_string(wrong.error().at(0)), StartsWith("lab.toml:6: device.axis.stage: "));
   }
@@ -249,11 +249,11 @@ TEST_F(ConfigStage, FilesThatCannotBeRead) {
 
 TEST(ConfigStageTable, TheProfileMayStandInTheConfigurationItself) {
   const std::string head = "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n[[device.axis]]\nnumber = 1\n";
-  const auto config = parse_config(head + "[device.axis.stage]\n" + kLinear, "lab.toml");
+  const auto config = parse_config(head + "[device.axis.stage]\n" + kLinear, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.at(0).profile.axes[0].stage->model, "OSMS20-85");
-  const auto wrong =
-      parse_config(head + "[device.axis.stage]\nname = \"x\"\nkind = \"linear\"\npulse = \"1\"\n", "lab.toml");
+  const auto wrong = parse_config(head + "[device.axis.stage]\nname = \"x\"\nkind = \"linear\"\npulse = \"1\"\n",
+                                  "lab.toml", device_kinds());
   ASSERT_FALSE(wrong);
   EXPECT_THAT(to_string(wrong.error().at(0)), StartsWith("lab.toml:9: device.axis.stage.pulse: "));
 }
@@ -265,7 +265,7 @@ TEST(ConfigStageFiles, EveryProfileThatIsShippedIsRight) {
     const auto config = parse_config(
         "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n[[device.axis]]\nnumber = 1\nstage = \"" +
             entry.path().string() + "\"\n",
-        "lab.toml");
+        "lab.toml", device_kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
     EXPECT_TRUE(config->devices.at(0).profile.axes[0].stage) << entry.path();
   }
@@ -273,4 +273,4 @@ TEST(ConfigStageFiles, EveryProfileThatIsShippedIsRight) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_stage_test

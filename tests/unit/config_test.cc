@@ -1,4 +1,4 @@
-#include "server/config.h"
+#include "server/config/config.h"
 
 #include <gmock/gmock.h>
 
@@ -9,7 +9,9 @@
 #include <variant>
 #include <vector>
 
-namespace axisgate::server {
+#include "server/kinds.h"
+
+namespace axisgate::server::config_test {
 namespace {
 
 using ::testing::AllOf;
@@ -20,7 +22,7 @@ using ::testing::StartsWith;
 constexpr const char* kStage = "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n";
 
 std::vector<std::string> errors_of(const std::string& text) {
-  const Configured<Config> config = parse_config(text, "lab.toml");
+  const Configured<Config> config = parse_config(text, "lab.toml", device_kinds());
   std::vector<std::string> lines;
   if (!config) {
     for (const ConfigError& error : config.error()) lines.push_back(to_string(error));
@@ -29,7 +31,7 @@ std::vector<std::string> errors_of(const std::string& text) {
 }
 
 TEST(Config, DefaultIsOneSimulatedStageOnLoopback) {
-  const Config config = default_config();
+  const Config config = default_config(device_kinds());
   EXPECT_EQ(to_string(config.listen), "127.0.0.1:50203");
   EXPECT_EQ(to_string(config.metrics), "127.0.0.1:9203");
   ASSERT_EQ(config.devices.size(), 1u);
@@ -69,22 +71,23 @@ travel_minimum = "-5mm"
 travel_maximum = "2500um"
 maximum_speed = "2mm/s"
 )",
-                                   "lab.toml");
+                                   "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(to_string(config->listen), "[::1]:5000");
   EXPECT_EQ(config->socket, "/run/lab/gate.sock");
   EXPECT_EQ(to_string(config->metrics), "127.0.0.1:0");
-  const shrc203::Profile& profile = config->devices.at(0).profile;
+  const stage::Profile& profile = config->devices.at(0).profile;
+  const stage::Words& kind_settings = config->devices.at(0).kind_settings;
   EXPECT_EQ(profile.serial_number, "2106001001");
-  EXPECT_EQ(profile.busy_scope, shrc203::Scope::axis);
-  EXPECT_EQ(profile.prebuffer_scope, shrc203::Scope::axis);
-  EXPECT_EQ(profile.at_exit, shrc203::AtExit::finish);
-  EXPECT_EQ(profile.settings_at_lease_end, shrc203::AtLeaseEnd::kept);
+  EXPECT_EQ(kind_settings.at("busy_scope"), "axis");
+  EXPECT_EQ(kind_settings.at("prebuffer_scope"), "axis");
+  EXPECT_EQ(profile.at_exit, stage::AtExit::finish);
+  EXPECT_EQ(profile.settings_at_lease_end, stage::AtLeaseEnd::kept);
   EXPECT_EQ(profile.baud, 9600);
   EXPECT_EQ(profile.reply_limit, std::chrono::milliseconds(750));
   EXPECT_EQ(profile.idle_poll, std::chrono::seconds(2));
   EXPECT_EQ(profile.moving_poll, std::chrono::milliseconds(50));
-  const shrc203::AxisProfile& axis = profile.axes[1];
+  const stage::AxisProfile& axis = profile.axes[1];
   EXPECT_EQ(axis.name, "y");
   EXPECT_EQ(axis.unit, Unit::millimeters);
   ASSERT_TRUE(axis.travel_minimum && axis.travel_maximum && axis.maximum_speed);
@@ -100,8 +103,8 @@ maximum_speed = "2mm/s"
 }
 
 TEST(Config, SerialDefaultsAre38400WithRtsCts) {
-  const auto config =
-      parse_config("[[device]]\nname = \"s\"\nconnection = \"serial\"\npath = \"/dev/ttyS0\"\n", "lab.toml");
+  const auto config = parse_config("[[device]]\nname = \"s\"\nconnection = \"serial\"\npath = \"/dev/ttyS0\"\n",
+                                   "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const auto& serial = std::get<SerialSettings>(config->devices.at(0).connection);
   EXPECT_EQ(serial.baud, 38400);
@@ -119,7 +122,7 @@ port = 4001
 baud = 9600
 serial_number = "7"
 )",
-                                   "lab.toml");
+                                   "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const DeviceConfig& device = config->devices.at(0);
   EXPECT_EQ(to_string(std::get<TcpSettings>(device.connection)), "moxa.lab:4001");
@@ -128,8 +131,8 @@ serial_number = "7"
 }
 
 TEST(Config, AnIpV6AddressIsAHost) {
-  const auto config =
-      parse_config("[[device]]\nname = \"s\"\nconnection = \"tcp\"\nhost = \"fe80::1\"\nport = 1\n", "lab.toml");
+  const auto config = parse_config("[[device]]\nname = \"s\"\nconnection = \"tcp\"\nhost = \"fe80::1\"\nport = 1\n",
+                                   "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(std::get<TcpSettings>(config->devices.at(0).connection).host, "fe80::1");
 }
@@ -153,7 +156,8 @@ TEST(Config, TwoDevicesCannotShareASerialServersPort) {
 
 TEST(Config, ReadsASimulatedDevice) {
   const auto config =
-      parse_config(std::string(kStage) + "speed = 10\nbaud = 38400\noptions = { busy_scope = \"controller\" }\n", "l");
+      parse_config(std::string(kStage) + "speed = 10\nbaud = 38400\noptions = { busy_scope = \"controller\" }\n", "l",
+                   device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const auto& simulated = std::get<SimulatedConnection>(config->devices.at(0).connection);
   EXPECT_EQ(simulated.speed, 10);
@@ -205,7 +209,7 @@ TEST(Config, TwoDevicesCannotShareALine) {
 
 TEST(Config, RecordingsAreAbsolutePathsEachItsOwn) {
   const std::string recorded = std::string(kStage) + "record = \"/var/tmp/stage.recording\"\n";
-  const auto config = parse_config(recorded, "lab.toml");
+  const auto config = parse_config(recorded, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.at(0).record, "/var/tmp/stage.recording");
   EXPECT_THAT(errors_of(std::string(kStage) + "record = \"stage.recording\"\n"),
@@ -257,13 +261,13 @@ TEST(Config, ASyntaxErrorNamesItsLine) {
 }
 
 TEST(Config, AFileThatIsNotThereSaysSo) {
-  const auto config = load_config("/nonexistent/lab.toml");
+  const auto config = load_config("/nonexistent/lab.toml", device_kinds());
   ASSERT_FALSE(config);
   EXPECT_EQ(to_string(config.error().at(0)), "/nonexistent/lab.toml: cannot be opened: No such file or directory");
 }
 
 TEST(Config, TheExampleThatIsInstalledIsRight) {
-  const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/axisgate.toml");
+  const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/axisgate.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.size(), 1u);
 }
@@ -271,11 +275,11 @@ TEST(Config, TheExampleThatIsInstalledIsRight) {
 TEST(Config, ReadsAFile) {
   const std::string path = ::testing::TempDir() + "axisgate_config_test.toml";
   std::ofstream(path) << kStage;
-  const auto config = load_config(path);
+  const auto config = load_config(path, device_kinds());
   std::remove(path.c_str());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.at(0).profile.name, "stage");
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_test

@@ -1,10 +1,11 @@
-#include "server/config_text.h"
-
 #include <gmock/gmock.h>
 
 #include <string>
 
-namespace axisgate::server {
+#include "server/config/text.h"
+#include "server/kinds.h"
+
+namespace axisgate::server::config_text_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -52,10 +53,10 @@ options = { busy_scope = "controller" }
 )";
 
 TEST(ConfigText, IsReadAsTheSameConfiguration) {
-  const Configured<Config> config = parse_config(kLab, "lab.toml");
+  const Configured<Config> config = parse_config(kLab, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const std::string text = to_toml(*config);
-  const Configured<Config> again = parse_config(text, "again.toml");
+  const Configured<Config> again = parse_config(text, "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front()) << text;
   EXPECT_EQ(to_toml(*again), text);
   EXPECT_EQ(again->socket, config->socket);
@@ -102,11 +103,12 @@ whose = "cert \"Ann\" Lee"
 maximum_speed = "500pulse/s"
 home_first = true
 )";
-  const auto config = parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml");
+  const auto config =
+      parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const std::string text = to_toml(*config);
   EXPECT_THAT(text, HasSubstr(axis));
-  const Configured<Config> again = parse_config(text, "again.toml");
+  const Configured<Config> again = parse_config(text, "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front()) << text;
   EXPECT_EQ(to_toml(*again), text);
 }
@@ -128,21 +130,22 @@ modulo = "360deg"
 whose = "operator"
 travel_maximum = "90deg"
 )";
-  const auto config = parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml");
+  const auto config =
+      parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   const std::string text = to_toml(*config);
   EXPECT_THAT(text, HasSubstr(axis));
-  const Configured<Config> again = parse_config(text, "again.toml");
+  const Configured<Config> again = parse_config(text, "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front()) << text;
   EXPECT_EQ(to_toml(*again), text);
   EXPECT_EQ(again->devices.at(0).profile.axes[2].stage->pulse, (Scale{{2500, 0}, true}));
 }
 
 TEST(ConfigText, TellsTheBuiltInConfiguration) {
-  const Configured<Config> again = parse_config(to_toml(default_config()), "again.toml");
+  const Configured<Config> again = parse_config(to_toml(default_config(device_kinds())), "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front());
   EXPECT_EQ(again->devices.at(0).profile.name, "stage");
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::config_text_test

@@ -1,4 +1,4 @@
-#include "server/connection_metrics.h"
+#include "server/metrics/connection_metrics.h"
 
 #include <gmock/gmock.h>
 
@@ -10,7 +10,7 @@
 
 #include "tests/unit/metrics_page.h"
 
-namespace axisgate::server {
+namespace axisgate::server::connection_metrics_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -71,4 +71,4 @@ TEST(ConnectionMetrics, MayComeBeforeThePage) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::connection_metrics_test

@@ -7,13 +7,13 @@
 #include <string>
 
 #include "server/connections/callers.h"
+#include "server/connections/descriptor_limit.h"
 #include "server/connections/open_connections.h"
 #include "server/connections/reserve.h"
-#include "server/descriptor_limit.h"
 #include "tests/unit/connection_fixtures.h"
 #include "tests/unit/tcp_fixtures.h"
 
-namespace axisgate::server {
+namespace axisgate::server::connections_test {
 namespace {
 
 std::array<Descriptor, 2> socket_pair() {
@@ -152,4 +152,4 @@ TEST(DescriptorLimit, IsRaisedAsFarAsAllowed) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::connections_test

@@ -1,4 +1,4 @@
-#include "server/device_events.h"
+#include "server/devices/device_events.h"
 
 #include <gmock/gmock.h>
 #include <spdlog/sinks/ostream_sink.h>
@@ -9,17 +9,17 @@
 #include <sstream>
 #include <vector>
 
-namespace axisgate::server {
+namespace axisgate::server::device_events_test {
 namespace {
 
 using ::testing::ElementsAre;
 
 class DeviceEventsTest : public ::testing::Test {
  protected:
-  void tell(const shrc203::Event& event) { events_.on_event(event, now_); }
+  void tell(const stage::Event& event) { events_.on_event(event, now_); }
 
-  static shrc203::MotionChanged motion(shrc203::MotionId id, shrc203::MotionState state) {
-    shrc203::Motion changed;
+  static stage::MotionChanged motion(stage::MotionId id, stage::MotionState state) {
+    stage::Motion changed;
     changed.id = id;
     changed.state = state;
     return {changed};
@@ -36,35 +36,35 @@ class DeviceEventsTest : public ::testing::Test {
 };
 
 TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
-  tell(motion(1, shrc203::MotionState::queued));
-  tell(shrc203::CompletionSeen{1, 1});
-  tell(shrc203::PathProgress{1, shrc203::PathProgress::Step::sent, 1, "OK"});
-  tell(shrc203::StopRequested{shrc203::AxisSet::all(), false, "unix"});
+  tell(motion(1, stage::MotionState::queued));
+  tell(stage::CompletionSeen{1, 1});
+  tell(stage::PathProgress{1, stage::PathProgress::Step::sent, 1, "OK"});
+  tell(stage::StopRequested{stage::AxisSet::all(), false, "unix"});
   EXPECT_EQ(bus_.newest_revision(), 4u);
-  tell(shrc203::ExchangeEnded{});
-  tell(shrc203::BarrierEntered{"no reply"});
-  tell(shrc203::UnexpectedLine{"?"});
-  tell(shrc203::StateChanged{});
+  tell(stage::ExchangeEnded{});
+  tell(stage::BarrierEntered{"no reply"});
+  tell(stage::UnexpectedLine{"?"});
+  tell(stage::StateChanged{});
   EXPECT_EQ(bus_.newest_revision(), 4u);
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
 }
 
 TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {
   EXPECT_EQ(events_.motion_revision(1), 0u);
-  tell(motion(1, shrc203::MotionState::queued));
-  tell(motion(2, shrc203::MotionState::queued));
-  tell(motion(1, shrc203::MotionState::running));
+  tell(motion(1, stage::MotionState::queued));
+  tell(motion(2, stage::MotionState::queued));
+  tell(motion(1, stage::MotionState::running));
   EXPECT_EQ(events_.motion_revision(1), 3u);
   EXPECT_EQ(events_.motion_revision(2), 2u);
 }
 
 TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
-  const shrc203::LinkChanged down{shrc203::LinkState::down, "no such device"};
+  const stage::LinkChanged down{stage::LinkState::down, "no such device"};
   tell(down);
   tell(down);
   EXPECT_EQ(bus_.newest_revision(), 1u);
-  tell(shrc203::LinkChanged{shrc203::LinkState::down, "held by another process"});
-  tell(shrc203::LinkChanged{shrc203::LinkState::up, ""});
+  tell(stage::LinkChanged{stage::LinkState::down, "held by another process"});
+  tell(stage::LinkChanged{stage::LinkState::up, ""});
   tell(down);
   EXPECT_EQ(bus_.newest_revision(), 4u);
   EXPECT_EQ(bus_.read(4, 1).facts.at(0)->device, "stage");
@@ -76,7 +76,7 @@ TEST_F(DeviceEventsTest, H42_ADevicesTextIsEscapedAndCappedInTheLog) {
   const auto usual = spdlog::default_logger();
   spdlog::set_default_logger(
       std::make_shared<spdlog::logger>("", std::make_shared<spdlog::sinks::ostream_sink_mt>(log)));
-  tell(shrc203::UnexpectedLine{"\x1b[2J\r\n[info] all is well" + std::string(10'000, 'A')});
+  tell(stage::UnexpectedLine{"\x1b[2J\r\n[info] all is well" + std::string(10'000, 'A')});
   spdlog::default_logger()->flush();
   spdlog::set_default_logger(usual);
   const std::string told = log.str();
@@ -87,4 +87,4 @@ TEST_F(DeviceEventsTest, H42_ADevicesTextIsEscapedAndCappedInTheLog) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::device_events_test

@@ -1,4 +1,4 @@
-#include "server/endpoints.h"
+#include "server/connections/endpoints.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "tests/unit/connection_fixtures.h"
 
-namespace axisgate::server {
+namespace axisgate::server::endpoints_test {
 namespace {
 
 using ::testing::HasSubstr;
@@ -80,4 +80,4 @@ TEST_F(UnixListenerTest, ItsFileGoesWithItUnlessAnotherIsThere) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::endpoints_test

@@ -1,11 +1,11 @@
-#include "device/shrc203/envelope.h"
+#include "device/stage/envelope.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace axisgate::shrc203 {
+namespace axisgate::stage::envelope_test {
 namespace {
 
 using testing::EndsWith;
@@ -218,4 +218,4 @@ TEST_F(EnvelopeTest, AxesOfWhichNothingCanBeSaid) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::stage::envelope_test

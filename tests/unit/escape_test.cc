@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace axisgate {
+namespace axisgate::escape_test {
 namespace {
 
 using namespace std::string_view_literals;
@@ -65,4 +65,4 @@ TEST(QuotedBytes, AreNotTakenFromAnythingElse) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::escape_test

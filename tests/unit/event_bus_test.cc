@@ -7,7 +7,7 @@
 
 #include "server/events/newest.h"
 
-namespace axisgate::server {
+namespace axisgate::server::event_bus_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -36,24 +36,24 @@ std::vector<std::uint64_t> revisions(const EventBus::Reading& reading) {
 }
 
 void publish(EventBus& bus, int count) {
-  for (int i = 0; i < count; ++i) bus.publish("stage", shrc203::CompletionSeen{1, 7}, {}, {});
+  for (int i = 0; i < count; ++i) bus.publish("stage", stage::CompletionSeen{1, 7}, {}, {});
 }
 
 TEST(EventBus, RevisionsCountFromOneOverAllDevices) {
   HeldTasks tasks;
   EventBus bus(tasks.executor());
   EXPECT_EQ(bus.newest_revision(), 0u);
-  EXPECT_EQ(bus.publish("a", shrc203::CompletionSeen{1, 7}, WallTime(std::chrono::seconds(3)), {}), 1u);
-  EXPECT_EQ(bus.publish("b", shrc203::LinkChanged{shrc203::LinkState::up, "why"}, {}, {}), 2u);
+  EXPECT_EQ(bus.publish("a", stage::CompletionSeen{1, 7}, WallTime(std::chrono::seconds(3)), {}), 1u);
+  EXPECT_EQ(bus.publish("b", stage::LinkChanged{stage::LinkState::up, "why"}, {}, {}), 2u);
   const EventBus::Reading reading = bus.read(1, 10);
   EXPECT_THAT(revisions(reading), ElementsAre(1, 2));
   EXPECT_EQ(reading.next, 3u);
   EXPECT_FALSE(reading.compacted);
   EXPECT_EQ(reading.facts[0]->device, "a");
   EXPECT_EQ(reading.facts[0]->time, WallTime(std::chrono::seconds(3)));
-  EXPECT_EQ(std::get<shrc203::CompletionSeen>(reading.facts[0]->fact).motion, 7u);
+  EXPECT_EQ(std::get<stage::CompletionSeen>(reading.facts[0]->fact).motion, 7u);
   EXPECT_EQ(reading.facts[1]->device, "b");
-  EXPECT_EQ(std::get<shrc203::LinkChanged>(reading.facts[1]->fact).why, "why");
+  EXPECT_EQ(std::get<stage::LinkChanged>(reading.facts[1]->fact).why, "why");
 }
 
 TEST(EventBus, ReadsInPortionsWithoutALoss) {
@@ -149,11 +149,11 @@ TEST(EventBus, WritersOnSeveralThreadsLeaveNoGap) {
 
 TEST(Newest, OnlyTheNewestIsKept) {
   HeldTasks tasks;
-  Newest<shrc203::State> newest(tasks.executor());
+  Newest<stage::State> newest(tasks.executor());
   EXPECT_EQ(newest.get().version, 0u);
   int woken = 0;
   const auto subscription = newest.subscribe([&] { ++woken; });
-  shrc203::State state;
+  stage::State state;
   state.axis(1).position_pulses = 1;
   newest.publish(state);
   state.axis(1).position_pulses = 2;
@@ -165,4 +165,4 @@ TEST(Newest, OnlyTheNewestIsKept) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::event_bus_test

@@ -1,9 +1,9 @@
-#include "device/shrc203/feeding.h"
+#include "device/shrc203/planning/feeding.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::feeding_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -74,4 +74,4 @@ TEST_F(FeedingTest, TheLastSegmentMayBeShort) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::feeding_test

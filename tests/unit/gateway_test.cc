@@ -7,22 +7,23 @@
 #include <mutex>
 
 #include "device/link/pty.h"
+#include "server/kinds.h"
 #include "tests/unit/link_fixtures.h"
 #include "tests/unit/tcp_fixtures.h"
 
-namespace axisgate::server {
+namespace axisgate::server::gateway_test {
 namespace {
 
 using link_test::kPatience;
-using shrc203::LinkState;
+using stage::LinkState;
 
 DeviceConfig device_named(std::string name) {
-  DeviceConfig device;
+  DeviceConfig device = default_config(device_kinds()).devices[0];
   device.profile.name = std::move(name);
   return device;
 }
 
-shrc203::State state_of(const Gateway& gateway, std::string_view device) {
+stage::State state_of(const Gateway& gateway, std::string_view device) {
   return *gateway.find(device)->newest_state().get().value;
 }
 
@@ -49,9 +50,9 @@ class Questions {
 
  private:
   void ask() {
-    device_.post([this](shrc203::Controller& controller, TimePoint now) {
-      const shrc203::RequestContext context{"tester", "", now + kPatience};
-      controller.refresh(Duration::zero(), context, now, [this](const Result<shrc203::State>& state) {
+    device_.post([this](stage::StageController& controller, TimePoint now) {
+      const stage::RequestContext context{"tester", "", now + kPatience};
+      controller.refresh(Duration::zero(), context, now, [this](const Result<stage::State>& state) {
         const std::lock_guard lock(mutex_);
         if (state) --left_;
         if (state && left_ > 0) ask();
@@ -87,7 +88,7 @@ TEST(Gateway, NoDeviceHoldsAnotherUp) {
   stuck.connection = SerialSettings{.path = tty.path()};
   silent.connection = host.settings();
   healthy.connection = SimulatedConnection{20, false, {}};
-  Config config = default_config();
+  Config config = default_config(device_kinds());
   config.devices = {silent, stuck, healthy};
   Gateway gateway(config, 1);
   gateway.start();
@@ -106,4 +107,4 @@ TEST(Gateway, NoDeviceHoldsAnotherUp) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::gateway_test

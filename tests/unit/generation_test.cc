@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-namespace axisgate::server {
+namespace axisgate::server::generation_test {
 namespace {
 
 constexpr std::uint32_t kNow = 1'000'000;
@@ -47,4 +47,4 @@ TEST_F(Generation, ADirectoryThatCannotBeIsSaid) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::generation_test

@@ -7,7 +7,7 @@
 #include <thread>
 #include <vector>
 
-namespace axisgate::server {
+namespace axisgate::server::identity_limits_test {
 namespace {
 
 using testing::HasSubstr;
@@ -93,4 +93,4 @@ TEST(IdentityLimits, ManyThreadsLoseNoPlace) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::identity_limits_test

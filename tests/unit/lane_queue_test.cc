@@ -5,7 +5,7 @@
 
 #include <vector>
 
-namespace axisgate {
+namespace axisgate::lane_queue_test {
 namespace {
 
 using Queue = LaneQueue<int>;
@@ -102,4 +102,4 @@ TEST(LaneQueue, WorkMayComeInWhileItIsDrained) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::lane_queue_test

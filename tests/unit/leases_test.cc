@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-namespace axisgate::server {
+namespace axisgate::server::leases_test {
 namespace {
 
-using shrc203::Use;
+using stage::Use;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -60,7 +60,7 @@ class LeasesTest : public testing::Test {
   LeaseTokens tokens_{7};
   Leases leases_{tokens_};
   std::vector<std::string> answers_;
-  std::vector<shrc203::StopOrder> orders_;
+  std::vector<stage::StopOrder> orders_;
   LeaseToken granted_ = 0;
   std::string told_;
 };
@@ -330,4 +330,4 @@ TEST_F(LeasesTest, QuestionsNeedNothing) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::leases_test

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate {
+namespace axisgate::line_framer_test {
 namespace {
 
 using ::testing::ElementsAre;
@@ -118,4 +118,4 @@ TEST(LineFramer, ClearForgetsLinesAndTheBeginningOfOne) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::line_framer_test

@@ -8,7 +8,7 @@
 #include "device/link/pty_watch.h"
 #include "tests/unit/link_fixtures.h"
 
-namespace axisgate {
+namespace axisgate::link_pty_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -314,4 +314,4 @@ TEST_F(PtyLineTest, WritesToNobodyAreLost) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::link_pty_test

@@ -11,7 +11,7 @@
 #include "device/link/socket_pair.h"
 #include "tests/unit/link_fixtures.h"
 
-namespace axisgate {
+namespace axisgate::link_runner_test {
 namespace {
 
 using link_test::EventLoop;
@@ -354,4 +354,4 @@ TEST(MonotonicNow, NeverRunsBackwards) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::link_runner_test

@@ -10,7 +10,7 @@
 #include "device/link/serial_port.h"
 #include "tests/unit/link_fixtures.h"
 
-namespace axisgate {
+namespace axisgate::link_serial_port_test {
 namespace {
 
 using link_test::read_now;
@@ -172,4 +172,4 @@ TEST_F(SerialPortOnPtyTest, H33_HeldByAnotherProcessNamesIt) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::link_serial_port_test

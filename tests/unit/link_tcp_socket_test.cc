@@ -8,7 +8,7 @@
 #include "tests/unit/link_fixtures.h"
 #include "tests/unit/tcp_fixtures.h"
 
-namespace axisgate {
+namespace axisgate::link_tcp_socket_test {
 namespace {
 
 using link_test::EventLoop;
@@ -204,4 +204,4 @@ TEST(OpenerOnThread, AnAttemptThatIsLetGoClosesWhatItOpensLater) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::link_tcp_socket_test

@@ -1,4 +1,4 @@
-#include "server/metrics.h"
+#include "server/metrics/metrics.h"
 
 #include <gmock/gmock.h>
 #include <prometheus/text_serializer.h>
@@ -8,10 +8,10 @@
 #include <set>
 #include <string>
 
-namespace axisgate::server {
+namespace axisgate::server::metrics_test {
 namespace {
 
-using shrc203::ExchangeEnded;
+using stage::ExchangeEnded;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
@@ -42,9 +42,9 @@ TEST_F(MetricsTest, ExchangesAreCountedByCommandAndOutcomeWithTheirTime) {
 }
 
 TEST_F(MetricsTest, TheLineTellsItsBytesItsTimeAndWhatRanOut) {
-  device_.on_event(shrc203::BytesWritten{"Q:S\r\n", 1, "unix", Lane::poll});
-  device_.on_event(shrc203::BytesReceived{"NG\r\n"});
-  device_.on_event(shrc203::TimeLimitPassed{shrc203::TimeLimitPassed::Kind::probe});
+  device_.on_event(stage::BytesWritten{"Q:S\r\n", 1, "unix", Lane::poll});
+  device_.on_event(stage::BytesReceived{"NG\r\n"});
+  device_.on_event(stage::TimeLimitPassed{stage::TimeLimitPassed::Kind::probe});
   ExchangeEnded exchange;
   exchange.command = exchange.line = "Q:S";
   exchange.lane = Lane::poll;
@@ -64,23 +64,23 @@ TEST_F(MetricsTest, TheLineTellsItsBytesItsTimeAndWhatRanOut) {
 }
 
 TEST_F(MetricsTest, OnlyEndedMotionsCount) {
-  shrc203::Motion motion;
-  motion.kind = shrc203::MotionKind::home;
-  motion.state = shrc203::MotionState::running;
-  device_.on_event(shrc203::MotionChanged{motion});
+  stage::Motion motion;
+  motion.kind = stage::MotionKind::home;
+  motion.state = stage::MotionState::running;
+  device_.on_event(stage::MotionChanged{motion});
   EXPECT_THAT(page(), HasSubstr("axisgate_motions_total{device=\"stage\",kind=\"home\",outcome=\"UNKNOWN\"} 0\n"));
-  motion.state = shrc203::MotionState::unknown;
-  device_.on_event(shrc203::MotionChanged{motion});
+  motion.state = stage::MotionState::unknown;
+  device_.on_event(stage::MotionChanged{motion});
   EXPECT_THAT(page(), HasSubstr("axisgate_motions_total{device=\"stage\",kind=\"home\",outcome=\"UNKNOWN\"} 1\n"));
 }
 
 TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) {
-  device_.on_event(shrc203::CompletionSeen{3, 0});
-  device_.on_event(shrc203::PathProgress{1, shrc203::PathProgress::Step::done, 1, ""});
-  device_.on_event(shrc203::PathProgress{1, shrc203::PathProgress::Step::underrun, 2, "OK"});
-  device_.on_event(shrc203::BarrierEntered{"no reply"});
-  device_.on_event(shrc203::UnexpectedLine{"\x01"});
-  device_.on_event(shrc203::StopRequested{shrc203::AxisSet::all(), true, "unix"});
+  device_.on_event(stage::CompletionSeen{3, 0});
+  device_.on_event(stage::PathProgress{1, stage::PathProgress::Step::done, 1, ""});
+  device_.on_event(stage::PathProgress{1, stage::PathProgress::Step::underrun, 2, "OK"});
+  device_.on_event(stage::BarrierEntered{"no reply"});
+  device_.on_event(stage::UnexpectedLine{"\x01"});
+  device_.on_event(stage::StopRequested{stage::AxisSet::all(), true, "unix"});
   const std::string text = page();
   EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"3\",device=\"stage\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_completions_total{axis=\"1\",device=\"stage\"} 0\n"));
@@ -93,8 +93,8 @@ TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) 
 
 TEST_F(MetricsTest, StateShowsPositionsTheLinkAndTheQueues) {
   EXPECT_THAT(page(), Not(HasSubstr("axisgate_position_pulses{")));
-  shrc203::State state;
-  state.link = shrc203::LinkState::up;
+  stage::State state;
+  state.link = stage::LinkState::up;
   state.axis(2).position_pulses = -1000002;
   device_.set_state(state);
   device_.set_queued(Lane::motion, 4);
@@ -104,7 +104,7 @@ TEST_F(MetricsTest, StateShowsPositionsTheLinkAndTheQueues) {
   EXPECT_THAT(text, HasSubstr("axisgate_link_up{device=\"stage\"} 1\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_queue_depth{device=\"stage\",lane=\"motion\"} 4\n"));
   state.axis(2).position_pulses.reset();
-  state.link = shrc203::LinkState::doubtful;
+  state.link = stage::LinkState::doubtful;
   device_.set_state(state);
   text = page();
   EXPECT_THAT(text, HasSubstr("axisgate_position_pulses{axis=\"2\",device=\"stage\"} Nan\n"));
@@ -150,10 +150,10 @@ TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
   ExchangeEnded exchange;
   exchange.command = exchange.line = "Q:S";
   device_.on_event(exchange);
-  shrc203::Motion motion;
-  motion.state = shrc203::MotionState::failed;
-  device_.on_event(shrc203::MotionChanged{motion});
-  shrc203::State state;
+  stage::Motion motion;
+  motion.state = stage::MotionState::failed;
+  device_.on_event(stage::MotionChanged{motion});
+  stage::State state;
   state.axis(1).position_pulses = 0;
   device_.set_state(state);
   std::map<std::string, LabelNames> at_work = from_the_start;
@@ -174,4 +174,4 @@ TEST_F(MetricsTest, APortInUseIsAClearError) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::metrics_test

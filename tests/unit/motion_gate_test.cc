@@ -1,4 +1,4 @@
-#include "device/shrc203/motion_gate.h"
+#include "device/shrc203/motion/motion_gate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,13 +7,13 @@
 #include <utility>
 #include <vector>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::motion_gate_test {
 namespace {
 
 using std::chrono::milliseconds;
 using testing::ElementsAre;
 
-const AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2);
+const AxisSet kLower = AxisSet::of(1), kUpper = AxisSet::of(2);
 constexpr TimePoint kLater = TimePoint{} + milliseconds(1000);
 
 class MotionGateTest : public testing::Test {
@@ -35,8 +35,8 @@ class MotionGateTest : public testing::Test {
 
 TEST_F(MotionGateTest, OneMotionAtATimeWhereOneBusyAxisRefusesTheOthers) {
   MotionGate gate(executor_, Scope::controller);
-  enter(gate, 1, kOne);
-  enter(gate, 2, kTwo);
+  enter(gate, 1, kLower);
+  enter(gate, 2, kUpper);
   EXPECT_THAT(heard(), ElementsAre("1 in"));
   EXPECT_EQ(gate.waiting(), 1u);
   gate.leave(1);
@@ -45,10 +45,10 @@ TEST_F(MotionGateTest, OneMotionAtATimeWhereOneBusyAxisRefusesTheOthers) {
 
 TEST_F(MotionGateTest, DifferentAxesTogetherWhereEachIsBusyForItself) {
   MotionGate gate(executor_, Scope::axis);
-  enter(gate, 1, kOne);
+  enter(gate, 1, kLower);
   EXPECT_FALSE(gate.others_inside(1));
-  enter(gate, 2, kTwo);
-  enter(gate, 3, kOne);
+  enter(gate, 2, kUpper);
+  enter(gate, 3, kLower);
   EXPECT_THAT(heard(), ElementsAre("1 in", "2 in"));
   EXPECT_TRUE(gate.others_inside(1));
   gate.leave(2);
@@ -59,10 +59,10 @@ TEST_F(MotionGateTest, DifferentAxesTogetherWhereEachIsBusyForItself) {
 
 TEST_F(MotionGateTest, CallersTakeTurns) {
   MotionGate gate(executor_, Scope::controller);
-  enter(gate, 1, kOne, "busy");
-  enter(gate, 2, kOne, "busy");
-  enter(gate, 3, kOne, "busy");
-  enter(gate, 4, kOne, "rare");
+  enter(gate, 1, kLower, "busy");
+  enter(gate, 2, kLower, "busy");
+  enter(gate, 3, kLower, "busy");
+  enter(gate, 4, kLower, "rare");
   gate.leave(1);
   gate.leave(2);
   EXPECT_THAT(heard(), ElementsAre("1 in", "2 in", "4 in"));
@@ -70,9 +70,9 @@ TEST_F(MotionGateTest, CallersTakeTurns) {
 
 TEST_F(MotionGateTest, WithdrawTurnsTheChosenAway) {
   MotionGate gate(executor_, Scope::controller);
-  enter(gate, 1, kOne);
-  enter(gate, 2, kOne);
-  enter(gate, 3, kOne);
+  enter(gate, 1, kLower);
+  enter(gate, 2, kLower);
+  enter(gate, 3, kLower);
   gate.withdraw([](MotionId id) { return id == 2; }, Problem{Reason::stopped, "by somebody", {}, {}, {}, {}});
   EXPECT_THAT(heard(), ElementsAre("1 in", "2 STOPPED"));
   gate.leave(1);
@@ -81,8 +81,8 @@ TEST_F(MotionGateTest, WithdrawTurnsTheChosenAway) {
 
 TEST_F(MotionGateTest, NobodyWaitsLongerThanAllowed) {
   MotionGate gate(executor_, Scope::controller);
-  enter(gate, 1, kOne);
-  enter(gate, 2, kOne, "a", TimePoint{} + milliseconds(100));
+  enter(gate, 1, kLower);
+  enter(gate, 2, kLower, "a", TimePoint{} + milliseconds(100));
   EXPECT_GT(*gate.next_deadline(), TimePoint{} + milliseconds(100));
   gate.expire(TimePoint{} + milliseconds(100));
   EXPECT_THAT(heard(), ElementsAre("1 in"));
@@ -93,12 +93,12 @@ TEST_F(MotionGateTest, NobodyWaitsLongerThanAllowed) {
 
 TEST_F(MotionGateTest, IsBounded) {
   MotionGate gate(executor_, Scope::controller);
-  enter(gate, 1, kOne);
-  for (MotionId id = 2; id < 2 + 1024; ++id) enter(gate, id, kOne);
+  enter(gate, 1, kLower);
+  for (MotionId id = 2; id < 2 + 1024; ++id) enter(gate, id, kLower);
   EXPECT_THAT(heard(), ElementsAre("1 in"));
-  enter(gate, 5000, kOne);
+  enter(gate, 5000, kLower);
   EXPECT_THAT(heard(), ElementsAre("5000 QUEUE_FULL"));
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::motion_gate_test

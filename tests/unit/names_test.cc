@@ -5,12 +5,12 @@
 
 #include "device/core/lane.h"
 #include "device/core/problem.h"
-#include "device/shrc203/event.h"
-#include "device/shrc203/motion.h"
-#include "device/shrc203/refusals.h"
-#include "device/shrc203/state.h"
+#include "device/shrc203/command/refusals.h"
+#include "device/stage/event.h"
+#include "device/stage/motion.h"
+#include "device/stage/state.h"
 
-namespace axisgate {
+namespace axisgate::names_test {
 namespace {
 
 template <class Enum>
@@ -92,4 +92,4 @@ TEST(State, ListsItsControllableAxes) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::names_test

@@ -1,8 +1,10 @@
-#include "device/shrc203/pace.h"
+#include "device/shrc203/line/pace.h"
 
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+#include "device/shrc203/limits.h"
+
+namespace axisgate::shrc203::pace_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -24,13 +26,13 @@ TEST_F(PaceTest, TenBitsAByte) {
 }
 
 TEST_F(PaceTest, TheTurnaroundIsWhatTheBytesDoNotExplain) {
-  EXPECT_EQ(pace.usual_turnaround(), Pace::kTurnaroundUnknown);
-  EXPECT_EQ(pace.longest_turnaround(), Pace::kTurnaroundUnknown);
+  EXPECT_EQ(pace.usual_turnaround(), kTurnaroundAssumed);
+  EXPECT_EQ(pace.longest_turnaround(), kTurnaroundAssumed);
   for (const int time : {3, 2, 40}) answered_in(milliseconds(time));
   EXPECT_EQ(pace.usual_turnaround(), milliseconds(3));
   EXPECT_EQ(pace.longest_turnaround(), milliseconds(40));
   pace.connected();
-  EXPECT_EQ(pace.longest_turnaround(), Pace::kTurnaroundUnknown) << "of other cables";
+  EXPECT_EQ(pace.longest_turnaround(), kTurnaroundAssumed) << "of other cables";
 }
 
 TEST_F(PaceTest, ALineFasterThanItsBaudRateHasNoTurnaround) {
@@ -55,4 +57,4 @@ TEST_F(PaceTest, AnExchangeLastsAsLongAsItsLongestReply) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::pace_test

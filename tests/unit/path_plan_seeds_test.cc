@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "device/shrc203/feeding.h"
-#include "device/shrc203/path_plan.h"
+#include "device/shrc203/planning/feeding.h"
+#include "device/shrc203/planning/path_plan.h"
 #include "tests/simulation/random.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::path_plan_seeds_test {
 namespace {
 
 using simulation::Random;
@@ -197,4 +197,4 @@ TEST_P(PlannedSegments, AreWhatTheirLinesSay) {
 INSTANTIATE_TEST_SUITE_P(Cases, PlannedSegments, testing::Range(1, 9));
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::path_plan_seeds_test

@@ -1,11 +1,11 @@
-#include "device/shrc203/plan.h"
+#include "device/shrc203/planning/plan.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "device/shrc203/path_plan.h"
+#include "device/shrc203/planning/path_plan.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::plan_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -228,4 +228,4 @@ TEST_F(PlanTest, ASegmentWithoutASpeedIsNoFasterThanAllowed) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::plan_test

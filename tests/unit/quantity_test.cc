@@ -5,7 +5,7 @@
 #include <limits>
 #include <string>
 
-namespace axisgate {
+namespace axisgate::quantity_test {
 namespace {
 
 const Scale k10Nanometers = {{10, 0}, false};
@@ -323,4 +323,4 @@ TEST(WithinTurn, IsOfAxesThatTurn) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::quantity_test

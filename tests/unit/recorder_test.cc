@@ -1,5 +1,5 @@
 // How a controller's events become lines.
-#include "device/shrc203/recorder.h"
+#include "device/stage/recording/recorder.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::recorder_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -210,4 +210,4 @@ TEST_F(RecorderTest, KnowsTheHeaderOfWhatIsToCome) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::recorder_test

@@ -1,4 +1,4 @@
-#include "server/recording_file.h"
+#include "server/recording/recording_file.h"
 
 #include <gmock/gmock.h>
 
@@ -12,7 +12,7 @@
 #include "device/link/clock.h"
 #include "tests/unit/link_fixtures.h"
 
-namespace axisgate::server {
+namespace axisgate::server::recording_file_test {
 namespace {
 
 using ::testing::AllOf;
@@ -25,7 +25,7 @@ constexpr auto kRetryPause = std::chrono::milliseconds(1);
 class RecordingFileTest : public ::testing::Test {
  protected:
   void record(const std::string& written) {
-    recorder_.on_event(shrc203::BytesWritten{written, 1, "", Lane::question, {}}, monotonic_now());
+    recorder_.on_event(stage::BytesWritten{written, 1, "", Lane::question, {}}, monotonic_now());
     recorder_.flush();
   }
 
@@ -79,4 +79,4 @@ TEST_F(RecordingFileTest, AFullDiskHoldsUpNobody) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::recording_file_test

@@ -1,10 +1,10 @@
-#include "server/recording_ring.h"
+#include "server/recording/recording_ring.h"
 
 #include <gmock/gmock.h>
 
 #include <thread>
 
-namespace axisgate::server {
+namespace axisgate::server::recording_ring_test {
 namespace {
 
 using ::testing::AllOf;
@@ -38,7 +38,7 @@ TEST(RecordingRing, KeepsNoMoreThanItsBytesAndSaysWhatASlowReaderLost) {
   const RecordingRing::Position start = ring.oldest().position;
   for (int i = 0; i < 1000; ++i) ring.append(std::to_string(100 + i));
   const RecordingRing::Reading reading = ring.read(start, kPortion);
-  EXPECT_EQ(reading.text, to_text(shrc203::RecordingHeader{}) + "1096\n1097\n1098\n1099\n");
+  EXPECT_EQ(reading.text, to_text(stage::RecordingHeader{}) + "1096\n1097\n1098\n1099\n");
   EXPECT_EQ(reading.lost, 996u);
   EXPECT_EQ(reading.next.line, 1000u);
   EXPECT_EQ(ring.read(ring.oldest().position, kPortion).lost, 0u);
@@ -88,7 +88,7 @@ TEST(RecordingRing, ReadersOnOtherThreadsSeeEveryLineOrItsLoss) {
   std::thread writer([&] {
     for (std::uint64_t i = 0; i < kLines; ++i) ring.append(std::to_string(i));
   });
-  const std::string header = to_text(shrc203::RecordingHeader{});
+  const std::string header = to_text(stage::RecordingHeader{});
   RecordingRing::Position position;
   std::uint64_t expected = 0;
   while (expected < kLines) {
@@ -105,4 +105,4 @@ TEST(RecordingRing, ReadersOnOtherThreadsSeeEveryLineOrItsLoss) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::recording_ring_test

@@ -1,10 +1,10 @@
 // The format of a recording: what is written is read again, byte for byte, and a slip names its line.
-#include "device/shrc203/recording.h"
+#include "device/stage/recording/recording.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::recording_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -174,4 +174,4 @@ TEST(Recording, WhatBeginsLaterIsHeadedByWhatIsKnownThen) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::recording_test

@@ -1,8 +1,10 @@
-#include "server/redaction.h"
+#include "server/recording/redaction.h"
 
 #include <gmock/gmock.h>
 
-namespace axisgate::server {
+#include "server/kinds.h"
+
+namespace axisgate::server::redaction_test {
 namespace {
 
 using Kind = Redactor::Kind;
@@ -97,7 +99,7 @@ connection = "tcp"
 host = "moxa.lab"
 port = 4001
 )",
-                                                 "lab.toml");
+                                                 "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   Redactor redactor;
   const Config clean = redactor.redact(*config);
@@ -112,14 +114,14 @@ port = 4001
 
 TEST(Redactor, CallersOfTheConfiguration) {
   Redactor redactor;
-  Config config = default_config();
+  Config config = default_config(device_kinds());
   config.access.roles = {{"unix alice", Role::admin}};
   EXPECT_EQ(redactor.redact(config).access.roles, (std::map<std::string, Role>{{"unix user-1", Role::admin}}));
 }
 
 TEST(Redactor, CallersWhoseTravelIsNarrowerButNotRoles) {
   Redactor redactor;
-  Config config = default_config();
+  Config config = default_config(device_kinds());
   config.access.roles = {{"unix alice", Role::operator_}};
   auto& narrower = config.devices[0].profile.axes[1].narrower;
   for (const char* whose : {"operator", "unix alice", "token night-scan"}) narrower.emplace_back().whose = whose;
@@ -131,4 +133,4 @@ TEST(Redactor, CallersWhoseTravelIsNarrowerButNotRoles) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::redaction_test

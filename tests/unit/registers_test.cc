@@ -1,12 +1,20 @@
-#include "device/shrc203/registers.h"
+#include "device/shrc203/motion/registers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "device/shrc203/command/builders.h"
+
+namespace axisgate::shrc203::registers_test {
 namespace {
 
 const AxisSet kAll = AxisSet::all();
+
+std::string_view question_of(Register reg) { return commands::text(commands::question_of(reg)); }
 
 Reply reply_of(std::string_view question, std::string_view line, AxisSet controllable = kAll) {
   auto reply = parse_reply(command_row(question), line, controllable.count());
@@ -17,7 +25,8 @@ Reply reply_of(std::string_view question, std::string_view line, AxisSet control
 class RegistersTest : public testing::Test {
  protected:
   void take(std::string_view question, std::string_view line, AxisSet controllable = kAll) {
-    reading.take(question, reply_of(question, line, controllable), controllable);
+    const auto reg = std::ranges::find(Registers::all(), question, question_of);
+    reading.take(*reg, reply_of(question, line, controllable), controllable);
     registers.end_reading(reading);
   }
   Registers registers;
@@ -45,12 +54,15 @@ TEST(RegistersUnread, WhatIsForgottenMeanwhileIsNotKnown) {
 
 // Manual 85): what G starts.
 TEST(RegistersUnread, AsksForEveryRegister) {
-  EXPECT_THAT(Registers::questions(), testing::UnorderedElementsAre("?:M", "?:A", "?:K", "?:E", "?:J", "?:MP", "?:AP",
-                                                                    "?:KP", "?:EP", "?:WT", "?:WI"));
+  std::vector<std::string_view> questions;
+  for (const Register reg : Registers::all()) questions.push_back(question_of(reg));
+  EXPECT_THAT(questions, testing::UnorderedElementsAre("?:M", "?:A", "?:K", "?:E", "?:J", "?:MP", "?:AP", "?:KP",
+                                                       "?:EP", "?:WT", "?:WI"));
 }
 
 TEST_F(RegistersTest, NothingSet) {
-  for (const auto question : Registers::questions()) {
+  for (const Register reg : Registers::all()) {
+    const auto question = question_of(reg);
     const bool shared = question == "?:K" || question == "?:E" || question == "?:KP" || question == "?:EP";
     take(question, shared ? "NS" : "NS,NS,NS");
   }
@@ -99,4 +111,4 @@ TEST_F(RegistersTest, AmountsAreSigned) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::registers_test

@@ -1,10 +1,10 @@
 // What can be an answer to which command, and what it says; the examples are the manual's.
-#include "device/shrc203/reply.h"
+#include "device/shrc203/command/reply.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::reply_test {
 namespace {
 
 using testing::ElementsAre;
@@ -184,4 +184,4 @@ TEST(Reply, Integers) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::reply_test

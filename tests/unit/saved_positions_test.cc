@@ -1,5 +1,5 @@
 // The names of saved positions: numbers that are given and come back, and what outlives the daemon.
-#include "server/saved_positions.h"
+#include "server/devices/saved_positions.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace axisgate::server {
+namespace axisgate::server::saved_positions_test {
 namespace {
 
 using testing::ElementsAre;
@@ -193,7 +193,7 @@ TEST_F(SavedPositionsTest, ALineThatIsNoneIsNamed) {
 }
 
 TEST(FrameOfAState, ChangesWithWhateverChangesCoordinates) {
-  shrc203::State state;
+  stage::State state;
   state.device_epoch = 1;
   state.frame_epoch = 1;
   state.axes[0].controllable = true;
@@ -202,7 +202,7 @@ TEST(FrameOfAState, ChangesWithWhateverChangesCoordinates) {
   EXPECT_EQ(frame_of(state), before);
   state.axes[0].position_pulses = 5;
   EXPECT_EQ(frame_of(state), before);
-  shrc203::State other = state;
+  stage::State other = state;
   other.frame_epoch = 2;
   EXPECT_NE(frame_of(other), before);
   other = state;
@@ -217,4 +217,4 @@ TEST(FrameOfAState, ChangesWithWhateverChangesCoordinates) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::saved_positions_test

@@ -6,9 +6,9 @@
 #include <string>
 
 #include "device/link/clock.h"
-#include "server/recorder.h"
+#include "server/recording/recorder.h"
 
-namespace axisgate::server {
+namespace axisgate::server::server_recorder_test {
 namespace {
 
 using ::testing::AllOf;
@@ -21,7 +21,7 @@ class ServerRecorderTest : public ::testing::Test {
  protected:
   // One line of the recording, finished.
   void record(const std::string& written) {
-    recorder_.on_event(shrc203::BytesWritten{written, ++exchange_, "unix alice", Lane::question, {}}, monotonic_now());
+    recorder_.on_event(stage::BytesWritten{written, ++exchange_, "unix alice", Lane::question, {}}, monotonic_now());
     recorder_.flush();
   }
 
@@ -46,7 +46,7 @@ TEST_F(ServerRecorderTest, AReaderGetsEachLineOnce) {
 }
 
 TEST_F(ServerRecorderTest, ABeginningIsBehindTheLineUnderWay) {
-  recorder_.on_event(shrc203::BytesWritten{"Q:S\r\n", 1, "", Lane::poll, {}}, monotonic_now());
+  recorder_.on_event(stage::BytesWritten{"Q:S\r\n", 1, "", Lane::poll, {}}, monotonic_now());
   EXPECT_EQ(recorder_.ring().newest().line, 0u);
   const RecordingRing::Beginning beginning = recorder_.begin();
   EXPECT_EQ(beginning.position.line, 1u);
@@ -73,4 +73,4 @@ TEST_F(ServerRecorderTest, ASlowReaderIsToldWhatItLostAndBeginsAnew) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::server_recorder_test

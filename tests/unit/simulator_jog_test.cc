@@ -4,12 +4,12 @@
 #include "device/shrc203/simulator/motion_profile.h"
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_jog_test {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kSettling = 5ms;
+constexpr Duration kSettlingTime = 5ms;
 
 // S 1000, F 11000, R 100 ms on every axis: each ramp is 100000 pulses/s^2 steep.
 class Bench : public SimulatorBench {
@@ -92,7 +92,7 @@ TEST(SimulatorJog, RunsUntilStoppedAndTellsNoCompletion) {
   EXPECT_EQ(bench.ask("!:"), "B");
   ASSERT_EQ(bench.ask("L:1"), "OK");  // no faster than S: at once
   EXPECT_EQ(bench.rest(), "");
-  EXPECT_EQ(bench.elapsed(), 1000s + kSettling);
+  EXPECT_EQ(bench.elapsed(), 1000s + kSettlingTime);
   EXPECT_EQ(bench.ask("Q:"), "-  1000000,+        0,+        0,K,K,R");
   EXPECT_EQ(bench.ask("?:J"), "NS,NS,NS");
   EXPECT_EQ(bench.ask("G:1"), "NG");
@@ -144,7 +144,7 @@ TEST(SimulatorJog, MayBeSlowerThanS) {
   EXPECT_EQ(bench.device.position(1), 603);
   ASSERT_EQ(bench.ask("L:1"), "OK");
   bench.rest();
-  EXPECT_EQ(bench.elapsed(), 1004ms + kSettling);
+  EXPECT_EQ(bench.elapsed(), 1004ms + kSettlingTime);
   EXPECT_EQ(bench.device.position(1), 603);
   EXPECT_EQ(bench.ask("?:D1"), "S1000F1000R100");  // F is not lower than S
 }
@@ -250,7 +250,7 @@ TEST(SimulatorJog, AStopDeceleratesAndCannotBeOverridden) {
   EXPECT_EQ(bench.ask("!:1S"), "B");
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");
   EXPECT_EQ(bench.rest(), "");
-  EXPECT_EQ(bench.elapsed(), 100ms + kSettling);
+  EXPECT_EQ(bench.elapsed(), 100ms + kSettlingTime);
   EXPECT_EQ(bench.device.position(1), 350);
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");
 }
@@ -263,7 +263,7 @@ TEST(SimulatorJog, AStopInTheMidstOfARampTurnsItRound) {
   ASSERT_EQ(bench.device.position(1), -120);
   ASSERT_EQ(bench.ask("L:"), "OK");
   bench.rest();  // and the same down again
-  EXPECT_EQ(bench.elapsed(), 80ms + kSettling);
+  EXPECT_EQ(bench.elapsed(), 80ms + kSettlingTime);
   EXPECT_EQ(bench.device.position(1), -240);
 }
 
@@ -288,7 +288,7 @@ TEST(SimulatorJog, ALimitSensorStopsAnOverriddenOne) {
   bench.ask("JD:1F6000");
   // 500, then 175 in 50 ms, then 325 at 6000 pulses/s: 54.1666... ms.
   EXPECT_EQ(bench.rest(), "");
-  EXPECT_EQ(bench.elapsed(), 604166667ns + kSettling);
+  EXPECT_EQ(bench.elapsed(), 604166667ns + kSettlingTime);
   EXPECT_EQ(bench.ask("Q:"), "+     1000,+        0,+        0,K,1,R");
   EXPECT_EQ(bench.ask("?:D1"), "S1000F6000R100");
 }
@@ -315,4 +315,4 @@ TEST(SimulatorJog, OverridesAfterwards) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_jog_test

@@ -3,7 +3,7 @@
 
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_lines_test {
 namespace {
 
 using namespace std::string_literals;
@@ -74,4 +74,4 @@ TEST(SimulatorLines, RemembersWhatItReceived) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_lines_test

@@ -4,12 +4,12 @@
 #include "device/shrc203/simulator/motion_profile.h"
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_motion_test {
 namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Duration kSettling = 5ms;
+constexpr Duration kSettles = 5ms;
 
 TEST(MotionProfile, RampsUpRunsAndRampsDown) {
   // S 1000, F 11000, R 100 ms: 600 pulses in each ramp. 600 + 11000 + 600 pulses: 0.1 + 1 + 0.1 s.
@@ -56,8 +56,8 @@ TEST(SimulatorMotion, MovesAsTheSpeedsSayAndSettles) {
   bench.wait(1100ms);
   EXPECT_EQ(bench.device.position(1), 12200);
   EXPECT_EQ(bench.ask("!:1S"), "B");
-  EXPECT_EQ(bench.device.next_deadline(), bench.now() + kSettling);
-  bench.wait(kSettling);
+  EXPECT_EQ(bench.device.next_deadline(), bench.now() + kSettles);
+  bench.wait(kSettles);
   EXPECT_EQ(bench.ask("!:1S"), "R");
   EXPECT_EQ(bench.device.next_deadline(), std::nullopt);
   EXPECT_EQ(bench.ask("?:M1"), "NS");
@@ -72,7 +72,7 @@ TEST(SimulatorMotion, WaitsBeforeReadyAsWSays) {
   bench.ask("M:1+P1000");
   bench.ask("G:1");
   bench.rest();
-  EXPECT_EQ(bench.elapsed(), 1s + kSettling + 300ms);
+  EXPECT_EQ(bench.elapsed(), 1s + kSettles + 300ms);
 }
 
 TEST(SimulatorMotion, AxesMoveIndependently) {
@@ -113,7 +113,7 @@ TEST(SimulatorMotion, StraightLineRunsAtSOfTheLowerAxis) {
   EXPECT_EQ(bench.device.position(1), 1500);
   EXPECT_EQ(bench.device.position(3), -2000);
   bench.rest();
-  EXPECT_EQ(bench.elapsed(), 10s + kSettling);
+  EXPECT_EQ(bench.elapsed(), 10s + kSettles);
   EXPECT_EQ(bench.device.position(1), 3000);
   EXPECT_EQ(bench.device.position(3), -4000);
 }
@@ -125,7 +125,7 @@ TEST(SimulatorMotion, KpSpeedReplacesTheLowerAxisSpeed) {
   ASSERT_EQ(bench.ask("G:A"), "OK");
   EXPECT_EQ(bench.ask("?:DA"), "S100F1000R200,S1000F50000R100");
   EXPECT_EQ(bench.rest(), "1 2");
-  EXPECT_EQ(bench.elapsed(), 50s + kSettling);
+  EXPECT_EQ(bench.elapsed(), 50s + kSettles);
 }
 
 TEST(SimulatorMotion, AbsoluteAndLogicalReturn) {
@@ -182,7 +182,7 @@ TEST(SimulatorMotion, StopDecelerates) {
   ASSERT_EQ(bench.ask("L:1"), "OK");
   bench.rest();
   EXPECT_EQ(bench.device.position(1), 600 + 11000 + 600);
-  EXPECT_EQ(bench.elapsed(), 1200ms + kSettling);
+  EXPECT_EQ(bench.elapsed(), 1200ms + kSettles);
   EXPECT_EQ(bench.ask("Q:"), "+    12200,+        0,+        0,K,K,R");
 }
 
@@ -352,4 +352,4 @@ TEST(SimulatorMotion, APowerCycleStopsEverythingInItsPlace) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_motion_test

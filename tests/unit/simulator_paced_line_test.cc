@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/simulator/paced_line.h"
+#include "device/core/paced_line.h"
 #include "device/shrc203/simulator/simulator.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_paced_line_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -135,4 +135,4 @@ TEST(PacedLine, TheDeviceIsTouchedInItsOwnTime) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_paced_line_test

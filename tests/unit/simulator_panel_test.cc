@@ -3,7 +3,7 @@
 
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_panel_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -136,4 +136,4 @@ TEST(SimulatorPanel, RebootForgetsWhatWasNotAnswered) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_panel_test

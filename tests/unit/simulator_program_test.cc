@@ -3,7 +3,7 @@
 
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_program_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -215,4 +215,4 @@ TEST(SimulatorProgram, KeepsEightProgramsOverAPowerCycle) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_program_test

@@ -6,7 +6,7 @@
 
 #include "tests/unit/simulator_bench.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate::shrc203::simulator::simulator_robustness_test {
 namespace {
 
 using Random = std::mt19937;
@@ -129,4 +129,4 @@ TEST(SimulatorRobustness, TheStageNeverPassesItsLimits) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate::shrc203::simulator::simulator_robustness_test

@@ -13,13 +13,13 @@
 #include <string_view>
 #include <vector>
 
-#include "device/shrc203/axes.h"
-#include "device/shrc203/codec.h"
-#include "device/shrc203/command_table.h"
-#include "device/shrc203/pattern.h"
+#include "device/shrc203/command/axes.h"
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/command/command_table.h"
+#include "device/shrc203/command/pattern.h"
 #include "tests/unit/table_samples.h"
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::table_properties_test {
 namespace {
 
 constexpr std::uint64_t kSeed = 203'136;
@@ -174,4 +174,4 @@ TEST(TableProperties, NoOtherRowClaimsALine) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::table_properties_test

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate {
+namespace axisgate::task_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -157,4 +157,4 @@ TEST(Signal, ANotificationBeforeTheWaitCountsForNothing) {
 }
 
 }  // namespace
-}  // namespace axisgate
+}  // namespace axisgate::task_test

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <sstream>
 
-namespace axisgate::server {
+namespace axisgate::server::tokens_test {
 namespace {
 
 using std::chrono::days;
@@ -131,4 +131,4 @@ TEST(TokenNames, StandInTheToken) {
 }
 
 }  // namespace
-}  // namespace axisgate::server
+}  // namespace axisgate::server::tokens_test

@@ -1,9 +1,9 @@
 // The trigger output: its lines and the answer of ?:T. Bytes from manual 42), 97) to 101).
-#include "device/shrc203/trigger.h"
+#include "device/shrc203/command/trigger.h"
 
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203 {
+namespace axisgate::shrc203::trigger_test {
 namespace {
 
 using Target = Trigger::Target;
@@ -42,4 +42,4 @@ TEST(Trigger, ALineTellsWhatItSets) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203
+}  // namespace axisgate::shrc203::trigger_test

@@ -6,8 +6,7 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr double kTurn = 2 * kPi;
+constexpr double kTurn = 2 * std::numbers::pi;
 
 struct Point {
   double x = 0;

@@ -217,7 +217,7 @@ Answer set_wait(Rig& rig, Reader reader, Kind kind, std::int64_t highest) {
 Answer wait_time(Rig& rig, Reader reader) { return set_wait(rig, reader, Kind::wait_time, 2550); }
 Answer wait_input(Rig& rig, Reader reader) { return set_wait(rig, reader, Kind::wait_input, 63); }
 
-constexpr std::array kCommands = {
+constexpr std::array kBufferCommands = {
     Command{"M:", relative}, Command{"MP:", relative_next}, Command{"A:", absolute},    Command{"AP:", absolute_next},
     Command{"K:", line},     Command{"KP:", line_next},     Command{"E:", arc},         Command{"EP:", arc_next},
     Command{"J:", jog},      Command{"WT:", wait_time},     Command{"WI:", wait_input},
@@ -226,9 +226,9 @@ constexpr std::array kCommands = {
 }  // namespace
 
 const Command* find_buffer_command(std::string_view verb) {
-  const auto found =
-      std::find_if(kCommands.begin(), kCommands.end(), [&](const Command& command) { return command.verb == verb; });
-  return found == kCommands.end() ? nullptr : &*found;
+  const auto found = std::find_if(kBufferCommands.begin(), kBufferCommands.end(),
+                                  [&](const Command& command) { return command.verb == verb; });
+  return found == kBufferCommands.end() ? nullptr : &*found;
 }
 
 }  // namespace axisgate::shrc203::simulator

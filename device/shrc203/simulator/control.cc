@@ -30,16 +30,16 @@ struct Call {
   Duration seconds(std::size_t place) const { return Duration(std::llround(arguments[place].number * 1e9)); }
 };
 
-struct Command {
+struct ControlCommand {
   std::string_view usage;  // control_usage.h
   std::string_view meaning;
   Done (*carry_out)(const Call& call);
 };
 
-std::span<const Command> commands();
+std::span<const ControlCommand> commands();
 
-const Command* command_called(std::string_view name) {
-  for (const Command& command : commands()) {
+const ControlCommand* command_called(std::string_view name) {
+  for (const ControlCommand& command : commands()) {
     if (same_word(words_of(command.usage).front(), name)) return &command;
   }
   return nullptr;
@@ -49,19 +49,19 @@ const Command* command_called(std::string_view name) {
 template <class Part>
 std::string list(std::string_view separator, Part part) {
   std::string text;
-  for (const Command& command : commands())
+  for (const ControlCommand& command : commands())
     fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : separator, part(command));
   return text;
 }
 
 tl::unexpected<Problem> refuse(std::string what) {
-  const std::string names = list(", ", [](const Command& command) { return words_of(command.usage).front(); });
+  const std::string names = list(", ", [](const ControlCommand& command) { return words_of(command.usage).front(); });
   return fail(Reason::invalid_request, std::move(what), "say one of: " + names);
 }
 
 Done help(const Call& call) {
-  if (call.arguments.empty()) return list("; ", [](const Command& command) { return command.usage; });
-  const Command* command = command_called(call.word(0));
+  if (call.arguments.empty()) return list("; ", [](const ControlCommand& command) { return command.usage; });
+  const ControlCommand* command = command_called(call.word(0));
   if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(call.word(0))));
   return fmt::format("{}: {}", with_ranges(command->usage), command->meaning);
 }
@@ -137,58 +137,60 @@ Done busy(const Call& call) {
   return each_axis(call, [&](int axis) { return std::string(call.device.busy(axis) ? "yes" : "no"); });
 }
 
-constexpr std::array kCommands = {
-    Command{"help [COMMAND]", "all commands, or what one does", help},
-    Command{"mode HOST|MANUAL|REMOTE|TEACHING|EDIT|TEST", "the mode, as chosen at the panel (manual 37) ?:MODE)",
-            [](const Call& call) -> Done {
-              call.device.set_mode(call.word(0), call.now);
-              return {};
-            }},
-    Command{"dialect SHOT_FC|HIT", "the command format, as chosen at the panel (manual 38) ?:FMT)",
-            [](const Call& call) -> Done {
-              call.device.set_format(call.word(0), call.now);
-              return {};
-            }},
-    Command{"emergency", "presses the button: as L:E (manual 66)); BEC: and excitation bring it back",
-            [](const Call& call) -> Done {
-              call.device.press_emergency(call.now);
-              return {};
-            }},
-    Command{"excitation AXIS on|off", "the motor's current (manual 33) ?:C); off stops the axis", excitation},
-    Command{"limit AXIS cw|ccw on|off", "a limit sensor (manual 5), bits 20, 21); on stops what moves into it", limit},
-    Command{"error AXIS scale|disconnection|overflow|hunting|system|overheat|s9 on|off",
-            "stops the axis: S1, S2, S4, S3, S7, S10 (manual 5), bits 3, 4, 5, 7, 13, 15), and S9, which has no bit",
-            error},
-    Command{
+constexpr std::array kControlCommands = {
+    ControlCommand{"help [COMMAND]", "all commands, or what one does", help},
+    ControlCommand{"mode HOST|MANUAL|REMOTE|TEACHING|EDIT|TEST", "the mode, as chosen at the panel (manual 37) ?:MODE)",
+                   [](const Call& call) -> Done {
+                     call.device.set_mode(call.word(0), call.now);
+                     return {};
+                   }},
+    ControlCommand{"dialect SHOT_FC|HIT", "the command format, as chosen at the panel (manual 38) ?:FMT)",
+                   [](const Call& call) -> Done {
+                     call.device.set_format(call.word(0), call.now);
+                     return {};
+                   }},
+    ControlCommand{"emergency", "presses the button: as L:E (manual 66)); BEC: and excitation bring it back",
+                   [](const Call& call) -> Done {
+                     call.device.press_emergency(call.now);
+                     return {};
+                   }},
+    ControlCommand{"excitation AXIS on|off", "the motor's current (manual 33) ?:C); off stops the axis", excitation},
+    ControlCommand{"limit AXIS cw|ccw on|off", "a limit sensor (manual 5), bits 20, 21); on stops what moves into it",
+                   limit},
+    ControlCommand{
+        "error AXIS scale|disconnection|overflow|hunting|system|overheat|s9 on|off",
+        "stops the axis: S1, S2, S4, S3, S7, S10 (manual 5), bits 3, 4, 5, 7, 13, 15), and S9, which has no bit",
+        error},
+    ControlCommand{
         "flag AXIS config|io_overload|power_overload|heat|out_of_position|cw_software_limit|ccw_software_limit|near "
         "on|off",
         "the other bits of manual 5): 10, 11, 12, 14, 16 (17 while BUSY), 22, 23, 24; 22 and 23 stop the axis once",
         flag},
-    Command{"inputs NUMBER", "what IN1 to IN6 are given, as I: tells it (manual 95))", inputs},
-    Command{"outputs", "what OUT1 to OUT6 give, as ?:O tells it (manual 26))", outputs},
-    Command{"triggers", "how many pulses the trigger output has given so far (manual 97) to 101))", triggers},
-    Command{"sleep on|off", "as SLEEP: (manual 47)); only at rest", sleep},
-    Command{"power cycle", "off and on: as RESET: (manual 46)); the stages stay where they are",
-            [](const Call& call) -> Done {
-              call.device.power_cycle(call.now);
-              return {};
-            }},
-    Command{"unplug SECONDS", "the cable: what is sent either way is lost for so long; 0 plugs it in again",
-            [](const Call& call) -> Done {
-              call.device.be_unplugged(call.seconds(0), call.now);
-              return {};
-            }},
-    Command{"delay MILLISECONDS", "from now on each line is carried out and answered so much later",
-            [](const Call& call) -> Done {
-              call.device.set_answer_delay(std::chrono::milliseconds(call.number(0)), call.now);
-              return {};
-            }},
-    Command{"stuck SECONDS", "reads and writes nothing for so long, then all of it comes; 0 ends it", be_stuck},
-    Command{"position [AXIS]", "the command counter, in pulses", position},
-    Command{"busy [AXIS]", "whether it moves, settles or waits: yes or no", busy},
+    ControlCommand{"inputs NUMBER", "what IN1 to IN6 are given, as I: tells it (manual 95))", inputs},
+    ControlCommand{"outputs", "what OUT1 to OUT6 give, as ?:O tells it (manual 26))", outputs},
+    ControlCommand{"triggers", "how many pulses the trigger output has given so far (manual 97) to 101))", triggers},
+    ControlCommand{"sleep on|off", "as SLEEP: (manual 47)); only at rest", sleep},
+    ControlCommand{"power cycle", "off and on: as RESET: (manual 46)); the stages stay where they are",
+                   [](const Call& call) -> Done {
+                     call.device.power_cycle(call.now);
+                     return {};
+                   }},
+    ControlCommand{"unplug SECONDS", "the cable: what is sent either way is lost for so long; 0 plugs it in again",
+                   [](const Call& call) -> Done {
+                     call.device.be_unplugged(call.seconds(0), call.now);
+                     return {};
+                   }},
+    ControlCommand{"delay MILLISECONDS", "from now on each line is carried out and answered so much later",
+                   [](const Call& call) -> Done {
+                     call.device.set_answer_delay(std::chrono::milliseconds(call.number(0)), call.now);
+                     return {};
+                   }},
+    ControlCommand{"stuck SECONDS", "reads and writes nothing for so long, then all of it comes; 0 ends it", be_stuck},
+    ControlCommand{"position [AXIS]", "the command counter, in pulses", position},
+    ControlCommand{"busy [AXIS]", "whether it moves, settles or waits: yes or no", busy},
 };
 
-std::span<const Command> commands() { return kCommands; }
+std::span<const ControlCommand> commands() { return kControlCommands; }
 
 }  // namespace
 
@@ -198,7 +200,7 @@ Result<std::string> control(Simulator& device, std::string_view line, TimePoint 
   }
   const auto words = words_of(line);
   if (words.empty()) return refuse("the line is empty");
-  const Command* command = command_called(words.front());
+  const ControlCommand* command = command_called(words.front());
   if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(words.front())));
   auto arguments = read_arguments(words, command->usage);
   if (!arguments) return tl::unexpected(std::move(arguments.error()));

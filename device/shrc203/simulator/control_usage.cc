@@ -17,7 +17,7 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-struct Number {
+struct NumberField {
   std::string_view name;
   std::int64_t minimum = 0;
   std::int64_t maximum = 0;
@@ -25,10 +25,10 @@ struct Number {
 };
 
 constexpr std::array kNumbers = {
-    Number{"AXIS", 1, kAxes},
-    Number{"NUMBER", 0, 63},  // IN1 to IN6 as bits (manual 95) I:)
-    Number{"MILLISECONDS", 0, 60'000},
-    Number{"SECONDS", 0, 3600, true},
+    NumberField{"AXIS", 1, kAxes},
+    NumberField{"NUMBER", 0, 63},  // IN1 to IN6 as bits (manual 95) I:)
+    NumberField{"MILLISECONDS", 0, 60'000},
+    NumberField{"SECONDS", 0, 3600, true},
 };
 
 constexpr std::string_view kAnyWord = "COMMAND";
@@ -44,8 +44,9 @@ std::vector<std::string_view> split(std::string_view text, std::string_view sepa
   }
 }
 
-const Number* number_called(std::string_view name) {
-  const auto found = std::find_if(kNumbers.begin(), kNumbers.end(), [&](const Number& n) { return n.name == name; });
+const NumberField* number_called(std::string_view name) {
+  const auto found =
+      std::find_if(kNumbers.begin(), kNumbers.end(), [&](const NumberField& n) { return n.name == name; });
   return found == kNumbers.end() ? nullptr : &*found;
 }
 
@@ -55,7 +56,7 @@ std::string_view without_brackets(std::string_view place) {
   return may_be_left_out(place) ? place.substr(1, place.size() - 2) : place;
 }
 
-std::optional<double> read_number(std::string_view word, const Number& number) {
+std::optional<double> read_number(std::string_view word, const NumberField& number) {
   const char* const end = word.data() + word.size();
   double value = 0;
   std::int64_t whole = 0;
@@ -70,7 +71,7 @@ std::optional<double> read_number(std::string_view word, const Number& number) {
 
 // Whether `word` may stand where the usage has `place`; what it stands for goes to `arguments`.
 bool take_word(std::string_view word, std::string_view place, std::vector<Argument>& arguments) {
-  if (const Number* number = number_called(place)) {
+  if (const NumberField* number = number_called(place)) {
     const auto value = read_number(word, *number);
     if (value) arguments.push_back({word, *value});
     return value.has_value();
@@ -100,7 +101,7 @@ bool same_word(std::string_view one, std::string_view other) {
 std::string with_ranges(std::string_view usage) {
   std::string ranges;
   for (const std::string_view place : words_of(usage)) {
-    const Number* number = number_called(without_brackets(place));
+    const NumberField* number = number_called(without_brackets(place));
     if (number == nullptr) continue;
     ranges +=
         fmt::format("{}{} {} to {}", ranges.empty() ? " (" : ", ", number->name, number->minimum, number->maximum);

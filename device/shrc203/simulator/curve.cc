@@ -7,8 +7,6 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-
 // Radians; what doubles leave over of a multiple of pi.
 constexpr double kAngleTolerance = 1e-9;
 
@@ -29,7 +27,7 @@ std::int64_t Curve::offset(double fraction) const {
 // It turns where the angle is a multiple of pi.
 double Curve::turning_after(double fraction) const {
   const double angle = (phase + sweep * fraction) * (sweep < 0 ? 1 : -1);
-  return fraction + ahead(angle, kPi) / std::abs(sweep);
+  return fraction + ahead(angle, std::numbers::pi) / std::abs(sweep);
 }
 
 void Curve::cover(double fraction, Mileage& mileage) const {
@@ -47,8 +45,8 @@ std::optional<double> Curve::reaches(double level) const {
   const double cosine = level / radius + std::cos(phase);
   if (std::abs(cosine) > 1) return std::nullopt;
   const double sense = sweep < 0 ? -1 : 1;
-  const double to_one = ahead(sense * (std::acos(cosine) - phase), 2 * kPi);
-  const double to_other = ahead(sense * (-std::acos(cosine) - phase), 2 * kPi);
+  const double to_one = ahead(sense * (std::acos(cosine) - phase), 2 * std::numbers::pi);
+  const double to_other = ahead(sense * (-std::acos(cosine) - phase), 2 * std::numbers::pi);
   const double fraction = std::min(to_one, to_other) / std::abs(sweep);
   return fraction <= 1 ? std::optional(fraction) : std::nullopt;
 }

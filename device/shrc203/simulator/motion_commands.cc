@@ -60,7 +60,7 @@ Answer delete_settings(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-constexpr std::array kCommands = {
+constexpr std::array kMotionCommands = {
     Command{"H:", origin_return},
     Command{"H0:", origin_return},
     Command{"H1:", origin_return},
@@ -86,9 +86,9 @@ constexpr std::array kCommands = {
 }  // namespace
 
 const Command* find_motion_command(std::string_view verb) {
-  const auto found =
-      std::find_if(kCommands.begin(), kCommands.end(), [&](const Command& command) { return command.verb == verb; });
-  return found == kCommands.end() ? nullptr : &*found;
+  const auto found = std::find_if(kMotionCommands.begin(), kMotionCommands.end(),
+                                  [&](const Command& command) { return command.verb == verb; });
+  return found == kMotionCommands.end() ? nullptr : &*found;
 }
 
 }  // namespace axisgate::shrc203::simulator

@@ -10,52 +10,52 @@ namespace {
 
 using Values = std::array<std::string_view, 3>;
 
-struct Row {
+struct OptionRow {
   std::string_view name;
   Values values;  // the first is the default; unused places stay empty
 };
 
 constexpr std::array kRows = {
-    Row{"busy_scope", {"axis", "controller"}},
-    Row{"prebuffer_scope", {"axis", "controller"}},
-    Row{"prebuffer_while_other_axis_runs", {"waits_for_go", "chains", "ng"}},
-    Row{"prebuffer_under_plain_move", {"chains", "waits_for_go"}},
-    Row{"go_with_both_buffers", {"prebuffer_replaces", "execution_first", "ng"}},
-    Row{"chain_step_on", {"each_axis", "all_axes_done"}},
-    Row{"interpolation_completion", {"each_axis_ascending", "lowest_axis"}},
-    Row{"completion_after_stop", {"none", "sent"}},
-    Row{"completion_before_settle", {"yes", "no"}},
-    Row{"wait_completion", {"none", "sent"}},
-    Row{"wait_reply_while_running", {"ok", "ok_d"}},
-    Row{"stop_keeps_prebuffer", {"cleared", "kept", "starts_next"}},
-    Row{"stop_with_unexcited_axis", {"ng_all", "stops_excited"}},
-    Row{"limit_error_until", {"bec", "next_start"}},
-    Row{"emergency_excitation", {"off", "on"}},
-    Row{"speed_when_unexcited", {"accepted", "ng"}},
-    Row{"previous_command_counts_refused", {"yes", "no"}},
-    Row{"late_go_order", {"reply_first", "completion_first"}},
-    Row{"jog_survives_gc", {"yes", "no"}},
-    Row{"jog_override_afterwards", {"becomes_maximum", "forgotten"}},
-    Row{"q_s_sign", {"plus", "bare"}},
-    Row{"command_error_status", {"normal_stays", "normal_clears"}},
-    Row{"invalid_axis_fields", {"three_fields", "left_out", "three_fields_everywhere"}},
-    Row{"fraction_of_pulse", {"round", "truncate", "ng"}},
+    OptionRow{"busy_scope", {"axis", "controller"}},
+    OptionRow{"prebuffer_scope", {"axis", "controller"}},
+    OptionRow{"prebuffer_while_other_axis_runs", {"waits_for_go", "chains", "ng"}},
+    OptionRow{"prebuffer_under_plain_move", {"chains", "waits_for_go"}},
+    OptionRow{"go_with_both_buffers", {"prebuffer_replaces", "execution_first", "ng"}},
+    OptionRow{"chain_step_on", {"each_axis", "all_axes_done"}},
+    OptionRow{"interpolation_completion", {"each_axis_ascending", "lowest_axis"}},
+    OptionRow{"completion_after_stop", {"none", "sent"}},
+    OptionRow{"completion_before_settle", {"yes", "no"}},
+    OptionRow{"wait_completion", {"none", "sent"}},
+    OptionRow{"wait_reply_while_running", {"ok", "ok_d"}},
+    OptionRow{"stop_keeps_prebuffer", {"cleared", "kept", "starts_next"}},
+    OptionRow{"stop_with_unexcited_axis", {"ng_all", "stops_excited"}},
+    OptionRow{"limit_error_until", {"bec", "next_start"}},
+    OptionRow{"emergency_excitation", {"off", "on"}},
+    OptionRow{"speed_when_unexcited", {"accepted", "ng"}},
+    OptionRow{"previous_command_counts_refused", {"yes", "no"}},
+    OptionRow{"late_go_order", {"reply_first", "completion_first"}},
+    OptionRow{"jog_survives_gc", {"yes", "no"}},
+    OptionRow{"jog_override_afterwards", {"becomes_maximum", "forgotten"}},
+    OptionRow{"q_s_sign", {"plus", "bare"}},
+    OptionRow{"command_error_status", {"normal_stays", "normal_clears"}},
+    OptionRow{"invalid_axis_fields", {"three_fields", "left_out", "three_fields_everywhere"}},
+    OptionRow{"fraction_of_pulse", {"round", "truncate", "ng"}},
 };
 
-std::span<const std::string_view> values_of(const Row& row) {
+std::span<const std::string_view> values_of(const OptionRow& row) {
   const auto end = std::find(row.values.begin(), row.values.end(), std::string_view{});
   return {row.values.begin(), end};
 }
 
 std::vector<OptionName> make_names() {
   std::vector<OptionName> names;
-  for (const Row& row : kRows) names.push_back({row.name, values_of(row)});
+  for (const OptionRow& row : kRows) names.push_back({row.name, values_of(row)});
   return names;
 }
 
 std::vector<std::string_view> all_names() {
   std::vector<std::string_view> names;
-  for (const Row& row : kRows) names.push_back(row.name);
+  for (const OptionRow& row : kRows) names.push_back(row.name);
   return names;
 }
 

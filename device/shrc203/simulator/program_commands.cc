@@ -56,7 +56,7 @@ Answer start_one_line(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-Answer stop(Rig& rig, Reader reader) {
+Answer stop_program(Rig& rig, Reader reader) {
   if (!reader.done()) return Answer::ng;
   if (rig.program.run.active()) stop_program(rig);
   return Answer::ok;
@@ -148,14 +148,14 @@ struct ProgramCommand {
 };
 
 // Where one name begins with another, the longer one comes first.
-constexpr std::array kCommands = {
+constexpr std::array kProgramCommands = {
     ProgramCommand{"R", Where::host, enter},
     ProgramCommand{"H", Where::program, leave},
     ProgramCommand{"P", Where::program, choose},
     ProgramCommand{"ON", Where::program, edit},
     ProgramCommand{"OFF", Where::editing, save},
     ProgramCommand{"O", Where::program, start_one_line},
-    ProgramCommand{"E", Where::program, stop},
+    ProgramCommand{"E", Where::program, stop_program},
     ProgramCommand{"U", Where::program, pause},
     ProgramCommand{"C", Where::program, tell_completion},
     ProgramCommand{"T", Where::program, tell_trigger},
@@ -166,7 +166,7 @@ constexpr std::array kCommands = {
 };
 
 Answer run_command(Rig& rig, Reader reader) {
-  for (const ProgramCommand& command : kCommands) {
+  for (const ProgramCommand& command : kProgramCommands) {
     if (!reader.take_text(command.name)) continue;
     return command.where == where_now(rig) ? command.run(rig, reader) : Answer::ng;
   }

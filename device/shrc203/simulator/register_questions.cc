@@ -13,7 +13,7 @@ struct Register {
   bool prebuffer;
 };
 
-constexpr std::array kByAxis = {
+constexpr std::array kRegistersByAxis = {
     Register{"M", Kind::relative, false}, Register{"MP", Kind::relative, true},  Register{"A", Kind::absolute, false},
     Register{"AP", Kind::absolute, true}, Register{"WT", Kind::wait_time, true}, Register{"WI", Kind::wait_input, true},
     Register{"J", Kind::jog, false},
@@ -72,7 +72,7 @@ std::string arc_text(const Rig& rig, const Setting& setting, char unit) {
 }  // namespace
 
 std::optional<std::string> answer_register(const Rig& rig, std::string_view name, Reader arguments) {
-  for (const Register& asked : kByAxis) {
+  for (const Register& asked : kRegistersByAxis) {
     if (asked.name != name) continue;
     const bool all = arguments.done() || arguments.rest().starts_with(',');
     const auto axes = all ? rig.controllable : arguments.take_axes(rig.controllable);

@@ -70,7 +70,7 @@ Answer use(Rig& rig, Reader reader, bool place) {
 Answer use_place(Rig& rig, Reader reader) { return use(rig, reader, true); }
 Answer use_coordinates(Rig& rig, Reader reader) { return use(rig, reader, false); }
 
-constexpr std::array kCommands = {Command{"PIT:", use_place}, Command{"PAV:", use_coordinates}};
+constexpr std::array kPositionCommands = {Command{"PIT:", use_place}, Command{"PAV:", use_coordinates}};
 
 }  // namespace
 
@@ -87,9 +87,9 @@ std::optional<std::string> answer_saved_position(const Rig& rig, std::string_vie
 }
 
 const Command* find_saved_position_command(std::string_view verb) {
-  const auto found =
-      std::find_if(kCommands.begin(), kCommands.end(), [&](const Command& command) { return command.verb == verb; });
-  return found == kCommands.end() ? nullptr : &*found;
+  const auto found = std::find_if(kPositionCommands.begin(), kPositionCommands.end(),
+                                  [&](const Command& command) { return command.verb == verb; });
+  return found == kPositionCommands.end() ? nullptr : &*found;
 }
 
 }  // namespace axisgate::shrc203::simulator

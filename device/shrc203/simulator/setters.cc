@@ -190,7 +190,7 @@ Answer jog_speed(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-constexpr std::array kCommands = {
+constexpr std::array kSetters = {
     Command{"RESET:", reset},
     Command{"SLEEP:", sleep},
     Command{"BO:", light},
@@ -234,8 +234,8 @@ std::optional<Speed> take_speed(const Rig& rig, Reader& reader, char unit, int a
 
 const Command* find_controller_command(std::string_view verb) {
   const auto found =
-      std::find_if(kCommands.begin(), kCommands.end(), [&](const Command& command) { return command.verb == verb; });
-  return found == kCommands.end() ? nullptr : &*found;
+      std::find_if(kSetters.begin(), kSetters.end(), [&](const Command& command) { return command.verb == verb; });
+  return found == kSetters.end() ? nullptr : &*found;
 }
 
 Answer execute(Rig& rig, std::string_view line) {

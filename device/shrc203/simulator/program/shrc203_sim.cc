@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "device/core/paced_line.h"
 #include "device/link/pty_line.h"
 #include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
-#include "device/shrc203/simulator/paced_line.h"
 #include "device/shrc203/simulator/program/control_server.h"
 #include "device/shrc203/simulator/program/socket_file.h"
 #include "device/shrc203/simulator/simulator.h"
@@ -103,7 +103,7 @@ Result<std::optional<simulator::SocketFile>> open_control(const std::string& pat
 // The simulated device with its line, and the people at it.
 class Device {
  public:
-  Device(const simulator::Pacing& pacing, const simulator::Options& options, std::shared_ptr<PtyLine> line)
+  Device(const Pacing& pacing, const simulator::Options& options, std::shared_ptr<PtyLine> line)
       : line_(std::move(line)), paced_(pacing, *line_, [&](ByteLink& inside) -> std::unique_ptr<LineMachine> {
           auto made = std::make_unique<simulator::Simulator>(options, inside);
           simulator_ = made.get();
@@ -138,7 +138,7 @@ class Device {
 
   std::shared_ptr<PtyLine> line_;
   simulator::Simulator* simulator_ = nullptr;  // of paced_
-  simulator::PacedLine paced_;
+  PacedLine paced_;
   std::shared_ptr<simulator::ControlServer> server_;
 };
 
@@ -153,7 +153,7 @@ int run(const Arguments& arguments, const simulator::Options& options) {
   if (!opened) return complain(kExitFailed, opened.error());
   const PtyLine& line = **opened;
 
-  const simulator::Pacing pacing{arguments.baud, std::chrono::milliseconds(arguments.reply_delay_ms), arguments.speed};
+  const Pacing pacing{arguments.baud, std::chrono::milliseconds(arguments.reply_delay_ms), arguments.speed};
   Device device(pacing, options, *opened);
   if (*control) device.take_commands((*control)->take_socket());
   signals.async_wait([&](const boost::system::error_code&, int) { device.shutdown(); });
@@ -175,14 +175,15 @@ int main_program(int count, char** words) {
     program.parse(count, words);
   } catch (const CLI::ParseError& error) {
     if (error.get_exit_code() == 0) return program.exit(error);
-    return complain(kExitUsage, {Reason::invalid_request, error.what(), "See --help.", {}, {}, {}});
+    return complain(kExitUsage, {.reason = Reason::invalid_request, .message = error.what(), .hint = "See --help."});
   }
   if (arguments.list_options) {
     list_options();
     return 0;
   }
   if (arguments.pty.empty()) {
-    return complain(kExitUsage, {Reason::invalid_request, "--pty LINK is required", "See --help.", {}, {}, {}});
+    return complain(kExitUsage,
+                    {.reason = Reason::invalid_request, .message = "--pty LINK is required", .hint = "See --help."});
   }
   const auto options = choose_options(arguments);
   if (!options) return complain(kExitUsage, options.error());

@@ -1,0 +1,117 @@
+#include "device/shrc203/command/refusals.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+
+namespace axisgate::shrc203 {
+namespace {
+
+// Manual 5) Q:S numbers the bits; which of the errors BEC: clears says 53).
+template <int kBit>
+constexpr bool bit(const AxisState& axis) {
+  return axis.status.bit(kBit);
+}
+bool busy(const AxisState& axis) { return axis.busy.value_or(false); }
+bool off(const AxisState& axis) { return !axis.excited.value_or(true); }
+bool at_limit(const AxisState& axis) { return axis.status.cw_limit() || axis.status.ccw_limit(); }
+
+// That an error stands against motion, and against what makes ready for it, is a reading: 5) names them and no more.
+bool motion(const CommandRow& row) { return row.moves() || row.effect == Effect::motion_setting || row.needs.excited; }
+bool ready(const CommandRow& row) { return row.needs.ready; }
+bool excited(const CommandRow& row) { return row.needs.excited; }
+bool no_limit(const CommandRow& row) { return row.needs.no_limit; }
+
+constexpr std::string_view kClear = "clear it once it is safe: axisctl clear";
+constexpr std::string_view kRestart =
+    "mend its cause and restart the controller: axisctl reset, or power off and on; `axisctl clear` does not clear it";
+
+constexpr AxisCondition kConditions[] = {
+    {"emergency stop (bit 6)", bit<6>, motion, true, Reason::emergency_stopped, "is in emergency stop",
+     "release the button, then clear it once it is safe: axisctl clear"},
+    {"scale error S1 (bit 3)", bit<3>, motion, true, Reason::device_error, "shows a scale error (S1)", kRestart},
+    {"disconnection error S2 (bit 4)", bit<4>, motion, true, Reason::device_error, "shows that its cable is off (S2)",
+     kRestart},
+    {"hunting error S3 (bit 7)", bit<7>, motion, true, Reason::device_error, "shows a hunting error (S3)", kRestart},
+    {"overflow error S4 (bit 5)", bit<5>, motion, true, Reason::device_error, "shows an overflow error (S4)", kClear},
+    {"limit error S5 (bit 8)", bit<8>, motion, true, Reason::limit_detected, "has met its limit",
+     "clear it (axisctl clear), then move away from it"},
+    {"counter overflow S6 (bit 9)", bit<9>, motion, true, Reason::device_error, "has counted beyond nine digits (S6)",
+     "give the place another coordinate: axisctl zero {}"},
+    {"auto config error (bit 10)", bit<10>, motion, true, Reason::device_error, "shows an auto config error", kRestart},
+    {"system error S7 (bit 13)", bit<13>, motion, true, Reason::device_error, "shows a system error (S7)", kRestart},
+    {"overheat error S10 (bit 15)", bit<15>, motion, true, Reason::device_error,
+     "shows that its driver is too hot (S10)", "let it cool down, then restart the controller: axisctl reset"},
+    {"busy", busy, ready, false, Reason::axis_busy, "is moving", "wait until it stands, or stop it: axisctl stop"},
+    {"excitation off", off, excited, false, Reason::not_excited, "has its motor off",
+     "switch it on: axisctl motor {} on"},
+    {"limit sensor (bits 20, 21)", at_limit, no_limit, false, Reason::limit_detected, "stands at its limit",
+     "move it away from there by itself: axisctl move {}=..."},
+};
+
+Problem told(const AxisCondition& condition, int axis) {
+  return {.reason = condition.reason,
+          .message = fmt::format("axis {} {}", axis, condition.what),
+          .hint = fmt::format(fmt::runtime(condition.hint), axis),
+          .axis = axis};
+}
+
+}  // namespace
+
+std::span<const AxisCondition> axis_conditions() { return kConditions; }
+
+std::optional<Problem> refusal_by(const CommandRow& row, AxisSet axes, const State& state) {
+  for (const AxisCondition& condition : kConditions) {
+    if (!condition.refuses(row)) continue;
+    for (const int axis : axes.list()) {
+      if (condition.shown(state.axis(axis))) return told(condition, axis);
+    }
+  }
+  return {};
+}
+
+std::optional<Problem> start_refused_by(AxisSet axes, const State& state) {
+  return refusal_by(command_row("G:"), axes, state);
+}
+
+std::optional<Problem> busy_shown(AxisSet axes, const State& state) {
+  return refusal_by(command_row("W:"), axes, state);
+}
+
+std::optional<Problem> error_shown(AxisSet axes, const State& state) {
+  for (const AxisCondition& condition : kConditions) {
+    for (const int axis : axes.list()) {
+      if (condition.error && condition.shown(state.axis(axis))) return told(condition, axis);
+    }
+  }
+  return {};
+}
+
+Problem left_over(AxisSet axes) {
+  return {.reason = Reason::left_over_setting,
+          .message = fmt::format(
+              "a prebuffer or jog setting is left over on {} and would run with the next start; no command is "
+              "documented to clear it",
+              to_string(axes)),
+          .hint = "reset the controller (RESET: or power), then home it"};
+}
+
+Problem unexplained(std::string_view sent, AxisSet axes, const State& state) {
+  std::string facts;
+  for (const int number : axes.list()) {
+    const AxisState& axis = state.axis(number);
+    facts += fmt::format("; axis {} is {}, its motor is {}, status {:X}", number,
+                         axis.busy.value_or(false) ? "BUSY" : "READY", axis.excited.value_or(true) ? "on" : "off",
+                         axis.status.raw);
+  }
+  return {.reason = Reason::unexplained,
+          .message =
+              fmt::format("the controller refused {} (NG), and nothing that it tells explains it: mode {}, format {}{}",
+                          sent, state.mode, state.format, facts),
+          .hint = "compare its parameters with `axisctl commands`, and look at the controller's display",
+          .sent = std::string(sent),
+          .wire_reply = "NG"};
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,86 @@
+#include "device/shrc203/kind.h"
+
+#include <array>
+#include <utility>
+
+#include "device/shrc203/controller.h"
+#include "device/shrc203/simulator/control.h"
+#include "device/shrc203/simulator/options.h"
+#include "device/shrc203/simulator/simulator.h"
+#include "device/shrc203/transaction/transaction_lines.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::array<std::string_view, 2> kScopes = {"axis", "controller"};
+constexpr std::array<stage::KindSetting, 3> kSettings = {{
+    {"busy_scope", kScopes, "controller"},
+    {"prebuffer_scope", kScopes, "controller"},
+    {"wait_for_inputs", {}, "false"},
+}};
+
+bool is(const stage::Words& settings, std::string_view key, std::string_view word) {
+  const auto found = settings.find(key);
+  return found != settings.end() && found->second == word;
+}
+
+Scope scope(const stage::Words& settings, std::string_view key) {
+  return is(settings, key, "axis") ? Scope::axis : Scope::controller;
+}
+
+class SimulatedUnit final : public stage::Simulation {
+ public:
+  SimulatedUnit(simulator::Options options, ByteLink& line) : simulator_(std::move(options), line) {}
+
+  void link_up(TimePoint now) override { simulator_.link_up(now); }
+  void link_down(TimePoint now, std::string_view why) override { simulator_.link_down(now, why); }
+  void receive(std::string_view bytes, TimePoint now) override { simulator_.receive(bytes, now); }
+  void advance(TimePoint now) override { simulator_.advance(now); }
+  std::optional<TimePoint> next_deadline() const override { return simulator_.next_deadline(); }
+  Result<std::string> operate(std::string_view command, TimePoint now) override {
+    return simulator::control(simulator_, command, now);
+  }
+
+ private:
+  simulator::Simulator simulator_;
+};
+
+class Shrc203 final : public stage::Kind {
+ public:
+  std::string_view name() const override { return "shrc203"; }
+  std::span<const stage::KindSetting> settings() const override { return kSettings; }
+
+  std::unique_ptr<StageController> make_controller(const stage::Profile& profile, const stage::Words& settings,
+                                                   ByteLink& link, EventSink& events,
+                                                   Permission& permission) const override {
+    Profile own{profile};
+    own.busy_scope = scope(settings, "busy_scope");
+    own.prebuffer_scope = scope(settings, "prebuffer_scope");
+    own.wait_for_inputs = is(settings, "wait_for_inputs", "true");
+    return std::make_unique<Controller>(std::move(own), link, events, permission);
+  }
+
+  Result<void> check_lines(const std::vector<std::string>& lines) const override {
+    const auto commands = shrc203::check_lines(lines);
+    return commands ? Result<void>() : tl::unexpected(commands.error());
+  }
+
+  Result<void> check_option(std::string_view name, std::string_view value) const override {
+    return simulator::Options().set(name, value);
+  }
+
+  std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
+    simulator::Options chosen;
+    for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
+    return std::make_unique<SimulatedUnit>(std::move(chosen), line);
+  }
+};
+
+}  // namespace
+
+const stage::Kind& kind() {
+  static const Shrc203 only;
+  return only;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,122 @@
+#include "device/shrc203/line/barrier.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "device/core/guard.h"
+#include "device/shrc203/command/builders.h"
+#include "device/shrc203/limits.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+using commands::Question;
+
+// ?:CMD answers with a command; no reply of the table looks like one.
+bool is_known_command(std::string_view line) { return parse_command(line).has_value(); }
+
+}  // namespace
+
+Barrier::Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed,
+                 std::function<void(std::string_view)> write)
+    : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), owed_(owed), write_(std::move(write)) {}
+
+void Barrier::start(TimePoint now) {
+  const bool ask = !line_in_doubt_.empty() && guarded(Guard::received_or_not);
+  begin(ask ? Step::echo : Step::identity, now);
+}
+
+void Barrier::restart(TimePoint now) {
+  owe();
+  // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
+  begin(Step::identity, now);
+}
+
+void Barrier::begin(Step step, TimePoint now) {
+  step_ = step;
+  probes_ = 0;
+  older_ = guarded(Guard::older_identities) ? owed_.identities : 0;
+  if (step == Step::silence) {
+    silence_ = guarded(Guard::silence) ? std::max(limits_.silence, 2 * (now - probed_)) : Duration::zero();
+    deadline_ = now + silence_;
+    silence_limit_ = now + kBarrierSilenceLimit;
+  } else {
+    probe(now);
+  }
+}
+
+void Barrier::probe(TimePoint now) {
+  ++probes_;
+  probed_ = now;
+  write_(commands::text(step_ == Step::echo ? Question::previous_command : Question::identity));
+  deadline_ = now + limits_.reply;
+}
+
+void Barrier::owe() {
+  if (!guarded(Guard::owed_answers)) return;
+  if (step_ == Step::echo) ++owed_.echoes;
+  if (step_ == Step::identity) ++owed_.identities;
+}
+
+bool Barrier::is_echo(std::string_view line) const { return line == line_in_doubt_ || is_known_command(line); }
+
+bool Barrier::on_line(std::string_view line, TimePoint now) {
+  if (step_ == Step::echo && is_echo(line)) {
+    // A repeated ?:CMD is answered with the ?:CMD before it.
+    if (line == line_in_doubt_) received_ = true;
+    if (line != line_in_doubt_ && line != commands::text(Question::previous_command)) received_ = false;
+    echo_ = line;
+    begin(Step::identity, now);
+    return true;
+  }
+  if (step_ == Step::identity) {
+    if (older_ > 0 && parse_identity(line)) {
+      --older_;
+      return pay_owed(owed_, line);
+    }
+    if (auto identity = parse_identity(line)) {
+      identity_ = std::move(identity);
+      begin(Step::silence, now);
+      return true;
+    }
+  }
+  const bool owed = pay_owed(owed_, line);
+  silence_broken(now);
+  return owed;
+}
+
+void Barrier::on_half_line(TimePoint now) {
+  if (guarded(Guard::half_lines_break_silence)) silence_broken(now);
+}
+
+void Barrier::silence_broken(TimePoint now) {
+  if (step_ == Step::silence && now < silence_limit_) deadline_ = now + silence_;
+}
+
+void Barrier::advance(TimePoint now) {
+  if (state_ != State::probing || now < deadline_) return;
+  if (step_ == Step::silence) {
+    state_ = now < silence_limit_ ? State::passed : State::failed;
+    return;
+  }
+  owe();
+  if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
+    state_ = State::failed;
+  } else {
+    probe(now);
+  }
+}
+
+bool pay_owed(OwedAnswers& owed, std::string_view line) {
+  if (owed.identities > 0 && parse_identity(line)) {
+    --owed.identities;
+    return true;
+  }
+  if (owed.echoes > 0 && is_known_command(line)) {
+    --owed.echoes;
+    return true;
+  }
+  return false;
+}
+
+}  // namespace axisgate::shrc203

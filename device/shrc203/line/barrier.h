@@ -1,0 +1,89 @@
+// What follows a reply that did not come or could not be read: nothing else is sent before it is certain again whose
+// answers the line carries.
+//
+//   ?:CMD    its answer equal to the line in doubt means that the controller received it, not that it accepted it
+//   *IDN?    the configured controller is there, and every answer before this one has been given
+//   silence  completions excepted, for 50 ms, the time of three longest lines, or twice what the identity took: a slow
+//            controller may still have other answers to give
+//
+// A probe without an answer is repeated, three in all. Each unanswered one is owed: its answer may still come, and is
+// swallowed wherever it appears.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/time.h"
+#include "device/shrc203/command/reply.h"
+
+namespace axisgate::shrc203 {
+
+// Answers to probes that were given up: they may come at any later time.
+struct OwedAnswers {
+  int echoes = 0;
+  int identities = 0;
+};
+
+class Barrier {
+ public:
+  struct Limits {
+    Duration reply;  // for a probe's answer
+    Duration silence;
+  };
+
+  // `line_in_doubt` is empty after a connect: ?:CMD is then not asked. `write` sends one line.
+  Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed, std::function<void(std::string_view)> write);
+
+  void start(TimePoint now);
+  // A Stop was written in between: begin anew.
+  void restart(TimePoint now);
+
+  // A complete line that is no completion. False: nothing waited for it.
+  bool on_line(std::string_view line, TimePoint now);
+  // Part of a line came.
+  void on_half_line(TimePoint now);
+  void advance(TimePoint now);
+  TimePoint next_deadline() const { return deadline_; }
+
+  enum class State { probing, passed, failed };
+  State state() const { return state_; }
+
+  // Whether the controller had received the line in doubt; nothing while ?:CMD has told nothing.
+  std::optional<bool> received() const { return received_; }
+  // What ?:CMD was answered.
+  const std::optional<std::string>& echo() const { return echo_; }
+  const std::optional<Identity>& identity() const { return identity_; }
+
+ private:
+  enum class Step { echo, identity, silence };
+  void begin(Step step, TimePoint now);
+  void probe(TimePoint now);
+  void owe();
+  void silence_broken(TimePoint now);
+  bool is_echo(std::string_view line) const;
+
+  std::string line_in_doubt_;
+  Limits limits_;
+  OwedAnswers& owed_;
+  std::function<void(std::string_view)> write_;
+  State state_ = State::probing;
+  Step step_ = Step::echo;
+  int probes_ = 0;
+  // Identities asked for before this step began, in an earlier barrier or before a Stop: the controller answers in
+  // order, so theirs come first and tell nothing.
+  int older_ = 0;
+  TimePoint deadline_{};
+  TimePoint probed_{};
+  Duration silence_{};
+  TimePoint silence_limit_{};
+  std::optional<bool> received_;
+  std::optional<std::string> echo_;
+  std::optional<Identity> identity_;
+};
+
+// Whether `line` may be the answer to an owed probe; if so it is paid.
+bool pay_owed(OwedAnswers& owed, std::string_view line);
+
+}  // namespace axisgate::shrc203

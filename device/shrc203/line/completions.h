@@ -1,0 +1,59 @@
+// Which axis numbers may come over the line by themselves, and until when. Design: a notice is never taken for a reply.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "device/core/time.h"
+#include "device/shrc203/command/axes.h"
+
+namespace axisgate::shrc203 {
+
+class Completions {
+ public:
+  // After a connect nobody knows what was left running: every axis may complete.
+  void connected();
+
+  // The first byte of HRT:, ZRT: or a G after a prebuffer setting is about to be written.
+  void started(AxisSet axes, TimePoint now);
+
+  // A prebuffer setting for these axes was answered OK_D, or may have been: it begins by itself when what runs has
+  // ended, even before its G.
+  void chained(AxisSet axes, TimePoint now);
+
+  // An axis number came, one for each start, more in a chain.
+  void arrived(int axis);
+
+  // A reading told these axes to be READY, or busy. Those for which it changed anything. An axis that moves may
+  // complete though nothing was started on it: the line may have made another command of one for other axes.
+  AxisSet ready(AxisSet axes, TimePoint now);
+  AxisSet busy(AxisSet axes);
+
+  // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
+  // sent before has come; one that is due no more after READY cannot come any more.
+  void answered(TimePoint written);
+
+  AxisSet possible() const;
+  bool possible(int axis) const { return possible().has(axis); }
+
+  // Axes of which a completion may still come and has not: nothing may start on them, or the late number of one motion
+  // would look like the next one's.
+  AxisSet outstanding() const;
+
+  // From when on an exchange would settle the matter for all of `axes`; nothing while one of them may still be moving.
+  std::optional<TimePoint> settles_from(AxisSet axes) const;
+
+ private:
+  struct Axis {
+    bool possible = false;
+    bool arrived = false;
+    std::optional<TimePoint> started{};  // nothing: before the connect
+    std::optional<TimePoint> until{};    // set by READY
+  };
+  Axis& axis(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
+  const Axis& axis(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }
+
+  std::array<Axis, kAxisCount> axes_;
+};
+
+}  // namespace axisgate::shrc203

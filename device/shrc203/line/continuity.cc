@@ -1,0 +1,84 @@
+#include "device/shrc203/line/continuity.h"
+
+#include <algorithm>
+#include <cctype>
+#include <utility>
+
+#include "device/core/guard.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr std::string_view kQuestion = "?:CMD";
+
+// Others may send what the table here has not (PSET: ...): a verb and its colon (manual 4.).
+bool looks_like_command(std::string_view line) {
+  const auto colon = line.find(':');
+  return colon != std::string_view::npos && colon > 0 &&
+         std::all_of(line.begin(), line.begin() + static_cast<std::ptrdiff_t>(colon),
+                     [](unsigned char c) { return std::isalnum(c) != 0 || c == '?' || c == '!'; });
+}
+
+}  // namespace
+
+void Continuity::connected() {
+  before_.clear();
+  answered_ = true;
+  refused_ = false;
+  open_ = false;
+  question_due_.reset();
+}
+
+void Continuity::begin(TimePoint now) {
+  open_ = false;
+  in_time_ = true;
+  alive_ = now;
+}
+
+void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint now) {
+  // A controller that restarted in the pause before the line now left unanswered would tell that line as well.
+  if (!answered_ && !in_time_) std::erase(before_, newest_);
+  newest_ = line;
+  due_ = now + on_the_wire;
+  if (newest_ == kQuestion && !question_due_) question_due_ = due_;
+  answered_ = false;
+  in_time_ = !due(now);
+  if (in_time_) before_.push_back(newest_);
+}
+
+void Continuity::answered(bool taken, TimePoint now) {
+  alive_ = now;
+  answered_ = true;
+  refused_ = !taken;
+  doubt(!in_time_, due_, now);
+  if (taken) {
+    before_ = {newest_};
+  } else if (std::ranges::find(before_, newest_) == before_.end()) {
+    before_.push_back(newest_);
+  }
+}
+
+void Continuity::doubt(bool strongly, TimePoint due, TimePoint now) {
+  const bool late = now > due + kPause && guarded(Guard::late_answers_hide_restarts);
+  only_late_ = !strongly && (open_ ? only_late_ : late);
+  open_ = open_ || strongly || late;
+}
+
+bool Continuity::tells(std::string_view line) const {
+  return std::ranges::find(before_, line) != before_.end() || looks_like_command(line);
+}
+
+Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now) {
+  const bool refused = std::exchange(refused_, false);
+  const bool known = std::ranges::find(before_, line_before) != before_.end() || (refused && in_time_);
+  const bool foreign = !known && !refused && line_before != kQuestion && looks_like_command(line_before);
+  alive_ = now;
+  answered_ = newest_ == kQuestion;
+  doubt(!known, std::exchange(question_due_, {}).value_or(due_), now);
+  in_time_ = true;
+  before_ = {std::string(kQuestion)};
+  if (newest_ != kQuestion) before_.push_back(newest_);
+  return known ? Verdict::same : foreign ? Verdict::foreign : Verdict::open;
+}
+
+}  // namespace axisgate::shrc203

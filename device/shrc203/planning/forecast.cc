@@ -1,0 +1,214 @@
+#include "device/shrc203/planning/forecast.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <utility>
+
+#include "device/shrc203/planning/arc_lines.h"
+#include "device/shrc203/transaction/transaction_lines.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+bool is_origin_return(const Command& command) {
+  const auto& name = command.row->name;
+  return name == "H:" || name == "HRT:" || name == "Z:" || name == "ZRT:";
+}
+
+}  // namespace
+
+Result<void> Forecast::add(const Command& command) {
+  if (auto good = add_speeds(command); !good) return good;
+  return add_motion(command);
+}
+
+Result<void> Forecast::add_speeds(const Command& command) {
+  for (const auto& [axis, minimum, maximum] : speeds_of(command, controllable_)) {
+    if (const auto good = envelope_.check_axis(axis); !good) return good;
+    // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
+    for (const auto& [asked, set] : {std::pair{minimum, &SpeedSetting::minimum}, {maximum, &SpeedSetting::maximum}}) {
+      if (!asked) continue;
+      const auto speed = envelope_.speed(axis, *asked);
+      if (!speed) return tl::unexpected(speed.error());
+      if (command.row->sets_speeds == SetsSpeeds::of_motion) speeds_[axis].*set = *speed;
+    }
+  }
+  return {};
+}
+
+// That it may be set or started, and where it ends.
+Result<void> Forecast::add_motion(const Command& command) {
+  const AxisSet axes = command.axes(controllable_);
+  if (command.row->name == "GC:") {
+    for (const int axis : axes.list()) std::erase_if(pending_[axis], [](const auto& p) { return !p.lasting; });
+  }
+  if (command.row->effect == Effect::motion_setting) return add_setting(command);
+  if (!command.row->moves()) return {};
+  if (is_origin_return(command)) return add_origin_return(command);
+  if (command.row->needs.mode == Mode::program) return add_program();
+  // A sleeper comes back to its place (manual 47)), and a wait moves nothing before it ends.
+  if (command.row->name == "SLEEP:" || waits_of(command).set) return {};
+  for (const int axis : axes.list()) {
+    if (const auto good = start(axis); !good) return good;
+  }
+  return {};
+}
+
+// The mechanical origin return is how the axis comes to know its places.
+Result<void> Forecast::add_origin_return(const Command& command) {
+  const bool logical = command.row->name.starts_with("Z");
+  for (const int axis : command.axes(controllable_).list()) {
+    Result<void> good = envelope_.check_axis(axis);
+    if (good && logical) good = envelope_.check_homed(axis);
+    if (good && logical) good = envelope_.check_target(axis, 0);
+    if (good && logical) good = envelope_.check_speed(axis, speeds_[axis].maximum);
+    if (!good) return good;
+    at_[static_cast<std::size_t>(axis - 1)] = 0;
+    started_.add(axis);
+    if (good = start(axis); !good) return good;
+  }
+  return {};
+}
+
+Result<void> Forecast::go_to(const Positions& place) {
+  for (const int axis : controllable_.list()) {
+    const auto target = place[static_cast<std::size_t>(axis - 1)];
+    if (!target) continue;
+    Result<void> good = envelope_.check_axis(axis);
+    if (good) good = envelope_.check_homed(axis);
+    if (good) good = envelope_.check_target(axis, *target);
+    if (good) good = envelope_.check_speed(axis, speeds_[axis].maximum);
+    if (!good) return good;
+    at_[static_cast<std::size_t>(axis - 1)] = *target;
+    started_.add(axis);
+  }
+  return {};
+}
+
+// Where a stored program leads is not known.
+Result<void> Forecast::add_program() {
+  for (const int axis : controllable_.list()) {
+    if (envelope_.is_bounded(axis)) {
+      return fail_on(
+          axis, Reason::outside_travel,
+          fmt::format("where a stored program leads is not known, and {} has a travel envelope", envelope_.label(axis)),
+          "give its moves as a path, or have the envelope taken out of the configuration");
+    }
+    at_[static_cast<std::size_t>(axis - 1)].reset();
+  }
+  return {};
+}
+
+// Whether both buffers of one axis run, or which, is an open question: each alone was checked, and here both together;
+// where it is afterwards is not known then.
+Result<void> Forecast::start(int axis) {
+  started_.add(axis);
+  auto& at = at_[static_cast<std::size_t>(axis - 1)];
+  const auto pending = std::exchange(pending_[axis], {});
+  for (const auto& one : pending) {
+    // S may have been set anew since.
+    const auto paced =
+        one.paced_by == 0 ? 0 : std::llround(one.share * static_cast<double>(speeds_[one.paced_by].minimum));
+    if (const auto good = envelope_.check_speed(axis, paced); !good) return good;
+    if (one.relative) {
+      if (const auto good = check_extent(axis, one.extent, one.amount); !good) return good;
+    }
+    at = one.relative ? *at + one.amount : one.amount;
+    if (const auto good = envelope_.check_target(axis, *at); !good) return good;
+  }
+  if (pending.size() > 1 || uncertain_.has(axis)) at.reset();
+  return {};
+}
+
+Result<void> Forecast::add_setting(const Command& command) {
+  const Register reg = command.row->reg;
+  if (reg == Register::e || reg == Register::ep) return add_arc(command);
+  const bool relative = reg != Register::a && reg != Register::ap;
+  const bool line = reg == Register::k || reg == Register::kp;
+  const auto moves = moves_of(command, controllable_);
+  const auto plan = moves.empty() ? MovePlan{} : plan_move(moves, relative, at_, envelope_);
+  if (!plan) return tl::unexpected(plan.error());
+  for (const auto& one : plan->axes) {
+    if (!one.target) {
+      return fail_on(one.axis, Reason::position_unknown,
+                     fmt::format("where {} stands is not known", envelope_.label(one.axis)),
+                     "wait until the device is up");
+    }
+    const SpeedSetting& speed = speeds_[line ? plan->axes.front().axis : one.axis];
+    if (const auto good = envelope_.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
+    const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
+    Pending pending{reg, relative, lasting, one.amount, {}};
+    if (line) pending.paced_by = plan->axes.front().axis;
+    if (const auto good = add_pending(one.axis, pending); !good) return good;
+  }
+  return {};
+}
+
+// The whole curve, and the speed S of its lower axis in every direction (manual 71) to 82)).
+Result<void> Forecast::add_arc(const Command& command) {
+  const auto line = arc_of(command, envelope_);
+  if (!line) return tl::unexpected(line.error());
+  AxisSet axes;
+  for (const int axis : line->axes) {
+    if (axis != 0) axes.add(axis);
+  }
+  if (const auto good = check_scales(axes, envelope_.state()); !good) return good;
+  const ArcEnd end = end_of(line->arc);
+  const std::int64_t speed = speeds_[line->axes[0]].minimum;
+  const double slope = std::abs(line->arc.rise) / std::max(1.0, length_of(line->arc));
+  const std::pair<std::int64_t, Extent> ways[] = {
+      {end.first, line->extent.first}, {end.second, line->extent.second}, {end.third, line->extent.third}};
+  const bool lasting = command.row->reg == Register::ep;
+  for (std::size_t i = 0; i < std::size(ways); ++i) {
+    const int axis = line->axes[i];
+    if (axis == 0) continue;
+    if (auto good = envelope_.check_homed(axis); !good) return good;
+    const auto part = i < 2 ? speed : std::llround(slope * static_cast<double>(speed));
+    if (auto good = envelope_.check_speed(axis, part); !good) return good;
+    // A prebuffer setting may start by itself, and one setting may take another's place: each is checked alone, too.
+    if (auto good = check_extent(axis, ways[i].second, ways[i].first); !good) return good;
+    Pending one{command.row->reg, true, lasting, ways[i].first, ways[i].second};
+    one.paced_by = line->axes[0];
+    one.share = i < 2 ? 1 : slope;
+    if (auto good = add_pending(axis, one); !good) return good;
+  }
+  return {};
+}
+
+Result<void> Forecast::check_extent(int axis, const Extent& extent, std::int64_t end) {
+  const auto& at = at_[static_cast<std::size_t>(axis - 1)];
+  if (!at) {
+    return fail_on(axis, Reason::position_unknown, fmt::format("where {} would be is not known", envelope_.label(axis)),
+                   "send the motion by itself");
+  }
+  for (const auto reached : {extent.lowest, extent.highest, end}) {
+    if (auto good = envelope_.check_target(axis, *at + reached); !good) return good;
+  }
+  return {};
+}
+
+Result<void> Forecast::add_pending(int axis, const Pending& one) {
+  auto& pending = pending_[axis];
+  // The one before may have chained, or not: where this one would start from is not certain.
+  const bool chains = started_.has(axis) && std::ranges::any_of(pending, &Pending::lasting);
+  if (one.lasting && chains) {
+    return fail_on(axis, Reason::invalid_request,
+                   fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(axis)),
+                   "start each with G:, or run a path");
+  }
+  std::erase_if(pending, [&one](const auto& before) { return before.reg == one.reg; });
+  // What belongs to several axes goes for all of them when one is set anew.
+  for (const auto& before : pending) {
+    if (before.paced_by == 0) continue;
+    for (const auto& [other, settings] : pending_) {
+      if (std::ranges::find(settings, before.reg, &Pending::reg) != settings.end()) uncertain_.add(other);
+    }
+  }
+  pending.push_back(one);
+  return {};
+}
+
+}  // namespace axisgate::shrc203

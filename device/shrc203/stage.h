@@ -1,0 +1,17 @@
+// What every stage controller is (device/stage) goes by its own name here, too.
+#pragma once
+
+#include "device/stage/axes.h"
+#include "device/stage/event.h"
+#include "device/stage/motion.h"
+#include "device/stage/permission.h"
+#include "device/stage/profile.h"
+#include "device/stage/requests.h"
+#include "device/stage/state.h"
+#include "device/stage/trigger.h"
+
+namespace axisgate::shrc203 {
+
+using namespace stage;  // NOLINT(google-build-using-namespace)
+
+}  // namespace axisgate::shrc203

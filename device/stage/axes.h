@@ -1,0 +1,43 @@
+// The axes of a stage, and sets of them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace axisgate::stage {
+
+// What the largest controller here has. One with fewer leaves the others out of its controllable axes.
+inline constexpr int kAxisCount = 3;
+
+// A set of axes 1..3.
+class AxisSet {
+ public:
+  constexpr AxisSet() = default;
+  static constexpr AxisSet of(int axis) { return AxisSet(static_cast<std::uint8_t>(1u << (axis - 1))); }
+  static constexpr AxisSet all() { return AxisSet(7); }
+
+  constexpr bool has(int axis) const { return (bits_ >> (axis - 1)) & 1u; }
+  constexpr bool empty() const { return bits_ == 0; }
+  constexpr int count() const { return (bits_ & 1) + ((bits_ >> 1) & 1) + ((bits_ >> 2) & 1); }
+  constexpr int lowest() const { return has(1) ? 1 : has(2) ? 2 : has(3) ? 3 : 0; }
+  constexpr bool contains(AxisSet other) const { return (other.bits_ & ~bits_) == 0; }
+  constexpr bool touches(AxisSet other) const { return (other.bits_ & bits_) != 0; }
+  std::vector<int> list() const;  // ascending
+
+  constexpr void add(int axis) { bits_ |= of(axis).bits_; }
+  constexpr void remove(int axis) { bits_ &= static_cast<std::uint8_t>(~of(axis).bits_); }
+
+  friend constexpr AxisSet operator|(AxisSet a, AxisSet b) { return AxisSet(a.bits_ | b.bits_); }
+  friend constexpr AxisSet operator&(AxisSet a, AxisSet b) { return AxisSet(a.bits_ & b.bits_); }
+  friend constexpr AxisSet operator-(AxisSet a, AxisSet b) { return AxisSet(a.bits_ & ~b.bits_); }
+  friend constexpr bool operator==(AxisSet, AxisSet) = default;
+
+ private:
+  constexpr explicit AxisSet(unsigned bits) : bits_(static_cast<std::uint8_t>(bits)) {}
+  std::uint8_t bits_ = 0;
+};
+
+std::string to_string(AxisSet axes);  // "axis 1", "axes 1 and 3", "no axis", for people
+
+}  // namespace axisgate::stage

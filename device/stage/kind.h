@@ -1,0 +1,60 @@
+// What a kind of stage controller brings along. A controller's folder implements it; server/kinds.cc lists all of them.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/stage/event.h"
+#include "device/stage/permission.h"
+#include "device/stage/profile.h"
+#include "device/stage/stage_controller.h"
+
+namespace axisgate::stage {
+
+// A key of the device's table in the configuration that this kind alone has.
+struct KindSetting {
+  std::string_view key;
+  std::span<const std::string_view> words;  // what it may say; empty: true or false
+  std::string_view otherwise;               // without the key: one of the words, or "true" or "false"
+};
+
+// Words by key: those of KindSettings, or the options of a simulation.
+using Words = std::map<std::string, std::string, std::less<>>;
+
+// A device that exists in this process only.
+class Simulation : public LineMachine {
+ public:
+  // What a person does at the device, and what he sees; the answer is for people. invalid_request.
+  virtual Result<std::string> operate(std::string_view command, TimePoint now) = 0;
+};
+
+// Stateless; from any thread.
+class Kind {
+ public:
+  virtual ~Kind() = default;
+
+  virtual std::string_view name() const = 0;  // what `kind` says in the configuration
+  virtual std::span<const KindSetting> settings() const = 0;
+
+  // `settings` holds a permitted word for each of settings(). The others outlive the controller.
+  virtual std::unique_ptr<StageController> make_controller(const Profile& profile, const Words& settings,
+                                                           ByteLink& link, EventSink& events,
+                                                           Permission& permission) const = 0;
+
+  // A caller's own lines, as far as nothing but the lines themselves tells: malformed_line, unknown_command,
+  // incomplete_transaction, invalid_request.
+  virtual Result<void> check_lines(const std::vector<std::string>& lines) const = 0;
+
+  // One option of a simulation; what is wrong with it names what may be chosen.
+  virtual Result<void> check_option(std::string_view name, std::string_view value) const = 0;
+  // Of checked options. `line` outlives it.
+  virtual std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const = 0;
+};
+
+}  // namespace axisgate::stage

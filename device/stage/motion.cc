@@ -1,0 +1,45 @@
+#include "device/stage/motion.h"
+
+namespace axisgate::stage {
+
+std::string_view name(MotionKind kind) {
+  switch (kind) {
+    case MotionKind::move:
+      return "move";
+    case MotionKind::home:
+      return "home";
+    case MotionKind::return_to_origin:
+      return "return-to-origin";
+    case MotionKind::path:
+      return "path";
+    case MotionKind::execute:
+      return "execute";
+    case MotionKind::jog:
+      return "jog";
+    case MotionKind::scan:
+      return "scan";
+  }
+  return "unspecified";
+}
+
+std::string_view name(MotionState state) {
+  switch (state) {
+    case MotionState::queued:
+      return "QUEUED";
+    case MotionState::running:
+      return "RUNNING";
+    case MotionState::stopping:
+      return "STOPPING";
+    case MotionState::succeeded:
+      return "SUCCEEDED";
+    case MotionState::stopped:
+      return "STOPPED";
+    case MotionState::failed:
+      return "FAILED";
+    case MotionState::unknown:
+      return "UNKNOWN";
+  }
+  return "UNKNOWN";
+}
+
+}  // namespace axisgate::stage

@@ -1,0 +1,59 @@
+// A motion: one thing that a caller asked the stage to do, from the asking to its outcome.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "device/core/time.h"
+#include "device/stage/axes.h"
+
+namespace axisgate::stage {
+
+using MotionId = std::uint64_t;  // 0 is none; counts from 1 as long as the daemon runs
+
+enum class MotionKind { move, home, return_to_origin, path, execute, jog, scan };
+
+// queued: accepted, its starting line not yet written. running: the controller accepted the start.
+// An outcome is one of the last four, and unknown is said when it is so.
+enum class MotionState { queued, running, stopping, succeeded, stopped, failed, unknown };
+
+inline bool is_outcome(MotionState state) { return state >= MotionState::succeeded; }
+
+struct AxisResult {
+  int axis = 0;
+  std::optional<std::int64_t> target_pulses;   // in the frame of the start; nothing before it is known
+  std::optional<std::int64_t> command_pulses;  // the command counter at the end
+  bool completion_seen = false;                // the axis number came over the line
+};
+
+// What a scan came to, in drive pulses of the axis.
+struct ScanResult {
+  std::int64_t run_from = 0, run_to = 0;  // where it set out for its run, and where it came to rest
+  // Trigger pulses due in the whole run and in its range; of scale pulses nothing where the scale's are not known.
+  std::optional<std::int64_t> expected, expected_in_range;
+  std::optional<std::int64_t> observed;  // by the way that the counter was seen to go; nothing before the end
+};
+
+struct Motion {
+  MotionId id = 0;
+  MotionKind kind = MotionKind::move;
+  MotionState state = MotionState::queued;
+  AxisSet axes;
+  std::vector<AxisResult> results;  // one per axis, ascending
+  std::optional<Problem> problem;   // why it failed, was stopped or is unknown
+  std::string who;                  // the caller
+  std::string request_id;
+  TimePoint created{}, started{}, ended{};
+  int segments_total = 0;  // a path's
+  int segments_done = 0;
+  int underruns = 0;
+  std::optional<ScanResult> scan;
+};
+
+std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog", "scan"
+std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...
+
+}  // namespace axisgate::stage

@@ -1,0 +1,26 @@
+#include "device/stage/permission.h"
+
+namespace axisgate::stage {
+namespace {
+
+class EverybodyMay final : public Permission {
+  Result<void> may_use(const Use&, TimePoint) override { return {}; }
+  void begin(const Use&, TimePoint) override {}
+  void end(MotionId, TimePoint) override {}
+  void stop_asked(const Use&, TimePoint) override {}
+  void device_restarted(TimePoint) override {}
+  void settings_changed(std::uint64_t) override {}
+  Orders advance(TimePoint) override { return {}; }
+  void stopped(std::uint64_t, TimePoint) override {}
+  void settings_restored(std::uint64_t, TimePoint) override {}
+  std::optional<TimePoint> next_deadline() const override { return {}; }
+};
+
+}  // namespace
+
+Permission& everybody_may() {
+  static EverybodyMay permission;
+  return permission;
+}
+
+}  // namespace axisgate::stage

@@ -1,0 +1,145 @@
+#include "server/config/axis.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "device/core/quantity.h"
+#include "server/config/name.h"
+#include "server/config/quantity.h"
+#include "server/config/stage.h"
+
+namespace axisgate::server {
+namespace {
+
+using stage::AxisLimits;
+using stage::AxisProfile;
+using stage::NarrowerLimits;
+
+constexpr std::array<std::string_view, 4> kLimitKeys = {"travel_minimum", "travel_maximum", "maximum_speed",
+                                                        "home_first"};
+
+void read_limits(ConfigTable& table, Unit shown, AxisLimits& limits) {
+  read_bounds(table, shown, limits);
+  limits.home_first = table.flag("home_first").value_or(false);
+}
+
+// What is wider than everybody's changes nothing, which nobody would notice.
+void check_narrower(ConfigTable& table, const AxisLimits& own, const AxisLimits& theirs) {
+  const auto refuse_beyond = [&table](std::string_view key, std::optional<bool> beyond) {
+    if (beyond == true) {
+      table.error(key, fmt::format("is beyond the axis's own {}, so it would change nothing", key));
+    }
+  };
+  refuse_beyond("travel_minimum", below(theirs.travel_minimum, own.travel_minimum));
+  refuse_beyond("travel_maximum", below(own.travel_maximum, theirs.travel_maximum));
+  refuse_beyond("maximum_speed", below(own.maximum_speed, theirs.maximum_speed));
+  if (below(theirs.travel_minimum, own.travel_maximum) == false) {
+    table.error("travel_minimum", "must be below the axis's own travel_maximum");
+  }
+  if (below(own.travel_minimum, theirs.travel_maximum) == false) {
+    table.error("travel_maximum", "must be above the axis's own travel_minimum");
+  }
+  if (table.has("home_first") && !theirs.home_first) {
+    table.error("home_first", "can only be true here, since limits for some are never wider; leave it out");
+  }
+}
+
+// Why limits cannot mean that caller; empty where they can. Only the very name that the daemon knows a caller by will
+// do: any other would mean nobody.
+std::string wrong_with_caller(std::string_view whose) {
+  if (whose == "observer" || whose == "nobody") return "moves nothing anyway";
+  const auto blank = whose.find(' ');
+  const std::string_view way = whose.substr(0, blank);
+  const std::string_view name = blank == std::string_view::npos ? "" : whose.substr(blank + 1);
+  if (way == "tcp") return "is known by an address only, which whoever is on this machine may have";
+  const bool known = way == "unix" || way == "cert" || way == "token";
+  if (!known) return "is neither a role nor a caller as the daemon names them";
+  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+  if (name.empty() || name.front() == ' ' || name.back() == ' ' || !std::ranges::all_of(name, printable)) {
+    return "names nobody";
+  }
+  if (way == "token" && !is_name(name)) return "is not a token's name";
+  const bool login = name.find(' ') == std::string_view::npos || name.starts_with("uid ");
+  return way == "unix" && !login ? "is not a login" : "";
+}
+
+std::string read_whose(ConfigTable& table) {
+  constexpr std::string_view kAllowed =
+      "a role, \"operator\" or \"admin\", or a caller, \"unix LOGIN\", \"cert NAME\" or \"token NAME\"";
+  const std::optional<std::string> whose = table.text("whose");
+  if (!whose && !table.has("whose")) table.missing("whose", kAllowed);
+  if (!whose || *whose == "operator" || *whose == "admin") return whose.value_or("");
+  if (const std::string wrong = wrong_with_caller(*whose); !wrong.empty()) {
+    table.error("whose", fmt::format("\"{}\" {}; use {}", *whose, wrong, kAllowed));
+  }
+  return *whose;
+}
+
+AxisProfile read_axis(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors) {
+  AxisProfile axis;
+  axis.name = table.text("name").value_or("");
+  if (!axis.name.empty() && !is_name(axis.name)) {
+    table.error("name", fmt::format("\"{}\" is not a name; use {}", axis.name, kNameRule));
+  }
+  const std::optional<Stage> stage = read_stage(table, file, errors);
+  if (stage) {
+    axis.unit = unit_on(table, *stage);
+  } else {
+    // The axis's own amounts are not to blame where its profile cannot be read.
+    axis.unit = read_unit(table, "unit").value_or(table.has("stage") ? Unit::pulses : axis.unit);
+  }
+  read_limits(table, axis.unit, axis);
+  if (stage) put_on_stage(table, *stage, axis);
+  return axis;
+}
+
+NarrowerLimits read_narrower(ConfigTable& table, const AxisProfile& axis) {
+  NarrowerLimits narrower;
+  narrower.whose = read_whose(table);
+  read_limits(table, axis.unit, narrower);
+  if (axis.stage) check_whole_pulses(table, *axis.stage, narrower);
+  if (std::ranges::none_of(kLimitKeys, [&](std::string_view key) { return table.has(key); })) {
+    table.error("whose", fmt::format("is limited in nothing; give some of {}", fmt::join(kLimitKeys, ", ")));
+  }
+  check_narrower(table, axis, narrower);
+  const bool twice = std::ranges::find(axis.narrower, narrower.whose, &NarrowerLimits::whose) != axis.narrower.end();
+  if (twice && !narrower.whose.empty()) {
+    table.error("whose",
+                fmt::format("\"{}\" has narrower limits of this axis already; put them together", narrower.whose));
+  }
+  table.refuse_unknown();
+  return narrower;
+}
+
+}  // namespace
+
+void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
+               std::array<AxisProfile, stage::kAxisCount>& axes) {
+  std::set<std::int64_t> numbers;
+  std::set<std::string> names;
+  for (const toml::table* source : device.tables("axis")) {
+    ConfigTable table(*source, "device.axis", file, errors);
+    const std::optional<std::int64_t> number = table.integer("number", 1, stage::kAxisCount);
+    if (!number && !table.has("number")) table.missing("number", "1, 2 or 3");
+    if (number && !numbers.insert(*number).second) {
+      table.error("number", fmt::format("{} is the number of another axis of this device, too", *number));
+    }
+    AxisProfile axis = read_axis(table, file, errors);
+    if (!axis.name.empty() && !names.insert(axis.name).second) {
+      table.error("name", fmt::format("\"{}\" is the name of another axis of this device, too", axis.name));
+    }
+    for (const toml::table* narrower : table.tables("narrower")) {
+      ConfigTable whose(*narrower, "device.axis.narrower", file, errors);
+      axis.narrower.push_back(read_narrower(whose, axis));
+    }
+    if (number) axes[static_cast<std::size_t>(*number - 1)] = std::move(axis);
+    table.refuse_unknown();
+  }
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,18 @@
+// The tables [[device.axis]] of the configuration: names, units, and the travel envelope.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "device/config/config_table.h"
+#include "device/stage/profile.h"
+#include "server/config/config.h"
+
+namespace axisgate::server {
+
+// Those of the table `device`. An axis without one stays as it is.
+void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigError>& errors,
+               std::array<stage::AxisProfile, stage::kAxisCount>& axes);
+
+}  // namespace axisgate::server

@@ -1,0 +1,181 @@
+#include "server/config/text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "device/core/quantity.h"
+#include "server/config/words.h"
+
+namespace axisgate::server {
+namespace {
+
+std::string in_quotes(std::string_view text) {
+  std::string toml = "\"";
+  for (const char byte : text) {
+    if (byte == '"' || byte == '\\') {
+      toml += fmt::format("\\{}", byte);
+    } else if (static_cast<unsigned char>(byte) < 0x20 || byte == 0x7f) {
+      toml += fmt::format("\\u{:04x}", static_cast<unsigned>(byte));
+    } else {
+      toml += byte;
+    }
+  }
+  return toml + "\"";
+}
+
+template <class Words, class Value>
+std::string word(const Words& words, Value value) {
+  const auto found = std::find_if(words.begin(), words.end(), [&](const auto& pair) { return pair.second == value; });
+  return in_quotes(found->first);
+}
+
+class TomlWriter {
+ public:
+  void table(std::string_view header) { text_ += fmt::format("\n{}\n", header); }
+  void key(std::string_view name, std::string_view value) { text_ += fmt::format("{} = {}\n", name, value); }
+  void text(std::string_view name, std::string_view value) { key(name, in_quotes(value)); }
+  void number(std::string_view name, std::int64_t value) { key(name, fmt::to_string(value)); }
+  void milliseconds(std::string_view name, Duration value) {
+    number(name, std::chrono::duration_cast<std::chrono::milliseconds>(value).count());
+  }
+  void quantity(std::string_view name, const std::optional<Quantity>& value, std::string_view per = "") {
+    if (value) text(name, fmt::format("{}{}{}", to_string(value->value), symbol(value->unit), per));
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+void write(TomlWriter& out, const NetworkConfig& network) {
+  out.table("[network]");
+  out.text("listen", to_string(network.listen));
+  out.text("certificate", network.certificate);
+  out.text("key", network.key);
+  if (!network.client_ca.empty()) out.text("client_ca", network.client_ca);
+}
+
+void write(TomlWriter& out, const AccessConfig& access) {
+  out.table("[access]");
+  out.key("local", word(kRoles, access.local));
+  out.key("certificates", word(kRoles, access.certificates));
+  std::string commands, roles;
+  for (const std::string& command : access.admin_commands) {
+    commands += fmt::format("{}{}", commands.empty() ? "" : ", ", in_quotes(command));
+  }
+  for (const auto& [who, role] : access.roles) {
+    roles += fmt::format("{}{} = {}", roles.empty() ? "" : ", ", in_quotes(who), word(kRoles, role));
+  }
+  out.key("admin_commands", fmt::format("[{}]", commands));
+  if (!roles.empty()) out.key("roles", fmt::format("{{ {} }}", roles));
+}
+
+void write(TomlWriter& out, const LimitsConfig& limits) {
+  out.table("[limits]");
+  out.number("connections", limits.connections);
+  out.number("streams", limits.streams);
+  out.number("calls", limits.calls);
+  out.number("message_bytes", limits.message_bytes);
+}
+
+void write(TomlWriter& out, const SerialSettings& serial, const stage::Profile& profile) {
+  out.text("connection", "serial");
+  out.text("path", serial.path);
+  out.number("baud", profile.baud);
+  out.key("parity", word(kParities, serial.parity));
+  out.number("stop_bits", serial.stop_bits);
+  out.key("flow_control", word(kFlowControls, serial.flow));
+  if (!profile.serial_number.empty()) out.text("serial_number", profile.serial_number);
+}
+
+void write(TomlWriter& out, const TcpSettings& tcp, const stage::Profile& profile) {
+  out.text("connection", "tcp");
+  out.text("host", tcp.host);
+  out.number("port", tcp.port);
+  out.number("baud", profile.baud);
+  if (!profile.serial_number.empty()) out.text("serial_number", profile.serial_number);
+}
+
+void write(TomlWriter& out, const SimulatedConnection& simulated, const stage::Profile& profile) {
+  out.text("connection", "simulated");
+  out.key("speed", fmt::to_string(simulated.speed));
+  if (simulated.paced) out.number("baud", profile.baud);
+  std::string options;
+  for (const auto& [name, value] : simulated.options) {
+    options += fmt::format("{}{} = {}", options.empty() ? "" : ", ", in_quotes(name), in_quotes(value));
+  }
+  if (!options.empty()) out.key("options", fmt::format("{{ {} }}", options));
+}
+
+void write_limits(TomlWriter& out, const stage::AxisLimits& limits) {
+  out.quantity("travel_minimum", limits.travel_minimum);
+  out.quantity("travel_maximum", limits.travel_maximum);
+  out.quantity("maximum_speed", limits.maximum_speed, "/s");
+  if (limits.home_first) out.key("home_first", "true");
+}
+
+void write(TomlWriter& out, const stage::StageProfile& stage) {
+  const Unit unit = stage.pulse.rotary ? Unit::degrees : Unit::nanometers;
+  out.table("[device.axis.stage]");
+  out.text("name", stage.model);
+  out.key("kind", word(kStageKinds, stage.pulse.rotary));
+  out.quantity("pulse", Quantity{from_pulses(1, unit, stage.pulse).value_or(Decimal{}), unit});
+  if (stage.modulo) out.quantity("modulo", Quantity{*stage.modulo, Unit::degrees});
+}
+
+void write(TomlWriter& out, int number, const stage::AxisProfile& axis) {
+  out.table("[[device.axis]]");
+  out.number("number", number);
+  if (!axis.name.empty()) out.text("name", axis.name);
+  out.text("unit", symbol(axis.unit));
+  write_limits(out, axis);
+  if (axis.stage) write(out, *axis.stage);
+  for (const stage::NarrowerLimits& narrower : axis.narrower) {
+    out.table("[[device.axis.narrower]]");
+    out.text("whose", narrower.whose);
+    write_limits(out, narrower);
+  }
+}
+
+void write(TomlWriter& out, const stage::Kind& kind, const stage::Words& settings) {
+  for (const stage::KindSetting& setting : kind.settings()) {
+    const std::string& word = settings.at(std::string(setting.key));
+    out.key(setting.key, setting.words.empty() ? word : in_quotes(word));
+  }
+}
+
+void write(TomlWriter& out, const DeviceConfig& device) {
+  const stage::Profile& profile = device.profile;
+  out.table("[[device]]");
+  out.text("name", profile.name);
+  if (device.kind != nullptr) out.text("kind", device.kind->name());
+  std::visit([&](const auto& connection) { write(out, connection, profile); }, device.connection);
+  if (device.kind != nullptr) write(out, *device.kind, device.kind_settings);
+  out.key("at_exit", word(kAtExit, profile.at_exit));
+  out.key("settings_at_lease_end", word(kAtLeaseEnd, profile.settings_at_lease_end));
+  out.milliseconds("reply_limit_ms", profile.reply_limit);
+  out.milliseconds("idle_poll_ms", profile.idle_poll);
+  out.milliseconds("moving_poll_ms", profile.moving_poll);
+  if (!device.record.empty()) out.text("record", device.record);
+  int number = 0;
+  for (const stage::AxisProfile& axis : profile.axes) write(out, ++number, axis);
+}
+
+}  // namespace
+
+std::string to_toml(const Config& config) {
+  TomlWriter out;
+  out.text("listen", to_string(config.listen));
+  out.text("socket", config.socket);
+  out.text("metrics", to_string(config.metrics));
+  if (config.network) write(out, *config.network);
+  write(out, config.access);
+  write(out, config.limits);
+  for (const DeviceConfig& device : config.devices) write(out, device);
+  return out.take();
+}
+
+}  // namespace axisgate::server

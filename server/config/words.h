@@ -1,0 +1,26 @@
+// The words that the configuration has for what is chosen.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "device/link/serial_port.h"
+#include "device/stage/profile.h"
+#include "server/access/roles.h"
+
+namespace axisgate::server {
+
+inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
+    {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
+inline constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
+    {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, bool>, 2> kStageKinds = {{{"linear", false}, {"rotary", true}}};
+inline constexpr std::array<std::pair<std::string_view, Role>, 4> kRoles = {
+    {{"nobody", Role::nobody}, {"observer", Role::observer}, {"operator", Role::operator_}, {"admin", Role::admin}}};
+inline constexpr std::array<std::pair<std::string_view, stage::AtExit>, 2> kAtExit = {
+    {{"stop", stage::AtExit::stop}, {"finish", stage::AtExit::finish}}};
+inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> kAtLeaseEnd = {
+    {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
+
+}  // namespace axisgate::server

@@ -1,0 +1,34 @@
+#include "server/connections/descriptor_limit.h"
+
+#include <sys/resource.h>
+
+#include <algorithm>
+
+namespace axisgate::server {
+namespace {
+
+// Each costs some 100 kB.
+constexpr std::size_t kConnectionsMax = 4096;
+// An idle daemon with one device has about 40 open, the reserve's among them.
+constexpr std::size_t kSetAside = 192;
+
+}  // namespace
+
+std::size_t connections_within(std::size_t descriptors) {
+  // Where hardly any are allowed, half of them serves better than none; the reserve remains when they run out.
+  const std::size_t left = descriptors > 2 * kSetAside ? descriptors - kSetAside : descriptors / 2;
+  return std::min(left, kConnectionsMax);
+}
+
+std::size_t raise_descriptor_limit() {
+  constexpr rlim_t kUseful = kConnectionsMax + kSetAside;
+  rlimit limit{};
+  ::getrlimit(RLIMIT_NOFILE, &limit);
+  if (limit.rlim_cur < kUseful && limit.rlim_cur < limit.rlim_max) {
+    rlimit raised{std::min(kUseful, limit.rlim_max), limit.rlim_max};
+    if (::setrlimit(RLIMIT_NOFILE, &raised) == 0) limit = raised;
+  }
+  return connections_within(limit.rlim_cur);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,113 @@
+#include "server/devices/device_events.h"
+
+#include <spdlog/spdlog.h>
+
+#include <chrono>
+#include <utility>
+
+#include "device/core/escape.h"
+#include "server/explain.h"
+
+namespace axisgate::server {
+namespace {
+
+constexpr Duration kStrangeLinePause = std::chrono::seconds(1);
+
+std::string because(const std::optional<Problem>& problem) {
+  return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
+}
+
+}  // namespace
+
+DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
+                           OnDue due)
+    : device_(std::move(device)), bus_(bus), metrics_(metrics), recorder_(recorder), due_(std::move(due)) {}
+
+void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
+  metrics_.on_event(event);
+  recorder_.on_event(event, now);
+  std::visit([&](const auto& what) { tell(what, now); }, event);
+}
+
+std::uint64_t DeviceEvents::motion_revision(stage::MotionId motion) const {
+  const auto found = revisions_.find(motion);
+  return found == revisions_.end() ? 0 : found->second;
+}
+
+void DeviceEvents::tell(const stage::MotionChanged& change, TimePoint now) {
+  const stage::Motion& motion = change.motion;
+  revisions_[motion.id] = publish(change, now);
+  if (revisions_.size() > kMotionsRemembered) revisions_.erase(revisions_.begin());
+  if (motion.state == stage::MotionState::queued || motion.state == stage::MotionState::stopping) return;
+  const bool well = motion.state == stage::MotionState::running || motion.state == stage::MotionState::succeeded;
+  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({} of {}, asked by {}) is {}{}",
+              device_, motion.id, stage::name(motion.kind), to_string(motion.axes), escaped(motion.who),
+              stage::name(motion.state), because(motion.problem));
+}
+
+void DeviceEvents::tell(const stage::LinkChanged& change, TimePoint now) {
+  due_(Due::state);
+  if (link_ && link_->link == change.link && link_->why == change.why) return;
+  link_ = change;
+  publish(change, now);
+  const bool well = change.link == stage::LinkState::up || change.link == stage::LinkState::connecting;
+  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: link is {}{}{}", device_, stage::name(change.link),
+              change.why.empty() ? "" : ": ", change.why);
+}
+
+void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
+  publish(stop, now);
+  spdlog::warn("{}: {} of {} asked by {}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
+               escaped(stop.who));
+}
+
+void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {
+  publish(motion, now);
+  spdlog::warn(
+      "{}: FOREIGN_MOTION: {} moves, and nobody asked for it here: the front panel, or a gateway before this one",
+      device_, to_string(motion.axes));
+}
+
+void DeviceEvents::tell(const stage::SwitchesChanged& change, TimePoint now) {
+  publish(change, now);
+  for (const auto& one : change.changes) {
+    spdlog::warn("{}: memory switch {} of item {} is {} for good, and was {} (MS:, by {})", device_, one.number,
+                 one.item, escaped(one.after), escaped(one.before), escaped(change.who));
+  }
+  if (!change.unknown) return;
+  spdlog::warn("{}: memory switches may be others for good, and nobody can tell which (MS:, by {}): compare them",
+               device_, escaped(change.who));
+}
+
+void DeviceEvents::tell(const stage::ProgramNotice& notice, TimePoint now) {
+  publish(notice, now);
+  if (notice.kind == stage::ProgramNotice::Kind::ended) spdlog::info("{}: a program has ended (COMP)", device_);
+}
+
+void DeviceEvents::tell(const stage::PathProgress& progress, TimePoint now) {
+  publish(progress, now);
+  if (progress.step != stage::PathProgress::Step::underrun) return;
+  spdlog::warn("{}: motion {}: underrun before segment {}: the chain had ended, the path goes on from rest", device_,
+               progress.motion, progress.segment);
+}
+
+void DeviceEvents::tell(const stage::BarrierEntered& barrier, TimePoint) {
+  spdlog::warn("{}: replies cannot be trusted until the barrier has passed: {}", device_, barrier.why);
+}
+
+void DeviceEvents::tell(const stage::UnexpectedLine& line, TimePoint now) {
+  if (now < next_strange_line_) {
+    ++strange_lines_untold_;
+    return;
+  }
+  spdlog::warn("{}: dropped a line that nothing waited for: \"{}\" ({} more since the last such message)", device_,
+               escaped(line.text), strange_lines_untold_);
+  next_strange_line_ = now + kStrangeLinePause;
+  strange_lines_untold_ = 0;
+}
+
+std::uint64_t DeviceEvents::publish(Fact fact, TimePoint now) {
+  return bus_.publish(device_, std::move(fact), to_wall(now), now);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,68 @@
+// Where one device's news go: the event bus, the metrics, the recorder and the log.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "device/stage/event.h"
+#include "server/events/event_bus.h"
+#include "server/metrics/metrics.h"
+#include "server/recording/recorder.h"
+
+namespace axisgate::server {
+
+// Called on the device's strand, as EventSink demands.
+class DeviceEvents : public stage::EventSink {
+ public:
+  // What the listener owes after an event: `queues` or the whole `state` changed. Called from within on_event().
+  enum class Due { queues, state };
+  using OnDue = std::function<void(Due)>;
+
+  // `bus`, `metrics` and `recorder` outlive this.
+  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder, OnDue due);
+
+  void on_event(const stage::Event& event, TimePoint now) override;
+
+  // The revision of the newest fact about a motion; 0 when there is none or it is long ago.
+  std::uint64_t motion_revision(stage::MotionId motion) const;
+
+ private:
+  // Revisions of this many motions are remembered; more than the controller keeps motions.
+  static constexpr std::size_t kMotionsRemembered = 4096;
+
+  void tell(const stage::MotionChanged& change, TimePoint now);
+  void tell(const stage::LinkChanged& change, TimePoint now);
+  void tell(const stage::StopRequested& stop, TimePoint now);
+  void tell(const stage::ForeignMotion& motion, TimePoint now);
+  void tell(const stage::SwitchesChanged& change, TimePoint now);
+  void tell(const stage::ProgramNotice& notice, TimePoint now);
+  void tell(const stage::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
+  void tell(const stage::PathProgress& progress, TimePoint now);
+  void tell(const stage::BarrierEntered& barrier, TimePoint now);
+  void tell(const stage::LineLearned&, TimePoint) {}
+  void tell(const stage::UnexpectedLine& line, TimePoint now);
+  void tell(const stage::BytesWritten&, TimePoint) {}
+  void tell(const stage::BytesReceived&, TimePoint) {}
+  void tell(const stage::TimeLimitPassed&, TimePoint) {}
+  void tell(const stage::ExchangeEnded&, TimePoint) { due_(Due::queues); }
+  void tell(const stage::StateChanged&, TimePoint) { due_(Due::state); }
+
+  std::uint64_t publish(Fact fact, TimePoint now);
+
+  const std::string device_;
+  EventBus& bus_;
+  DeviceMetrics& metrics_;
+  DeviceRecorder& recorder_;
+  const OnDue due_;
+  std::map<stage::MotionId, std::uint64_t> revisions_;
+  // A line that stays away is tried again and again: the same news of it is told once.
+  std::optional<stage::LinkChanged> link_;
+  // A chattering line must not fill the disk: one log line a second, and how many were left out.
+  TimePoint next_strange_line_{};
+  std::uint64_t strange_lines_untold_ = 0;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,36 @@
+// What lies under a device's Runner: a serial port, a serial server, or the built-in simulator at the other end of a
+// socket pair.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "device/core/problem.h"
+#include "device/link/runner.h"
+#include "server/config/config.h"
+
+namespace axisgate::server {
+
+// Used by one Device, which outlives neither this nor the strand's io_context.
+class Line {
+ public:
+  virtual ~Line() = default;
+
+  virtual Opener opener() = 0;
+  virtual const std::string& description() const = 0;  // for the log: "/dev/ttyUSB0 at 38400 baud"
+
+  virtual void start() = 0;
+  virtual void shutdown() = 0;
+
+  // What a person does at a simulated device, and what he sees (stage::Simulation), from any thread;
+  // `done` is called on the simulator's strand, or at once where the device is not simulated: invalid_request. After
+  // shutdown() it is dropped.
+  using OnOperated = std::function<void(const Result<std::string>& answer)>;
+  virtual void operate(std::string command, OnOperated done);
+};
+
+// `strand` is the simulator's.
+std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand);
+
+}  // namespace axisgate::server

@@ -1,0 +1,27 @@
+// The connections on the metrics page: asked for as the page is, since gRPC closes them and tells nobody.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+#include "server/connections/acceptor.h"
+#include "server/metrics/metrics.h"
+
+namespace axisgate::server {
+
+class ConnectionMetrics {
+ public:
+  // `ask` is called from the page's threads, as long as this lives.
+  ConnectionMetrics(Metrics& metrics, std::function<ConnectionCounts()> ask);
+  // Waits for a page that is being made.
+  ~ConnectionMetrics();
+  ConnectionMetrics(const ConnectionMetrics&) = delete;
+  ConnectionMetrics& operator=(const ConnectionMetrics&) = delete;
+
+ private:
+  class Part;
+
+  const std::shared_ptr<Part> part_;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,49 @@
+#include "server/recording/recorder.h"
+
+#include <fmt/chrono.h>
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+#include "device/link/clock.h"
+
+namespace axisgate::server {
+namespace {
+
+// Copied while the strand may wait: some microseconds.
+constexpr std::size_t kPortionBytes = 16 << 10;
+
+}  // namespace
+
+stage::RecordingHeader recording_header(const stage::Profile& profile) {
+  stage::RecordingHeader header;
+  header.device = profile.name;
+  header.serial_number = profile.serial_number;
+  header.baud = profile.baud;
+  header.reply_limit = profile.reply_limit;
+  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
+  header.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+  return header;
+}
+
+DeviceRecorder::DeviceRecorder(const stage::RecordingHeader& header, Executor readers, DeviceMetrics& metrics,
+                               std::size_t bytes_kept)
+    : metrics_(metrics),
+      ring_(header, std::move(readers), bytes_kept),
+      recorder_(header, monotonic_now(), [this](const std::string& line) { ring_.append(line); }) {}
+
+RecordingRing::Beginning DeviceRecorder::begin() {
+  flush();
+  return {to_text(recorder_.header()), ring_.newest()};
+}
+
+std::string DeviceRecorder::Reader::next() {
+  RecordingRing::Reading reading = recorder_.ring_.read(position_, kPortionBytes);
+  position_ = reading.next;
+  if (reading.lost == 0) return std::move(reading.text);
+  recorder_.metrics_.count_recorder_drops(reading.lost);
+  return fmt::format("# {} lines lost: the reader was too slow\n", reading.lost) + reading.text;
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,99 @@
+#include "server/recording/recording_file.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <utility>
+
+namespace axisgate::server {
+namespace {
+
+constexpr mode_t kMode = 0640;  // it tells who asked for what
+
+}  // namespace
+
+RecordingFile::RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause,
+                             RecordingRing::Beginning beginning)
+    : path_(std::move(path)),
+      retry_pause_(retry_pause),
+      reader_(recorder, beginning.position),
+      due_(std::move(beginning.header)),
+      subscription_(recorder.subscribe([this] {
+        {
+          const std::lock_guard lock(mutex_);
+          news_ = true;
+        }
+        changed_.notify_all();
+      })),
+      thread_([this] { run(); }) {}
+
+RecordingFile::~RecordingFile() {
+  subscription_.reset();
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+void RecordingFile::run() {
+  for (bool more = true; more;) {
+    more = wait();
+    if (!file_.valid() && !open()) continue;
+    do {
+      if (due_.empty()) due_ = reader_.next();
+    } while (!due_.empty() && write_due());
+  }
+}
+
+// For something to write or, where that failed, for a better time. False: it is the last time.
+bool RecordingFile::wait() {
+  std::unique_lock lock(mutex_);
+  if (complaint_.empty()) {
+    changed_.wait(lock, [this] { return news_ || ending_; });
+  } else {
+    changed_.wait_for(lock, retry_pause_, [this] { return ending_; });
+  }
+  news_ = false;
+  return !ending_;
+}
+
+bool RecordingFile::open() {
+  file_ = Descriptor(::open(path_.c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, kMode));
+  if (!file_.valid()) {
+    complain("opened");
+    return false;
+  }
+  // A daemon that was killed may have left half a line, which the head must not go on.
+  if (::lseek(file_.get(), 0, SEEK_END) > 0) due_.insert(0, "\n");
+  return true;
+}
+
+bool RecordingFile::write_due() {
+  while (!due_.empty()) {
+    const ssize_t written = ::write(file_.get(), due_.data(), due_.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0) {
+      complain("written to");
+      return false;
+    }
+    due_.erase(0, static_cast<std::size_t>(written));
+  }
+  if (!complaint_.empty()) spdlog::info("the recording {} is written again", path_);
+  complaint_.clear();
+  return true;
+}
+
+void RecordingFile::complain(const char* what) {
+  std::string complaint = fmt::format("the recording {} cannot be {}: {}", path_, what, std::strerror(errno));
+  if (complaint != complaint_) spdlog::warn("{}; trying again", complaint);
+  complaint_ = std::move(complaint);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,53 @@
+// A file to which the daemon records a device's line.
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include "device/core/time.h"
+#include "device/link/descriptor.h"
+#include "server/recording/recorder.h"
+
+namespace axisgate::server {
+
+// Appends on a thread of its own, which reads the recording as any reader does: a disk that is slow or full holds up
+// nothing else, and what it cost is told in the file and counted. A file that cannot be written is tried again every
+// few seconds; the log says why.
+class RecordingFile {
+ public:
+  static constexpr Duration kRetryPause = std::chrono::seconds(5);
+
+  // Of all that is kept. `recorder` outlives this.
+  RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause = kRetryPause)
+      : RecordingFile(std::move(path), recorder, retry_pause, recorder.ring().oldest()) {}
+  // Writes what has been recorded until now, if it can be written.
+  ~RecordingFile();
+
+ private:
+  RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause, RecordingRing::Beginning beginning);
+  void run();
+  bool wait();
+  bool open();
+  bool write_due();
+  void complain(const char* what);
+
+  const std::string path_;
+  const Duration retry_pause_;
+  DeviceRecorder::Reader reader_;
+  Descriptor file_;
+  std::string due_;        // read, and not written yet
+  std::string complaint_;  // what the log was told last; empty: all is well
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool news_ = true;
+  bool ending_ = false;
+  std::unique_ptr<WakeUps::Subscription> subscription_;
+  std::thread thread_;
+};
+
+}  // namespace axisgate::server
