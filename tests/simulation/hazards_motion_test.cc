@@ -241,6 +241,29 @@ TEST(Hazard, H44_LimitStopIsNoSuccess) {
   EXPECT_EQ(reason_of(motion), Reason::limit_detected);
 }
 
+// A straight line that is set anew for other axes takes the place of the whole one before (manual 2. 2), 24)): the axis
+// that it no longer names stays, and that is where its next way begins.
+TEST(Motions, ALineSetAnewForOtherAxes) {
+  auto setup = quiet();
+  setup.profile.axes[1].travel_minimum = pulses(-500'000);
+  setup.profile.axes[1].travel_maximum = pulses(500'000);
+  World world(setup);
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const std::vector<std::string> lines = {"K:A+P100-P300000", "K:B+P50+P70", "G:D"};
+  EXPECT_THAT(execute(world, lines), ElementsAre("OK", "OK", "OK")) << world.replay();
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  EXPECT_EQ(world.device().position(1), 50);
+  EXPECT_EQ(world.device().position(2), 0);
+  EXPECT_EQ(world.device().position(3), 70);
+  const std::size_t first = world.wire().commands().size();
+  auto further = lines;
+  further.insert(further.end(), {"MP:2+P700000", "G:2"});
+  EXPECT_THAT(execute(world, further), ElementsAre("OUTSIDE_TRAVEL"));
+  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::outside_travel);
+  EXPECT_EQ(motion_lines(world, first), 0) << world.replay();
+  EXPECT_EQ(world.device().position(2), 0);
+}
+
 // The speed of a move stays in the controller when the line is lost under it: the next one runs at the old one.
 TEST(Hazard, H28_SpeedsOfAMotionWhoseLineWasLost) {
   World world(quiet());

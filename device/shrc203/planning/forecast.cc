@@ -14,8 +14,7 @@ namespace axisgate::shrc203 {
 namespace {
 
 bool is_origin_return(const Command& command) {
-  const auto& name = command.row->name;
-  return name == "H:" || name == "HRT:" || name == "Z:" || name == "ZRT:";
+  return command.row->meaning == Meaning::mechanical_return || command.row->meaning == Meaning::logical_return;
 }
 
 }  // namespace
@@ -42,24 +41,24 @@ Result<void> Forecast::add_speeds(const Command& command) {
 // That it may be set or started, and where it ends.
 Result<void> Forecast::add_motion(const Command& command) {
   const AxisSet axes = command.axes(controllable_);
-  if (command.row->name == "GC:") {
-    for (const int axis : axes.list()) std::erase_if(pending_[axis], [](const auto& p) { return !p.lasting; });
-  }
+  if (command.row->meaning == Meaning::clear_setpoints) delete_settings(axes);
   if (command.row->effect == Effect::motion_setting) return add_setting(command);
   if (!command.row->moves()) return {};
   if (is_origin_return(command)) return add_origin_return(command);
   if (command.row->needs.mode == Mode::program) return add_program();
   // A sleeper comes back to its place (manual 47)), and a wait moves nothing before it ends.
-  if (command.row->name == "SLEEP:" || waits_of(command).set) return {};
+  if (command.row->meaning == Meaning::sleep || waits_of(command).set) return {};
   for (const int axis : axes.list()) {
     if (const auto good = start(axis); !good) return good;
   }
+  // What was in doubt has run by now, or was gone: at_ knows of each axis what is left of it.
+  if (axes.contains(uncertain_)) uncertain_ = {};
   return {};
 }
 
 // The mechanical origin return is how the axis comes to know its places.
 Result<void> Forecast::add_origin_return(const Command& command) {
-  const bool logical = command.row->name.starts_with("Z");
+  const bool logical = command.row->meaning == Meaning::logical_return;
   for (const int axis : command.axes(controllable_).list()) {
     Result<void> good = envelope_.check_axis(axis);
     if (good && logical) good = envelope_.check_homed(axis);
@@ -123,6 +122,19 @@ Result<void> Forecast::start(int axis) {
   return {};
 }
 
+// Of a line or curve, GC: for some of its axes may delete all or nothing (manual 87)): it stays, and is in doubt.
+void Forecast::delete_settings(AxisSet axes) {
+  for (const Register reg : {Register::m, Register::a, Register::k, Register::e}) {
+    const AxisSet set = axes_of(reg);
+    const bool whole = reg == Register::k || reg == Register::e;
+    if (whole && set.touches(axes) && !axes.contains(set)) {
+      uncertain_ = uncertain_ | set;
+      continue;
+    }
+    for (const int axis : axes.list()) drop(axis, reg);
+  }
+}
+
 Result<void> Forecast::add_setting(const Command& command) {
   const Register reg = command.row->reg;
   if (reg == Register::e || reg == Register::ep) return add_arc(command);
@@ -131,6 +143,11 @@ Result<void> Forecast::add_setting(const Command& command) {
   const auto moves = moves_of(command, controllable_);
   const auto plan = moves.empty() ? MovePlan{} : plan_move(moves, relative, at_, envelope_);
   if (!plan) return tl::unexpected(plan.error());
+  const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
+  if (line) {
+    if (const auto good = check_scales(plan->set(), envelope_.state()); !good) return good;
+    if (const auto good = overwrite(reg, lasting); !good) return good;
+  }
   for (const auto& one : plan->axes) {
     if (!one.target) {
       return fail_on(one.axis, Reason::position_unknown,
@@ -139,8 +156,7 @@ Result<void> Forecast::add_setting(const Command& command) {
     }
     const SpeedSetting& speed = speeds_[line ? plan->axes.front().axis : one.axis];
     if (const auto good = envelope_.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
-    const bool lasting = reg == Register::mp || reg == Register::ap || reg == Register::kp;
-    Pending pending{reg, relative, lasting, one.amount, {}};
+    Pending pending{reg, relative, lasting, one.amount, {one.amount, one.amount}};
     if (line) pending.paced_by = plan->axes.front().axis;
     if (const auto good = add_pending(one.axis, pending); !good) return good;
   }
@@ -162,6 +178,7 @@ Result<void> Forecast::add_arc(const Command& command) {
   const std::pair<std::int64_t, Extent> ways[] = {
       {end.first, line->extent.first}, {end.second, line->extent.second}, {end.third, line->extent.third}};
   const bool lasting = command.row->reg == Register::ep;
+  if (const auto good = overwrite(command.row->reg, lasting); !good) return good;
   for (std::size_t i = 0; i < std::size(ways); ++i) {
     const int axis = line->axes[i];
     if (axis == 0) continue;
@@ -190,24 +207,43 @@ Result<void> Forecast::check_extent(int axis, const Extent& extent, std::int64_t
   return {};
 }
 
+AxisSet Forecast::axes_of(Register reg) const {
+  AxisSet axes;
+  for (const auto& [axis, settings] : pending_) {
+    if (std::ranges::find(settings, reg, &Pending::reg) != settings.end()) axes.add(axis);
+  }
+  return axes;
+}
+
+void Forecast::drop(int axis, Register reg) {
+  std::erase_if(pending_[axis], [reg](const Pending& one) { return one.reg == reg; });
+}
+
+// The line or curve before is gone on all its axes: each register holds one, whatever its axes (manual 22) to 25)).
+Result<void> Forecast::overwrite(Register reg, bool lasting) {
+  for (const int axis : axes_of(reg).list()) {
+    if (const auto good = lasting ? check_chain(axis) : Result<void>(); !good) return good;
+    drop(axis, reg);
+  }
+  return {};
+}
+
+// The one before may have chained, or not: where the next one would start from is not certain.
+Result<void> Forecast::check_chain(int axis) {
+  if (!started_.has(axis) || std::ranges::none_of(pending_[axis], &Pending::lasting)) return {};
+  return fail_on(axis, Reason::invalid_request,
+                 fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(axis)),
+                 "start each with G:, or run a path");
+}
+
 Result<void> Forecast::add_pending(int axis, const Pending& one) {
-  auto& pending = pending_[axis];
-  // The one before may have chained, or not: where this one would start from is not certain.
-  const bool chains = started_.has(axis) && std::ranges::any_of(pending, &Pending::lasting);
-  if (one.lasting && chains) {
-    return fail_on(axis, Reason::invalid_request,
-                   fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(axis)),
-                   "start each with G:, or run a path");
-  }
-  std::erase_if(pending, [&one](const auto& before) { return before.reg == one.reg; });
+  if (const auto good = one.lasting ? check_chain(axis) : Result<void>(); !good) return good;
+  drop(axis, one.reg);
   // What belongs to several axes goes for all of them when one is set anew.
-  for (const auto& before : pending) {
-    if (before.paced_by == 0) continue;
-    for (const auto& [other, settings] : pending_) {
-      if (std::ranges::find(settings, before.reg, &Pending::reg) != settings.end()) uncertain_.add(other);
-    }
+  for (const auto& before : pending_[axis]) {
+    if (before.paced_by != 0) uncertain_ = uncertain_ | axes_of(before.reg);
   }
-  pending.push_back(one);
+  pending_[axis].push_back(one);
   return {};
 }
 

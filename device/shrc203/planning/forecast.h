@@ -31,7 +31,7 @@ class Forecast {
     bool relative = false;
     bool lasting = false;  // GC: does not delete it
     std::int64_t amount = 0;
-    Extent extent = {};  // what a curve leads through meanwhile, from where it begins
+    Extent extent = {};  // of its way, what has to lie within the travel: the end, or all of a curve
     int paced_by = 0;    // of a line or curve: the axis whose S it runs at
     double share = 1;    // of that speed, what this axis makes at most
   };
@@ -40,6 +40,11 @@ class Forecast {
   Result<void> add_setting(const Command& command);
   Result<void> add_arc(const Command& command);
   Result<void> add_pending(int axis, const Pending& pending);
+  Result<void> overwrite(Register reg, bool lasting);
+  Result<void> check_chain(int axis);
+  AxisSet axes_of(Register reg) const;  // on which it is set
+  void drop(int axis, Register reg);
+  void delete_settings(AxisSet axes);
   Result<void> check_extent(int axis, const Extent& extent, std::int64_t end);
   Result<void> add_origin_return(const Command& command);
   Result<void> add_program();
