@@ -5,11 +5,12 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/shrc203/command/builders.h"
 
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr std::string_view kQuestion = "?:CMD";
+const std::string_view kQuestion = commands::text(commands::Question::previous_command);
 
 // Others may send what the table here has not (PSET: ...): a verb and its colon (manual 4.).
 bool looks_like_command(std::string_view line) {
@@ -23,6 +24,7 @@ bool looks_like_command(std::string_view line) {
 
 void Continuity::connected() {
   before_.clear();
+  unproven_.clear();
   answered_ = true;
   refused_ = false;
   open_ = false;
@@ -37,7 +39,10 @@ void Continuity::begin(TimePoint now) {
 
 void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint now) {
   // A controller that restarted in the pause before the line now left unanswered would tell that line as well.
-  if (!answered_ && !in_time_) std::erase(before_, newest_);
+  if (!answered_ && !in_time_) {
+    std::erase(before_, newest_);
+    unproven_.push_back(newest_);
+  }
   newest_ = line;
   due_ = now + on_the_wire;
   if (newest_ == kQuestion && !question_due_) question_due_ = due_;
@@ -49,6 +54,7 @@ void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint no
 void Continuity::answered(bool taken, TimePoint now) {
   alive_ = now;
   answered_ = true;
+  unproven_.clear();
   refused_ = !taken;
   doubt(!in_time_, due_, now);
   if (taken) {
@@ -59,7 +65,7 @@ void Continuity::answered(bool taken, TimePoint now) {
 }
 
 void Continuity::doubt(bool strongly, TimePoint due, TimePoint now) {
-  const bool late = now > due + kPause && guarded(Guard::late_answers_hide_restarts);
+  const bool late = now > due + kRestartMin && guarded(Guard::late_answers_hide_restarts);
   only_late_ = !strongly && (open_ ? only_late_ : late);
   open_ = open_ || strongly || late;
 }
@@ -71,7 +77,9 @@ bool Continuity::tells(std::string_view line) const {
 Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now) {
   const bool refused = std::exchange(refused_, false);
   const bool known = std::ranges::find(before_, line_before) != before_.end() || (refused && in_time_);
-  const bool foreign = !known && !refused && line_before != kQuestion && looks_like_command(line_before);
+  const bool ours = line_before == kQuestion || std::ranges::find(unproven_, line_before) != unproven_.end();
+  const bool foreign = !known && !refused && !ours && looks_like_command(line_before);
+  unproven_.clear();
   alive_ = now;
   answered_ = newest_ == kQuestion;
   doubt(!known, std::exchange(question_due_, {}).value_or(due_), now);

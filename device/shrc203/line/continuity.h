@@ -12,22 +12,19 @@
 #include <vector>
 
 #include "device/core/time.h"
+#include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
 
 class Continuity {
  public:
-  // No controller restarts in so short a time, the answer's and the line's way included. One may have behind an answer
-  // that came later than that.
-  static constexpr Duration kPause = std::chrono::milliseconds(150);
-
   // After a connect nothing is known of what the controller took before.
   void connected();
   // The handshake has passed, or other facts show that it is still the same.
   void begin(TimePoint now);
 
   // Whether ?:CMD is to be asked before anything else is.
-  bool due(TimePoint now) const { return now - alive_ > kPause; }
+  bool due(TimePoint now) const { return now - alive_ > kRestartMin; }
   // Nothing tells whether the controller has restarted: other facts must.
   bool open() const { return open_; }
   // ... but no more speaks for a restart than that an answer came late.
@@ -47,7 +44,8 @@ class Continuity {
  private:
   void doubt(bool strongly, TimePoint due, TimePoint now);
 
-  std::vector<std::string> before_;  // what ?:CMD may tell when there was no restart
+  std::vector<std::string> before_;    // what ?:CMD may tell when there was no restart
+  std::vector<std::string> unproven_;  // what it may tell just as well after a restart, and is ours all the same
   std::string newest_;
   bool answered_ = true;  // the newest line was
   bool refused_ = false;  // the line answered last was, and may have come in as another
