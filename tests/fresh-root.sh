@@ -1,17 +1,18 @@
 #!/usr/bin/env bash
 # Proof that the two commands work on a Debian 12 with nothing installed: makes such a root with mmdebstrap, puts a
-# clean clone of HEAD into it, and runs `deploy/quickstart.sh --once` and `tests/run.sh` there by chroot. Needs root and
-# mmdebstrap; the mirror is the one that this machine's apt uses. On success it records commit and inputs in
-# tests/fresh-root.passed.
-# usage: tests/fresh-root.sh [--if-changed]    with --if-changed only if the inputs differ from those recorded
+# clean clone of HEAD into it, and runs `deploy/quickstart.sh --once` and `tests/run.sh` there by chroot. Needs root;
+# installs mmdebstrap where it is missing. The mirror is the one that this machine's apt uses.
+# usage: tests/fresh-root.sh [--if-changed] [--empty-cache]
+#   --if-changed    not if the same inputs have passed on this machine
+#   --empty-cache   with a compiler cache of its own, as on a machine that has never built this
 set -euo pipefail
 
 name=fresh-root
 # shellcheck source=tests/recorded-proof.sh
 source "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/recorded-proof.sh"
-record="$repository/tests/fresh-root.passed"
 cache="${CCACHE_DIR:-$HOME/.cache/ccache}"
 root=""
+empty_cache=""
 
 # What decides whether a bare Debian can build and run this; the code itself is what tests/run.sh is for.
 input_paths() {
@@ -53,15 +54,23 @@ inside() {
 
 prove() {
   ((EUID == 0)) || fail "needs root, for chroot and mount"
-  command -v mmdebstrap >/dev/null || fail "needs mmdebstrap: apt-get install mmdebstrap"
+  timed "apt-get install mmdebstrap" install_tools mmdebstrap
   mkdir -p "$cache"
   root="$(mktemp --directory --tmpdir axisgate-fresh-root.XXXXXX)"
   chmod 755 "$root"
   trap 'rm -rf --one-file-system "$root"' EXIT
+  if [[ -n "$empty_cache" ]]; then
+    cache="$root/empty-cache"
+    mkdir "$cache"
+  fi
   timed "mmdebstrap" make_root
   timed "clone" clone_head
   timed "deploy/quickstart.sh --once" inside "$repository/deploy/quickstart.sh" --once
   timed "tests/run.sh" inside "$repository/tests/run.sh"
 }
 
-recorded_proof "$@"
+arguments=()
+for argument in "$@"; do
+  if [[ "$argument" == --empty-cache ]]; then empty_cache=yes; else arguments+=("$argument"); fi
+done
+recorded_proof "${arguments[@]}"

@@ -11,10 +11,6 @@ build="$root/build-$preset"
 passed=0
 failed=0
 
-say() {
-  printf '\n== %s\n' "$*"
-}
-
 count() {
   passed=$((passed + $1))
   failed=$((failed + $2))
@@ -47,80 +43,50 @@ check() {
   fi
 }
 
+# A program that ends with "N passed, M failed".
+check_all() {
+  local report="$build/cases.log" code=0 line
+  "$@" | tee "$report" || code=$?
+  line="$(sed -n 's/^\([0-9]*\) passed, \([0-9]*\) failed$/\1 \2/p' "$report" | tail -n 1)"
+  # shellcheck disable=SC2086  # two numbers
+  count ${line:-0 0}
+  if ((code != 0)) && [[ "$line" == *" 0" || -z "$line" ]]; then
+    count 0 1
+  fi
+}
+
+# Runs the rest of its arguments under a headline, and says how long they took.
+stage() {
+  local headline="$1" begun=$SECONDS
+  shift
+  printf '\n== %s\n' "$headline"
+  "$@"
+  printf '== %s: %d s\n' "$headline" $((SECONDS - begun))
+}
+
 build_all() {
-  say "configure and build the preset $preset"
   require cmake --preset "$preset"
   require cmake --build --preset "$preset"
 }
 
-# The number that stands in attribute $1 of the report's first element.
-junit_number() {
-  local number
-  number="$(sed -n '/<testsuite /,/>/s/.*[[:space:]]'"$1"'="\([0-9]*\)".*/\1/p' "$build/ctest.xml" | head -n 1)"
-  printf '%s' "${number:-0}"
-}
-
-run_ctest() {
-  say "C++ tests"
-  local code=0 tests failures skipped
-  rm -f "$build/ctest.xml"
-  ctest --test-dir "$build" --parallel "$(nproc)" --output-on-failure --no-tests=error \
-    --output-junit "$build/ctest.xml" || code=$?
-  if [[ ! -s "$build/ctest.xml" ]]; then
-    count 0 1
-    return
-  fi
-  tests="$(junit_number tests)"
-  failures="$(junit_number failures)"
-  skipped=$(($(junit_number skipped) + $(junit_number disabled)))
-  # ctest may fail for a reason that is no test's.
-  if ((code != 0 && failures == 0)); then
-    failures=1
-  fi
-  count $((tests - failures - skipped)) "$failures"
-}
-
-# unittest ends with "OK (skipped=1)" or "FAILED (failures=1, errors=2)"; a kind that is not named is 0.
-unittest_number() {
-  local number
-  number="$(sed -n '/^\(OK\|FAILED\)\( (.*)\)\?$/s/.*[( ]'"$1"'=\([0-9]*\).*/\1/p' "$build/unittest.log" | tail -n 1)"
-  printf '%s' "${number:-0}"
-}
-
-# Python's unittest over the files of the folder $1.
-run_unittest() {
-  say "$1"
-  local report="$build/unittest.log" code=0 ran bad
-  AXISGATE_BIN="$build/bin" PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 -m unittest discover --verbose \
-    --start-directory "$root/$1" --pattern '*.py' 2>&1 | tee "$report" || code=$?
-  ran="$(sed -n 's/^Ran \([0-9]*\) tests\? in .*/\1/p' "$report" | tail -n 1)"
-  bad=$(($(unittest_number failures) + $(unittest_number errors) + $(unittest_number 'unexpected successes')))
-  # A folder that cannot be loaded, or in which nothing ran, has failed, too.
-  if ((code != 0 && bad == 0)) || ((${ran:-0} == 0)); then
-    count 0 1
-    return
-  fi
-  count $((ran - bad - $(unittest_number skipped))) "$bad"
-}
-
 main() {
   cd "$root"
+  export AXISGATE_BIN="$build/bin"
   if [[ "$preset" == tsan ]]; then
     # A seed runs on one thread, where there is nothing to race with, and 25 times slower than without the sanitizer.
     export AXISGATE_SEEDS="${AXISGATE_SEEDS:-20}"
   fi
-  require "$root/deploy/install-packages.sh"
-  build_all
+  stage "packages" require "$root/deploy/install-packages.sh"
+  stage "build of the preset $preset" build_all
   if [[ "$preset" == dev ]]; then
-    say "tidy"
-    check "$root/tests/tidy/tidy"
-    run_unittest tests/tidy
+    stage "tidy" check "$root/tests/tidy/tidy"
+    stage "tests of tests" check_all /usr/bin/python3 tests/run_python.py tests/tidy
+    stage "tests of the mutations" check_all /usr/bin/python3 tests/run_python.py tests/mutants
   fi
-  run_ctest
+  stage "C++ tests" check_all /usr/bin/python3 tests/run_cases.py "$build"
   if [[ "$preset" == dev ]]; then
-    run_unittest tests/integration
-    say "fuzzers, for a moment"
-    check "$root/tests/fuzz.sh"
+    stage "integration" check_all /usr/bin/python3 tests/run_python.py tests/integration
+    stage "fuzzers, for a moment" check "$root/tests/fuzz.sh"
   fi
   printf '\n'
   summarise
