@@ -150,7 +150,7 @@ enum class Guard {
   inputs_told_twice,
   scans_disarm,
   settings_restored,
-  speeds_owed,
+  pending_speeds_restored,
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,

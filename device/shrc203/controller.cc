@@ -6,6 +6,7 @@
 #include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/limits.h"
+#include "device/stage/own_questions.h"
 
 namespace axisgate::shrc203 {
 
@@ -33,6 +34,19 @@ std::optional<TimePoint> Controller::Impl::next_deadline() const {
   return next;
 }
 
+void Controller::Impl::line_opened(TimePoint) {
+  show_link();
+  emit(LinkChanged{LinkState::connecting, "the line is open"});
+}
+
+void Controller::Impl::line_trusted(TimePoint) {
+  show_link();
+  note_link_problem(LinkTrouble::none, "");
+  emit(LinkChanged{LinkState::up, "", state_.controllable()});
+}
+
+void Controller::Impl::same_controller(TimePoint) { show_link(); }
+
 void Controller::Impl::line_connected(const Identity& identity, TimePoint) {
   ++connection_;
   stop_runaways();
@@ -48,11 +62,10 @@ void Controller::Impl::stop_runaways() {
 void Controller::Impl::line_lost(const std::string& why, TimePoint) {
   ++connection_;
   settled_ = false;
-  restart_possible_ = false;
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   const bool news = state_.link != LinkState::down || state_.link_problem != why;
-  state_.link = LinkState::down;
-  state_.link_problem = why;
+  show_link();
+  note_link_problem(LinkTrouble::line, why);
   state_.outputs.reset();
   state_.trigger.reset();
   for (auto& axis : state_.axes) {
@@ -81,25 +94,24 @@ void Controller::Impl::line_lost(const std::string& why, TimePoint) {
 
 void Controller::Impl::barrier_entered(const std::string& why, TimePoint) {
   settled_ = false;
-  if (state_.link == LinkState::up) state_.link = LinkState::doubtful;
+  show_link();
   emit(BarrierEntered{why});
 }
 
 void Controller::Impl::barrier_passed(const Identity& identity, TimePoint) {
-  if (state_.link != LinkState::doubtful) return;
+  show_link();
+  if (!line_.state().trusted()) return;
   const bool same = identity.serial_number == state_.serial_number && identity.model == state_.model;
   if (!same && guarded(Guard::serial_number_after_barrier)) {
     line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number),
                   now_);
     return;
   }
-  if (!restart_possible_) state_.link = LinkState::up;
 }
 
 void Controller::Impl::restart_suspected(TimePoint) {
   settled_ = false;
-  restart_possible_ = true;
-  if (state_.link == LinkState::up) state_.link = LinkState::doubtful;
+  show_link();
   executor_.spawn(look_for_restart(connection_));
 }
 
@@ -126,6 +138,10 @@ void Controller::Impl::note_completion(int axis, bool doubtful, bool deduced, Ti
 }
 
 void Controller::Impl::line_event(const Event& event, TimePoint) {
+  if (std::holds_alternative<IllegalTransition>(event)) {
+    // The stop outlives the line that is about to be given up, and goes first on the next one.
+    stop(AxisSet::all(), false, {.who = kGateway}, [](const StopReport&) {});
+  }
   const auto* notice = std::get_if<ProgramNotice>(&event);
   if (!notice || !guarded(Guard::notices_bounded)) return emit(event);
   NoticeCount& count = notices_[notice->kind];
@@ -209,11 +225,7 @@ Controller::Controller(Profile profile, ByteLink& link, EventSink& events, Permi
 Controller::~Controller() = default;
 
 void Controller::link_up(TimePoint now) {
-  impl_->at(now, [&] {
-    impl_->state_.link = LinkState::connecting;
-    impl_->emit(LinkChanged{LinkState::connecting, "the line is open"});
-    impl_->line_.link_up(now);
-  });
+  impl_->at(now, [&] { impl_->line_.link_up(now); });
 }
 
 void Controller::link_down(TimePoint now, std::string_view why) {

@@ -8,12 +8,14 @@
 //   excursion.cc  out of HOST and back                  explain.cc       why NG
 //   speeds.cc     what D: has set, for a motion         clear_errors.cc  BEC:
 //   lease_settings.cc  what a lease's holder has set    positions.cc     saved positions
+//   restore.cc    what is set back later
 #pragma once
 
 #include <deque>
 #include <functional>
 #include <map>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -28,6 +30,7 @@
 #include "device/shrc203/planning/path_plan.h"
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/planning/scan_plan.h"
+#include "device/shrc203/session/pending_restores.h"
 #include "device/shrc203/session/switch_audit.h"
 
 namespace axisgate::shrc203 {
@@ -122,7 +125,10 @@ class Controller::Impl : public LineListener {
   void settle();
   std::optional<TimePoint> next_deadline() const;
 
+  void line_opened(TimePoint now) override;
   void line_connected(const Identity& identity, TimePoint now) override;
+  void line_trusted(TimePoint now) override;
+  void same_controller(TimePoint now) override;
   void line_lost(const std::string& why, TimePoint now) override;
   void barrier_entered(const std::string& why, TimePoint now) override;
   void barrier_passed(const Identity& identity, TimePoint now) override;
@@ -136,7 +142,8 @@ class Controller::Impl : public LineListener {
   // handshake.cc
   Task<void> handshake(Identity identity, std::uint64_t connection);
   Task<bool> wait_for_host_mode(std::uint64_t connection);
-  std::string wrong_panel() const;
+  bool panel_is_wrong() const;
+  void note_wrong_panel();
   Problem not_up() const;
   Task<bool> wait_until_all_ready(std::uint64_t connection);
   Task<bool> read_settings(std::uint64_t connection);
@@ -202,40 +209,30 @@ class Controller::Impl : public LineListener {
   bool anything_moves() const;
 
   // speeds.cc
-  using Speeds = std::map<int, SpeedSetting>;  // by axis
+  using Speeds = commands::Speeds;
   void note_speeds(const Speeds& speeds);
-  Speeds known_speeds(AxisSet axes) const;
-  Speeds known_origin_speeds(AxisSet axes) const;
+  Speeds known_speeds(AxisSet axes) const { return shrc203::known_speeds(state_, axes); }
+  Speeds known_origin_speeds(AxisSet axes) const { return shrc203::known_origin_speeds(state_, axes); }
   void note_origin_speeds(int axis, const std::optional<SpeedSetting>& speed);
-  bool speeds_known() const {
-    return known_speeds(state_.controllable()).size() == std::size_t(state_.controllable().count());
-  }
+  bool speeds_known() const;
   void forget_speeds(AxisSet axes);
   // Speeds for axes whose own F is more than the caller may run at; none where all are slow enough.
   Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
   // Sets those; who calls restores the speeds when the motion is over.
   Task<Result<void>> slow_down(LiveMotionPtr live);
   Task<Result<void>> set_speeds(LiveMotionPtr live, MovePlan plan);
-  Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
   Task<Result<void>> learn_speeds(AxisSet axes, std::string caller);
-  Task<void> pay_speeds(AxisSet axes, std::string caller);
-  Task<bool> set_back(Speeds before, ExchangeRequest request);
 
-  // lease_settings.cc
-  struct Settings {
-    Speeds speeds, origin_speeds;
-    std::optional<int> outputs, outputs_set;  // before, and by the lease at last
-    std::optional<Trigger> trigger, trigger_set;
-    std::uint64_t epoch = 0;  // of the device, when outputs or trigger were set
-  };
+  // lease_settings.cc, restore.cc
   Task<Result<void>> learn_settings(const std::vector<Command>& commands, std::string caller);
   void remember_settings(const RequestContext& context, const Command& command);
   void note_setting(const Command& command, const ExchangeResult& result);
-  Task<bool> set_line_back(Command command, std::string caller);
-  Task<bool> set_origin_speeds_back(Speeds before, std::string caller);
-  Task<bool> set_outputs_back(Settings before, std::string caller);
-  Task<bool> set_trigger_back(Settings before, std::string caller);
-  Task<bool> set_back_in_turn(EndedLease lease, Settings before);
+  Task<bool> restore(PendingRestores what, std::span<const RestoredSetting> order, int tries, ExchangeRequest request);
+  Task<bool> restore_one(PendingRestores what, RestoredSetting setting, ExchangeRequest request);
+  Task<void> restore_speeds(LiveMotionPtr live, Speeds before);
+  Task<void> restore_pending_speeds(AxisSet axes, std::string caller);
+  Task<bool> restore_pending_trigger(std::string caller);
+  Task<bool> restore_in_turn(EndedLease lease, PendingRestores what);
   Task<void> restore_settings_of(EndedLease lease);
   Task<void> restore_all_settings();
 
@@ -278,7 +275,6 @@ class Controller::Impl : public LineListener {
   Task<std::optional<std::int64_t>> read_counter(int axis, bool of_scale, std::string caller);
   Task<void> count_triggers(LiveMotionPtr live, bool arming);
   Task<void> disarm(LiveMotionPtr live);
-  Task<bool> pay_trigger(std::string caller);
 
   // approach.cc
   static bool approaches(const MoveRequest& request);
@@ -352,6 +348,14 @@ class Controller::Impl : public LineListener {
 
   Envelope envelope(const RequestContext& context) const { return {profile_, state_, context.who, context.role}; }
 
+  // Why the link is not up, as far as anything is decided by it; link_problem has it in words.
+  enum class LinkTrouble { none, line, mode, format, motion };
+  void note_link_problem(LinkTrouble trouble, std::string words) {
+    link_trouble_ = trouble;
+    state_.link_problem = std::move(words);
+  }
+  // The only place that writes State::link: what the line's phase is shown as.
+  void show_link() { state_.link = shown(line_.state().phase()); }
   bool line_works() const { return state_.link == LinkState::up || state_.link == LinkState::doubtful; }
 
   TimePoint default_limit(TimePoint asked, Duration otherwise) const {
@@ -366,18 +370,13 @@ class Controller::Impl : public LineListener {
   Executor executor_;
   Line line_;
   State state_;
-  std::string unit_;               // the serial number that has passed a handshake
-  std::string scale_told_;         // what ?:P was answered
-  bool restart_possible_ = false;  // look_for_restart() runs
+  std::string unit_;        // the serial number that has passed a handshake
+  std::string scale_told_;  // what ?:P was answered
+  LinkTrouble link_trouble_ = LinkTrouble::none;
   Registers registers_;
   MotionGate gate_;
-  std::map<MotionId, LiveMotionPtr> live_;             // without an outcome yet
-  std::map<std::uint64_t, Settings> settings_before_;  // the lease of this token has set others
-  struct OwedTrigger {
-    Trigger before, armed;
-  };
-  std::optional<OwedTrigger> trigger_owed_;  // a scan that ended has armed it
-  Speeds speeds_owed_;                       // by axis; a motion that ended has set others
+  std::map<MotionId, LiveMotionPtr> live_;  // without an outcome yet
+  PendingRestores pending_restores_;
   std::deque<Motion> ended_;
   MotionId last_motion_ = 0;
   std::uint64_t connection_ = 0;  // counts connects, so that a procedure notices a new one

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -127,12 +128,18 @@ struct UnexpectedLine {
   std::string text;
 };
 
-// Positions, mode, excitation or the like are newer; ask Controller::state().
+// A state machine was given an event that its table does not have: an error of the gateway's own. Its line is given up,
+// and everything is stopped.
+struct IllegalTransition {
+  std::string_view machine, state, event;
+};
+
+// Positions, mode, excitation or the like are newer; ask StageController::state().
 struct StateChanged {};
 
 using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
                            SwitchesChanged, ProgramNotice, BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded,
-                           BarrierEntered, LineLearned, UnexpectedLine, StateChanged>;
+                           BarrierEntered, LineLearned, UnexpectedLine, IllegalTransition, StateChanged>;
 
 class EventSink {
  public:

@@ -106,6 +106,14 @@ void DeviceEvents::tell(const stage::UnexpectedLine& line, TimePoint now) {
   strange_lines_untold_ = 0;
 }
 
+void DeviceEvents::tell(const stage::IllegalTransition& fault, TimePoint) {
+  spdlog::error(
+      "{}: INTERNAL: {} while the {} was {}, which cannot be; everything is stopped and the line is opened anew. "
+      "Please "
+      "report it with the device's recording of this moment: axisctl record --device {}, axisctl support",
+      device_, fault.event, fault.machine, fault.state, device_);
+}
+
 std::uint64_t DeviceEvents::publish(Fact fact, TimePoint now) {
   return bus_.publish(device_, std::move(fact), to_wall(now), now);
 }

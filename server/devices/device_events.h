@@ -44,6 +44,7 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::BarrierEntered& barrier, TimePoint now);
   void tell(const stage::LineLearned&, TimePoint) {}
   void tell(const stage::UnexpectedLine& line, TimePoint now);
+  void tell(const stage::IllegalTransition& fault, TimePoint now);
   void tell(const stage::BytesWritten&, TimePoint) {}
   void tell(const stage::BytesReceived&, TimePoint) {}
   void tell(const stage::TimeLimitPassed&, TimePoint) {}

@@ -103,6 +103,7 @@ class DeviceMetrics {
   void count(const stage::BarrierEntered&) { barriers_.Increment(); }
   void count(const stage::LineLearned&) {}
   void count(const stage::UnexpectedLine&) { unexpected_lines_.Increment(); }
+  void count(const stage::IllegalTransition&) {}
   void count(const stage::StateChanged&) {}
   prometheus::Counter& motions(stage::MotionKind kind, stage::MotionState outcome);
 

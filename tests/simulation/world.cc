@@ -123,6 +123,9 @@ void World::on_event(const Event& event, TimePoint at) {
   if (setup_.listener) setup_.listener->on_event(event, at);
   if (on_news) on_news(event);
   if (const auto* ended = std::get_if<ExchangeEnded>(&event)) check_exchange(*ended);
+  if (const auto* illegal = std::get_if<IllegalTransition>(&event)) {
+    violation(fmt::format("{}: {} in {}", illegal->machine, illegal->event, illegal->state));
+  }
   if (std::holds_alternative<BarrierEntered>(event)) ++barriers_;
   if (const auto* seen = std::get_if<CompletionSeen>(&event)) completions_.push_back(*seen);
   if (const auto* step_made = std::get_if<PathProgress>(&event)) progress_.push_back(*step_made);

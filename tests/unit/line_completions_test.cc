@@ -187,13 +187,17 @@ TEST_F(LineCompletionsTest, OthersGoMeanwhile) {
 }
 
 // With one controllable axis ?:C has one field, and with two it has a comma (manual 33)).
-TEST_F(LineCompletionsTest, AQuestionForAllAxesWaitsWhereThereIsOne) {
+TEST_F(LineCompletionsTest, AQuestionForAllAxesDoesNotWaitWhereThereAreTwo) {
   open(AxisSet::of(1) | AxisSet::of(2));
   home(1);
   ask("?:C");
   script({{"?:C\r\n", "1\r\n1,1\r\n"}});
   EXPECT_THAT(news(), ElementsAre("completion 1"));
+}
+
+TEST_F(LineCompletionsTest, AQuestionForTheOnlyAxisWaits) {
   open(AxisSet::of(1));
+  home(1);
   const auto excitation = ask("?:C");
   EXPECT_EQ(sent(), "");
   EXPECT_FALSE(excitation->ended());

@@ -35,6 +35,9 @@ class RecordingListener : public LineListener {
   void line_connected(const Identity& identity, TimePoint) override {
     news.push_back("connected " + identity.serial_number);
   }
+  void line_opened(TimePoint) override {}
+  void line_trusted(TimePoint) override {}
+  void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override { news.push_back("lost: " + why); }
   void barrier_entered(const std::string& why, TimePoint) override { news.push_back("barrier: " + why); }
   void barrier_passed(const Identity&, TimePoint) override { news.push_back("passed"); }
@@ -46,6 +49,9 @@ class RecordingListener : public LineListener {
     if (const auto* line = std::get_if<UnexpectedLine>(&event)) news.push_back("unexpected " + line->text);
     if (const auto* notice = std::get_if<ProgramNotice>(&event)) {
       news.push_back(notice->kind == ProgramNotice::Kind::ended ? "program ended" : "program trigger");
+    }
+    if (const auto* illegal = std::get_if<IllegalTransition>(&event)) {
+      news.push_back(std::string("illegal ") + std::string(illegal->state) + ", " + std::string(illegal->event));
     }
     if (const auto* limit = std::get_if<TimeLimitPassed>(&event)) limits.emplace_back(name(limit->kind));
     if (const auto* ended = std::get_if<ExchangeEnded>(&event)) exchanges.push_back(*ended);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203::recorder_test {
+namespace axisgate::stage::recorder_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -210,4 +210,4 @@ TEST_F(RecorderTest, KnowsTheHeaderOfWhatIsToCome) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::recorder_test
+}  // namespace axisgate::stage::recorder_test

@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203::recording_test {
+namespace axisgate::stage::recording_test {
 namespace {
 
 using std::chrono::microseconds;
@@ -174,4 +174,4 @@ TEST(Recording, WhatBeginsLaterIsHeadedByWhatIsKnownThen) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::recording_test
+}  // namespace axisgate::stage::recording_test

@@ -25,12 +25,18 @@ Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListe
       backoff_(kReopenBackoffMin),
       pace_(profile.baud) {}
 
+bool Line::change(LinkEvent event, TimePoint now) {
+  const LinkPhase before = state_.phase();
+  if (state_.happened(event)) return true;
+  listener_.line_event(IllegalTransition{"link", name(before), name(event)}, now);
+  give_up(fmt::format("internal error: {} while the link was {}", name(event), name(before)), now);
+  return false;
+}
+
 void Line::link_up(TimePoint now) {
   now_ = now;
-  port_open_ = true;
-  reopening_at_once_ = false;
-  state_ = LinkState::connecting;
-  handshake_passed_ = false;
+  if (!change(LinkEvent::port_opened, now)) return;
+  listener_.line_opened(now);
   framer_.clear();
   owed_ = {};
   maybe_in_two_ = false;
@@ -38,27 +44,24 @@ void Line::link_up(TimePoint now) {
   pace_.connected();
   completions_.connected();
   continuity_.connected();
-  suspected_ = false;
   barrier_ = make_barrier({}, connect_limits());
   write_waiting_stops();
   barrier_->start(now);
 }
 
 void Line::link_down(TimePoint now, std::string_view why) {
-  if (port_open_) {
+  if (state_.port_open()) {
     give_up(std::string(why), now);
     return;
   }
-  reopening_at_once_ = false;
+  change(LinkEvent::lost, now);
   listener_.line_lost(std::string(why), now);
   link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
   backoff_ = std::min(backoff_ * 2, kReopenBackoffMax);
 }
 
 void Line::give_up(const std::string& why, TimePoint now) {
-  port_open_ = false;
-  handshake_passed_ = false;
-  state_ = LinkState::down;
+  change(LinkEvent::lost, now);
   barrier_.reset();
   reservations_.clear();
   framer_.clear();
@@ -79,17 +82,18 @@ void Line::give_up(const std::string& why, TimePoint now) {
 
 void Line::open(AxisSet controllable, TimePoint now) {
   now_ = now;
+  if (!change(LinkEvent::handshake_passed, now)) return;
   continuity_.begin(now);
   controllable_ = controllable;
-  handshake_passed_ = true;
-  state_ = LinkState::up;
+  listener_.line_trusted(now);
   backoff_ = kReopenBackoffMin;
   pump(now);
 }
 
 void Line::still_the_same(TimePoint now) {
   now_ = now;
-  suspected_ = false;
+  if (!change(LinkEvent::same_controller, now)) return;
+  listener_.same_controller(now);
   continuity_.begin(now);
   learned(LineLearned::What::same_controller);
   pump(now);
@@ -104,7 +108,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     answer.deliver({.written = false, .problem = *sealed_});
     return answer;
   }
-  if (!port_open_ && !is_stop) {
+  if (!state_.port_open() && !is_stop) {
     const Problem down = problem_of(Reason::link_down, "the line to the controller is down", request.command.line);
     answer.deliver({.written = false, .problem = down});
     return answer;
@@ -137,9 +141,9 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     answer.deliver({.written = false, .problem = full});
     return answer;
   }
-  if (is_stop && !port_open_ && !reopening_at_once_) {
+  if (is_stop && state_.phase() == LinkPhase::closed) {
     // A line that answers nothing may still carry a Stop.
-    reopening_at_once_ = true;
+    change(LinkEvent::stop_waits, now);
     link_.reopen(Duration::zero());
   }
   if (is_stop && barrier_) send_stops_now(now);
@@ -181,7 +185,7 @@ void Line::expire(TimePoint now) {
 
 Problem Line::why_expired(const ExchangeRequest& request) const {
   const auto& line = request.command.line;
-  if (!port_open_) {
+  if (!state_.port_open()) {
     return {.reason = Reason::link_down,
             .message = "the line to the controller is down",
             .hint = "see `axisctl status` for the reason",

@@ -1,9 +1,5 @@
-// The controller's line: one exchange in flight, completions told apart from replies, and the barrier after doubt.
-//
-//   closed ──link_up──► connecting ──open()──► open ◄──► (exchange in flight) ──time limit, garbage──► doubtful ──►
-//   open
-//      ▲                    │                                                                     │
-//      └────────────────────┴──────── three probes unanswered: flushed, closed, reopened ─────────┘
+// The controller's line: one exchange in flight, completions told apart from replies, and the barrier after doubt. Its
+// phases and what leads from one to another stand in link.h.
 #pragma once
 
 #include <functional>
@@ -23,6 +19,7 @@
 #include "device/shrc203/line/barrier.h"
 #include "device/shrc203/line/completions.h"
 #include "device/shrc203/line/continuity.h"
+#include "device/shrc203/line/link.h"
 #include "device/shrc203/line/pace.h"
 #include "device/shrc203/line/reservations.h"
 #include "device/shrc203/profile.h"
@@ -61,13 +58,16 @@ struct ExchangeResult {
 class LineListener {
  public:
   virtual ~LineListener() = default;
+  virtual void line_opened(TimePoint now) = 0;
   // The identity has been told and the line fell silent: the handshake may run.
   virtual void line_connected(const Identity& identity, TimePoint now) = 0;
+  virtual void line_trusted(TimePoint now) = 0;  // open() was called; what waits goes out next
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
   virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
   // Nothing but a stop and what belongs to the handshake is sent before still_the_same() or give_up().
   virtual void restart_suspected(TimePoint now) = 0;
+  virtual void same_controller(TimePoint now) = 0;  // still_the_same() was called
   // `doubtful`: not expected now, or seen in a barrier.
   virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
   virtual void line_event(const Event& event, TimePoint now) = 0;
@@ -113,6 +113,7 @@ class Line {
   void release(MotionId path, TimePoint now);
   const Pace& pace() const { return pace_; }
 
+  const Link& state() const { return state_; }
   Completions& completions() { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
   // Answers to abandoned probes that may still come.
@@ -135,7 +136,9 @@ class Line {
 
   static constexpr auto kLineBefore = commands::Question::previous_command, kSettling = commands::Question::ready;
 
-  bool can_send() const { return port_open_ && !in_flight_ && !barrier_; }
+  bool can_send() const { return state_.port_open() && !in_flight_ && !barrier_; }
+  // False, and the line is given up, for an event that the phase does not permit.
+  bool change(LinkEvent event, TimePoint now);
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
@@ -180,20 +183,16 @@ class Line {
   ByteLink& link_;
   Executor& executor_;
   LineListener& listener_;
-  LinkState state_ = LinkState::down;
-  bool port_open_ = false;
-  bool reopening_at_once_ = false;
+  Link state_;
   Duration backoff_;
   LineFramer framer_;
   Pace pace_;
   Reservations reservations_;
   Completions completions_;
   Continuity continuity_;
-  bool suspected_ = false;  // the listener has been told
-  TimePoint now_{};         // of the call from outside
+  TimePoint now_{};  // of the call from outside
   AxisSet controllable_;
   bool connected_before_ = false;
-  bool handshake_passed_ = false;
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;

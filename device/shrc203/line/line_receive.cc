@@ -120,8 +120,9 @@ void Line::hear_echo(std::string_view line_before, TimePoint now) {
 }
 
 void Line::look_at_continuity(TimePoint now) {
-  if (!handshake_passed_ || !continuity_.open() || suspected_ || !guarded(Guard::restart_suspected)) return;
-  suspected_ = true;
+  const bool asks = state_.trusted() && !state_.restart_suspected();
+  if (!asks || !continuity_.open() || !guarded(Guard::restart_suspected)) return;
+  change(LinkEvent::restart_suspected, now);
   listener_.restart_suspected(now);
 }
 
@@ -261,7 +262,7 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
   const InFlight given_up = std::move(*in_flight_);
   in_flight_.reset();
   listener_.line_event(ended(given_up, *doubted_, outcome, now), now);
-  state_ = handshake_passed_ ? LinkState::doubtful : LinkState::connecting;
+  change(LinkEvent::answer_doubted, now);
   listener_.barrier_entered(why, now);
   barrier_ = make_barrier(std::move(last_line), barrier_limits());
   barrier_->start(now);
@@ -281,7 +282,7 @@ void Line::barrier_moved(TimePoint now) {
   maybe_in_two_ = false;
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
-  const bool connecting = !handshake_passed_ && !doubted_waiting_;
+  const bool connecting = state_.phase() == LinkPhase::identifying;
   if (doubted_waiting_) {
     if (const auto received = barrier_told) {
       doubted_->problem->message +=
@@ -291,7 +292,7 @@ void Line::barrier_moved(TimePoint now) {
     doubted_waiting_.reset();
     doubted_.reset();
   }
-  if (handshake_passed_) state_ = LinkState::up;
+  change(connecting ? LinkEvent::identified : LinkEvent::barrier_passed, now);
   if (connecting) {
     listener_.line_connected(identity, now);
   } else {

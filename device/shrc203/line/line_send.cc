@@ -39,7 +39,7 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
 }
 
 bool Line::may_send(const ExchangeRequest& request) const {
-  const bool certain = handshake_passed_ && !continuity_.open();
+  const bool certain = state_.trusted() && !continuity_.open();
   if (sealed_ && request.lane != Lane::stop) return false;
   if (!certain && !request.handshake && request.lane != Lane::stop) return false;
   return conflicts(request).empty();
@@ -97,7 +97,7 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
 // to that question.
 bool Line::asks_first(TimePoint now) const {
   const bool paused =
-      handshake_passed_ && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
+      state_.trusted() && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
   return paused || (maybe_in_two_ && guarded(Guard::question_after_refusal));
 }
 
@@ -139,7 +139,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
   // A stop does not wait for the answer.
-  const bool echo_first = request.lane == Lane::stop && handshake_passed_ && continuity_.due(now);
+  const bool echo_first = request.lane == Lane::stop && state_.trusted() && continuity_.due(now);
   if (echo_first) write_line(commands::text(kLineBefore));
   write_line(request.command.line, ++exchanges_, &request);
   in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
@@ -147,7 +147,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
 
 // Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
 void Line::send_stops_now(TimePoint now) {
-  if (!port_open_ || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
+  if (!state_.port_open() || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
   if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);
 }
 

@@ -289,7 +289,7 @@ std::optional<TimePoint> Controller::Impl::stop_before_bound(const LiveMotion& l
 // restarted is looked at first.
 void Controller::Impl::judge_jog(LiveMotionPtr live) {
   const JogKeeping& jog = *live->jog;
-  if (restart_possible_) return;
+  if (line_.state().restart_suspected()) return;
   if (jog.epoch != state_.device_epoch) {
     end_motion(live, MotionState::unknown,
                Problem{.reason = Reason::outcome_unknown,

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/core/guard.h"
 #include "device/shrc203/controller_impl.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/motion/path_run.h"
@@ -83,30 +82,14 @@ Task<void> Controller::Impl::count_triggers(LiveMotionPtr live, bool arming) {
 
 // T: is refused while anything moves, which somebody at the front panel may make it do.
 Task<void> Controller::Impl::disarm(LiveMotionPtr live) {
-  trigger_owed_ = OwedTrigger{live->scan->before, live->scan->trigger};
+  pending_restores_.remember_scan(live->scan->before, live->scan->trigger);
   for (const TimePoint limit = now_ + kTriggerRestoreLimit;
-       trigger_owed_ && now_ < limit && line_works() && !live->line_lost;) {
-    const bool paid = co_await pay_trigger(live->context.who);
-    if (paid) break;
+       pending_restores_.has_scan() && now_ < limit && line_works() && !live->line_lost;) {
+    const bool restored = co_await restore_pending_trigger(live->context.who);
+    if (restored) break;
     auto pause = tick_.wait_until(now_ + kTriggerRestorePause);
     co_await pause;
   }
-}
-
-// What a scan has armed and could not disarm, because the line was lost: before anything moves again. Whether nothing
-// is owed any more.
-Task<bool> Controller::Impl::pay_trigger(std::string caller) {
-  for (int attempt = 0; attempt < kRestoreTries && trigger_owed_ && guarded(Guard::scans_disarm); ++attempt) {
-    if (!state_.trigger) (void)co_await read_trigger(caller);
-    if (!state_.trigger || !trigger_owed_) continue;
-    const OwedTrigger owed = *trigger_owed_;
-    // Somebody has set another one since, or the controller has restarted: nothing is switched on there.
-    const bool settled = *state_.trigger == owed.before || *state_.trigger != owed.armed;
-    bool back = settled;
-    if (!settled) back = co_await set_line_back(trigger_command(owed.before), caller);
-    if (back) trigger_owed_.reset();
-  }
-  co_return !trigger_owed_ || !guarded(Guard::scans_disarm);
 }
 
 }  // namespace axisgate::shrc203

@@ -144,8 +144,8 @@ Task<Result<void>> Controller::Impl::prepare(LiveMotionPtr live, Register reg) {
     const bool stopped = live->stop_requested && guarded(Guard::stop_before_preparing);
     if (stopped) co_return fail(Reason::stopped, "stopped by " + live->stopped_by);
   }
-  if (guarded(Guard::speeds_owed)) co_await pay_speeds(axes, live->context.who);
-  const bool disarmed = co_await pay_trigger(live->context.who);
+  if (guarded(Guard::pending_speeds_restored)) co_await restore_pending_speeds(axes, live->context.who);
+  const bool disarmed = co_await restore_pending_trigger(live->context.who);
   if (!disarmed) {
     co_return fail(Reason::device_refused, "the trigger that a scan has left armed could not be taken back",
                    "see that nothing moves, and try again; or set it: axisctl trigger off");

@@ -64,7 +64,10 @@ class Replay : LineListener, ByteLink {
   bool full() const { return report_.differences.size() >= ReplayReport::kDifferencesMax; }
 
   // LineListener
+  void line_opened(TimePoint) override {}
   void line_connected(const Identity&, TimePoint) override {}
+  void line_trusted(TimePoint) override {}
+  void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override {
     up_ = suspected_ = false;
     deeds_.push_back({What::down, why});

@@ -47,21 +47,26 @@ Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connecti
   frame_shifted(AxisSet::all());
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
   unit_ = state_.serial_number;
-  state_.link = LinkState::up;
-  state_.link_problem.clear();
-  emit(LinkChanged{LinkState::up, "", state_.controllable()});
   line_.open(state_.controllable(), now_);
   wake_poll_.notify();
   publish_state();
 }
 
-std::string Controller::Impl::wrong_panel() const {
-  return state_.mode != "HOST" ? fmt::format("the controller is in {} mode; HOST is needed", state_.mode)
-                               : fmt::format("the command format is {}; SHOT_FC is needed", state_.format);
+// Whether somebody must put it right at the front panel before the link can be up.
+bool Controller::Impl::panel_is_wrong() const {
+  return link_trouble_ == LinkTrouble::mode || link_trouble_ == LinkTrouble::format;
+}
+
+void Controller::Impl::note_wrong_panel() {
+  if (state_.mode != "HOST") {
+    note_link_problem(LinkTrouble::mode, fmt::format("the controller is in {} mode; HOST is needed", state_.mode));
+  } else {
+    note_link_problem(LinkTrouble::format, fmt::format("the command format is {}; SHOT_FC is needed", state_.format));
+  }
 }
 
 Problem Controller::Impl::not_up() const {
-  const bool panel = !state_.mode.empty() && state_.link_problem == wrong_panel();
+  const bool panel = panel_is_wrong();
   return {.reason = panel ? Reason::wrong_mode : Reason::link_down,
           .message = "the device is not up: " + state_.link_problem,
           .hint = panel ? "put it right at the controller's front panel" : "try again when it is up"};
@@ -78,15 +83,17 @@ Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
       continue;
     }
     state_.mode = mode.reply->text;
+    if (state_.mode == "HOST" && link_trouble_ == LinkTrouble::mode) link_trouble_ = LinkTrouble::line;
     if (state_.mode == "HOST" || !guarded(Guard::host_mode)) {
       away_.reset();
       const auto format = co_await ask(Question::format, Lane::question, kGateway, true);
       if (connection != connection_) co_return false;
       state_.format = is_data(format) ? format.reply->text : "";
+      if (link_trouble_ == LinkTrouble::format) link_trouble_ = LinkTrouble::line;
       if (state_.format == "SHOT_FC" || !guarded(Guard::host_mode)) co_return true;
       if (!is_data(format)) ++failures;
     }
-    state_.link_problem = wrong_panel();
+    note_wrong_panel();
     publish_state();
     co_await come_back_in_handshake();
     auto wait = tick_.wait_until(now_ + kHandshakeModePoll);
@@ -117,7 +124,7 @@ Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
     }
     line_.busy(AxisSet::all(), now_);
     stop_runaways();
-    state_.link_problem = "something moves that the gateway did not start; waiting until it stands";
+    note_link_problem(LinkTrouble::motion, "something moves that the gateway did not start; waiting until it stands");
     const auto read = co_await read_positions(Lane::question, kGateway, true);
     if (!read) publish_state();
     auto wait = tick_.wait_until(now_ + kHandshakeReadyPoll);
@@ -211,7 +218,10 @@ Task<void> Controller::Impl::follow_mode() {
     state_.format = format.reply->text;
   }
   if (state_.mode == "HOST" && state_.format == "SHOT_FC") co_return;
-  line_.give_up(wrong_panel(), now_);
+  note_wrong_panel();
+  const LinkTrouble trouble = link_trouble_;
+  line_.give_up(std::string(state_.link_problem), now_);
+  link_trouble_ = trouble;
 }
 
 // After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
@@ -240,8 +250,6 @@ Task<void> Controller::Impl::look_for_restart(std::uint64_t connection) {
     line_.give_up("the controller seems to have restarted", now_);
     co_return;
   }
-  restart_possible_ = false;
-  if (state_.link == LinkState::doubtful) state_.link = LinkState::up;
   line_.still_the_same(now_);
 }
 

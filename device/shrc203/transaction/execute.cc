@@ -106,8 +106,8 @@ Task<Result<void>> Transaction::begin() {
   if (!ready) co_return ready;
   // Their speeds have to be known, to be set back.
   const AxisSet sped = axes_sped(commands_, SetsSpeeds::of_motion, impl_.state_.controllable());
-  // DS: and the like set a part of what is owed.
-  if (live_->motion.axes.empty()) co_await impl_.pay_speeds(sped, request_.context.who);
+  // DS: and the like set a part of what is pending.
+  if (live_->motion.axes.empty()) co_await impl_.restore_pending_speeds(sped, request_.context.who);
   if (!sped.empty()) {
     const auto learned = co_await impl_.learn_speeds(sped, request_.context.who);
     // D: by itself is how impossible ones are mended.
@@ -207,7 +207,7 @@ Task<bool> Transaction::send(std::size_t index) {
   impl_.remember_settings(request_.context, command);
   const auto result = co_await exchange(command);
   impl_.note_setting(command, result);
-  if (trigger_of(command) && result.accepted()) impl_.trigger_owed_.reset();
+  if (trigger_of(command) && result.accepted()) impl_.pending_restores_.forget_scan();
   if (command.row->moves()) {
     started_ = started_ || result.accepted();
     start_in_doubt_ = start_in_doubt_ || result.in_doubt();
@@ -215,10 +215,8 @@ Task<bool> Transaction::send(std::size_t index) {
   if (command.row->moves() && result.accepted()) impl_.mark_running(live_);
   const AxisSet sped = axes_sped({command}, SetsSpeeds::of_motion, impl_.state_.controllable());
   impl_.forget_speeds(sped);
-  // A setting of somebody's own takes the place of what was owed there.
-  for (const int axis : sped.list()) {
-    if (result.accepted() || result.in_doubt()) impl_.speeds_owed_.erase(axis);
-  }
+  // A setting of somebody's own takes the place of what was pending there.
+  if (result.accepted() || result.in_doubt()) impl_.pending_restores_.forget_speeds(sped);
   // Also where the answer was lost: it may have been taken.
   if (command.row->shifts_frame && !result.refused()) impl_.frame_shifted(command.axes(impl_.state_.controllable()));
   if (command.row->enters && (result.accepted() || result.in_doubt())) {

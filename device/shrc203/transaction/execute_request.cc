@@ -38,7 +38,7 @@ void Controller::Impl::execute(ExecuteRequest request, OnExecute event) {
   if (!checked) return refuse(checked.error());
   std::vector<Command> commands = *std::move(checked);
   if (ending_ && commands.front().row->effect != Effect::stop) return refuse(*ending_);
-  const bool panel = !line_works() && not_up().reason == Reason::wrong_mode;  // somebody must put it right first
+  const bool panel = !line_works() && panel_is_wrong();
   if (state_.controllable().empty() || state_.link == LinkState::down || panel) {
     if (commands.front().row->effect != Effect::stop) {
       return refuse(not_up());

@@ -1,0 +1,86 @@
+#include "device/shrc203/line/link.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+struct Row {
+  LinkPhase from;
+  LinkEvent event;
+  LinkPhase to;
+};
+
+// README.md has the same, drawn.
+constexpr auto kTransitions = std::to_array<Row>({
+    {LinkPhase::closed, LinkEvent::port_opened, LinkPhase::identifying},
+    {LinkPhase::closed, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::closed, LinkEvent::stop_waits, LinkPhase::reopening},
+    {LinkPhase::reopening, LinkEvent::port_opened, LinkPhase::identifying},
+    {LinkPhase::reopening, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::identifying, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::identifying, LinkEvent::identified, LinkPhase::handshaking},
+    {LinkPhase::handshaking, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::handshaking, LinkEvent::answer_doubted, LinkPhase::handshake_doubtful},
+    {LinkPhase::handshaking, LinkEvent::handshake_passed, LinkPhase::up},
+    {LinkPhase::handshake_doubtful, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::handshake_doubtful, LinkEvent::barrier_passed, LinkPhase::handshaking},
+    {LinkPhase::handshake_doubtful, LinkEvent::handshake_passed, LinkPhase::doubtful},
+    {LinkPhase::up, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::up, LinkEvent::answer_doubted, LinkPhase::doubtful},
+    {LinkPhase::up, LinkEvent::restart_suspected, LinkPhase::restart_suspected},
+    {LinkPhase::doubtful, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::doubtful, LinkEvent::barrier_passed, LinkPhase::up},
+    {LinkPhase::doubtful, LinkEvent::restart_suspected, LinkPhase::restart_doubtful},
+    {LinkPhase::restart_suspected, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::restart_suspected, LinkEvent::answer_doubted, LinkPhase::restart_doubtful},
+    {LinkPhase::restart_suspected, LinkEvent::same_controller, LinkPhase::up},
+    {LinkPhase::restart_doubtful, LinkEvent::lost, LinkPhase::closed},
+    {LinkPhase::restart_doubtful, LinkEvent::barrier_passed, LinkPhase::restart_suspected},
+    {LinkPhase::restart_doubtful, LinkEvent::same_controller, LinkPhase::doubtful},
+});
+
+constexpr std::array<std::string_view, kLinkPhases> kPhaseNames = {
+    "closed", "reopening", "identifying",       "handshaking",     "handshake_doubtful",
+    "up",     "doubtful",  "restart_suspected", "restart_doubtful"};
+constexpr std::array<std::string_view, kLinkEvents> kEventNames = {
+    "port_opened",    "lost",           "stop_waits",       "identified",
+    "answer_doubted", "barrier_passed", "handshake_passed", "restart_suspected",
+    "same_controller"};
+
+}  // namespace
+
+std::string_view name(LinkPhase phase) { return kPhaseNames.at(static_cast<std::size_t>(phase)); }
+std::string_view name(LinkEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
+
+std::optional<LinkPhase> next(LinkPhase phase, LinkEvent event) {
+  for (const Row& row : kTransitions) {
+    if (row.from == phase && row.event == event) return row.to;
+  }
+  return std::nullopt;
+}
+
+LinkState shown(LinkPhase phase) {
+  switch (phase) {
+    case LinkPhase::closed:
+    case LinkPhase::reopening:
+      return LinkState::down;
+    case LinkPhase::identifying:
+    case LinkPhase::handshaking:
+    case LinkPhase::handshake_doubtful:
+      return LinkState::connecting;
+    case LinkPhase::up:
+      return LinkState::up;
+    case LinkPhase::doubtful:
+    case LinkPhase::restart_suspected:
+    case LinkPhase::restart_doubtful:
+      break;
+  }
+  return LinkState::doubtful;
+}
+
+bool Link::happened(LinkEvent event) {
+  const auto to = next(phase_, event);
+  if (to) phase_ = *to;
+  return to.has_value();
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,62 @@
+// The state of the link to the controller: one enum, changed in one place by the table of README.md.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "device/shrc203/stage.h"
+
+namespace axisgate::shrc203 {
+
+enum class LinkPhase {
+  closed,              // the port is shut; it is opened again after the backoff
+  reopening,           // shut, and opened at once: a stop waits
+  identifying,         // open; the first barrier asks who is there
+  handshaking,         // the controller has said who it is; nothing but the handshake's questions goes out
+  handshake_doubtful,  // a barrier within the handshake
+  up,                  // the handshake has passed
+  doubtful,            // a barrier: nothing but a stop goes out
+  restart_suspected,   // nothing but a stop and what tells whether the controller has restarted goes out
+  restart_doubtful,    // a barrier meanwhile
+};
+inline constexpr std::size_t kLinkPhases = 9;
+
+enum class LinkEvent {
+  port_opened,
+  lost,            // the port was shut, by either side
+  stop_waits,      // a stop came while the port was shut
+  identified,      // the first barrier has passed
+  answer_doubted,  // a barrier has begun
+  barrier_passed,  // any later one
+  handshake_passed,
+  restart_suspected,
+  same_controller,  // the suspected restart was none
+};
+inline constexpr std::size_t kLinkEvents = 9;
+
+std::string_view name(LinkPhase phase);  // "closed", as in README.md
+std::string_view name(LinkEvent event);
+
+// The phase after the event; nothing where the table has none.
+std::optional<LinkPhase> next(LinkPhase phase, LinkEvent event);
+
+// What callers are shown of a phase.
+LinkState shown(LinkPhase phase);
+
+class Link {
+ public:
+  LinkPhase phase() const { return phase_; }
+  // False for an event that the phase does not permit: the phase stays.
+  [[nodiscard]] bool happened(LinkEvent event);
+
+  bool port_open() const { return phase_ != LinkPhase::closed && phase_ != LinkPhase::reopening; }
+  // Whether the handshake has passed since the port was opened.
+  bool trusted() const { return phase_ >= LinkPhase::up; }
+  bool restart_suspected() const { return phase_ >= LinkPhase::restart_suspected; }
+
+ private:
+  LinkPhase phase_ = LinkPhase::closed;
+};
+
+}  // namespace axisgate::shrc203
