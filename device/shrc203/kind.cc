@@ -1,12 +1,16 @@
 #include "device/shrc203/kind.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 
+#include "device/shrc203/command/listing.h"
+#include "device/shrc203/command/saved_positions.h"
 #include "device/shrc203/controller.h"
 #include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/simulator.h"
+#include "device/shrc203/transaction/setting_lines.h"
 #include "device/shrc203/transaction/transaction_lines.h"
 
 namespace axisgate::shrc203 {
@@ -63,6 +67,25 @@ class Shrc203 final : public stage::Kind {
   Result<void> check_lines(const std::vector<std::string>& lines) const override {
     const auto commands = shrc203::check_lines(lines);
     return commands ? Result<void>() : tl::unexpected(commands.error());
+  }
+
+  std::vector<stage::CommandInfo> commands() const override { return list_commands(); }
+
+  Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state) const override {
+    return shrc203::lines_for(setting, state);
+  }
+  std::span<const std::string_view> setting_questions() const override { return shrc203::setting_questions(); }
+  void read_setting(std::string_view question, std::string_view answer, const State& state,
+                    Settings& settings) const override {
+    shrc203::read_setting(question, answer, state.controllable(), settings);
+  }
+
+  std::optional<PositionLines> position_lines(const PositionSlot& slot) const override {
+    return shrc203::position_lines(slot);
+  }
+  std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer,
+                                            const State& state) const override {
+    return shrc203::read_position(slot, answer, state.controllable());
   }
 
   Result<void> check_option(std::string_view name, std::string_view value) const override {

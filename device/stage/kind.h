@@ -1,8 +1,10 @@
 // What a kind of stage controller brings along. A controller's folder implements it; server/kinds.cc lists all of them.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,10 +12,14 @@
 
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
+#include "device/stage/command_info.h"
 #include "device/stage/event.h"
 #include "device/stage/permission.h"
+#include "device/stage/position_slot.h"
 #include "device/stage/profile.h"
+#include "device/stage/settings.h"
 #include "device/stage/stage_controller.h"
+#include "device/stage/state.h"
 
 namespace axisgate::stage {
 
@@ -50,6 +56,25 @@ class Kind {
   // A caller's own lines, as far as nothing but the lines themselves tells: malformed_line, unknown_command,
   // incomplete_transaction, invalid_request.
   virtual Result<void> check_lines(const std::vector<std::string>& lines) const = 0;
+
+  // From here to read_position(): what a kind need not have. Nothing, where it has none of it.
+  virtual std::vector<CommandInfo> commands() const;  // in the manual's order
+
+  // The lines of one transaction that set it, in their order; none, where nothing is to change. out_of_range,
+  // not_representable; invalid_request, where there is no such setting.
+  virtual Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state) const;
+
+  // The lines that ask for Settings, each a transaction of its own; and what the answer to one adds to them. Of an
+  // answer that is none nothing is taken.
+  virtual std::span<const std::string_view> setting_questions() const;
+  virtual void read_setting(std::string_view question, std::string_view answer, const State& state,
+                            Settings& settings) const;
+
+  // What is sent about a position that it keeps; and the coordinates in pulses, by axis, in the answer to
+  // PositionLines::tell: empty where it is none.
+  virtual std::optional<PositionLines> position_lines(const PositionSlot& slot) const;
+  virtual std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer,
+                                                    const State& state) const;
 
   // One option of a simulation; what is wrong with it names what may be chosen.
   virtual Result<void> check_option(std::string_view name, std::string_view value) const = 0;

@@ -7,8 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "device/shrc203/command/codec.h"
-#include "device/shrc203/command/command_table.h"
+#include "device/stage/kind.h"
 #include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
 #include "server/rpc/execute_stream.h"
@@ -18,33 +17,21 @@
 namespace axisgate::rpc {
 namespace {
 
-using shrc203::CommandRow;
-using shrc203::Parameter;
-
 constexpr int kLinesMax = 100;
 constexpr std::size_t kLineBytesMax = 256;
 constexpr Duration kTimeout = std::chrono::seconds(20);
 constexpr Duration kTimeoutMax = std::chrono::minutes(10);
 
-std::string describe(const Parameter& parameter) {
-  std::string text = fmt::format("{}: {}", parameter.letter, parameter.meaning);
-  if (parameter.maximum > parameter.minimum) {
-    text += fmt::format("; {} to {}", parameter.minimum, parameter.maximum);
-    if (!parameter.unit.empty()) text += fmt::format(" {}", parameter.unit);
-  }
-  return text;
-}
-
-void fill(api::Command& command, const CommandRow& row) {
+void fill(api::Command& command, const stage::CommandInfo& info) {
   static_assert(static_cast<int>(Lane::stop) + 1 == api::LANE_STOP);
   static_assert(static_cast<int>(Lane::poll) + 1 == api::LANE_POLL);
-  command.set_name(std::string(row.name));
-  command.set_format(std::string(row.format));
-  command.set_description(std::string(row.description));
-  for (const Parameter& parameter : row.parameters) command.add_parameters(describe(parameter));
-  command.set_section(fmt::format("{})", row.section));
-  command.set_lane(static_cast<api::Lane>(static_cast<int>(row.lane) + 1));
-  command.set_moves(row.moves());
+  command.set_name(info.name);
+  command.set_format(info.format);
+  command.set_description(info.description);
+  for (const std::string& parameter : info.parameters) command.add_parameters(parameter);
+  command.set_section(info.section);
+  command.set_lane(static_cast<api::Lane>(static_cast<int>(info.lane) + 1));
+  command.set_moves(info.moves);
 }
 
 // What only this service bounds; the lines themselves are the controller's to judge.
@@ -92,8 +79,8 @@ grpc::ServerUnaryReactor* CommandService::ListCommands(grpc::CallbackServerConte
   const auto call = UnaryCall<api::ListCommandsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  call->answer([](api::ListCommandsResponse& answer) {
-    for (const CommandRow& row : shrc203::command_table()) fill(*answer.add_commands(), row);
+  call->answer([&kind = (*device)->kind()](api::ListCommandsResponse& answer) {
+    for (const stage::CommandInfo& info : kind.commands()) fill(*answer.add_commands(), info);
   });
   return call.get();
 }

@@ -25,6 +25,10 @@ Result<void> check_up(const stage::State& state) {
   return fail(Reason::link_down, "the device is not up: " + state.link_problem, "try again when it is up");
 }
 
+Problem no_positions() {
+  return {.reason = Reason::invalid_request, .message = "a controller of this kind keeps no positions"};
+}
+
 Result<bool> is_place(api::PositionKind kind) {
   if (kind == api::POSITION_KIND_COORDINATES) return false;
   if (kind == api::POSITION_KIND_UNSPECIFIED || kind == api::POSITION_KIND_PLACE) return true;
@@ -40,6 +44,8 @@ void away_from_the_lines(server::Gateway& gateway, Task task) {
 // One position on its way to a name.
 struct Saving {
   UnaryCall<api::SavePositionResponse>::Handle call;
+  const stage::Kind& kind;
+  stage::PositionLines lines;
   server::Gateway& gateway;
   SavedPositions& positions;
   SavedPosition position;
@@ -58,7 +64,7 @@ Result<void> Saving::read(const ExecuteEvent& ended, const stage::State& state) 
                 "look at its mode: axisctl status");
   }
   if (ended.problem) return tl::unexpected(*ended.problem);
-  auto coordinates = coordinates_told(position, {answers.begin() + 1, answers.end()}, state);
+  auto coordinates = coordinates_told(position, lines.tell, {answers.begin() + 1, answers.end()}, kind, state);
   if (!coordinates) return tl::unexpected(coordinates.error());
   position.coordinates = *std::move(coordinates);
   position.saved = server::calendar_now();
@@ -85,8 +91,8 @@ void keep(const SavingPtr& saving, const stage::State& state) {
 
 // Sent and read back with nobody else's lines between.
 void save(const SavingPtr& saving, const stage::RequestContext& asked, StageController& controller, TimePoint now) {
-  const std::string get = position_line(saving->position, "GET");
-  controller.execute({{position_line(saving->position, "SET"), get, get}, asked}, now,
+  const stage::PositionLines& lines = saving->lines;
+  controller.execute({{lines.save, lines.tell, lines.tell}, asked}, now,
                      [saving, &controller](const ExecuteEvent& event) {
                        if (event.kind == ExecuteEvent::Kind::reply) saving->answers.push_back(event.answer);
                        if (event.kind != ExecuteEvent::Kind::ended) return;
@@ -102,6 +108,7 @@ struct Removal {
   server::Gateway& gateway;
   SavedPositions& positions;
   SavedPosition position;
+  stage::PositionLines lines;
   stage::RequestContext asked;
 
   void refuse(const Problem& problem) const { call->refuse(problem); }
@@ -121,22 +128,20 @@ void forget(const RemovalPtr& removal) {
 }
 
 void remove(const RemovalPtr& removal, StageController& controller, TimePoint now) {
-  controller.execute({{position_line(removal->position, "DEL")}, removal->asked}, now,
-                     [removal](const ExecuteEvent& event) {
-                       if (event.kind != ExecuteEvent::Kind::ended) return;
-                       event.problem ? removal->refuse(*event.problem) : forget(removal);
-                     });
+  controller.execute({{removal->lines.forget}, removal->asked}, now, [removal](const ExecuteEvent& event) {
+    if (event.kind != ExecuteEvent::Kind::ended) return;
+    event.problem ? removal->refuse(*event.problem) : forget(removal);
+  });
 }
 
 // Whether DEL is taken where nothing is, the manual does not say (127), 132)); so that is asked first.
 void remove_if_there(const RemovalPtr& removal, StageController& controller, TimePoint now) {
-  controller.execute(
-      {{position_line(removal->position, "GET")}, removal->asked}, now, [removal](const ExecuteEvent& event) {
-        if (event.kind != ExecuteEvent::Kind::ended) return;
-        if (event.problem && event.problem->reason == Reason::not_found) return forget(removal);
-        if (event.problem) return removal->refuse(*event.problem);
-        removal->device.post([removal](StageController& same, TimePoint then) { remove(removal, same, then); });
-      });
+  controller.execute({{removal->lines.tell}, removal->asked}, now, [removal](const ExecuteEvent& event) {
+    if (event.kind != ExecuteEvent::Kind::ended) return;
+    if (event.problem && event.problem->reason == Reason::not_found) return forget(removal);
+    if (event.problem) return removal->refuse(*event.problem);
+    removal->device.post([removal](StageController& same, TimePoint then) { remove(removal, same, then); });
+  });
 }
 
 // Answers with the motion, or says what has become of the position.
@@ -176,10 +181,13 @@ grpc::ServerUnaryReactor* PositionService::SavePosition(grpc::CallbackServerCont
     auto number = positions.take_number(device, name.name, place, only_new);
     if (!number) return static_cast<void>(call->refuse(number.error()));
     if (const auto up = check_up(controller.state()); !up) return static_cast<void>(call->refuse(up.error()));
+    const stage::Kind& kind = name.device->kind();
+    const auto lines = kind.position_lines({place, **number});
+    if (!lines) return static_cast<void>(call->refuse(no_positions()));
     if (validate_only) return call->answer([](api::SavePositionResponse&) {});
     const SavedPosition position{device, name.name, place, **number, {}, {}, asked.who, {}, {}};
-    const SavingPtr saving(
-        new Saving{call, gateway, positions, position, *std::move(number), positions.find(device, name.name), {}});
+    const SavingPtr saving(new Saving{
+        call, kind, *lines, gateway, positions, position, *std::move(number), positions.find(device, name.name), {}});
     save(saving, asked, controller, now);
   });
   return call.get();
@@ -216,9 +224,11 @@ grpc::ServerUnaryReactor* PositionService::DeletePosition(grpc::CallbackServerCo
     const auto allowed = controller.check_use(asked, controller.state().controllable());
     if (!allowed) return static_cast<void>(call->refuse(allowed.error()));
     if (validate_only) return call->answer([](api::DeletePositionResponse&) {});
-    const RemovalPtr removal(new Removal{call, *name.device, gateway, positions, *position, asked});
+    const auto lines = name.device->kind().position_lines(slot_of(*position));
+    const RemovalPtr removal(
+        new Removal{call, *name.device, gateway, positions, *position, lines.value_or(stage::PositionLines{}), asked});
     // The number may be another position's in the controller that is here now.
-    const bool here = check_unit(*position, controller.state()).has_value();
+    const bool here = lines && check_unit(*position, controller.state());
     here ? remove_if_there(removal, controller, now) : forget(removal);
   });
   return call.get();

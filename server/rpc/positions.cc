@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "device/shrc203/command/command_table.h"
-#include "device/shrc203/command/reply.h"
 #include "server/access/spans.h"
 #include "server/rpc/call.h"
 #include "server/rpc/news.h"
@@ -73,26 +71,16 @@ api::Position to_proto(const server::SavedPosition& position, const stage::State
   return proto;
 }
 
-std::string position_line(const server::SavedPosition& position, std::string_view verb) {
-  return fmt::format("{}{},{}", position.place ? "PIT:" : "PAV:", verb, position.number);
-}
+stage::PositionSlot slot_of(const server::SavedPosition& position) { return {position.place, position.number}; }
 
-Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position,
-                                                     const std::vector<std::string>& answers,
+Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position, const std::string& question,
+                                                     const std::vector<std::string>& answers, const stage::Kind& kind,
                                                      const stage::State& state) {
-  const std::string question = position_line(position, "GET");
   // One flipped bit would make another place of it, which would be refused later.
   if (answers.size() != 2 || answers[0] != answers[1]) {
     return fail(Reason::line_fault, fmt::format("the controller told two things of {}", question), "save it again");
   }
-  const shrc203::CommandRow& row = shrc203::command_row(position.place ? "PIT:GET" : "PAV:GET");
-  const auto reply = shrc203::parse_reply(row, answers[0], state.controllable().count());
-  std::map<int, std::int64_t> coordinates;
-  if (reply && reply->kind == shrc203::Reply::Kind::data) {
-    for (const auto& [axis, pulses] : shrc203::by_axis(*reply, state.controllable())) {
-      coordinates[axis] = *shrc203::parse_integer(pulses);
-    }
-  }
+  auto coordinates = kind.read_position(slot_of(position), answers[0], state);
   if (!coordinates.empty()) return coordinates;
   return tl::unexpected(Problem{.reason = Reason::device_refused,
                                 .message = "the controller saved the position, and does not tell its coordinates",

@@ -1,13 +1,15 @@
 // Saved positions as callers name and read them, and what a controller must tell of one before it is gone to.
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "axisgate/v1/position.pb.h"
 #include "device/core/problem.h"
-#include "device/stage/stage_controller.h"
+#include "device/stage/kind.h"
 #include "server/devices/saved_positions.h"
 #include "server/gateway.h"
 
@@ -30,12 +32,11 @@ Result<void> check_unit(const server::SavedPosition& position, const stage::Stat
 
 api::Position to_proto(const server::SavedPosition& position, const stage::State& state);
 
-// "PIT:GET,3"
-std::string position_line(const server::SavedPosition& position, std::string_view verb);
+stage::PositionSlot slot_of(const server::SavedPosition& position);
 
-// By axis, of the answers to the same PIT:GET or PAV:GET sent twice. device_refused, line_fault.
-Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position,
-                                                     const std::vector<std::string>& answers,
+// By axis, of the answers to `question` for it, sent twice. device_refused, line_fault.
+Result<std::map<int, std::int64_t>> coordinates_told(const server::SavedPosition& position, const std::string& question,
+                                                     const std::vector<std::string>& answers, const stage::Kind& kind,
                                                      const stage::State& state);
 
 // What the controller must tell, by axis; empty: it may tell anything, but must hold it.

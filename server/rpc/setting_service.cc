@@ -9,7 +9,7 @@
 
 #include "server/rpc/call.h"
 #include "server/rpc/gatekeeper.h"
-#include "server/rpc/setting_lines.h"
+#include "server/rpc/settings.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
@@ -36,7 +36,8 @@ Problem not_answered(std::string_view question, const std::string& reply) {
 // The answers, as they come; told when the last has.
 struct Asking {
   UnaryCall<api::GetSettingsResponse>::Handle call;
-  api::Settings settings;
+  const stage::Kind& kind;
+  stage::Settings settings;
   std::size_t open = 0, answered = 0;
   std::optional<Problem> problem, last_untold;
 };
@@ -47,7 +48,7 @@ void take(const std::shared_ptr<Asking>& asking, std::string_view question, cons
   if (event.kind == ExecuteEvent::Kind::reply && refused) asking->problem = not_answered(question, event.wire_reply);
   if (event.kind == ExecuteEvent::Kind::reply && !refused) {
     ++asking->answered;
-    fill_setting(question, event.answer, state, asking->settings);
+    asking->kind.read_setting(question, event.answer, state, asking->settings);
   }
   if (event.kind != ExecuteEvent::Kind::ended) return;
   if (event.problem && untold(*event.problem)) asking->last_untold = event.problem;
@@ -58,7 +59,7 @@ void take(const std::shared_ptr<Asking>& asking, std::string_view question, cons
     asking->call->refuse(*asking->problem);
   } else {
     asking->call->answer(
-        [&](api::GetSettingsResponse& answer) { *answer.mutable_settings() = std::move(asking->settings); });
+        [&](api::GetSettingsResponse& answer) { *answer.mutable_settings() = to_proto(asking->settings); });
   }
 }
 
@@ -78,7 +79,8 @@ grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContex
   const auto call = UnaryCall<api::GetSettingsResponse>::start(response);
   const Result<server::Device*> device = find_device(gateway_, request->device());
   if (!device) return call->refuse(device.error());
-  (*device)->post([call, asked = question_context(*context)](StageController& controller, TimePoint now) {
+  (*device)->post([call, asked = question_context(*context), &kind = (*device)->kind()](StageController& controller,
+                                                                                        TimePoint now) {
     const stage::LinkState link = controller.state().link;
     if (link != stage::LinkState::up && link != stage::LinkState::doubtful) {
       call->refuse({.reason = Reason::link_down,
@@ -86,13 +88,16 @@ grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContex
                     .hint = "try again when it is up"});
       return;
     }
-    const auto asking = std::make_shared<Asking>();
-    asking->call = call;
-    asking->open = setting_questions().size();
-    fill_known(controller.state(), asking->settings);
+    const auto questions = kind.setting_questions();
+    const std::shared_ptr<Asking> asking(
+        new Asking{call, kind, known_settings(controller.state()), questions.size(), 0, {}, {}});
+    if (questions.empty()) {
+      return call->answer(
+          [&](api::GetSettingsResponse& answer) { *answer.mutable_settings() = to_proto(asking->settings); });
+    }
     auto limited = asked;
     limited.not_after = std::min(limited.not_after, now + kAnswerLimit);
-    for (const std::string_view question : setting_questions()) {
+    for (const std::string_view question : questions) {
       controller.execute({{std::string(question)}, limited}, now,
                          [asking, question, &controller](const ExecuteEvent& event) {
                            take(asking, question, event, controller.state());
@@ -116,7 +121,7 @@ grpc::ServerUnaryReactor* SettingService::change(const grpc::CallbackServerConte
   if (const auto role = role_of(context, access_); role) asked->role = *role;
   (*device)->post([call, request, to_lines, asked = *asked, caller = *caller, &access = access_,
                    &kind = (*device)->kind()](StageController& controller, TimePoint now) {
-    const Result<Lines> lines = to_lines(request, controller.state());
+    const Result<Lines> lines = to_lines(request, kind, controller.state());
     if (!lines) return static_cast<void>(call->refuse(lines.error()));
     if (const auto allowed = check_role(*lines, caller, access); !allowed) {
       return static_cast<void>(call->refuse(allowed.error()));
@@ -138,31 +143,35 @@ grpc::ServerUnaryReactor* SettingService::change(const grpc::CallbackServerConte
 grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerContext* context,
                                                          const api::ChangeSettingsRequest* request,
                                                          api::ChangeSettingsResponse* response) {
-  return change(*context, *request, response, [](const api::ChangeSettingsRequest& asked, const stage::State& state) {
-    return lines_of(asked, state);
-  });
+  return change(*context, *request, response,
+                [](const api::ChangeSettingsRequest& asked, const stage::Kind& kind, const stage::State& state) {
+                  return lines_of(asked, kind, state);
+                });
 }
 
 grpc::ServerUnaryReactor* SettingService::SetCoordinates(grpc::CallbackServerContext* context,
                                                          const api::SetCoordinatesRequest* request,
                                                          api::SetCoordinatesResponse* response) {
-  return change(*context, *request, response, [](const api::SetCoordinatesRequest& asked, const stage::State& state) {
-    return lines_of(asked, state);
-  });
+  return change(*context, *request, response,
+                [](const api::SetCoordinatesRequest& asked, const stage::Kind& kind, const stage::State& state) {
+                  return lines_of(asked, kind, state);
+                });
 }
 
 grpc::ServerUnaryReactor* SettingService::FireTrigger(grpc::CallbackServerContext* context,
                                                       const api::FireTriggerRequest* request,
                                                       api::FireTriggerResponse* response) {
-  return change(*context, *request, response,
-                [](const auto&, const stage::State&) { return Result<Lines>(Lines{"T:M"}); });
+  return change(*context, *request, response, [](const auto&, const stage::Kind& kind, const stage::State& state) {
+    return kind.lines_for(stage::FireTrigger{}, state);
+  });
 }
 
 grpc::ServerUnaryReactor* SettingService::ResetDevice(grpc::CallbackServerContext* context,
                                                       const api::ResetDeviceRequest* request,
                                                       api::ResetDeviceResponse* response) {
-  return change(*context, *request, response,
-                [](const auto&, const stage::State&) { return Result<Lines>(Lines{"RESET:"}); });
+  return change(*context, *request, response, [](const auto&, const stage::Kind& kind, const stage::State& state) {
+    return kind.lines_for(stage::ResetController{}, state);
+  });
 }
 
 }  // namespace axisgate::rpc

@@ -37,6 +37,22 @@ class Contrast final : public stage::Kind {
   Result<void> check_lines(const std::vector<std::string>& lines) const override {
     return shrc203::kind().check_lines(lines);
   }
+  std::vector<stage::CommandInfo> commands() const override { return shrc203::kind().commands(); }
+  Result<std::vector<std::string>> lines_for(const stage::Setting& setting, const stage::State& state) const override {
+    return shrc203::kind().lines_for(setting, state);
+  }
+  std::span<const std::string_view> setting_questions() const override { return shrc203::kind().setting_questions(); }
+  void read_setting(std::string_view question, std::string_view answer, const stage::State& state,
+                    stage::Settings& settings) const override {
+    shrc203::kind().read_setting(question, answer, state, settings);
+  }
+  std::optional<stage::PositionLines> position_lines(const stage::PositionSlot& slot) const override {
+    return shrc203::kind().position_lines(slot);
+  }
+  std::map<int, std::int64_t> read_position(const stage::PositionSlot& slot, std::string_view answer,
+                                            const stage::State& state) const override {
+    return shrc203::kind().read_position(slot, answer, state);
+  }
   Result<void> check_option(std::string_view name, std::string_view value) const override {
     return shrc203::kind().check_option(name, value);
   }

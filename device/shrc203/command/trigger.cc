@@ -1,6 +1,7 @@
 #include "device/shrc203/command/trigger.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "device/shrc203/command/reply.h"
@@ -22,6 +23,23 @@ bool possible(const Trigger& trigger) {
       break;
   }
   return trigger.axis >= 1 && trigger.axis <= kAxisCount && trigger.interval >= 2 && trigger.interval <= 30'000;
+}
+
+std::pair<std::string_view, Arguments> written(const Trigger& trigger) {
+  const std::string interval = std::to_string(trigger.interval), axis = std::to_string(trigger.axis);
+  switch (trigger.target) {
+    case Target::none:
+      return {"T:S", {}};
+    case Target::timer:
+      return {"T:T", Arguments().add("a", interval)};
+    case Target::drive_pulses:
+      return {"T:P", Arguments().add("a", axis).add("b", interval)};
+    case Target::scale_plus:
+    case Target::scale_minus:
+      break;
+  }
+  const char* sign = trigger.target == Target::scale_plus ? "+" : "-";
+  return {"T:E", Arguments().add("a", axis).add("m", sign).add("b", interval)};
 }
 
 }  // namespace
@@ -51,20 +69,13 @@ std::optional<Trigger> parse_trigger(std::string_view answer) {
 }
 
 Command trigger_command(const Trigger& trigger) {
-  const std::string interval = std::to_string(trigger.interval), axis = std::to_string(trigger.axis);
-  switch (trigger.target) {
-    case Target::none:
-      return make_command("T:S");
-    case Target::timer:
-      return make_command("T:T", Arguments().add("a", interval));
-    case Target::drive_pulses:
-      return make_command("T:P", Arguments().add("a", axis).add("b", interval));
-    case Target::scale_plus:
-    case Target::scale_minus:
-      break;
-  }
-  const char* sign = trigger.target == Target::scale_plus ? "+" : "-";
-  return make_command("T:E", Arguments().add("a", axis).add("m", sign).add("b", interval));
+  const auto [name, arguments] = written(trigger);
+  return make_command(name, arguments);
+}
+
+Result<std::string> trigger_line(const Trigger& trigger) {
+  const auto [name, arguments] = written(trigger);
+  return encode(command_row(name), arguments);
 }
 
 std::optional<Trigger> trigger_of(const Command& command) {
