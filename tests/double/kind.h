@@ -1,0 +1,10 @@
+// The rotor as a kind of device: what would be one line in server/kinds.cc.
+#pragma once
+
+#include "device/stage/kind.h"
+
+namespace axisgate::rotor {
+
+const stage::Kind& kind();
+
+}  // namespace axisgate::rotor
