@@ -49,7 +49,7 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
               "start one with `axisgated`, or name another with --target"};
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {kDeadline, "DEADLINE_EXCEEDED", fmt::format("the daemon at {} did not answer in time", target),
-              "what was asked may still happen: look with `axisctl status`"};
+              "the request may still take effect: check with `axisctl status`"};
     // Refused before anything that could tell more.
     case grpc::StatusCode::UNAUTHENTICATED:
       return {kRefused, "UNAUTHENTICATED", status.error_message(), ""};
@@ -58,8 +58,8 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
     case grpc::StatusCode::RESOURCE_EXHAUSTED:
       return {kRefused, "QUEUE_FULL", status.error_message(), ""};
     case grpc::StatusCode::UNIMPLEMENTED:
-      return {kRefused, "UNIMPLEMENTED", fmt::format("what answers at {} does not know this call", target),
-              "is it axisgated, and of this version?"};
+      return {kRefused, "UNIMPLEMENTED", fmt::format("the program at {} does not know this call", target),
+              "check that it is axisgated, and of this version"};
     default:
       return {kFailed, fmt::format("GRPC_{}", static_cast<int>(status.error_code())), status.error_message(),
               "see the daemon's log"};
@@ -108,8 +108,8 @@ v1::CallContext new_call_context() {
     const std::string_view text(lease);
     const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), token);
     if (error != std::errc() || end != text.data() + text.size()) {
-      throw usage(fmt::format("{} is \"{}\", which is no token", kLeaseVariable, text),
-                  "unset it, or start anew with `axisctl lease run`");
+      throw usage(fmt::format("{} is \"{}\", which is not a token", kLeaseVariable, text),
+                  "unset it, or start again with `axisctl lease run`");
     }
     context.set_lease_token(token);
   }

@@ -46,7 +46,7 @@ std::string axis_text(const v1::Axis& axis) {
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
   if (device.device_epoch() == 0) {
-    print_line("nothing is known of the controller yet: it has not answered since the daemon started");
+    print_line("controller unknown: it has not replied since the daemon started");
     return;
   }
   print_line(fmt::format("controller  {} {} {}  serial number {}  mode {}  format {}  epoch {}", device.vendor(),
@@ -57,11 +57,11 @@ void print_status(const v1::Device& device) {
                          device.has_trigger() ? trigger_text(device.trigger()) : "?"));
   for (const v1::Axis& axis : device.axes()) {
     if (!axis.stage_problem().empty()) print_line(fmt::format("WRONG STAGE: {}", axis.stage_problem()));
-    if (axis.armed()) print_line(fmt::format("ARMED: the inputs may start axis {}", axis.number()));
+    if (axis.armed()) print_line(fmt::format("ARMED: an input can start axis {}", axis.number()));
     if (axis.foreign_motion())
-      print_line(fmt::format("FOREIGN MOTION: nobody asked for that of axis {} here", axis.number()));
+      print_line(fmt::format("FOREIGN MOTION: axis {} moves without a request to the gateway", axis.number()));
   }
-  if (device.moving_unknown()) print_line("MOVING UNKNOWN: the line was lost while something moved");
+  if (device.moving_unknown()) print_line("MOVING UNKNOWN: the line was lost while an axis moved");
   if (!device.has_age()) print_line("never read");
 }
 
@@ -76,7 +76,7 @@ void print_command(const v1::Command& command, bool with_parameters) {
   print_line(fmt::format("{:<8} {:<28} {}", command.name(), command.format(), command.description()));
   if (!with_parameters) return;
   for (const std::string& parameter : command.parameters()) print_line("         " + parameter);
-  print_line(fmt::format("         manual {}{}", command.section(), command.moves() ? "; may set axes moving" : ""));
+  print_line(fmt::format("         manual {}{}", command.section(), command.moves() ? "; may start motion" : ""));
 }
 
 }  // namespace
@@ -154,7 +154,7 @@ int commands(const Session& session) {
     }
   }
   if (found || wanted.empty()) return kDone;
-  throw Failure{kUsage, "UNKNOWN_COMMAND", fmt::format("the table has no command \"{}\"", wanted),
+  throw Failure{kUsage, "UNKNOWN_COMMAND", fmt::format("the command table has no command \"{}\"", wanted),
                 "axisctl commands lists them"};
 }
 

@@ -42,8 +42,7 @@ void print_board(const v1::WatchLeasesResponse& board) {
   for (const v1::HeldBack& held_back : board.held_back()) {
     print_line(fmt::format("{}  {}", held_back.who(), latch_text(held_back.latch())));
   }
-  if (board.leases().empty() && board.waiting().empty() && board.held_back().empty())
-    print_line("nobody holds anything");
+  if (board.leases().empty() && board.waiting().empty() && board.held_back().empty()) print_line("no leases");
 }
 
 }  // namespace
@@ -87,7 +86,7 @@ int lease_hand_over(const Session& session) {
   v1::HandOverLeaseRequest request;
   *request.mutable_context() = new_call_context();
   if (request.context().lease_token() == 0)
-    throw usage("this is not inside `axisctl lease run`", "only its holder hands a lease over");
+    throw usage("this is not inside `axisctl lease run`", "only the holder can hand a lease over");
   request.set_device(chosen_device(session).name());
   request.set_to(session.options.holder);
   session.connection.call(session.connection.control, &v1::ControlService::Stub::HandOverLease, request,
@@ -105,7 +104,7 @@ int rearm(const Session& session) {
   if (session.options.json) {
     print_json(response);
   } else {
-    print_line(response.axes().empty() ? "nothing was held back" : axes_text(response.axes()) + " may move again");
+    print_line(response.axes().empty() ? "there was no latch" : axes_text(response.axes()) + " may move again");
   }
   return kDone;
 }

@@ -12,17 +12,17 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   mill->fallthrough();
   mill->footer(help_text("mill"));
   CLI::App* check = add_verb(*mill, options, Verb::mill_check, "check",
-                             "what a job would do, its errors, and what would spoil the workpiece");
+                             "show what a job would do, its errors, and risks to the workpiece");
   CLI::App* preview = add_verb(*mill, options, Verb::mill_preview, "preview", "draw what a job would do");
   for (CLI::App* verb : {check, preview}) {
     verb->add_option("FILE", options.mill.file, "the job; - is the standard input")->required()->type_name("");
-    verb->add_option("--profile", options.mill.profile, "the machine: mdx-20, or the file of a profile")
+    verb->add_option("--profile", options.mill.profile, "the machine: a name as mdx-20, or the file of a profile")
         ->required()
         ->type_name("PROFILE");
     verb->add_option("--origin", options.mill.origin,
-                     "the work origin in mm: X and Y from the home corner, how far Z0 lies below the top")
+                     "the work origin in mm: X and Y from the home corner, and how far Z0 is below the top")
         ->type_name("X,Y,Z");
-    verb->add_option("--stock", options.mill.stock, "the workpiece in mm, from the work origin on, and its thickness")
+    verb->add_option("--stock", options.mill.stock, "the workpiece in mm, from the work origin, and its thickness")
         ->type_name("X,Y,Z");
   }
   preview->add_option("-o,--output", options.mill.output, "an .svg or a .png file")->required()->type_name("FILE");

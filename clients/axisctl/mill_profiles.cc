@@ -39,7 +39,7 @@ fs::path file_of(const std::string& name) {
     known += (known.empty() ? "" : ", ") + file.stem().string();
   }
   throw usage(fmt::format("there is no profile \"{}\"", name),
-              known.empty() ? "give the file of a profile" : "use " + known + ", or the file of a profile");
+              known.empty() ? "name the file of a profile" : "use " + known + ", or the file of a profile");
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ rml1::Profile mill_profile(const std::string& name) {
   const auto profile = rml1::load_profile(file_of(name).string());
   if (profile) return *profile;
   for (const ConfigError& error : profile.error()) print_note(to_string(error));
-  throw usage(fmt::format("the profile {} will not do", name), "correct what is told above");
+  throw usage(fmt::format("the profile {} is not valid", name), "correct the errors above");
 }
 
 std::vector<rml1::KnownMachine> known_mills() {

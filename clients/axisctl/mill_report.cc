@@ -74,11 +74,10 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
                                              : fmt::format("starts {} times", job.spin_ups)));
   if (job.rpm.any) print_line(fmt::format("cuts at {} rpm", to_string(job.rpm)));
   if (check.machine().lowered_by_default()) {
-    print_line(fmt::format("lowers the tool before it sets Z1: Z {:.2f} mm is the profile's, a mill may have another",
+    print_line(fmt::format("lowers the tool before it sets Z1: Z {:.2f} mm is from the profile, a mill may differ",
                            profile.default_z1 * step));
   }
-  if (!origin_known)
-    print_line("without --origin the work area is not judged, and heights are as if Z0 lay at the bottom");
+  if (!origin_known) print_line("without --origin the work area is not checked, and heights assume Z0 at the bottom");
   const Diagnostics& told = check.diagnostics();
   if (told.count(Severity::error) > job.commands) print_line("more errors than commands: is it a job in RML-1?");
   print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),

@@ -40,7 +40,7 @@ Point lengths(const std::string& text, const char* option) {
     at = stop + 1;
   }
   if (good) return {values[0], values[1], values[2]};
-  throw usage(fmt::format("\"{}\" will not do for {}", text, option), "use three lengths in mm, as 10,10,5.5");
+  throw usage(fmt::format("\"{}\" is not valid for {}", text, option), "use three lengths in mm, as 10,10,5.5");
 }
 
 CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
@@ -54,7 +54,7 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
     }
     if (p.x < 0 || p.y < 0 || p.x > profile.x_mm || p.y > profile.y_mm) {
       print_note(
-          fmt::format("--origin lies beside the work area of the {}, which is {} mm in X and {} mm in Y: the tool "
+          fmt::format("--origin is outside the work area of the {}, which is {} mm in X and {} mm in Y: the tool "
                       "begins at its edge",
                       profile.name, profile.x_mm, profile.y_mm));
     }
@@ -113,7 +113,7 @@ int mill_preview(const Options& options) {
   const std::string& output = options.mill.output;
   const std::string ending = boost::algorithm::to_lower_copy(std::filesystem::path(output).extension().string());
   const bool svg = ending == ".svg";
-  if (!svg && ending != ".png") throw usage(output + " is no picture", "name a file that ends in .svg or .png");
+  if (!svg && ending != ".png") throw usage(output + " is not a picture", "name a file that ends in .svg or .png");
   const Profile profile = mill_profile(options.mill.profile);
   const CheckOptions asked = check_options(options.mill, profile);
   Strokes strokes;
@@ -129,11 +129,11 @@ int mill_preview(const Options& options) {
   const bool written = svg ? write_text(output, to_svg(picture)) : write_png(picture, output);
   if (!written) {
     throw usage(fmt::format("{} cannot be written: {}", output, std::strerror(errno)),
-                "name a file in a folder of yours");
+                "name a file in a folder that you can write to");
   }
   if (const auto errors = check.diagnostics().count(Severity::error); errors > 0) {
     print_note(
-        fmt::format("the job has {} {}: `axisctl mill check` tells them", errors, errors == 1 ? "error" : "errors"));
+        fmt::format("the job has {} {}: `axisctl mill check` shows them", errors, errors == 1 ? "error" : "errors"));
   }
   return kDone;
 }

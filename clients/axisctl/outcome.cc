@@ -38,7 +38,7 @@ Failure to_failure(const Session& session, const v1::Device& device, const v1::M
 }
 
 extern "C" void leave_motion_running(int) {
-  constexpr char text[] = "\naxisctl: the motion goes on; to stop it: axisctl stop\n";
+  constexpr char text[] = "\naxisctl: the motion continues; to stop it: axisctl stop\n";
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, sizeof text - 1);
   ::_exit(128 + SIGINT);
 }
@@ -56,8 +56,8 @@ v1::Motion await_outcome(const Session& session, const std::string& motion) {
   const grpc::Status status = reader->Finish();
   if (status.ok() && response.motion().state() >= v1::MOTION_STATE_SUCCEEDED) return response.motion();
   throw Failure{kFailed, "OUTCOME_UNKNOWN",
-                fmt::format("the daemon was lost while motion {} ran: {}", last_part(motion), status.error_message()),
-                "it may be moving still: look with `axisctl status`, do not simply repeat it"};
+                fmt::format("connection lost during motion {}: {}", last_part(motion), status.error_message()),
+                "the axes may still be moving: check with `axisctl status` before you repeat it"};
 }
 
 int report_outcome(const Session& session, const v1::Device& device, const v1::Motion& motion) {

@@ -26,8 +26,8 @@ void Output::write(std::string_view text) {
   if (std::fwrite(text.data(), 1, text.size(), file_) == text.size() && std::fflush(file_) == 0) return;
   throw Failure{
       kFailed, "NOT_WRITTEN",
-      fmt::format("{} cannot be written further: {}", is_file() ? path_ : "the standard output", std::strerror(errno)),
-      "what is there stays"};
+      fmt::format("writing to {} has failed: {}", is_file() ? path_ : "the standard output", std::strerror(errno)),
+      "what was written before stays"};
 }
 
 }  // namespace axisgate::axisctl

@@ -114,7 +114,7 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view sign = equals == std::string_view::npos ? "" : text.substr(equals + 1);
   if (sign != "+" && sign != "-") {
-    throw usage(fmt::format("\"{}\" is not AXIS=+ or AXIS=-", text), "as 1=+ 2=-; `axisctl move` goes a certain way");
+    throw usage(fmt::format("\"{}\" is not AXIS=+ or AXIS=-", text), "as 1=+ 2=-; `axisctl move` moves by a distance");
   }
   v1::AxisJog jog;
   jog.set_axis(find_axis(device, text.substr(0, equals)).number());

@@ -30,13 +30,13 @@ std::int64_t parse_rest(std::string_view text) {
   if (text.ends_with('s')) {
     if (const auto rest = parse_steps(text.substr(0, text.size() - 1), 3, most_ms)) return *rest;
   }
-  throw usage(fmt::format("\"{}\" is no time to rest", text), "0s to 255s, as rest=0.5s");
+  throw usage(fmt::format("\"{}\" is not a waiting time", text), "0s to 255s, as rest=0.5s");
 }
 
 std::int64_t parse_inputs(std::string_view text) {
   constexpr std::int64_t all_on = 63;
   if (const auto inputs = parse_steps(text, 0, all_on)) return *inputs;
-  throw usage(fmt::format("\"{}\" is nothing that the inputs can show", text),
+  throw usage(fmt::format("\"{}\" is not a state of the inputs", text),
               "0 to 63: add 1 for IN1, 2 for IN2, 4 for IN3, 8 for IN4, 16 for IN5 and 32 for IN6, as inputs=5");
 }
 
@@ -81,7 +81,7 @@ class Course {
   }
 
   void expect_end(std::string_view hint) const {
-    if (at_ < words_.size()) throw usage(fmt::format("\"{}\" has no place here", words_[at_]), std::string(hint));
+    if (at_ < words_.size()) throw usage(fmt::format("\"{}\" is not expected here", words_[at_]), std::string(hint));
   }
 
  private:
@@ -93,9 +93,8 @@ class Course {
 v1::ArcAroundCenter::Rotation parse_rotation(std::string_view word) {
   if (word == "cw") return v1::ArcAroundCenter::ROTATION_CLOCKWISE;
   if (word == "ccw") return v1::ArcAroundCenter::ROTATION_COUNTERCLOCKWISE;
-  throw usage(word.empty() ? "the arc does not say which way round it goes"
-                           : fmt::format("\"{}\" does not say which way round the arc goes", word),
-              "cw or ccw behind its center, as around 1=0 2=1mm ccw 90deg");
+  throw usage(word.empty() ? "the arc has no direction" : fmt::format("\"{}\" is not the direction of an arc", word),
+              "write cw or ccw after its center, as around 1=0 2=1mm ccw 90deg");
 }
 
 void fill_extent(std::string_view word, v1::ArcAroundCenter& around) {
@@ -110,22 +109,21 @@ void fill_extent(std::string_view word, v1::ArcAroundCenter& around) {
     around.set_degrees(to_string(angle->value));
     return;
   }
-  throw usage(word.empty() ? "the arc does not say how far it goes"
-                           : fmt::format("\"{}\" does not say how far the arc goes", word),
-              "degrees or whole turns behind cw or ccw, as 90deg, 1turn or 2turns");
+  throw usage(word.empty() ? "the arc has no angle" : fmt::format("\"{}\" is not the angle of an arc", word),
+              "write degrees or whole turns after cw or ccw, as 90deg, 1turn or 2turns");
 }
 
 const Places& of_two_axes(const Places& places, std::string_view what) {
   if (places.size() == 2) return places;
   throw usage(fmt::format("{} of an arc has two coordinates, not {}", what, places.size()),
-              "name both axes of the circle, as 1=0 2=1mm; a third one rises, as rise 3=0.1mm");
+              "name both axes of the circle, as 1=0 2=1mm; a third axis rises, as rise 3=0.1mm");
 }
 
 void fill_rise(Course& course, v1::Arc& arc) {
   constexpr std::string_view example = "as around 1=0 2=1mm cw 2turns rise 3=0.1mm";
   if (course.take(kRise)) {
     const Places places = course.take_places();
-    if (places.size() != 1) throw usage("a rise is of one axis", std::string(example));
+    if (places.size() != 1) throw usage("a rise has one axis", std::string(example));
     *arc.mutable_rise() = places.front();
   }
   course.expect_end(arc.has_around() ? example : "as through 1=1mm 2=1mm to 1=2mm 2=0 rise 3=0.1mm");
@@ -144,7 +142,7 @@ void fill_through(Course& course, v1::Arc& arc, Places& plane) {
   v1::ArcThroughPoint& through = *arc.mutable_through();
   plane = of_two_axes(course.take_places(), "the point");
   through.mutable_point()->Add(plane.begin(), plane.end());
-  if (!course.take(kTo)) throw usage("the arc does not say where it goes", "as through 1=1mm 2=1mm to 1=2mm 2=0");
+  if (!course.take(kTo)) throw usage("the arc has no end point", "as through 1=1mm 2=1mm to 1=2mm 2=0");
   const Places end = of_two_axes(course.take_places(), "the end");
   through.mutable_end()->Add(end.begin(), end.end());
 }
@@ -153,7 +151,7 @@ void fill_straight(Course& course, v1::Segment& segment, Places& places) {
   places = course.take_places();
   if (places.empty()) {
     const std::string word = course.take();
-    throw usage(word.empty() ? "no axis is named" : fmt::format("\"{}\" begins no segment", word),
+    throw usage(word.empty() ? "no axis is named" : fmt::format("\"{}\" does not begin a segment", word),
                 "write AXIS=AMOUNT, as 1=+5mm, or an arc, as around 1=0 2=1mm ccw 90deg");
   }
   course.expect_end("a straight line is AXIS=AMOUNT for each axis, as 1=+5mm 2=1mm");
@@ -219,8 +217,9 @@ std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions&
       throw;
     }
   }
-  if (input.bad()) throw usage(fmt::format("{}: cannot be read to its end", file_name), "is it a file?");
-  if (segments.empty()) throw usage(fmt::format("{}: no segment in it", file_name), "write one a line, as 1=1mm 2=1mm");
+  if (input.bad()) throw usage(fmt::format("{}: reading has failed", file_name), "is it a file?");
+  if (segments.empty())
+    throw usage(fmt::format("{}: it has no segment", file_name), "write one per line, as 1=1mm 2=1mm");
   return segments;
 }
 

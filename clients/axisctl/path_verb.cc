@@ -91,7 +91,7 @@ int path(const Session& session) {
 int line(const Session& session) {
   const v1::Device device = chosen_device(session);
   const v1::Segment segment = parse_segment(device, path_options(session.options), session.options.lines);
-  if (segment.has_arc()) throw usage("that is no straight line", "axisctl arc runs it");
+  if (segment.has_arc()) throw usage("that is not a straight line", "use axisctl arc");
   return run(session, device, {segment});
 }
 
@@ -99,7 +99,7 @@ int arc(const Session& session) {
   const v1::Device device = chosen_device(session);
   const v1::Segment segment = parse_segment(device, path_options(session.options), session.options.lines);
   if (!segment.has_arc())
-    throw usage("that is a straight line", "axisctl line runs it; an arc begins with around or through");
+    throw usage("that is a straight line", "use axisctl line; an arc begins with around or through");
   return run(session, device, {segment});
 }
 

@@ -31,7 +31,7 @@ std::string whole_text(const v1::Device& device, const v1::Position& position) {
   const bool place = position.kind() == v1::POSITION_KIND_PLACE;
   return fmt::format("{}  {} {}  {}  saved {} by {}{}", last_part(position.name()), place ? "place" : "coordinates",
                      position.number(), places_text(device, position), time_text(position.save_time()), position.who(),
-                     position.emptied() ? "  it may not be there any more" : "");
+                     position.emptied() ? "  the controller may have lost it" : "");
 }
 
 }  // namespace
@@ -62,7 +62,7 @@ int list_positions(const Session& session) {
   for (const v1::Position& position : there.positions()) {
     session.options.json ? print_json(position) : print_line(whole_text(device, position));
   }
-  if (there.positions().empty() && !session.options.json) print_line("no position has a name");
+  if (there.positions().empty() && !session.options.json) print_line("no saved positions");
   return kDone;
 }
 

@@ -68,13 +68,12 @@ std::string describe_link(const v1::LinkChange& link) {
 }
 
 std::string describe_stop(const v1::StopRequested& stop) {
-  return fmt::format("{} of axes {} asked for by {}", stop.emergency() ? "emergency stop" : "stop",
-                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "somebody" : stop.who());
+  return fmt::format("{} of axes {} requested by {}", stop.emergency() ? "emergency stop" : "stop",
+                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who());
 }
 
 std::string describe_foreign(const v1::ForeignMotion& motion) {
-  return fmt::format("FOREIGN_MOTION: axes {} move, and nobody asked the gateway for it",
-                     fmt::join(motion.axes(), ", "));
+  return fmt::format("FOREIGN_MOTION: axes {} move without a request to the gateway", fmt::join(motion.axes(), ", "));
 }
 
 std::string describe_switches(const v1::SwitchesChanged& change) {
@@ -82,8 +81,8 @@ std::string describe_switches(const v1::SwitchesChanged& change) {
   for (const v1::SwitchChange& one : change.changes()) {
     parts.push_back(fmt::format("{},{} from {} to {}", one.item(), one.number(), one.before(), one.after()));
   }
-  if (change.unknown()) parts.emplace_back("perhaps others, which nobody can tell");
-  return fmt::format("memory switches changed by {}: {}", change.who().empty() ? "somebody" : change.who(),
+  if (change.unknown()) parts.emplace_back("other changes are unknown");
+  return fmt::format("memory switches changed by {}: {}", change.who().empty() ? "an unknown caller" : change.who(),
                      fmt::join(parts, "; "));
 }
 
@@ -200,13 +199,13 @@ std::string scan_text(const v1::Axis& axis, const v1::Scan& scan) {
   std::string text = fmt::format("{} ran from {} to {}", label(axis), position_text(axis, scan.run_from_pulses()),
                                  position_text(axis, scan.run_to_pulses()));
   if (scan.has_expected_triggers() && scan.has_expected_triggers_in_range()) {
-    text += fmt::format("; {} trigger pulses were due in its range, {} in all", scan.expected_triggers_in_range(),
+    text += fmt::format("; {} trigger pulses expected in the range, {} in all", scan.expected_triggers_in_range(),
                         scan.expected_triggers());
   } else {
-    text += "; how many trigger pulses were due is not known";
+    text += "; expected trigger pulses unknown";
   }
-  if (!scan.has_observed_triggers()) return text + "; how far it came is not known";
-  return text + fmt::format("; {} by the way that it was seen to go", scan.observed_triggers());
+  if (!scan.has_observed_triggers()) return text + "; observed trigger pulses unknown";
+  return text + fmt::format("; {} computed from the observed displacement", scan.observed_triggers());
 }
 
 std::string positions_text(const v1::Device& device) {

@@ -53,7 +53,8 @@ std::vector<Part> read_parts(const std::string& file, const std::string& name) {
   }
   std::vector<Part> parts = recordings_in(file == "-" ? std::cin : opened);
   if (parts.empty()) {
-    throw usage(fmt::format("{} is no recording: no line begins with \"{}\"", name, kHead), "axisctl record makes one");
+    throw usage(fmt::format("{} is not a recording: no line begins with \"{}\"", name, kHead),
+                "axisctl record makes one");
   }
   return parts;
 }
@@ -88,7 +89,7 @@ int replay(const Session& session) {
     return kFailed;
   }
   if (exchanges == 0) {
-    throw Failure{kFailed, "NOTHING_COMPARED", fmt::format("{} shows no exchange on a line that is up", name),
+    throw Failure{kFailed, "NOTHING_COMPARED", fmt::format("{} has no exchange while the line is up", name),
                   "record while the controller answers"};
   }
   print_line(fmt::format("{}: {} exchanges, no difference", name, exchanges));

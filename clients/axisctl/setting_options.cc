@@ -36,54 +36,58 @@ CLI::App* add_change(CLI::App& app, Options& options, Verb verb, const char* nam
 void add_axis_settings(CLI::App& app, Options& options) {
   CLI::App* speed = add_verb(app, options, Verb::speed, "speed", "show or set the speeds of axes");
   add_axes(*speed, options);
-  speed->add_option("--minimum", options.minimum, "at which a motion begins and ends, as 10um")->type_name("SPEED");
-  speed->add_option("--maximum", options.maximum, "as 1mm")->type_name("SPEED");
-  speed->add_option("--acceleration", options.acceleration_ms, "time from the lowest to the highest speed")
+  speed->add_option("--minimum", options.minimum, "speed at which a motion begins and ends, as 10um")
+      ->type_name("SPEED");
+  speed->add_option("--maximum", options.maximum, "highest speed, as 1mm")->type_name("SPEED");
+  speed->add_option("--acceleration", options.acceleration_ms, "time from minimum to maximum speed")
       ->check(CLI::Range(1, 1000))
       ->type_name("MS");
-  speed->add_flag("--origin-return", options.origin_return, "those of the mechanical origin return");
+  speed->add_flag("--origin-return", options.origin_return, "the speeds of the mechanical origin return");
 
   CLI::App* motor = add_change(app, options, Verb::motor, "motor", "switch the motors' current");
   add_several_axes(*motor, options);
   add_value(*motor, options, "SWITCH", {"on", "off"});
-  CLI::App* loop = add_change(app, options, Verb::loop, "loop", "closed or open: whether the scale holds the axes");
+  CLI::App* loop =
+      add_change(app, options, Verb::loop, "loop", "closed or open loop: whether the scale holds the axes");
   add_several_axes(*loop, options);
   add_value(*loop, options, "LOOP", {"closed", "open"});
-  CLI::App* divisions = add_change(app, options, Verb::divisions, "divisions", "of the motor driver: what a pulse is");
+  CLI::App* divisions =
+      add_change(app, options, Verb::divisions, "divisions", "of the motor driver; they set the resolution");
   divisions->add_option("AXIS", options.axes)->required()->expected(1)->allow_extra_args(false)->type_name("");
   divisions->add_option("NUMBER", options.divisions, "1 to 8000, as 200")->required()->type_name("");
-  add_axes(*add_change(app, options, Verb::zero, "zero", "call the place where axes stand 0"), options);
-  add_axes(*add_change(app, options, Verb::unzero, "unzero", "take `zero` back"), options);
-  add_change(app, options, Verb::preset, "preset", "give the place where axes stand a coordinate")
+  add_axes(*add_change(app, options, Verb::zero, "zero", "set the coordinates of axes to 0, without motion"), options);
+  add_axes(*add_change(app, options, Verb::unzero, "unzero", "undo `zero`"), options);
+  add_change(app, options, Verb::preset, "preset", "set the coordinates of axes, without motion")
       ->add_option("AXIS=AMOUNT", options.places, "as 1=5mm")
       ->required()
       ->type_name("");
 }
 
 void add_controller_settings(CLI::App& app, Options& options) {
-  add_verb(app, options, Verb::settings, "settings", "everything that is set");
-  add_change(app, options, Verb::settle, "settle", "wait between the end of a motion and READY")
+  add_verb(app, options, Verb::settings, "settings", "show all settings");
+  add_change(app, options, Verb::settle, "settle", "set the time between positioning and READY")
       ->add_option("SECONDS", options.value, "0 to 255, in steps of 0.1")
       ->required()
       ->type_name("");
-  add_change(app, options, Verb::sleep, "sleep", "motors off, until `wake`");
-  add_change(app, options, Verb::wake, "wake", "motors on again: stages go back to their places");
-  add_value(*add_change(app, options, Verb::display, "display", "the lights of the display"), options, "SWITCH",
+  add_change(app, options, Verb::sleep, "sleep", "switch the motors off until `wake`");
+  add_change(app, options, Verb::wake, "wake", "switch the motors on again; stages move back");
+  add_value(*add_change(app, options, Verb::display, "display", "switch the lights of the display"), options, "SWITCH",
             {"on", "off"});
-  add_value(*add_change(app, options, Verb::beep, "beep", "the controller's beep"), options, "SWITCH", {"on", "off"});
+  add_value(*add_change(app, options, Verb::beep, "beep", "switch the controller's beep"), options, "SWITCH",
+            {"on", "off"});
   add_value(*add_change(app, options, Verb::mode, "mode", "for administrators: change the operation mode"), options,
             "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
-  add_value(*add_change(app, options, Verb::dialect, "dialect", "for administrators: the controller's language"),
+  add_value(*add_change(app, options, Verb::dialect, "dialect", "for administrators: change the command format"),
             options, "DIALECT", {"SHOT_FC", "HIT"});
   add_verb(app, options, Verb::reset, "reset", "for administrators: restart the controller");
 }
 
 void add_signals(CLI::App& app, Options& options) {
   CLI::App* outputs = add_verb(app, options, Verb::outputs, "outputs", "show or switch OUT1 to OUT6");
-  outputs->add_option("SWITCH", options.value, "none: all off")
+  outputs->add_option("SWITCH", options.value, "on or off; none: all off")
       ->check(CLI::IsMember({"on", "off", "none"}))
       ->type_name("");
-  outputs->add_option("OUT", options.outputs, "1 to 6; others stay")
+  outputs->add_option("OUT", options.outputs, "1 to 6; the others stay as they are")
       ->delimiter(',')
       ->check(CLI::Range(1, 6))
       ->type_name("");
@@ -92,18 +96,17 @@ void add_signals(CLI::App& app, Options& options) {
   trigger->require_subcommand(1);
   trigger->fallthrough();
   trigger->footer(help_text("trigger"));
-  CLI::App* every =
-      add_verb(*trigger, options, Verb::trigger_every, "every", "a pulse every so many pulses, or so often");
+  CLI::App* every = add_verb(*trigger, options, Verb::trigger_every, "every", "give a pulse at equal intervals");
   every->add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, as 1000; or a time, as 0.2s")
       ->required()
       ->type_name("");
-  CLI::Option* axis = every->add_option("--axis", options.axis, "whose pulses are counted")->type_name("AXIS");
-  every->add_option("--scale", options.scale, "pulses of its scale in this direction, instead of drive pulses")
+  CLI::Option* axis = every->add_option("--axis", options.axis, "the axis whose pulses are counted")->type_name("AXIS");
+  every->add_option("--scale", options.scale, "count scale pulses in this direction, not drive pulses")
       ->check(CLI::IsMember({"+", "-"}))
       ->needs(axis)
       ->type_name("+|-");
-  add_verb(*trigger, options, Verb::trigger_off, "off", "no more pulses");
-  add_change(*trigger, options, Verb::trigger_fire, "fire", "one pulse now");
+  add_verb(*trigger, options, Verb::trigger_off, "off", "give no more pulses");
+  add_change(*trigger, options, Verb::trigger_fire, "fire", "give one pulse now");
 }
 
 }  // namespace

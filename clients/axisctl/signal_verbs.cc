@@ -71,7 +71,7 @@ std::int64_t pulse_interval(std::string_view text) {
 
 v1::Trigger timer(const Options& options) {
   if (!options.axis.empty()) {
-    throw usage(fmt::format("{} is a time, and a timer belongs to no axis", options.interval),
+    throw usage(fmt::format("{} is a time, and the timer has no axis", options.interval),
                 "leave out --axis, or give a number of pulses, as `1000 --axis 1`");
   }
   v1::Trigger trigger;
@@ -85,7 +85,7 @@ v1::Trigger wanted_trigger(const Options& options, const v1::Device& device) {
   v1::Trigger trigger;
   trigger.set_interval(pulse_interval(options.interval));
   if (options.axis.empty()) {
-    throw usage(fmt::format("{} pulses of which axis?", trigger.interval()),
+    throw usage(fmt::format("an interval of {} pulses needs an axis", trigger.interval()),
                 fmt::format("as `{} --axis 1`; a time has a unit, as `0.2s`", options.interval));
   }
   trigger.set_axis(find_axis(device, options.axis).number());
@@ -109,7 +109,7 @@ int outputs(const Session& session) {
   if (device.has_outputs()) settings.set_outputs(device.outputs());
   if (options.value.empty()) return show_outputs(session, settings);
   if (!settings.has_outputs()) {
-    throw Failure{kRefused, "INVALID_REQUEST", "what the other outputs are is not known",
+    throw Failure{kRefused, "INVALID_REQUEST", "the state of the other outputs is unknown",
                   "try again, or begin with `axisctl outputs none`"};
   }
   wanted.set_outputs(switched(settings.outputs(), options));

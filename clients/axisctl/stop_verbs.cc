@@ -13,13 +13,13 @@ std::string describe_stop(const v1::Device& device, const v1::AxisStop& stop) {
   const v1::Axis& axis = find_axis(device, std::to_string(stop.axis()));
   std::string text = fmt::format("{}: ", label(axis));
   if (!stop.named()) {
-    text += "not asked to stop, its motor is off";
+    text += "no stop sent, its motor is off";
   } else if (stop.wire_reply().empty()) {
-    text += "no answer to the stop";
+    text += "no reply to the stop";
   } else {
-    text += "answered " + stop.wire_reply();
+    text += "replied " + stop.wire_reply();
   }
-  text += !stop.has_ready() ? ", not seen since" : stop.ready() ? ", stands still" : ", STILL MOVING";
+  text += !stop.has_ready() ? ", state unknown" : stop.ready() ? ", stationary" : ", STILL MOVING";
   if (stop.has_position_pulses()) text += " at " + position_text(axis, stop.position_pulses());
   return text;
 }
@@ -34,7 +34,7 @@ int report(const Session& session, const v1::Device& device, const Response& res
   if (response.has_problem()) throw to_failure(response.problem());
   for (const v1::AxisStop& stop : response.axes()) {
     if (!stop.has_ready() || !stop.ready()) {
-      throw Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not seen to stand still", stop.axis()),
+      throw Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not confirmed stationary", stop.axis()),
                     "look at the stage"};
     }
   }

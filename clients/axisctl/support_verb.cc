@@ -29,7 +29,7 @@ std::string way_to(const std::string& target) {
   if (::stat(target.substr(kUnixTarget.size()).c_str(), &found) != 0) {
     return fmt::format("by a Unix socket, which cannot be reached: {}", std::strerror(errno));
   }
-  return S_ISSOCK(found.st_mode) ? "by a Unix socket, which is there" : "by a path that is no socket";
+  return S_ISSOCK(found.st_mode) ? "by a Unix socket, which is there" : "by a path that is not a socket";
 }
 
 std::string head(const std::string& target) {
@@ -39,7 +39,7 @@ std::string head(const std::string& target) {
       "made {:%Y-%m-%d %H:%M:%S} UTC by axisctl " AXISGATE_VERSION
       "\n"
       "system {}\n"
-      "the daemon is asked {}\n\n",
+      "the daemon is reached {}\n\n",
       fmt::gmtime(now), server::machine_text(), way_to(target));
 }
 
@@ -70,12 +70,11 @@ int support(const Session& session) {
   } catch (const Failure& failure) {
     print_failure(failure);
     // Its message may tell the address.
-    output.write(fmt::format("\n== no report of axisgated, or no whole one: {} ==\n", failure.reason));
+    output.write(fmt::format("\n== no report of axisgated, or an incomplete one: {} ==\n", failure.reason));
     lack = "without the daemon's part; ";
   }
   if (output.is_file()) {
-    print_line(
-        fmt::format("{}: {}read it through before you send it; its head says what was replaced", output.path(), lack));
+    print_line(fmt::format("{}: {}read it before you send it; its head shows what was replaced", output.path(), lack));
   }
   return kDone;
 }

@@ -67,7 +67,7 @@ class Watcher {
   }
 
   void tell_of_break() const {
-    print_failure({kUnavailable, "UNAVAILABLE", "the connection to the daemon broke",
+    print_failure({kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost",
                    request_.has_from_revision() ? fmt::format("trying again from revision {}", request_.from_revision())
                                                 : "trying again"});
   }
@@ -80,7 +80,7 @@ class Watcher {
     // Whoever asked for what is gone decides how to go on; whoever fell behind or outlived a daemon is told and goes
     // on.
     if (!seen_any_) throw Failure{kRefused, "COMPACTED", problem.message(), fmt::format("use --from {}", resume)};
-    print_failure({kRefused, "COMPACTED", problem.message(), fmt::format("going on from revision {}", resume)});
+    print_failure({kRefused, "COMPACTED", problem.message(), fmt::format("continuing from revision {}", resume)});
     request_.set_from_revision(resume);
     request_.clear_run();
   }

@@ -169,7 +169,7 @@ class WithDaemon(unittest.TestCase):
     def test_stop_in_mid_move(self):
         move = self.daemon.start("move", "x=8mm", "--speed", "1mm/s")
         move.until("RUNNING")
-        self.assertRegex(self.ok("stop"), r"(?m)^x: answered OK, stands still at ")
+        self.assertRegex(self.ok("stop"), r"(?m)^x: replied OK, stationary at ")
         self.assertEqual(move.end(), 1)
         self.assertRegex(move.errors, r"\Aaxisctl: STOPPED: [^\n]+\n\Z")
 

@@ -93,22 +93,22 @@ class Curves(OnAStage):
 
 class Typed(OnAStage):
     def test_what_a_segment_must_have_is_said_with_file_and_line(self):
-        for segment, what in (("around 1=0 2=1mm", "which way round"),
-                              ("around 1=0 2=1mm 90deg", "which way round"),
-                              ("around 1=0 2=1mm ccw", "how far it goes"),
-                              ("around 1=0 2=1mm ccw 90", "how far"),
-                              ("around 1=0 2=1mm ccw 0.5turns", "how far"),
+        for segment, what in (("around 1=0 2=1mm", "the arc has no direction"),
+                              ("around 1=0 2=1mm 90deg", "is not the direction of an arc"),
+                              ("around 1=0 2=1mm ccw", "the arc has no angle"),
+                              ("around 1=0 2=1mm ccw 90", "is not the angle of an arc"),
+                              ("around 1=0 2=1mm ccw 0.5turns", "is not the angle of an arc"),
                               ("around 1=0 ccw 90deg", "the center of an arc has two coordinates, not 1"),
                               ("through 1=1mm 2=1mm 1=2mm 2=0", "the point of an arc has two coordinates, not 4"),
-                              ("through 1=1mm 2=1mm", "where it goes"),
+                              ("through 1=1mm 2=1mm", "the arc has no end point"),
                               ("through 1=1mm 2=1mm to 1=2mm", "the end of an arc has two coordinates, not 1"),
-                              ("around 1=0 2=1mm cw 1turn rise", "a rise is of one axis"),
-                              ("around 1=0 2=1mm cw 1turn 3=1um", '"3=1um" has no place here'),
-                              ("around 1=0 2=1mm cw 1turn rise 3=1um twice", '"twice" has no place here'),
-                              ("arround 1=0 2=1mm cw 1turn", '"arround" begins no segment'),
-                              ("1=1mm 2", '"2" has no place here'),
-                              ("1=1mm rest=0.5", "no time to rest"),
-                              ("1=1mm rest=255.001s", "no time to rest"),
+                              ("around 1=0 2=1mm cw 1turn rise", "a rise has one axis"),
+                              ("around 1=0 2=1mm cw 1turn 3=1um", '"3=1um" is not expected here'),
+                              ("around 1=0 2=1mm cw 1turn rise 3=1um twice", '"twice" is not expected here'),
+                              ("arround 1=0 2=1mm cw 1turn", '"arround" does not begin a segment'),
+                              ("1=1mm 2", '"2" is not expected here'),
+                              ("1=1mm rest=0.5", "is not a waiting time"),
+                              ("1=1mm rest=255.001s", "is not a waiting time"),
                               ("1=1mm inputs=64", "the inputs"),
                               ("rest=1s", "no axis is named")):
             with self.subTest(segment):
@@ -171,8 +171,9 @@ class Scans(OnAStage):
     def test_what_a_scan_came_to_and_the_trigger_afterwards(self):
         self.ok("trigger", "every", "500", "--axis", "2")
         told = self.ok("scan", "x", "0mm", "0.1005mm", "--every", "1000").splitlines()[-1]
-        ran = re.fullmatch(r"done: x (\S+) mm; x ran from (\S+) mm to (\S+) mm; 11 trigger pulses were due in its range, "
-                           r"(\d+) in all; (\d+) by the way that it was seen to go", told)
+        ran = re.fullmatch(r"done: x (\S+) mm; x ran from (\S+) mm to (\S+) mm; "
+                           r"11 trigger pulses expected in the range, (\d+) in all; "
+                           r"(\d+) computed from the observed displacement", told)
         self.assertTrue(ran, told)
         self.assertEqual(ran[1], ran[3])
         self.assertLess(float(ran[2]), 0)

@@ -223,7 +223,7 @@ class Jogs(unittest.TestCase):
                 wrong = self.daemon.run("jog", word)
                 self.assertEqual(wrong.returncode, 2)
                 self.assertEqual(wrong.stderr, f'axisctl: INVALID_REQUEST: "{word}" is not AXIS=+ or AXIS=- (as 1=+ 2=-; '
-                                               "`axisctl move` goes a certain way)\n")
+                                               "`axisctl move` moves by a distance)\n")
         self.assertEqual(self.daemon.run("jog", "w=+").returncode, 2)
         self.assertNotRegex(self.recording(), '> "(J|G):')
 

@@ -86,7 +86,7 @@ class Leases(unittest.TestCase):
         missing = self.run_as_stranger("lease", "run", "--", "/nonexistent/command")
         self.assertEqual(missing.returncode, 2)
         self.assertRegex(missing.stderr, r"cannot run /nonexistent/command")
-        self.assertEqual(self.daemon.run("lease", "list").stdout, "nobody holds anything\n")
+        self.assertEqual(self.daemon.run("lease", "list").stdout, "no leases\n")
 
     def test_one_who_waits_gets_it_next(self):
         holder = self.hold("--axes", "1")

@@ -117,7 +117,7 @@ class Diagnostics(InAFolder):
                 self.assertEqual(counts, tuple(str(checked.summary[kind]) for kind in ("errors", "warnings", "notes")))
 
     def test_a_depth_that_the_job_did_not_set_is_told(self):
-        told = "lowers the tool before it sets Z1: Z -2.50 mm is the profile's, a mill may have another"
+        told = "lowers the tool before it sets Z1: Z -2.50 mm is from the profile, a mill may differ"
         for job in ("PD;PU;", "@;PD;PU;", HEAD + "DF;PD;PU;"):
             self.assertIn(told, text_of(job, *ORIGIN), job)
         for job in ("@-9;PD;PU;", "Z0,0,-9;PU;", "PU;"):
@@ -132,7 +132,7 @@ class Diagnostics(InAFolder):
     def test_an_origin_beside_the_machine_is_told(self):
         for origin in ("-1,0,0", "0,152.5,0"):
             answer = mill("check", "-", "--profile", PROFILE, "--origin", origin, job="H;")
-            self.assertIn(b"beside the work area", answer.stderr)
+            self.assertIn(b"outside the work area", answer.stderr)
             self.assertEqual(answer.returncode, 0)
 
     def test_shape_of_the_json(self):

@@ -66,7 +66,7 @@ class Positions(unittest.TestCase):
         return self.ok("position").splitlines()[0]
 
     def test_there_and_back(self):
-        self.assertEqual(self.ok("positions"), "no position has a name\n")
+        self.assertEqual(self.ok("positions"), "no saved positions\n")
         self.assertEqual(self.ok("--json", "positions"), "")
         self.ok("move", "x=1.5", "2=200um")
         self.assertEqual(self.ok("save", "sample"), "sample: x 1.5 mm, 2 200 um, 3 0 um\n")
@@ -135,7 +135,7 @@ class Positions(unittest.TestCase):
         self.reset()
         listed = self.ok("positions").splitlines()
         self.assertNotIn("may have forgotten", listed[0])
-        self.assertIn("it may not be there any more", listed[1])
+        self.assertIn("the controller may have lost it", listed[1])
         told = self.refused(3, "EPOCH_PASSED", "go", "place")
         self.assertRegex(told, r'"place" is not there any more: .*PIT:.* came back \d+ s ago.*restarted.*'
                                r'axisctl save place\)')
@@ -165,7 +165,7 @@ class Positions(unittest.TestCase):
         self.ok("save", "place")
         before = self.ok("positions")
         self.restart_daemon()
-        self.assertEqual(self.ok("positions"), before.rstrip("\n") + "  it may not be there any more\n")
+        self.assertEqual(self.ok("positions"), before.rstrip("\n") + "  the controller may have lost it\n")
         self.refused(3, "EPOCH_PASSED", "go", "place")
 
     def test_a_file_that_is_none_is_not_taken_for_an_empty_one(self):

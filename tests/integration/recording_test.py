@@ -128,7 +128,7 @@ class Replay(InAFolder):
             self.assertRegex(answer.stderr, r"\Aaxisctl: INVALID_REQUEST: standard input[^\n]+\n\Z")
             return answer.stderr
 
-        self.assertIn("is no recording", refused("hello\n"))
+        self.assertIn("is not a recording", refused("hello\n"))
         head = '# axisgate recording 1\n# kind: shrc203\n# baud: 38400\n# reply-limit: 0.500000\n'
         self.assertIn("line 5: ", refused(head + "1.0 what\n"))
         self.assertIn("(counted from line 6 on): line 5: ", refused(head + "\n" + head + "1.0 what\n"))
@@ -191,8 +191,8 @@ class Support(InAFolder):
         self.assertRegex(answer.stderr, r"\Aaxisctl: UNAVAILABLE: no daemon answers [^\n]+\n\Z")
         name = re.fullmatch(r"(axisgate-support-\d{8}-\d{6}\.txt): without the daemon's part; [^\n]+\n", answer.stdout)[1]
         text = read(os.path.join(self.folder, name))
-        self.assertIn("the daemon is asked by a Unix socket, which cannot be reached: No such file", text)
-        self.assertRegex(text, r"(?m)^== no report of axisgated, or no whole one: UNAVAILABLE ==$")
+        self.assertIn("the daemon is reached by a Unix socket, which cannot be reached: No such file", text)
+        self.assertRegex(text, r"(?m)^== no report of axisgated, or an incomplete one: UNAVAILABLE ==$")
         self.assertNotIn("nonexistent", text)
 
 

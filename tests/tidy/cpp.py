@@ -35,6 +35,16 @@ def blanked(source):
     return _TOKEN.sub(replace, source)
 
 
+def without_comments(source):
+    """`source` with comments as blanks, literals as they are."""
+    return _TOKEN.sub(lambda match: _blank(match.group()) if match["comment"] else match.group(), source)
+
+
+def without_includes(source):
+    """`source` without the paths that it includes."""
+    return re.sub(r"^[ \t]*#[ \t]*include\b[^\n]*", lambda match: _blank(match.group()), source, flags=re.MULTILINE)
+
+
 def without_directives(code):
     """Blanked code with its preprocessor lines, continued ones included, as blanks."""
     return re.sub(r"^[ \t]*#(?:\\\n|[^\n])*", lambda match: _blank(match.group()), code, flags=re.MULTILINE)

@@ -1,0 +1,187 @@
+#!/usr/bin/env python3
+"""No retired word of GLOSSARY.md where people read: in pages, messages and names.
+
+usage: tests/tidy/words.py --count [ROOT]     prints `path count` for each file that has such words: words_left.txt.
+
+A file of that list may have so many and no more. A file with fewer must have its count lowered, so the list only shrinks.
+"""
+
+import functools
+import pathlib
+import re
+import sys
+
+sys.dont_write_bytecode = True
+
+import cpp  # noqa: E402
+
+LEFT = "tests/tidy/words_left.txt"
+GLOSSARY = "GLOSSARY.md"
+PAGES = (".md", ".proto", ".toml")
+JUDGED_CODE = ("device/", "server/", "clients/")
+
+# What is retired, and what to say instead. A blank stands for blanks, line ends, `_` and `-`. The first that fits counts.
+# Words with other, ordinary meanings are left to people: way, reading, behind, good, away, pay, narrower, stands, pace.
+RETIRED = (
+    (r"left[-_]?overs?|left overs?", "stale setpoint"),
+    (r"tells another", "the value has changed"),
+    (r"is told|hears", "receives"),
+    (r"told|tells", "reported, reports"),
+    (r"finds? (?:its|their|the) origins?", "homes"),
+    (r"sets out", "starts"),
+    (r"(?:stands?|stood|standing) still|at rest", "stationary"),
+    (r"(?:comes?|came|coming) to rest", "stops, becomes stationary"),
+    (r"seen to stand", "confirmed stationary"),
+    (r"sets? going", "started"),
+    (r"stirred", "saw motion"),
+    (r"borne out", "confirmed"),
+    (r"stands is not known", "position unknown"),
+    (r"is has not been read yet", "resolution unknown"),
+    (r"is another way", "the resolution has changed"),
+    (r"stands where nobody knows", "means unknown"),
+    (r"play of (?:the|its) screws?", "backlash"),
+    (r"last way", "the approach"),
+    (r"reckon(?:s|ed|ing)?", "computed"),
+    (r"held against", "checked against"),
+    (r"pays? speeds?", "restore"),
+    (r"ow(?:e|es|ed|ing)", "pending restore; of an answer: outstanding"),
+    (r"keeps? an eye", "watches"),
+    (r"news", "change, event"),
+    (r"(?:give|gives|gave|given|giving) up", "disconnect, abandon"),
+    (r"excursions?", "visit to a non-host mode"),
+    (r"runaways?", "orphaned jog"),
+    (r"strange (?:motions?|lines?|units?)", "foreign motion, unexpected line, another controller"),
+    (r"moves all the same", "moving despite NG"),
+    (r"axis numbers? came", "a completion was received"),
+    (r"errands?", "blocking task"),
+    (r"deeds?", "operation"),
+    (r"entrances?", "endpoint"),
+    (r"feeding", "refill feasibility"),
+    (r"forecasts?", "transaction prediction"),
+    (r"may_use", "authorize"),
+    (r"jog_?keeping", "JogContext"),
+    (r"keep_jogs?", "jog watchdog"),
+    (r"hear_echo", "on_last_command"),
+    (r"still_the_same", "confirm_no_restart"),
+    (r"in sight", "connected without interruption"),
+    (r"nobody known|nameless", "anonymous"),
+    (r"whoever|he|his|him", "the caller, they, their"),
+    (r"anew", "again"),
+    (r"mend(?:s|ed|ing)?|puts? right", "fix, correct"),
+    (r"goes on", "continues"),
+    (r"(?:is|are) on the wire", "is in flight"),
+    (r"swallow(?:s|ed|ing)?", "discarded"),
+    (r"asked for", "requested"),
+    (r"bites?", "detects"),
+)
+_SAY = tuple(say for _, say in RETIRED)
+_ANY = re.compile(
+    "(?<![a-z])(?:" + "|".join(f"({words.replace(' ', '[ _-]+')})" for words, _ in RETIRED) + ")(?![a-z])",
+    re.IGNORECASE,
+)
+# Names of the API and of the configuration stay until they are renamed there.
+_KEPT = re.compile(r"(?:REASON_)?LEFT_OVER_SETTING|left_over_setting|oneof news|NewsCase|news_case")
+
+
+def _blank(text):
+    return re.sub(r"[^\n]", " ", text)
+
+
+def _prose(file):
+    """A page in which what is no prose is blank: fences, indented code blocks and names in backquotes."""
+    lines, fence, code = [], None, True
+    for line in file.lines:
+        mark = re.match(r"\s*(```+|~~~+)", line)
+        if mark and (fence is None or line.strip() == fence):
+            fence = None if fence else mark[1]
+            line = ""
+        elif fence:
+            line = ""
+        elif re.match(r" {4,}\S", line) and code:
+            line = ""
+        else:
+            code = not line.strip()
+        lines.append(line)
+    return re.sub(r"`[^`]*`", lambda match: _blank(match.group()), "\n".join(lines))
+
+
+def _text(file):
+    """What is judged of a file, each line at its place; nothing of most files."""
+    suffix = pathlib.PurePosixPath(file.path).suffix
+    if file.generated or file.path == GLOSSARY:
+        return ""
+    if suffix == ".md":
+        return _prose(file)
+    if suffix in PAGES:
+        return re.sub(r"(?m)^[ \t]*(?://|#)", " ", file.content)
+    if file.language == "C++" and file.path.startswith(JUDGED_CODE):
+        code = cpp.without_includes(cpp.without_comments(file.content))
+        return re.sub(r'"\s*\n\s*"', lambda match: match.group().replace('"', " "), code)  # one text in several literals
+    return ""
+
+
+def found(file):
+    """(line, what is said, what to say instead) of each retired word."""
+    text = _KEPT.sub(lambda match: " " * len(match.group()), _text(file))
+    # A line end is a blank, so that words on two lines are found; places stay.
+    for match in _ANY.finditer(re.sub(r"\s", " ", text)):
+        yield text.count("\n", 0, match.start()) + 1, " ".join(match.group().split()), _SAY[match.lastindex - 1]
+
+
+@functools.lru_cache(maxsize=4)
+def _allowances(content):
+    """{path: count}; raises ValueError for a line that is none."""
+    allowed = {}
+    for line in content.splitlines():
+        path, count = line.rsplit(" ", 1)
+        allowed[path] = int(count)
+    return allowed
+
+
+def _check_list(file, files):
+    paths = {one.path for one in files}
+    for number, line in enumerate(file.lines, start=1):
+        if not re.fullmatch(r"\S+ [1-9][0-9]*", line):
+            yield file.finding(number, "retired-word", f'"{line}" is not `path count`', "generate the list with --count")
+        elif line.split()[0] not in paths:
+            yield file.finding(number, "retired-word", f"there is no {line.split()[0]}", "remove its line")
+
+
+def check(file, files):
+    if file.path == LEFT:
+        yield from _check_list(file, files)
+        return
+    words = list(found(file))
+    left = next((one.content for one in files if one.path == LEFT), "")
+    try:
+        allowed = _allowances(left).get(file.path, 0)
+    except ValueError:
+        return  # the list has a finding of its own
+    if len(words) > allowed:
+        more = f", {len(words)} here and {allowed} allowed" if allowed else ""
+        for line, word, say in words:
+            yield file.finding(line, "retired-word", f'"{word}" is retired{more}', f'say "{say}" (GLOSSARY.md)')
+    elif len(words) < allowed:
+        yield file.finding(1, "retired-word", f"{len(words)} retired words, and {allowed} are allowed",
+                           f"lower the count of {file.path} in words_left.txt to {len(words)}")
+
+
+def main(arguments):
+    from tree import CannotLook, files_under
+
+    if not arguments or arguments[0] != "--count" or len(arguments) > 2:
+        print(__doc__.strip(), file=sys.stderr)
+        return 2
+    try:
+        files = files_under(pathlib.Path(arguments[1] if arguments[1:] else pathlib.Path(__file__).parents[2]).resolve())
+    except CannotLook as why:
+        print(f"words: {why}", file=sys.stderr)
+        return 2
+    for file in files:
+        if count := sum(1 for _ in found(file)):
+            print(file.path, count)
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
