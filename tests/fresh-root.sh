@@ -39,8 +39,8 @@ clone_head() {
 inside() {
   # shellcheck disable=SC2016  # expanded by the inner shell
   unshare --mount --pid --fork --kill-child --propagation private bash -euc '
-    root="$1" cache="$2"
-    shift 2
+    root="$1" cache="$2" repository="$3"
+    shift 3
     mount -t proc proc "$root/proc"
     mount -t sysfs -o ro sysfs "$root/sys"
     mount --bind /dev "$root/dev"
@@ -48,8 +48,9 @@ inside() {
     mkdir -p "$root/ccache"
     mount --bind "$cache" "$root/ccache"
     env --ignore-environment HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin LANG=C.UTF-8 CCACHE_DIR=/ccache \
+      CCACHE_BASEDIR="$repository" CCACHE_NOHASHDIR=1 \
       chroot "$root" "$@"
-  ' fresh-root "$root" "$cache" "$@"
+  ' fresh-root "$root" "$cache" "$repository" "$@"
 }
 
 prove() {
