@@ -359,7 +359,7 @@ def _counted(found):
 def link_state_writes(files):
     found = collections.Counter()
     for file in _gateway_side(files, "device/shrc203/"):
-        if file.path.endswith(".cc") and (number := len(_LINK_WRITE.findall(_code(file)))):
+        if number := len(_LINK_WRITE.findall(_code(file))):
             found[file.path] = number
     return [Figure("link_state_writes", found.total(), _counted(found))]
 
