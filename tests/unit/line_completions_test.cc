@@ -13,9 +13,8 @@ using testing::IsEmpty;
 const std::string kIdentityLine = std::string(kIdentity) + "\r\n";
 
 // No axis can complete unless a test says so.
-class LineCompletionsTest : public LineFixture {
+class LineOfSomeAxesTest : public LineFixture {
  protected:
-  LineCompletionsTest() { open_and_rest(); }
   ExchangeRequest start(std::string_view text, AxisSet completes) const {
     ExchangeRequest one = request(text);
     one.completes = completes;
@@ -32,6 +31,11 @@ class LineCompletionsTest : public LineFixture {
     one.closed = true;
     return ask(std::move(one));
   }
+};
+
+class LineCompletionsTest : public LineOfSomeAxesTest {
+ protected:
+  LineCompletionsTest() { open_and_rest(); }
 };
 
 TEST_F(LineCompletionsTest, ANumberThatIsExpectedIsACompletionAndOthersAreDoubtful) {
@@ -187,16 +191,16 @@ TEST_F(LineCompletionsTest, OthersGoMeanwhile) {
 }
 
 // With one controllable axis ?:C has one field, and with two it has a comma (manual 33)).
-TEST_F(LineCompletionsTest, AQuestionForAllAxesDoesNotWaitWhereThereAreTwo) {
-  open(AxisSet::of(1) | AxisSet::of(2));
+TEST_F(LineOfSomeAxesTest, AQuestionForAllAxesDoesNotWaitWhereThereAreTwo) {
+  open_and_rest(AxisSet::of(1) | AxisSet::of(2));
   home(1);
   ask("?:C");
   script({{"?:C\r\n", "1\r\n1,1\r\n"}});
   EXPECT_THAT(news(), ElementsAre("completion 1"));
 }
 
-TEST_F(LineCompletionsTest, AQuestionForTheOnlyAxisWaits) {
-  open(AxisSet::of(1));
+TEST_F(LineOfSomeAxesTest, AQuestionForTheOnlyAxisWaits) {
+  open_and_rest(AxisSet::of(1));
   home(1);
   const auto excitation = ask("?:C");
   EXPECT_EQ(sent(), "");
