@@ -2,6 +2,7 @@
 #include <netinet/tcp.h>
 
 #include <latch>
+#include <memory>
 
 #include "device/link/runner.h"
 #include "device/link/tcp_socket.h"
@@ -187,17 +188,18 @@ TEST_F(TcpRunnerTest, AStopThatAsksForALineBeingOpenedWaitsForThatAttempt) {
 
 TEST(OpenerOnThread, AnAttemptThatIsLetGoClosesWhatItOpensLater) {
   EventLoop loop;
-  std::latch gate(1);
+  // The thread's own, too: it may still be on its way out of wait() when this test has ended.
+  const auto gate = std::make_shared<std::latch>(1);
   std::array<int, 2> line{};
   ASSERT_EQ(::pipe2(line.data(), O_CLOEXEC | O_NONBLOCK), 0);
-  const Opener opener = opener_on_thread([&]() -> OpenedLine {
-    gate.wait();
-    return Descriptor(line[1]);
+  const Opener opener = opener_on_thread([gate, end = line[1]]() -> OpenedLine {
+    gate->wait();
+    return Descriptor(end);
   });
   Opening opening = opener(loop.strand(), [](const OpenedLine&) { FAIL() << "told all the same"; });
   loop.run_ready();
   opening.reset();
-  gate.count_down();
+  gate->count_down();
   char byte = 0;
   EXPECT_TRUE(loop.run_until([&] { return ::read(line[0], &byte, 1) == 0; })) << "the writing end is still open";
   ::close(line[0]);
