@@ -53,10 +53,14 @@ class Controller : public StageController {
   int owed_answers() const override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 
-  class Impl;  // controller_impl.h: this folder's own business
-
  private:
-  std::unique_ptr<Impl> impl_;
+  // The rooms, wired to each other: controller.cc.
+  struct Rooms;
+
+  template <class Call>
+  void at(TimePoint now, Call call);
+
+  std::unique_ptr<Rooms> rooms_;
 };
 
 }  // namespace axisgate::shrc203

@@ -8,7 +8,7 @@
 #include "device/shrc203/command/reply.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/line/completions.h"
-#include "device/shrc203/transaction/transaction_lines.h"
+#include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::simulation {
 

@@ -24,26 +24,13 @@ _FLOORS = {
 }
 # The rooms of a controller: what each is for stands in device/shrc203/README.md.
 _CONTROLLER = "device/shrc203/"
-_ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "motion": 4, "session": 4, "transaction": 5}
-_FACE = ("controller.h", "controller.cc", "controller_impl.h", "kind.h", "kind.cc")
+_ROOMS = {"": 0, "command": 1, "line": 2, "recording": 3, "planning": 3, "state": 4, "session": 5, "motion": 6,
+          "transaction": 7}
+_FACE = ("controller.h", "controller.cc", "kind.h", "kind.cc")
 # Joins controller and simulator for those who choose a kind by its name.
 _KIND = "device/shrc203/kind.cc"
 # What still points upward, by file: a list that only shrinks.
-_EXCEPTIONS = {
-    ("device/shrc203/planning/feeding.cc", "device/shrc203/motion/registers.h"),
-    ("device/shrc203/planning/arc_lines.cc", "device/shrc203/transaction/transaction_lines.h"),
-    ("device/shrc203/planning/forecast.cc", "device/shrc203/transaction/transaction_lines.h"),
-    ("device/shrc203/session/explain.cc", "device/shrc203/transaction/transaction_lines.h"),
-    ("device/shrc203/session/lease_settings.cc", "device/shrc203/transaction/transaction_lines.h"),
-    ("server/config/network.cc", "server/connections/certificates.h"),
-    *((f"device/shrc203/{room}/{file}", "device/shrc203/controller_impl.h") for room, files in {
-        "motion": ("approach.cc", "home.cc", "jog.cc", "move.cc", "path.cc", "path_run.h", "positions.cc", "scan.cc",
-                   "speeds.cc", "watch.cc"),
-        "session": ("clear_errors.cc", "excursion.cc", "explain.cc", "handshake.cc", "lease_settings.cc", "reading.cc",
-                    "restore.cc", "stop.cc", "wind_down.cc"),
-        "transaction": ("execute.cc", "execute_request.cc"),
-    }.items() for file in files),
-}
+_EXCEPTIONS = {("server/config/network.cc", "server/connections/certificates.h")}
 # Who stands in whose place: the explanations that a plain file of server/ has for people, for every room.
 _FOR_ALL_OF_SERVER = ("server/explain.h",)
 
@@ -65,8 +52,8 @@ def controller_room_of(path):
         return None
     *folders, name = path[len(_CONTROLLER):].split("/")
     if not folders:
-        return (6, "face") if name in _FACE else (0, "types")
-    return _ROOMS.get(folders[0], 7), folders[0]
+        return (8, "face") if name in _FACE else (0, "types")
+    return _ROOMS.get(folders[0], 9), folders[0]
 
 
 def may_include(source, target):

@@ -1,4 +1,4 @@
-#include "device/shrc203/motion/motion_gate.h"
+#include "device/shrc203/state/motion_gate.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // What is set back: the rules of the list, each with a case that fails without it. Lines as in manual 89) D:, 94) B:,
 // 96) O:, 97) to 101) T:.
-#include "device/shrc203/session/pending_restores.h"
+#include "device/shrc203/state/pending_restores.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "device/shrc203/motion/registers.h"
+#include "device/shrc203/state/registers.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -115,6 +115,7 @@ class Line {
 
   const Link& state() const { return state_; }
   Completions& completions() { return completions_; }
+  const Completions& completions() const { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
   // Answers to abandoned probes that may still come.
   int owed() const { return owed_.echoes + owed_.identities; }

@@ -1,16 +1,12 @@
 #include "device/shrc203/line/link.h"
 
+#include "device/core/transitions.h"
+
 namespace axisgate::shrc203 {
 namespace {
 
-struct Row {
-  LinkPhase from;
-  LinkEvent event;
-  LinkPhase to;
-};
-
 // README.md has the same, drawn.
-constexpr auto kTransitions = std::to_array<Row>({
+constexpr auto kTransitions = std::to_array<Transition<LinkPhase, LinkEvent>>({
     {LinkPhase::closed, LinkEvent::port_opened, LinkPhase::identifying},
     {LinkPhase::closed, LinkEvent::lost, LinkPhase::closed},
     {LinkPhase::closed, LinkEvent::stop_waits, LinkPhase::reopening},
@@ -51,12 +47,7 @@ constexpr std::array<std::string_view, kLinkEvents> kEventNames = {
 std::string_view name(LinkPhase phase) { return kPhaseNames.at(static_cast<std::size_t>(phase)); }
 std::string_view name(LinkEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
 
-std::optional<LinkPhase> next(LinkPhase phase, LinkEvent event) {
-  for (const Row& row : kTransitions) {
-    if (row.from == phase && row.event == event) return row.to;
-  }
-  return std::nullopt;
-}
+std::optional<LinkPhase> next(LinkPhase phase, LinkEvent event) { return next_in(kTransitions, phase, event); }
 
 LinkState shown(LinkPhase phase) {
   switch (phase) {

@@ -1,11 +1,8 @@
-// Targets that are always come to from the same side, so that the play of a screw does not count (backlash): two moves,
-// of which one axis has the second in its prebuffer (manual 2. About double buffer) while the first runs. Several axes
-// come to rest between: whether each would go on by itself is open (README: chain_step_on).
+#include "device/shrc203/motion/approach.h"
+
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/controller_impl.h"
-#include "device/shrc203/motion/path_run.h"
 #include "device/shrc203/planning/feeding.h"
 
 namespace axisgate::shrc203 {
@@ -40,13 +37,13 @@ SegmentPlan segment_to(MovePlan move, const Positions& from) {
 
 }  // namespace
 
-bool Controller::Impl::approaches(const MoveRequest& request) {
+bool Approaches::has_any(const MoveRequest& request) {
   return std::ranges::any_of(request.moves, [](const AxisMove& move) { return move.approach.has_value(); });
 }
 
-Result<PathPlan> Controller::Impl::plan_approach(const MoveRequest& request) const {
-  const Positions from = positions_of(state_);
-  const Envelope limits = envelope(request.context);
+Result<PathPlan> Approaches::plan(const MoveRequest& request) const {
+  const Positions from = store_.positions();
+  const Envelope limits = store_.envelope(request.context);
   auto last = plan_move(request.moves, request.relative, from, limits);
   if (!last) return tl::unexpected(last.error());
   MovePlan first{false, {}};
@@ -64,31 +61,26 @@ Result<PathPlan> Controller::Impl::plan_approach(const MoveRequest& request) con
     if (auto good = limits.check_target(one.axis, before); !good) return tl::unexpected(good.error());
     first.axes.push_back({one.axis, before, before, one.speed});
   }
-  fill_speeds(first, known_speeds(first.set()));
-  fill_speeds(*last, known_speeds(first.set()));
+  fill_speeds(first, store_.speeds(first.set()));
+  fill_speeds(*last, store_.speeds(first.set()));
   PathPlan path{last->set(), {}, {}};
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) path.begin[axis] = from[axis].value_or(0);
   path.segments = {segment_to(first, from), segment_to(*std::move(last), from)};
   if (path.segments[0].end == path.begin) path.segments.erase(path.segments.begin());  // it stands there already
-  time_moves(path, known_speeds(path.axes));
-  path.segments.back().from_rest = path.axes.count() > 1 || !check_feeding(path, line_.pace());
+  time_moves(path, store_.speeds(path.axes));
+  path.segments.back().from_rest = path.axes.count() > 1 || !check_feeding(path, pace_);
   return path;
 }
 
-Task<void> Controller::Impl::run_approach(LiveMotionPtr live, MoveRequest request) {
-  auto ready = co_await enter_gate(live, true);
-  if (ready) ready = co_await prepare(live, Register::ap);
-  if (!ready) {
-    end_motion(live, ready.error().reason == Reason::stopped ? MotionState::stopped : MotionState::failed,
-               ready.error());
+Task<void> Approaches::run(LiveMotionPtr live, MoveRequest request) {
+  const bool entered = co_await entry_.enter(live, {.reg = Register::ap, .prebuffer = true});
+  if (!entered) co_return;
+  auto planned = plan(request);
+  if (!planned) {
+    motions_.refuse(*live, planned.error());
     co_return;
   }
-  auto plan = plan_approach(request);
-  if (!plan) {
-    end_motion(live, MotionState::failed, plan.error());
-    co_return;
-  }
-  co_await follow_path(live, *std::move(plan));
+  co_await follower_.follow(live, *std::move(planned));
 }
 
 }  // namespace axisgate::shrc203

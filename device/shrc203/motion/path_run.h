@@ -5,71 +5,97 @@
 //
 // OK where OK_D was due means that the chain had ended (an underrun): the path goes on from READY. Whatever is in doubt
 // is settled at READY too, where the command counters tell how far the path has come. A segment that waits for
-// something (SegmentPlan::waits()) is set and started at READY as segment 1 is (path_rest.cc).
+// something (SegmentPlan::waits()) is set and started at READY as segment 1 is (segment_halt.h). Its phases are those
+// of state/segment_life.h.
 //
 // The line is kept free for the refill that follows the end of each segment but the last two (reservations.h).
 #pragma once
 
-#include "device/shrc203/controller_impl.h"
+#include <string>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/line/line.h"
+#include "device/shrc203/motion/prebuffer.h"
+#include "device/shrc203/motion/segment_halt.h"
+#include "device/shrc203/motion/standstill.h"
+#include "device/shrc203/motion/starter.h"
+#include "device/shrc203/motion/watch.h"
 #include "device/shrc203/planning/feeding.h"
 #include "device/shrc203/planning/path_plan.h"
+#include "device/shrc203/session/explainer.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/segment_life.h"
+#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 
+// What the run of a path uses.
+struct PathParts {
+  Line& line;
+  Dialogue& dialogue;
+  Starter& starter;
+  Standstill& standstill;
+  SegmentHalt& halt;
+  Prebuffer& prebuffer;
+  Explainer& explainer;
+  TriggerCount& triggers;
+  Watch& watch;
+  StateStore& store;
+  Motions& motions;
+  Violations& violations;
+  Tasks& tasks;
+};
+
 class PathRun {
  public:
-  PathRun(Controller::Impl& owner, LiveMotionPtr motion, PathPlan plan)
-      : impl_(owner), live_(std::move(motion)), plan_(std::move(plan)) {}
+  PathRun(PathParts& parts, LiveMotionPtr motion, PathPlan plan)
+      : parts_(parts), live_(std::move(motion)), plan_(std::move(plan)) {}
 
+  // The motion has its outcome then.
   Task<void> run();
 
  private:
   int count() const { return static_cast<int>(plan_.segments.size()); }
   const SegmentPlan& segment(int number) const { return plan_.segments[static_cast<std::size_t>(number - 1)]; }
+  const Place& begin_of(int number) const { return number == 1 ? plan_.begin : segment(number - 1).end; }
   Command setter(int number) const { return segment_setter(plan_, number); }
-  Lane refill_lane() const {
-    return impl_.profile_.refills == Refills::among_questions ? Lane::question : Lane::path_refill;
-  }
-  void tell(PathProgress::Step step, int number, std::string reply = {});
-  bool over() const { return is_outcome(live_->motion.state); }
-  void give_up(MotionState outcome, Problem problem) { impl_.end_motion(live_, outcome, std::move(problem)); }
-
+  // The last one that the controller accepted.
+  int sent() const { return phase_ == SegmentPhase::chained ? running_ + 1 : running_; }
   bool chains(int number) const { return number <= count() && !segment(number).waits(); }
-
-  Task<bool> start(int number);   // set and go, from READY
-  Task<bool> refill(int number);  // false: the chain has ended, or is in doubt
-  Task<bool> wait_for_segment_end();
-  Task<std::optional<Held>> read_prebuffer();
-  Task<bool> prebuffer_left();
-  Task<void> stop_wrong_segment();
-  Task<void> resume_from_ready();
-  Task<bool> wait_for_ready();
-  // path_rest.cc
-  Task<bool> wait_until(TimePoint limit);  // false: a stop, or the line was lost
-  bool stands_at(const std::array<std::int64_t, kAxisCount>& place, std::int64_t slack) const;
-  bool stands_at_end(int number) const { return stands_at(segment(number).end, segment(number).slack); }
-  bool returns(int number) const;
-  const std::array<std::int64_t, kAxisCount>& begin_of(int number) const {
-    return number == 1 ? plan_.begin : segment(number - 1).end;
+  bool stands_at_end(int number) const {
+    return parts_.standstill.is_at(plan_.axes, segment(number).end, segment(number).slack);
   }
-  Task<bool> still_there(int number);
-  Task<bool> come_to_rest();
-  Task<void> start_from_rest(int number);
-  Task<bool> wait_before(int number);  // for all that the segment waits for at READY
-  Task<bool> wait_for_inputs(int pattern);
-  Task<bool> arm(Trigger trigger);
-  void show_armed(bool armed);
+  bool returns(int number) const;
+  bool over() const { return live_->life.has_outcome(); }
+  bool interrupted() const { return live_->life.stop_asked() || live_->life.line_lost(); }
 
-  void keep_line_free(TimePoint due);
-  void release_line() { impl_.line_.release(live_->motion.id, impl_.now_); }
-  void note_speed(int number);
+  void change(SegmentEvent event);
+  void tell(PathProgress::Step step, int number, std::string reply = {});
+  void end(MotionState outcome, Problem problem) { parts_.motions.end(*live_, outcome, std::move(problem)); }
+
+  Task<bool> wait_before(int number);
+  Task<bool> start(int number);  // set and go, from READY
+  Task<bool> advance();          // by one segment; false: nothing more can be done but watching
+  Task<void> refill(int number);
+  Task<void> refill_refused(int number);
+  Task<bool> wait_for_segment_end();
   bool completion_counts(const LiveMotion::Completion& completion);
+  bool is_believed(const LiveMotion::Completion& completion);
+  Task<void> start_from_rest(int number);
+  Task<bool> come_to_rest();
+  Task<void> resume_from_ready();
+  std::optional<int> last_run() const;
+  Task<void> watch_end();
 
-  Controller::Impl& impl_;
+  Lane refill_lane() const;
+  void keep_line_free(TimePoint due);
+  void release_line() { parts_.line.release(live_->motion.id, parts_.tasks.now()); }
+
+  PathParts& parts_;
   LiveMotionPtr live_;
   PathPlan plan_;
-  int running_ = 0;     // the segment that moves
-  int sent_ = 0;        // the last one that the controller accepted
+  SegmentPhase phase_ = SegmentPhase::stationary;
+  int running_ = 0;     // the segment that moves, or moved last
   int clock_axis_ = 0;  // the first axis to answer in segment 1; the others' numbers are not counted
   int missed_ = 0;      // ends that were asked for because their number had not come; it may still
   TimePoint segment_began_{};

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "device/shrc203/transaction/transaction_lines.h"
+#include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::shrc203 {
 namespace {

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "device/shrc203/planning/arc_lines.h"
-#include "device/shrc203/transaction/transaction_lines.h"
+#include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::shrc203 {
 namespace {

@@ -1,21 +1,27 @@
-// BEC: (manual 53)), on request only: it clears limit, overflow and emergency errors, and what they say of BUSY.
-#include "device/shrc203/controller_impl.h"
+#include "device/shrc203/session/clear_errors.h"
+
+#include <utility>
+
 #include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
 
-Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, OnDone done) {
+void ErrorClearing::clear(AxisSet axes, RequestContext context, StageController::OnDone done) {
+  tasks_.spawn(run(axes, std::move(context), std::move(done)));
+}
+
+Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageController::OnDone done) {
   ExchangeRequest request;
-  const AxisSet named = axes.empty() ? state_.controllable() : axes;
+  const AxisSet named = axes.empty() ? store_.controllable() : axes;
   if (named.empty()) {
-    done(tl::unexpected(not_up()));
+    done(tl::unexpected(store_.not_up()));
     co_return;
   }
-  if (away_) {
-    done(tl::unexpected(away_problem()));
+  if (non_host_.away()) {
+    done(tl::unexpected(non_host_.problem()));
     co_return;
   }
-  if (const auto allowed = may_use(context, named); !allowed) {
+  if (const auto allowed = rights_.may_use(context, named); !allowed) {
     done(tl::unexpected(allowed.error()));
     co_return;
   }
@@ -24,16 +30,16 @@ Task<void> Controller::Impl::clear_errors(AxisSet axes, RequestContext context, 
   request.uses = named;
   request.lane = Lane::motion;
   request.caller = context.who;
-  request.not_after = default_limit(context.not_after, kCallerWriteLimit);
-  auto pending = line_.exchange(std::move(request), now_);
+  request.not_after = context.not_after == TimePoint{} ? tasks_.now() + kCallerWriteLimit : context.not_after;
+  auto pending = dialogue_.exchange(std::move(request));
   const auto result = co_await pending;
-  settled_ = false;
+  store_.unsettle();
   if (result.problem) {
     done(tl::unexpected(*result.problem));
     co_return;
   }
-  auto read = co_await read_excitation(context.who);
-  if (read) read = co_await read_positions(Lane::question, context.who);
+  auto read = co_await reader_.read_excitation(context.who);
+  if (read) read = co_await reader_.read_positions(Lane::question, context.who);
   if (!result.accepted()) {
     done(fail(Reason::device_refused, "the controller refused BEC: (NG)", "see `axisctl status`"));
   } else if (!read) {

@@ -1,256 +1,131 @@
-// Who is there after a connect, and the poll that keeps the state fresh afterwards.
+#include "device/shrc203/session/handshake.h"
+
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <string>
 
 #include "device/core/escape.h"
 #include "device/core/guard.h"
-#include "device/shrc203/controller_impl.h"
 #include "device/shrc203/limits.h"
+#include "device/shrc203/session/answers.h"
+#include "device/shrc203/session/excursion.h"
 #include "device/stage/own_questions.h"
 
 namespace axisgate::shrc203 {
-namespace {
 
-bool is_data(const ExchangeResult& result) {
-  return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
+// Gives the line up where another unit answers than the configured one, or than the first that passed.
+bool Handshake::is_expected(const Identity& identity) {
+  const Profile& profile = store_.profile();
+  const bool configured = !profile.serial_number.empty();
+  const std::string& serial_number = configured ? profile.serial_number : store_.unit();
+  const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
+  if (!guarded(Guard::serial_number) || (identity.model == profile.model && !wrong_serial)) return true;
+  const bool as_configured = configured || store_.unit().empty();
+  line_.give_up(fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
+                            profile.model, serial_number, as_configured ? "is configured" : "was here before"),
+                tasks_.now());
+  return false;
 }
 
-}  // namespace
-
-Task<void> Controller::Impl::handshake(Identity identity, std::uint64_t connection) {
-  const bool configured = !profile_.serial_number.empty();
-  const std::string& serial_number = configured ? profile_.serial_number : unit_;
-  const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
-  if (guarded(Guard::serial_number) && (identity.model != profile_.model || wrong_serial)) {
-    line_.give_up(
-        fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
-                    profile_.model, serial_number, configured || unit_.empty() ? "is configured" : "was here before"),
-        now_);
-    co_return;
-  }
-  state_.vendor = identity.vendor;
-  state_.model = identity.model;
-  state_.serial_number = identity.serial_number;
-  state_.firmware = identity.firmware;
+Task<void> Handshake::run(Identity identity, std::uint64_t connection) {
+  if (!is_expected(identity)) co_return;
+  store_.identified(identity);
   const bool host = co_await wait_for_host_mode(connection);
   if (!host) co_return;
   const bool ready = co_await wait_until_all_ready(connection);
   if (!ready) co_return;
-  const bool read = co_await read_settings(connection);
-  if (!read || connection != connection_) {
-    if (connection == connection_) line_.give_up("the handshake failed", now_);
+  const bool read = co_await settings_.read(connection);
+  if (connection != store_.connection()) co_return;
+  if (!read) {
+    line_.give_up("the handshake failed", tasks_.now());
     co_return;
   }
-  if (++state_.device_epoch > 1) permission_.device_restarted(now_);
-  state_.epoch_began = now_;
-  frame_shifted(AxisSet::all());
+  if (store_.begin_epoch() > 1) permission_.device_restarted(tasks_.now());
+  store_.shift_frame(AxisSet::all());
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
-  unit_ = state_.serial_number;
-  line_.open(state_.controllable(), now_);
-  wake_poll_.notify();
-  publish_state();
+  line_.open(store_.controllable(), tasks_.now());
+  motions_.pace_changed().notify();
+  store_.publish();
 }
 
-// Whether somebody must put it right at the front panel before the link can be up.
-bool Controller::Impl::panel_is_wrong() const {
-  return link_trouble_ == LinkTrouble::mode || link_trouble_ == LinkTrouble::format;
-}
-
-void Controller::Impl::note_wrong_panel() {
-  if (state_.mode != "HOST") {
-    note_link_problem(LinkTrouble::mode, fmt::format("the controller is in {} mode; HOST is needed", state_.mode));
-  } else {
-    note_link_problem(LinkTrouble::format, fmt::format("the command format is {}; SHOT_FC is needed", state_.format));
-  }
-}
-
-Problem Controller::Impl::not_up() const {
-  const bool panel = panel_is_wrong();
-  return {.reason = panel ? Reason::wrong_mode : Reason::link_down,
-          .message = "the device is not up: " + state_.link_problem,
-          .hint = panel ? "put it right at the controller's front panel" : "try again when it is up"};
+// Nothing where another connection has come.
+Task<std::optional<FrontPanelRead>> Handshake::read_panel(std::uint64_t connection) {
+  const auto mode = co_await dialogue_.ask(Dialogue::Question::mode, Lane::question, kGateway, true);
+  if (connection != store_.connection()) co_return std::nullopt;
+  if (!is_data(mode)) co_return FrontPanelRead::unreadable;
+  store_.note_mode(mode.reply->text);
+  const bool host = store_.state().mode == "HOST";
+  if (host && store_.trouble() == LinkTrouble::mode) store_.note_trouble(LinkTrouble::line);
+  if (!host && guarded(Guard::host_mode)) co_return FrontPanelRead::wrong;
+  non_host_.returned();
+  const auto format = co_await dialogue_.ask(Dialogue::Question::format, Lane::question, kGateway, true);
+  if (connection != store_.connection()) co_return std::nullopt;
+  store_.note_format(is_data(format) ? format.reply->text : "");
+  if (store_.trouble() == LinkTrouble::format) store_.note_trouble(LinkTrouble::line);
+  if (store_.state().format == "SHOT_FC" || !guarded(Guard::host_mode)) co_return FrontPanelRead::fit;
+  co_return is_data(format) ? FrontPanelRead::wrong : FrontPanelRead::format_unreadable;
 }
 
 // The front panel chooses the mode and the dialect; neither is ever switched back from here.
-Task<bool> Controller::Impl::wait_for_host_mode(std::uint64_t connection) {
-  int failures = 0;
-  while (connection == connection_ && failures < kHandshakeTries) {
-    const auto mode = co_await ask(Question::mode, Lane::question, kGateway, true);
-    if (connection != connection_) co_return false;
-    if (!is_data(mode)) {
-      ++failures;
-      continue;
-    }
-    state_.mode = mode.reply->text;
-    if (state_.mode == "HOST" && link_trouble_ == LinkTrouble::mode) link_trouble_ = LinkTrouble::line;
-    if (state_.mode == "HOST" || !guarded(Guard::host_mode)) {
-      away_.reset();
-      const auto format = co_await ask(Question::format, Lane::question, kGateway, true);
-      if (connection != connection_) co_return false;
-      state_.format = is_data(format) ? format.reply->text : "";
-      if (link_trouble_ == LinkTrouble::format) link_trouble_ = LinkTrouble::line;
-      if (state_.format == "SHOT_FC" || !guarded(Guard::host_mode)) co_return true;
-      if (!is_data(format)) ++failures;
-    }
-    note_wrong_panel();
-    publish_state();
-    co_await come_back_in_handshake();
-    auto wait = tick_.wait_until(now_ + kHandshakeModePoll);
-    co_await wait;
+Task<bool> Handshake::wait_for_host_mode(std::uint64_t connection) {
+  for (int failures = 0; connection == store_.connection() && failures < kHandshakeTries;) {
+    const auto panel = co_await read_panel(connection);
+    if (!panel) co_return false;
+    if (*panel == FrontPanelRead::fit) co_return true;
+    if (*panel != FrontPanelRead::wrong) ++failures;
+    if (*panel == FrontPanelRead::unreadable) continue;
+    store_.note_wrong_panel();
+    store_.publish();
+    co_await come_back();
+    auto pause = tasks_.pause(kHandshakeModePoll);
+    co_await pause;
   }
-  if (connection == connection_) line_.give_up("the handshake failed: no answer to ?:MODE", now_);
+  if (connection == store_.connection()) line_.give_up("the handshake failed: no answer to ?:MODE", tasks_.now());
   co_return false;
 }
 
-// Nobody knows what was left running, so every axis number may still come (design: until the first !:S that is all R
-// and 200 ms of quiet).
-Task<bool> Controller::Impl::wait_until_all_ready(std::uint64_t connection) {
+// Somebody was cut off there: the handshake takes back what the gateway itself has begun, and ends his program.
+Task<void> Handshake::come_back() {
+  if (!non_host_.away()) co_return;
+  if (store_.state().mode == "HOST,PROGRAM") {
+    (void)co_await dialogue_.ask(commands::stop_program(), Lane::question, "the gateway", true);
+  }
+  (void)co_await step_to_host(dialogue_, store_, Lane::question, "the gateway", true);
+}
+
+// Nobody knows what was left running, so every axis number may still come, until the first !:S that is all R and 200 ms
+// of quiet.
+Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
   int failures = 0;
-  while (connection == connection_ && failures < kHandshakeTries) {
-    const auto ready = co_await ask(Question::each_ready, Lane::question, kGateway, true);
-    if (connection != connection_) co_return false;
+  while (connection == store_.connection() && failures < kHandshakeTries) {
+    const auto ready = co_await dialogue_.ask(Dialogue::Question::each_ready, Lane::question, kGateway, true);
+    if (connection != store_.connection()) co_return false;
     if (!is_data(ready)) {
       ++failures;
       continue;
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      runaways_ = {};
-      line_.ready(AxisSet::all(), now_);
-      auto quiet = tick_.wait_until(now_ + kCompletionAfterReadyMax + kCompletionAfterReadyMargin);
+      runaways_.all_stationary();
+      line_.ready(AxisSet::all(), tasks_.now());
+      auto quiet = tasks_.pause(kCompletionAfterReadyMax + kCompletionAfterReadyMargin);
       co_await quiet;
-      co_return connection == connection_;
+      co_return connection == store_.connection();
     }
-    line_.busy(AxisSet::all(), now_);
-    stop_runaways();
-    note_link_problem(LinkTrouble::motion, "something moves that the gateway did not start; waiting until it stands");
-    const auto read = co_await read_positions(Lane::question, kGateway, true);
-    if (!read) publish_state();
-    auto wait = tick_.wait_until(now_ + kHandshakeReadyPoll);
-    co_await wait;
+    co_await wait_for_others();
   }
-  if (connection == connection_) line_.give_up("the handshake failed: no answer to !:S", now_);
+  if (connection == store_.connection()) line_.give_up("the handshake failed: no answer to !:S", tasks_.now());
   co_return false;
 }
 
-Task<bool> Controller::Impl::read_settings(std::uint64_t connection) {
-  // The axes are asked for twice: everything else hangs on that one digit, and a line can turn a 6 into a 2.
-  ExchangeResult axes, axes_again, serial, scale, speeds, excitation, outputs, trigger, origin_speeds;
-  struct Step {
-    Question question;
-    ExchangeResult* answer;
-  };
-  for (const Step step : {Step{Question::axes, &axes}, Step{Question::axes, &axes_again},
-                          Step{Question::serial_number, &serial}, Step{Question::pulse_length, &scale},
-                          Step{Question::speeds, &speeds}, Step{Question::excitation, &excitation}}) {
-    for (int attempt = 0; attempt < kHandshakeTries && !is_data(*step.answer); ++attempt) {
-      if (connection != connection_) co_return false;
-      *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
-    }
-    if (!is_data(*step.answer)) co_return false;
-  }
-  // Whoever sets these asks for them then, if need be.
-  for (const Step step : {Step{Question::outputs, &outputs}, Step{Question::trigger, &trigger},
-                          Step{Question::origin_speeds, &origin_speeds}}) {
-    if (connection != connection_) co_return false;
-    *step.answer = co_await ask(step.question, Lane::question, kGateway, true);
-  }
-  scale_told_ = scale.reply->text;
-  state_.outputs.reset();
-  if (is_data(outputs)) state_.outputs = static_cast<int>(*parse_integer(outputs.reply->text));
-  state_.trigger = is_data(trigger) ? parse_trigger(trigger.reply->text) : std::nullopt;
-  const auto controllable = from_axis_setting(axes.reply->text);
-  const bool twice = axes_again.reply->text == axes.reply->text || !guarded(Guard::axes_twice);
-  if (!controllable || !twice) co_return false;
-  if (serial.reply->text != state_.serial_number && guarded(Guard::serial_number_twice)) co_return false;
-  for (const int number : AxisSet::all().list()) state_.axis(number).controllable = controllable->has(number);
-  const auto scales = by_axis(*scale.reply, *controllable), set_speeds = by_axis(*speeds.reply, *controllable),
-             excited = by_axis(*excitation.reply, *controllable);
-  for (const auto* fields : {&scales, &set_speeds, &excited}) {
-    if (fields->size() != static_cast<std::size_t>(controllable->count())) co_return false;
-  }
-  const auto origins =
-      is_data(origin_speeds) ? by_axis(*origin_speeds.reply, *controllable) : std::map<int, std::string>();
-  for (const int number : controllable->list()) {
-    auto& axis = state_.axis(number);
-    const auto per_pulse = parse_decimal(scales.at(number));
-    const auto speed = parse_speed_setting(set_speeds.at(number));
-    if (!per_pulse || per_pulse->digits == 0 || !speed) co_return false;
-    axis.scale = Scale{*per_pulse, profile_.axes[static_cast<std::size_t>(number - 1)].rotary()};
-    note_speeds({{number, *speed}});
-    note_origin_speeds(number, origins.contains(number) ? parse_speed_setting(origins.at(number)) : std::nullopt);
-    axis.excited = excited.at(number) == "1";
-    axis.armed = false;
-  }
-  const auto positions = co_await read_positions(Lane::question, kGateway, true);
-  co_return positions.has_value();
-}
-
-// Polling is the net below the completions: slow when nothing moves.
-Task<void> Controller::Impl::poll() {
-  while (true) {
-    const bool fast = anything_moves();
-    auto wait = wake_poll_.wait_until(now_ + (fast ? profile_.moving_poll : profile_.idle_poll));
-    co_await wait;
-    if (state_.link != LinkState::up || away_) continue;
-    const TimePoint read_before = state_.read;
-    const bool watched = std::ranges::any_of(live_, [](const auto& entry) { return entry.second->watched; });
-    if (watched) continue;  // its motion reads at the same pace
-    const Duration interval = anything_moves() ? profile_.moving_poll : profile_.idle_poll;
-    if (now_ - read_before < interval) continue;  // somebody has just asked
-    const auto read = co_await read_positions(Lane::poll, kGateway);
-    if (!read) publish_state();
-  }
-}
-
-// A refused Q: means that somebody has changed the mode or the dialect at the front panel (hazard: the front panel
-// leaves HOST).
-Task<void> Controller::Impl::follow_mode() {
-  if (away_) co_return;
-  const std::uint64_t connection = connection_;
-  const auto mode = co_await ask(Question::mode, Lane::question, kGateway, true);
-  if (!is_data(mode) || connection != connection_) co_return;
-  state_.mode = mode.reply->text;
-  if (state_.mode == "HOST") {
-    const auto format = co_await ask(Question::format, Lane::question, kGateway, true);
-    if (!is_data(format) || connection != connection_) co_return;
-    state_.format = format.reply->text;
-  }
-  if (state_.mode == "HOST" && state_.format == "SHOT_FC") co_return;
-  note_wrong_panel();
-  const LinkTrouble trouble = link_trouble_;
-  line_.give_up(std::string(state_.link_problem), now_);
-  link_trouble_ = trouble;
-}
-
-// After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
-// decided. Where all showed 0 before, nothing tells, and what is not known to be the same counts as another. Where only
-// an answer was late, that would be a false alarm on every slow host: from 0 to 0 places are the same, if pulses are.
-Task<void> Controller::Impl::look_for_restart(std::uint64_t connection) {
-  const bool at_origin = std::ranges::all_of(
-      state_.axes, [](const AxisState& axis) { return !axis.controllable || axis.position_pulses == 0; });
-  Result<void> read;
-  for (int attempt = 0; attempt < kHandshakeTries; ++attempt) {
-    read = co_await read_positions(Lane::question, kGateway, true);
-    if (connection != connection_) co_return;
-    if (read) break;
-  }
-  const auto elsewhere = [this] {
-    return std::ranges::any_of(
-        state_.axes, [](const AxisState& axis) { return axis.controllable && axis.position_pulses.value_or(0) != 0; });
-  };
-  bool same = read && elsewhere();
-  if (read && !same && at_origin && line_.restart_only_possible()) {
-    const auto scale = co_await ask(Question::pulse_length, Lane::question, kGateway, true);
-    if (connection != connection_) co_return;
-    same = is_data(scale) && scale.reply->text == scale_told_;
-  }
-  if (!same) {
-    line_.give_up("the controller seems to have restarted", now_);
-    co_return;
-  }
-  line_.still_the_same(now_);
+Task<void> Handshake::wait_for_others() {
+  line_.busy(AxisSet::all(), tasks_.now());
+  runaways_.stop();
+  store_.note_trouble(LinkTrouble::motion, "something moves that the gateway did not start; waiting until it stands");
+  const auto read = co_await reader_.read_positions(Lane::question, kGateway, true);
+  if (!read) store_.publish();
+  auto pause = tasks_.pause(kHandshakeReadyPoll);
+  co_await pause;
 }
 
 }  // namespace axisgate::shrc203

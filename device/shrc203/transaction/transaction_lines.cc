@@ -1,254 +1,193 @@
 #include "device/shrc203/transaction/transaction_lines.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <optional>
+#include <string>
+#include <utility>
 
 #include "device/core/guard.h"
-#include "device/shrc203/command/builders.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/line/closed_answers.h"
+#include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::shrc203 {
-namespace {
 
-constexpr std::size_t kLinesMax = 100;
-
-std::string_view name_of(Mode mode) {
-  switch (mode) {
-    case Mode::host:
-      return "HOST";
-    case Mode::program:
-      return "program mode";
-    case Mode::program_edit:
-      return "program edit mode";
-    case Mode::memory_switches:
-      break;
-  }
-  return "memory switch edit mode";
-}
-
-// Out of HOST nobody else is answered, so who goes there comes back in the same lines.
-Result<void> check_modes(const std::vector<Command>& commands) {
-  Mode mode = Mode::host;
-  const bool leaves = leaves_host(commands);
-  for (const Command& command : commands) {
-    const CommandRow& row = *command.row;
-    const bool moves = row.moves() || row.effect == Effect::motion_setting;
-    if (leaves && moves && row.needs.mode == Mode::host) {
-      return fail(Reason::invalid_request, fmt::format("{} moves, in lines that lead out of HOST", row.name),
-                  "send the motion by itself, before or after them");
+Task<bool> TransactionLines::send_all(Transaction& transaction) {
+  for (std::size_t index = 0; index < transaction.commands.size(); ++index) {
+    const CommandRow& row = *transaction.commands[index].row;
+    const bool goes_on =
+        transaction.started != Transaction::Started::no && !row.moves() && row.effect != Effect::motion_setting;
+    if (transaction.live && transaction.live->life.stop_asked() && !goes_on) {
+      transaction.tell_end(stopped_by(*transaction.live));
+      co_return false;
     }
-    if ((row.meaning == Meaning::mode_or_format || row.restarts) && &command != &commands.back()) {
-      return fail(Reason::invalid_request, fmt::format("nothing can follow {}", command.line), "make it the last line");
+    const bool sent = co_await send(transaction, index);
+    if (!sent) co_return false;
+  }
+  co_return true;
+}
+
+ExchangeRequest TransactionLines::request_for(const Transaction& transaction, const Command& command) const {
+  const LiveMotionPtr& live = transaction.live;
+  ExchangeRequest request;
+  request.command = as_sent(command);
+  request.lane = live || command.row->effect != Effect::question ? Lane::motion : Lane::question;
+  request.caller = transaction.who();
+  request.not_after = transaction.request.context.not_after;
+  if (non_host_.away()) {
+    request.not_after = std::max(request.not_after, tasks_.now() + kStepWriteLimit);  // it must come back
+  }
+  request.motion = live ? live->motion.id : 0;
+  if (!live) {
+    request.lease = transaction.request.context.lease;
+    request.uses = axes_used({command}, store_.controllable());
+  }
+  const bool waits = command.row->reg != Register::none;  // its end tells no number of its own that is documented
+  if (command.row->moves() && !waits && completes(transaction.commands)) request.completes = live->motion.axes;
+  return request;
+}
+
+void TransactionLines::note_completions(const std::vector<int>& axes) {
+  for (const int axis : axes) session_.completion_deduced(axis);
+}
+
+Task<ExchangeResult> TransactionLines::exchange(Transaction& transaction, Command command) {
+  const bool closed = command.row->separation == Separation::closed && !motions_.any_chain();
+  std::optional<int> before;
+  ClosedAnswers answers;
+  ExchangeResult result;
+  for (int attempt = 0; attempt < kClosedQuestionTries; ++attempt) {
+    auto request = request_for(transaction, command);
+    request.closed = closed;
+    auto pending = dialogue_.exchange(std::move(request));
+    result = co_await pending;
+    const auto& numbers = result.candidates;
+    if (numbers.empty() || !guarded(Guard::two_answers_agree)) {
+      const auto certain = result.reply ? parse_integer(result.reply->text) : std::nullopt;
+      if (certain && !result.problem) note_completions(answers.settle(static_cast<int>(*certain)));
+      co_return result;
     }
-    const bool works = row.needs.mode == mode || (row.answered_off_host() && mode != Mode::program_edit);
-    if (!works) {
-      return fail(Reason::incomplete_transaction,
-                  fmt::format("{} works in {}, and the lines before it lead to {}", row.name, name_of(row.needs.mode),
-                              name_of(mode)),
-                  "give the whole way in one: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+    note_completions(answers.take(numbers));
+    // Among numbers of several axes the answer may be any of them, and be missing.
+    const bool alone = std::ranges::count(numbers, numbers.front()) == std::ssize(numbers);
+    if (!alone && guarded(Guard::answers_come_alone)) {
+      before.reset();
+      continue;
     }
-    if (row.meaning == Meaning::program_pause && command.arguments.first("u") == "1") {
-      return fail(Reason::invalid_request, "P:U1 lets a program go on that nobody here has begun", "run it by P:S");
-    }
-    mode = row.enters.value_or(mode);
+    const int answer = numbers.front();
+    if (std::exchange(before, answer) != answer) continue;
+    result.reply->text = std::to_string(answer);
+    result.candidates.clear();
+    note_completions(answers.settle(answer));
+    co_return result;
   }
-  if (mode == Mode::host) return {};
-  return fail(Reason::incomplete_transaction,
-              fmt::format("the lines leave the controller in {}, where nobody else is answered", name_of(mode)),
-              "come back in the same lines: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+  result.problem = Problem{.reason = Reason::completion_outstanding,
+                           .message = "the answer could not be told from an axis number",
+                           .hint = "ask again once the motion has ended",
+                           .sent = command.line};
+  co_return result;
 }
 
-// A motion setting left without a start would run on somebody else's; a start without one would run what is there.
-Result<void> check_transaction(const std::vector<Command>& commands) {
-  const auto any = [&](auto of) { return std::ranges::any_of(commands, of); };
-  const bool frame = any([](const Command& c) { return c.row->shifts_frame; });
-  if (frame && any([](const Command& c) { return c.row->moves() || c.row->effect == Effect::motion_setting; })) {
-    return fail(Reason::invalid_request,
-                "coordinates are set anew in the lines that move, so that where they would lead is not certain",
-                "send R:, RC: or PSET: by itself, and the motion after it");
+// Before the line goes out: to another mode, or back.
+Task<Result<void>> TransactionLines::leave_host(Transaction& transaction, Command command) {
+  if (command.row->enters && !non_host_.away()) excursion_.leave_host(transaction.live->motion.id);
+  const auto known = co_await excursion_.read_switches_before(transaction.live, transaction.audit, command);
+  if (!known) co_return known;
+  if (command.row->enters == Mode::host) {
+    co_await excursion_.read_switches_left(transaction.live, transaction.audit);
   }
-  if (const auto good = check_modes(commands); !good) return good;
-  if (commands.size() > 1 && any([](const Command& c) { return destination_question(c).has_value(); })) {
-    return fail(Reason::invalid_request,
-                "a motion to a saved position stands alone, since the lines before may change it", "send it by itself");
-  }
-  bool set = false;
-  for (const Command& command : commands) {
-    const auto& row = *command.row;
-    if (row.meaning == Meaning::jog) {
-      return fail(Reason::invalid_request, fmt::format("{} is for a jog, which runs until somebody stops it", row.name),
-                  "use `axisctl jog` or the method Jog, under which an axis stops when its caller falls silent");
-    }
-    const Waits waits = waits_of(command);
-    if (waits.set && waits.cancelled) {
-      return fail(Reason::invalid_request, fmt::format("{} both sets and cancels waits", command.line),
-                  "give each a line of its own");
-    }
-    if (row.effect == Effect::motion_setting || waits.set) set = true;
-    const bool is_start = row.meaning == Meaning::go;
-    if (row.effect == Effect::stop && commands.size() > 1) {
-      return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
-                  "send it by itself, or use `axisctl stop`");
-    }
-    if (is_start && !set && guarded(Guard::no_bare_go)) {
-      return fail(Reason::incomplete_transaction, fmt::format("{} alone would start whatever was set before", row.name),
-                  "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
-    }
-  }
-  const bool started = any([](const Command& c) { return c.row->meaning == Meaning::go; });
-  if (set && !started && guarded(Guard::no_set_without_go)) {
-    return fail(Reason::incomplete_transaction,
-                "a motion that is set and not started would run on somebody else's start",
-                "give the setting and the start together: exec 'M:1+P1000' 'G:1'");
-  }
-  return {};
+  co_return Result<void>();
 }
 
-}  // namespace
-
-Unit unit_of(std::string_view letter) {
-  if (letter == "N") return Unit::nanometers;
-  if (letter == "U") return Unit::micrometers;
-  if (letter == "M") return Unit::millimeters;
-  if (letter == "D") return Unit::degrees;
-  return Unit::pulses;
-}
-
-Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines) {
-  std::vector<Command> commands;
-  if (lines.empty() || lines.size() > kLinesMax) {
-    return fail(Reason::invalid_request, fmt::format("a transaction has 1 to {} lines", kLinesMax));
+Task<bool> TransactionLines::send(Transaction& transaction, std::size_t index) {
+  const Command& command = transaction.commands[index];
+  ExecuteEvent event;
+  event.line = index;
+  event.sent = as_sent(command).line;
+  if (transaction.live) motions_.written(*transaction.live);
+  const auto left = co_await leave_host(transaction, command);
+  if (!left) {
+    transaction.tell_end(left.error());
+    co_return false;
   }
-  for (std::size_t index = 0; index < lines.size(); ++index) {
-    auto command = parse_command(lines[index]);
-    if (!command && lines.size() > 1) command.error().message.insert(0, fmt::format("line {}: ", index + 1));
-    if (!command) return tl::unexpected(command.error());
-    commands.push_back(*std::move(command));
+  settings_.remember(transaction.request.context, command);
+  const auto result = co_await exchange(transaction, command);
+  note(transaction, command, result);
+  if (result.problem) {
+    transaction.tell_end(result.problem);
+    co_return false;
   }
-  if (const auto good = check_transaction(commands); !good) return tl::unexpected(good.error());
-  return commands;
-}
-
-bool needs_gate(const std::vector<Command>& commands) {
-  return std::ranges::any_of(commands, [](const Command& command) {
-    return command.row->effect != Effect::question && command.row->effect != Effect::stop &&
-           !command.row->beside_motion;
-  });
-}
-
-Waits waits_of(const Command& command) {
-  Waits waits;
-  const Register reg = command.row->reg;
-  if (reg != Register::wt && reg != Register::wi) return waits;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter == "w") (value == "0" ? waits.cancelled : waits.set) = true;
-    if (letter == "i") (value == "C" ? waits.cancelled : waits.set) = true;
+  event.wire_reply = result.reply->text;
+  event.answer = picked(command, *result.reply, store_.controllable());
+  transaction.tell(event);
+  if (command.row->effect == Effect::question) {
+    const bool answered = co_await was_answered(transaction, command, result.refused());
+    co_return answered;
   }
-  return waits;
+  const bool accepted = co_await was_accepted(transaction, command, result.accepted());
+  co_return accepted;
 }
 
-bool leaves_host(const std::vector<Command>& commands) {
-  return std::ranges::any_of(commands, [](const Command& command) { return command.row->enters.has_value(); });
-}
-
-AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable) {
-  AxisSet axes;
-  for (const Command& command : commands) {
-    if (command.row->moves() || command.row->effect == Effect::motion_setting) {
-      axes = axes | command.axes(controllable);
-    }
+// What is another now. Where the answer was lost, the line may have been taken.
+void TransactionLines::note(Transaction& transaction, const Command& command, const ExchangeResult& result) {
+  const CommandRow& row = *command.row;
+  const AxisSet axes = command.axes(store_.controllable());
+  const bool perhaps = result.accepted() || result.in_doubt();
+  note_setting(store_, command, result);
+  if (trigger_of(command) && result.accepted()) pending_.forget_scan();
+  if (row.moves()) note_start(transaction, result);
+  note_speeds(command, result);
+  if (row.shifts_frame && !result.refused()) store_.shift_frame(axes);
+  if (row.enters && perhaps) note_mode(transaction, *row.enters);
+  if (row.rescales && !result.refused()) transaction.changed.insert(Transaction::Changed::scale);
+  if (row.restarts && perhaps) transaction.changed.insert(Transaction::Changed::everything);
+  if (row.reg == Register::wi && !result.refused()) {
+    store_.note_armed(axes, waits_of(command).set);
+    store_.publish();
   }
-  return axes & controllable;
 }
 
-bool completes(const std::vector<Command>& commands) {
-  return std::ranges::any_of(
-      commands, [](const Command& command) { return command.row->completes && command.row->meaning != Meaning::go; });
+void TransactionLines::note_start(Transaction& transaction, const ExchangeResult& result) {
+  if (result.in_doubt()) transaction.started = Transaction::Started::in_doubt;
+  if (!result.accepted()) return;
+  if (transaction.started == Transaction::Started::no) transaction.started = Transaction::Started::accepted;
+  motions_.started(*transaction.live);
 }
 
-std::optional<Command> destination_question(const Command& command) {
-  const bool place = command.row->meaning == Meaning::to_place;
-  if (!place && command.row->meaning != Meaning::to_coordinates) return {};
-  return commands::ask_saved(place ? commands::Saved::place : commands::Saved::coordinates,
-                             *command.arguments.first("n"));
+// A setting of somebody's own takes the place of what was pending there.
+void TransactionLines::note_speeds(const Command& command, const ExchangeResult& result) {
+  const AxisSet sped = axes_sped({command}, SetsSpeeds::of_motion, store_.controllable());
+  store_.forget_speeds(sped);
+  if (result.accepted() || result.in_doubt()) pending_.forget_speeds(sped);
 }
 
-std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
-  std::vector<AxisMove> moves;
-  const auto axes = command.axes(controllable).list();
-  std::int64_t sign = 1;
-  Unit unit = Unit::pulses;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter == "m") sign = value == "-" ? -1 : 1;
-    if (letter == "u") unit = unit_of(value);
-    if (letter != "y" || moves.size() >= axes.size()) continue;
-    Decimal amount = *parse_decimal(value);
-    amount.digits *= sign;
-    moves.push_back({axes[moves.size()], {amount, unit}, {}});
+void TransactionLines::note_mode(Transaction& transaction, Mode mode) {
+  non_host_.entered(mode);
+  if (mode == Mode::memory_switches) transaction.changed.insert(Transaction::Changed::memory_switches);
+}
+
+// NG to a question is its answer where nothing says why.
+Task<bool> TransactionLines::was_answered(Transaction& transaction, Command question, bool refused) {
+  if (!refused) co_return true;
+  const bool saved = question.row->meaning == Meaning::saved_position;
+  auto why = co_await explainer_.explain_question(question, transaction.who());
+  if (!why && saved) why = nothing_saved(question);
+  if (!why) co_return true;
+  transaction.tell_end(std::move(why));
+  co_return false;
+}
+
+Task<bool> TransactionLines::was_accepted(Transaction& transaction, Command command, bool accepted) {
+  if (!accepted) {
+    auto why = co_await explainer_.explain(command, command.axes(store_.controllable()), transaction.who());
+    transaction.tell_end(std::move(why));
+    co_return false;
   }
-  return moves;
-}
-
-std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable) {
-  std::vector<AxisSpeeds> speeds;
-  std::vector<Unit> units;  // of the ways, in the order of the axes: speeds are in the same
-  const auto axes = command.axes(controllable).list();
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter == "u") units.push_back(unit_of(value));
-    const bool first = letter == "spds" || letter == "spd";
-    if (first && speeds.size() < axes.size()) speeds.push_back({axes[speeds.size()], {}, {}});
-    if (speeds.empty() || (!first && letter != "spdf")) continue;
-    const std::size_t place = speeds.size() - 1;
-    const Quantity speed{*parse_decimal(value), place < units.size() ? units[place] : Unit::pulses};
-    const bool maximum = letter == "spdf" || (letter == "spd" && command.row->meaning == Meaning::maximum_speed);
-    (maximum ? speeds.back().maximum : speeds.back().minimum) = speed;
-  }
-  return speeds;
-}
-
-AxisSet axes_sped(const std::vector<Command>& commands, SetsSpeeds which, AxisSet controllable) {
-  AxisSet axes;
-  for (const Command& command : commands) {
-    if (command.row->sets_speeds != which) continue;
-    const bool setting = command.row->effect == Effect::setting;
-    if (setting || command.arguments.first("spds")) axes = axes | command.axes(controllable);
-  }
-  return axes;
-}
-
-AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable) {
-  AxisSet axes;
-  for (const Command& command : commands) {
-    if (command.row->effect == Effect::question) continue;
-    axes = axes | (command.row->scope == CommandScope::axes ? command.axes(controllable) : AxisSet::all());
-  }
-  return axes;
-}
-
-Command as_sent(const Command& command) {
-  const bool all = command.row->separation == Separation::all_axes && guarded(Guard::questions_for_all_axes);
-  if (!all || !command.arguments.first("a")) return command;
-  Arguments without;
-  for (const auto& [letter, value] : command.arguments.values()) {
-    if (letter != "a") without.add(letter, value);
-  }
-  return make_command(*command.row, without);
-}
-
-std::string picked(const Command& asked, const Reply& reply, AxisSet controllable) {
-  if (reply.kind != Reply::Kind::data || as_sent(asked).line == asked.line) return reply.text;
-  const AxisSet wanted = asked.axes(controllable);
-  const bool whole = reply.fields.size() == kAxisCount;
-  std::string answer;
-  std::size_t place = 0;
-  for (const int axis : (whole ? AxisSet::all() : controllable).list()) {
-    if (place >= reply.fields.size()) break;
-    const auto& field = reply.fields[place++];
-    if (!wanted.has(axis)) continue;
-    if (!answer.empty()) answer += ',';
-    answer += field;
-  }
-  return answer;
+  const bool program = command.row->moves() && command.row->needs.mode == Mode::program;
+  if (!program) co_return true;
+  const auto ended = co_await excursion_.wait_for_program(transaction.live);
+  if (!ended) transaction.tell_end(ended.error());
+  co_return ended.has_value();
 }
 
 }  // namespace axisgate::shrc203

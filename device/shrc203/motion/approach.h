@@ -1,0 +1,34 @@
+// Targets that are always come to from the same side, so that the play of a screw does not count (backlash): two moves,
+// of which one axis has the second in its prebuffer (manual 2. About double buffer) while the first runs. Several axes
+// come to rest between: whether each would go on by itself is open (README: chain_step_on).
+#pragma once
+
+#include "device/shrc203/line/pace.h"
+#include "device/shrc203/motion/entry.h"
+#include "device/shrc203/motion/paths.h"
+#include "device/shrc203/planning/path_plan.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class Approaches {
+ public:
+  Approaches(Entry& entry, PathFollower& follower, const StateStore& store, Motions& motions, const Pace& pace)
+      : entry_(entry), follower_(follower), store_(store), motions_(motions), pace_(pace) {}
+
+  // Whether some axis has an approach.
+  static bool has_any(const MoveRequest& request);
+  // Both moves of it, held against the envelope.
+  Result<PathPlan> plan(const MoveRequest& request) const;
+  Task<void> run(LiveMotionPtr live, MoveRequest request);
+
+ private:
+  Entry& entry_;
+  PathFollower& follower_;
+  const StateStore& store_;
+  Motions& motions_;
+  const Pace& pace_;
+};
+
+}  // namespace axisgate::shrc203

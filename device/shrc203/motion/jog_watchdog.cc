@@ -1,0 +1,122 @@
+#include "device/shrc203/motion/jog_watchdog.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "device/core/guard.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/motion/jog_bound.h"
+
+namespace axisgate::shrc203 {
+namespace {
+
+constexpr Duration kSilence = StageController::kJogSilence;
+
+}  // namespace
+
+Task<void> JogWatchdog::run(LiveMotionPtr live) {
+  Jog& jog = *live->jog;
+  while (!live->life.has_outcome()) {
+    if (!jog.must_end() && live->life.stop_asked()) {
+      // It may have meant some of the axes only, and the others never end by themselves.
+      motions_.jog_changed(*live, JogEvent::must_end);
+      jog.why = stopped_by(*live);
+    }
+    if (!jog.must_end()) {
+      if (auto why = must_end(*live)) motions_.end_jog(*live, std::move(why));
+    }
+    if (jog.phase == JogPhase::ending) stop(live);
+    const bool runs = live->motion.state == MotionState::running && jog.phase == JogPhase::running;
+    // Beside this task: an answer that does not come must not keep a stop waiting.
+    if (runs && jog.speeds != jog.sent) tasks_.spawn(change_speeds(live));
+    auto news = jog.news.wait_until(next_look(*live));
+    co_await news;
+  }
+}
+
+void JogWatchdog::stop(LiveMotionPtr live) {
+  const Jog& jog = *live->jog;
+  motions_.jog_changed(*live, JogEvent::stop_asked);
+  const RequestContext gateway{.who = jog.why ? "the gateway: " + jog.why->message : live->context.who};
+  stops_.cancel(live->motion.id, gateway,
+                [this, live](const Result<void>&) { motions_.jog_changed(*live, JogEvent::stop_answered); });
+}
+
+std::optional<Problem> JogWatchdog::must_end(const LiveMotion& live) {
+  if (tasks_.now() - live.jog->renewed >= kSilence && guarded(Guard::jog_needs_renewal)) {
+    return Problem{.reason = Reason::stopped,
+                   .message = fmt::format("the caller of the jog was silent for {} ms",
+                                          std::chrono::duration_cast<std::chrono::milliseconds>(kSilence).count()),
+                   .hint = "renew it several times in that time, from a connection that holds"};
+  }
+  // Under a lease that lets motion finish it would never end: the lease itself is asked for.
+  const Use use{live.context.who, live.context.lease, live.uses, 0};
+  if (live.context.lease != 0 && guarded(Guard::jog_ends_with_its_right)) {
+    if (const auto allowed = rights_.still_may_use(use); !allowed) return allowed.error();
+  }
+  return near_bound(live);
+}
+
+std::optional<Problem> JogWatchdog::near_bound(const LiveMotion& live) const {
+  if (live.jog->begun == TimePoint{}) return {};
+  const JogBound bounds(store_, live, tasks_.now());
+  for (const int axis : live.motion.axes.list()) {
+    const auto at = bounds.stop_at(axis);
+    if (!at || *at > tasks_.now() || !guarded(Guard::jog_ends_before_bound)) continue;
+    const Envelope limits = store_.envelope(live.context);
+    const auto bound = limits.bound(axis, live.jog->directions.at(axis));
+    return Problem{.reason = Reason::outside_travel,
+                   .message = fmt::format("{} came near its travel limit of {}", limits.label(axis),
+                                          bound ? limits.as_text(axis, *bound) : ""),
+                   .hint = "move it the rest of the way, or jog it back",
+                   .axis = axis};
+  }
+  return {};
+}
+
+TimePoint JogWatchdog::next_look(const LiveMotion& live) const {
+  const TimePoint now = tasks_.now();
+  if (live.jog->must_end()) return now + kJogStopRepeat;
+  TimePoint next = live.jog->renewed + kSilence;
+  // Nobody tells of a lease's end.
+  if (live.context.lease != 0) next = std::min(next, now + kJogLeasePoll);
+  if (live.jog->begun != TimePoint{}) {
+    const JogBound bounds(store_, live, now);
+    for (const int axis : live.motion.axes.list()) {
+      if (const auto at = bounds.stop_at(axis)) next = std::min(next, *at);
+    }
+  }
+  return std::max(next, now + std::chrono::milliseconds(1));
+}
+
+// A speed can be set twice without harm, so one that was not answered is sent again.
+Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
+  Jog& jog = *live->jog;
+  motions_.jog_changed(*live, JogEvent::speed_asked);
+  const auto asked = jog.speeds;
+  auto wanted = asked;
+  const JogBound bounds(store_, *live, tasks_.now());
+  for (auto& [axis, speed] : wanted) {
+    speed = bounds.speed_that_fits(axis);
+    jog.fastest[axis] = std::max(jog.fastest[axis], speed);
+  }
+  jog.news.notify();  // the bound is nearer now
+  for (int attempt = 0; attempt < kJogSpeedTries && !live->life.stop_asked() && !jog.must_end(); ++attempt) {
+    auto request = dialogue_.request_of(*live, commands::set_jog_speeds(wanted), Lane::motion);
+    request.not_after = tasks_.now() + kJogSpeedWriteLimit;
+    auto pending = dialogue_.exchange(std::move(request));
+    const auto result = co_await pending;
+    if (result.accepted()) {
+      for (const auto& [axis, speed] : wanted) jog.fastest[axis] = speed;
+    }
+    if (!result.in_doubt()) break;
+  }
+  // Also where it was refused: what the caller asks for next is tried anew.
+  jog.sent = asked;
+  motions_.jog_changed(*live, JogEvent::speed_answered);
+  jog.news.notify();
+}
+
+}  // namespace axisgate::shrc203

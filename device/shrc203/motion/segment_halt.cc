@@ -1,0 +1,104 @@
+#include "device/shrc203/motion/segment_halt.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "device/core/guard.h"
+#include "device/shrc203/command/refusals.h"
+#include "device/shrc203/limits.h"
+#include "device/shrc203/session/lease_settings.h"
+
+namespace axisgate::shrc203 {
+
+Task<bool> SegmentHalt::wait(LiveMotionPtr live, const SegmentPlan& next, Before before) {
+  const bool waits = next.rest > Duration{} || next.inputs;
+  if (waits) motions_.started(*live);
+  const bool rested = co_await standstill_.wait_until(live, tasks_.now() + next.rest);
+  if (!rested) co_return false;
+  if (next.inputs) {
+    show_armed(*live, true);
+    const bool shown = co_await wait_for_inputs(live, *next.inputs);
+    show_armed(*live, false);
+    if (!shown) co_return false;
+  }
+  if (waits) {
+    const bool there = co_await is_still_there(live, before);
+    if (!there) co_return false;
+  }
+  if (next.arm) {
+    co_await triggers_.begin(live);
+    const bool armed = co_await arm(live, *next.arm);
+    if (!armed) co_return false;
+  }
+  co_return true;
+}
+
+// Somebody at the front panel may have moved the axes meanwhile: the distances that follow would lead elsewhere.
+Task<bool> SegmentHalt::is_still_there(LiveMotionPtr live, Before before) {
+  const bool standing = co_await standstill_.wait(live);
+  if (!standing || live->life.stop_asked()) co_return false;
+  const AxisSet axes = live->motion.axes;
+  auto problem = error_shown(axes, store_.state());
+  if (!problem && !standstill_.is_at(axes, before.place, before.slack)) {
+    problem = Problem{.reason = Reason::target_not_reached,
+                      .message = fmt::format("the axes do not stand where segment {} begins any more", before.number),
+                      .hint = "something else has moved them while they rested: look at the positions"};
+  }
+  if (!problem) co_return true;
+  motions_.end(*live, MotionState::failed, *problem);
+  co_return false;
+}
+
+void SegmentHalt::show_armed(const LiveMotion& live, bool armed) {
+  store_.note_armed(live.motion.axes, armed);
+  store_.publish();
+}
+
+// Nobody's switch starts it once its owner has lost the right to the axes, whatever becomes of motions that run.
+bool SegmentHalt::has_lost_right(LiveMotion& live) {
+  const RequestContext& owner = live.context;
+  const auto allowed = rights_.still_may_use({owner.who, owner.lease, live.uses, 0});
+  if (owner.lease == 0 || allowed) return false;
+  motions_.end(live, MotionState::stopped, allowed.error());
+  return true;
+}
+
+// Two answers in a row: one flipped bit must not start a motion.
+Task<bool> SegmentHalt::wait_for_inputs(LiveMotionPtr live, int pattern) {
+  int agreed = 0;
+  for (;;) {
+    const auto told = co_await dialogue_.ask(commands::Question::inputs, Lane::motion, live->context.who);
+    if (live->life.stop_asked() || live->life.line_lost()) co_return false;
+    if (has_lost_right(*live)) co_return false;
+    const bool as_wanted = told.reply && !told.problem && parse_integer(told.reply->text) == pattern;
+    agreed = as_wanted ? agreed + 1 : 0;
+    if (agreed == 2 || (agreed == 1 && !guarded(Guard::inputs_told_twice))) co_return true;
+    const TimePoint again_at = tasks_.now() + (as_wanted ? Duration{} : kInputsPoll);
+    const bool goes_on = co_await standstill_.wait_until(live, again_at);
+    if (!goes_on) co_return false;
+  }
+}
+
+// T: sets nothing in motion, and the same twice is the same.
+Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
+  const Command setter = trigger_command(trigger);
+  ExchangeResult result;
+  for (int attempt = 0; attempt < kTriggerTries; ++attempt) {
+    if (live->life.stop_asked() || live->life.line_lost()) co_return false;
+    auto pending = dialogue_.exchange(dialogue_.request_of(*live, setter, Lane::motion));
+    result = co_await pending;
+    note_setting(store_, setter, result);
+    if (result.accepted()) co_return true;
+    if (result.refused()) break;
+  }
+  Problem why = result.problem.value_or(Problem{});
+  if (result.refused()) {
+    store_.note_trigger({});  // the NG may have been the line's: it is asked for, to be restored
+    why = co_await explainer_.explain(setter, AxisSet::all(), live->context.who);
+  }
+  motions_.give_up(*live, why);
+  co_return false;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,57 @@
+// What a segment waits for while the axes are stationary: a rest, inputs, a trigger that is armed. The gateway keeps
+// these times itself: whether WT: and WI: answer OK or OK_D behind a running segment, and whether their end tells a
+// number, is open (manual 57), 58)), and a stop must not have to clear them.
+#pragma once
+
+#include "device/core/tasks.h"
+#include "device/shrc203/motion/standstill.h"
+#include "device/shrc203/motion/trigger_count.h"
+#include "device/shrc203/planning/path_plan.h"
+#include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/session/explainer.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/rights.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class SegmentHalt {
+ public:
+  SegmentHalt(Dialogue& dialogue, Explainer& explainer, Standstill& standstill, TriggerCount& triggers,
+              StateStore& store, Motions& motions, Rights& rights, Tasks& tasks)
+      : dialogue_(dialogue),
+        explainer_(explainer),
+        standstill_(standstill),
+        triggers_(triggers),
+        store_(store),
+        motions_(motions),
+        rights_(rights),
+        tasks_(tasks) {}
+
+  // Where the axes were when the wait began.
+  struct Before {
+    int number = 0;  // of the segment that waits
+    Place place{};
+    std::int64_t slack = 0;
+  };
+  // For all that the segment waits for. False: a stop, the loss of the line, or the motion has its outcome.
+  Task<bool> wait(LiveMotionPtr live, const SegmentPlan& next, Before before);
+
+ private:
+  Task<bool> is_still_there(LiveMotionPtr live, Before before);
+  Task<bool> wait_for_inputs(LiveMotionPtr live, int pattern);
+  bool has_lost_right(LiveMotion& live);
+  void show_armed(const LiveMotion& live, bool armed);
+  Task<bool> arm(LiveMotionPtr live, Trigger trigger);
+
+  Dialogue& dialogue_;
+  Explainer& explainer_;
+  Standstill& standstill_;
+  TriggerCount& triggers_;
+  StateStore& store_;
+  Motions& motions_;
+  Rights& rights_;
+  Tasks& tasks_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,31 @@
+// The speeds S, F and time R of D:, set for one motion.
+#pragma once
+
+#include "device/core/problem.h"
+#include "device/shrc203/planning/plan.h"
+#include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/session/explainer.h"
+#include "device/shrc203/state/live_motion.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class MotionSpeeds {
+ public:
+  MotionSpeeds(Dialogue& dialogue, Explainer& explainer, StateStore& store)
+      : dialogue_(dialogue), explainer_(explainer), store_(store) {}
+
+  // Those of the plan, by D:.
+  Task<Result<void>> set(LiveMotionPtr live, MovePlan plan);
+  // Lower ones for axes whose own F is more than the caller may run at; they are restored when the motion is over.
+  Task<Result<void>> slow_down(LiveMotionPtr live);
+
+ private:
+  Result<MovePlan> slowed_down(AxisSet axes, const Envelope& envelope) const;
+
+  Dialogue& dialogue_;
+  Explainer& explainer_;
+  StateStore& store_;
+};
+
+}  // namespace axisgate::shrc203

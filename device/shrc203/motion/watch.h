@@ -1,0 +1,57 @@
+// A started motion to its outcome: an axis number wakes the check; READY, no error and the exact target make the
+// success.
+#pragma once
+
+#include <optional>
+#include <set>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/line/line.h"
+#include "device/shrc203/motion/starter.h"
+#include "device/shrc203/motion/trigger_count.h"
+#include "device/shrc203/session/reader.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class Watch {
+ public:
+  Watch(const Line& line, Reader& reader, TriggerCount& triggers, StateStore& store, Motions& motions, Tasks& tasks)
+      : line_(line), reader_(reader), triggers_(triggers), store_(store), motions_(motions), tasks_(tasks) {}
+
+  // Until it has its outcome. `wake_ups`: those of LiveMotion::wake_ups that meant something else.
+  Task<void> run(LiveMotionPtr live, Start start, int wake_ups = 0);
+  // Whether the positions are read for some motion.
+  bool watches_any() const;
+
+ private:
+  // What has been seen so far.
+  struct Seen {
+    TimePoint begun{};
+    Start start = Start::accepted;
+    int wake_ups = 0;
+    bool busy = false;
+    std::optional<Positions> ready_at{};  // the last reading was READY there; away from the target two must agree
+  };
+
+  Task<void> wait_for_news(LiveMotionPtr live, Seen& seen, TimePoint limit);
+  Task<Result<void>> read_end(LiveMotionPtr live, const Seen& seen);
+  void unreadable(LiveMotion& live, const Problem& problem);
+  void judge(LiveMotion& live, Seen& seen);
+  bool has_succeeded(const LiveMotion& live, const Seen& seen, const Positions& here) const;
+  void judge_end(LiveMotion& live, const Seen& seen);
+  void judge_jog(LiveMotion& live);
+  bool at_targets(const LiveMotion& live) const;
+  bool axis_busy(const LiveMotion& live) const;
+
+  const Line& line_;
+  Reader& reader_;
+  TriggerCount& triggers_;
+  StateStore& store_;
+  Motions& motions_;
+  Tasks& tasks_;
+  std::set<MotionId> watched_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,12 @@
+// Whether a question was answered.
+#pragma once
+
+#include "device/shrc203/line/line.h"
+
+namespace axisgate::shrc203 {
+
+inline bool is_data(const ExchangeResult& result) {
+  return result.reply && !result.problem && result.reply->kind == Reply::Kind::data;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,54 @@
+// Why NG: what is asked of the controller then, until something tells; and before a motion, where it is known already.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include "device/core/problem.h"
+#include "device/core/tasks.h"
+#include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/session/reader.h"
+#include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/registers.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class Explainer {
+ public:
+  Explainer(Dialogue& dialogue, Reader& reader, const Line& line, const StateStore& store, const Registers& registers,
+            const NonHost& non_host, Tasks& tasks)
+      : dialogue_(dialogue),
+        reader_(reader),
+        line_(line),
+        store_(store),
+        registers_(registers),
+        non_host_(non_host),
+        tasks_(tasks) {}
+
+  // Why the command was refused, asked for these axes: each question in turn, and the first that tells ends it.
+  Task<Problem> explain(Command command, AxisSet axes, std::string caller);
+  // Why a question was: the mode is another, or it does not take its values; nothing where neither is so.
+  Task<std::optional<Problem>> explain_question(Command question, std::string caller);
+  // not_excited and the like, known to stand against a motion; asked anew, since somebody may have seen to it.
+  Task<Result<void>> check_excitation(AxisSet axes, std::string caller);
+
+ private:
+  Problem values_refused() const;
+  Task<std::optional<Problem>> refusal_by_program(Command command, std::string caller);
+  Task<std::optional<Problem>> refusal_by_settings(Command command, AxisSet axes, std::string caller);
+  Task<std::optional<Problem>> refusal_by_stage(AxisSet axes, std::string caller);
+  std::optional<Problem> refusal_by_speeds(const Command& command, const std::string& caller) const;
+  Task<std::optional<Problem>> wrong_mode(std::string caller);
+  Task<bool> sleeps(std::string caller);
+
+  Dialogue& dialogue_;
+  Reader& reader_;
+  const Line& line_;
+  const StateStore& store_;
+  const Registers& registers_;
+  const NonHost& non_host_;
+  Tasks& tasks_;
+};
+
+}  // namespace axisgate::shrc203

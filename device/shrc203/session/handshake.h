@@ -1,0 +1,65 @@
+// Who is there after a connect, and whether it is fit for use: identity, mode and dialect, everything stationary, and
+// what is set.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/session/reader.h"
+#include "device/shrc203/session/runaways.h"
+#include "device/shrc203/session/settings_reader.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/registers.h"
+#include "device/shrc203/state/state_store.h"
+#include "device/stage/permission.h"
+
+namespace axisgate::shrc203 {
+
+// What ?:MODE and ?:FMT have told.
+enum class FrontPanelRead { fit, wrong, unreadable, format_unreadable };
+
+class Handshake {
+ public:
+  Handshake(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, Runaways& runaways,
+            StateStore& store, Motions& motions, Registers& registers, NonHost& non_host, Permission& permission,
+            Tasks& tasks)
+      : dialogue_(dialogue),
+        line_(line),
+        reader_(reader),
+        settings_(settings),
+        runaways_(runaways),
+        store_(store),
+        motions_(motions),
+        registers_(registers),
+        non_host_(non_host),
+        permission_(permission),
+        tasks_(tasks) {}
+
+  // Opens the line where all is well, else gives it up. Ends where another connection has come.
+  Task<void> run(Identity identity, std::uint64_t connection);
+
+ private:
+  bool is_expected(const Identity& identity);
+  Task<std::optional<FrontPanelRead>> read_panel(std::uint64_t connection);
+  Task<bool> wait_for_host_mode(std::uint64_t connection);
+  Task<bool> wait_until_all_ready(std::uint64_t connection);
+  Task<void> wait_for_others();
+  Task<void> come_back();
+
+  Dialogue& dialogue_;
+  Line& line_;
+  Reader& reader_;
+  SettingsReader& settings_;
+  Runaways& runaways_;
+  StateStore& store_;
+  Motions& motions_;
+  Registers& registers_;
+  NonHost& non_host_;
+  Permission& permission_;
+  Tasks& tasks_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,26 @@
+// What the keeper of leases orders: stops of those who may move axes no longer, and settings that are restored.
+#pragma once
+
+#include "device/core/tasks.h"
+#include "device/shrc203/session/restorer.h"
+#include "device/shrc203/session/stops.h"
+#include "device/stage/permission.h"
+
+namespace axisgate::shrc203 {
+
+class LeaseOrders {
+ public:
+  LeaseOrders(Permission& permission, Stops& stops, Restorer& restorer, const Tasks& tasks)
+      : permission_(permission), stops_(stops), restorer_(restorer), tasks_(tasks) {}
+
+  // Lets the keeper's time pass.
+  void carry_out();
+
+ private:
+  Permission& permission_;
+  Stops& stops_;
+  Restorer& restorer_;
+  const Tasks& tasks_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,36 @@
+// Polling keeps the state fresh, and is the net below the completions: slow when nothing moves.
+#pragma once
+
+#include <functional>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/session/reader.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class Polling {
+ public:
+  // `watched`: whether somebody reads at the same pace anyway.
+  Polling(Reader& reader, StateStore& store, Motions& motions, const NonHost& non_host, Tasks& tasks,
+          std::function<bool()> watched);
+
+  // The state, read again where it is older than `max_age`. wrong_mode, link_down.
+  void refresh(Duration max_age, RequestContext context, StageController::OnState done);
+
+ private:
+  Duration interval() const;
+  Task<void> poll();
+  Task<void> read_for(Duration max_age, RequestContext context, StageController::OnState done);
+
+  Reader& reader_;
+  StateStore& store_;
+  Motions& motions_;
+  const NonHost& non_host_;
+  Tasks& tasks_;
+  std::function<bool()> watched_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,122 @@
+#include "device/shrc203/session/session.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "device/core/escape.h"
+#include "device/core/guard.h"
+#include "device/shrc203/limits.h"
+#include "device/stage/own_questions.h"
+
+namespace axisgate::shrc203 {
+
+void Session::line_opened(TimePoint) {
+  show_link();
+  store_.emit(LinkChanged{LinkState::connecting, "the line is open"});
+}
+
+void Session::line_trusted(TimePoint) {
+  show_link();
+  store_.note_trouble(LinkTrouble::none, "");
+  store_.emit(LinkChanged{LinkState::up, "", store_.controllable()});
+}
+
+void Session::same_controller(TimePoint) { show_link(); }
+
+void Session::line_connected(const Identity& identity, TimePoint) {
+  store_.connected();
+  runaways_.stop();
+  tasks_.spawn(handshake_.run(identity, store_.connection()));
+}
+
+void Session::line_lost(const std::string& why, TimePoint) {
+  if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
+  const bool changed = store_.state().link != LinkState::down || store_.state().link_problem != why;
+  show_link();
+  store_.note_trouble(LinkTrouble::line, why);
+  store_.lost();
+  for (const auto& [id, live] : motions_.live()) {
+    if (live->jog && live->life.has_written()) runaways_.add(live->motion.axes);
+  }
+  motions_.line_lost(why);
+  if (!changed) return;
+  store_.emit(LinkChanged{LinkState::down, why});
+  store_.publish();
+}
+
+void Session::barrier_entered(const std::string& why, TimePoint) {
+  store_.unsettle();
+  show_link();
+  store_.emit(BarrierEntered{why});
+}
+
+void Session::barrier_passed(const Identity& identity, TimePoint now) {
+  show_link();
+  if (!line_.state().trusted()) return;
+  const State& state = store_.state();
+  const bool same = identity.serial_number == state.serial_number && identity.model == state.model;
+  if (same || !guarded(Guard::serial_number_after_barrier)) return;
+  line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number), now);
+}
+
+void Session::restart_suspected(TimePoint) {
+  store_.unsettle();
+  show_link();
+  tasks_.spawn(restart_check_.run(store_.connection()));
+}
+
+void Session::completion_seen(int axis, bool doubtful, TimePoint) {
+  line_.completions().arrived(axis);
+  motions_.completion_seen(axis, doubtful, false);
+}
+
+void Session::completion_deduced(int axis) {
+  line_.completions().arrived(axis);
+  motions_.completion_seen(axis, true, true);
+}
+
+void Session::line_event(const Event& event, TimePoint) {
+  if (std::holds_alternative<IllegalTransition>(event)) {
+    // The stop outlives the line that is about to be given up, and goes first on the next one.
+    stops_.stop(AxisSet::all(), {.who = kGateway});
+  }
+  const auto* notice = std::get_if<ProgramNotice>(&event);
+  if (!notice || !guarded(Guard::notices_bounded)) return store_.emit(event);
+  NoticeCount& count = notices_[notice->kind];
+  ++count.untold;
+  if (std::exchange(count.telling, true)) return;
+  tasks_.spawn(tell_notices(notice->kind));
+}
+
+void Session::illegal(std::string_view machine, std::string_view state, std::string_view event) {
+  line_event(IllegalTransition{machine, state, event}, tasks_.now());
+  line_.give_up(fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event),
+                tasks_.now());
+}
+
+// The first at once, and then those that came meanwhile as one.
+Task<void> Session::tell_notices(ProgramNotice::Kind kind) {
+  NoticeCount& count = notices_[kind];
+  while (count.untold > 0) {
+    store_.emit(ProgramNotice{kind, std::exchange(count.untold, 0)});
+    auto pause = tasks_.pause(kProgramNoticePause);
+    co_await pause;
+  }
+  count.telling = false;
+}
+
+std::optional<Problem> Session::may_write(const ExchangeRequest& request, TimePoint) {
+  const auto live = motions_.find_live(request.motion);
+  // What was given up at the gateway's end sends nothing more.
+  if (!live && ending_) return ending_;
+  const bool alone = request.motion == 0 && !request.uses.empty();
+  if ((!live && !alone) || !guarded(Guard::lease_asked_as_bytes_go)) return {};
+  Use use{request.caller, request.lease, request.uses, 0};
+  if (live) use = {live->context.who, live->context.lease, live->uses, live->motion.id};
+  const auto allowed = rights_.still_may_use(use);
+  if (allowed) return {};
+  return allowed.error();
+}
+
+}  // namespace axisgate::shrc203

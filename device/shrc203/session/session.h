@@ -1,0 +1,83 @@
+// What the line tells, and what follows from it: the session's beginning and loss, numbers that come by themselves, and
+// whether a line may still be written. Also what follows from an error of the gateway's own.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/line/line.h"
+#include "device/shrc203/session/ending.h"
+#include "device/shrc203/session/handshake.h"
+#include "device/shrc203/session/restart_check.h"
+#include "device/shrc203/session/runaways.h"
+#include "device/shrc203/session/stops.h"
+#include "device/shrc203/state/motions.h"
+#include "device/shrc203/state/registers.h"
+#include "device/shrc203/state/rights.h"
+#include "device/shrc203/state/state_store.h"
+#include "device/shrc203/state/violations.h"
+
+namespace axisgate::shrc203 {
+
+class Session : public LineListener, public Violations {
+ public:
+  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, Runaways& runaways,
+          StateStore& store, Motions& motions, Registers& registers, Rights& rights, const Ending& ending, Tasks& tasks)
+      : line_(line),
+        handshake_(handshake),
+        restart_check_(restart_check),
+        stops_(stops),
+        runaways_(runaways),
+        store_(store),
+        motions_(motions),
+        registers_(registers),
+        rights_(rights),
+        ending_(ending),
+        tasks_(tasks) {}
+
+  void line_opened(TimePoint now) override;
+  void line_connected(const Identity& identity, TimePoint now) override;
+  void line_trusted(TimePoint now) override;
+  void line_lost(const std::string& why, TimePoint now) override;
+  void barrier_entered(const std::string& why, TimePoint now) override;
+  void barrier_passed(const Identity& identity, TimePoint now) override;
+  void restart_suspected(TimePoint now) override;
+  void same_controller(TimePoint now) override;
+  void completion_seen(int axis, bool doubtful, TimePoint now) override;
+  void line_event(const Event& event, TimePoint now) override;
+  // The right may have ended since the exchange was queued: this is the last look before the bytes go out.
+  std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) override;
+
+  // Stops everything, and opens the line again: motions that run end UNKNOWN, and nothing starts before a handshake.
+  void illegal(std::string_view machine, std::string_view state, std::string_view event) override;
+
+  // An axis number that was known only when two answers agreed.
+  void completion_deduced(int axis);
+
+ private:
+  void show_link() { store_.show_link(line_.state().phase()); }
+  Task<void> tell_notices(ProgramNotice::Kind kind);
+
+  struct NoticeCount {
+    std::int64_t untold = 0;
+    bool telling = false;
+  };
+
+  Line& line_;
+  Handshake& handshake_;
+  RestartCheck& restart_check_;
+  Stops& stops_;
+  Runaways& runaways_;
+  StateStore& store_;
+  Motions& motions_;
+  Registers& registers_;
+  Rights& rights_;
+  const Ending& ending_;
+  Tasks& tasks_;
+  std::map<ProgramNotice::Kind, NoticeCount> notices_;
+};
+
+}  // namespace axisgate::shrc203

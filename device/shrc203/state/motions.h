@@ -1,0 +1,99 @@
+// The motions: those without an outcome, their turns on the axes, and the newest of those that have ended. What changes
+// a motion's life, and what tells of it.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "device/core/tasks.h"
+#include "device/shrc203/state/live_motion.h"
+#include "device/shrc203/state/motion_gate.h"
+#include "device/shrc203/state/registers.h"
+#include "device/shrc203/state/rights.h"
+#include "device/shrc203/state/state_store.h"
+#include "device/shrc203/state/violations.h"
+
+namespace axisgate::shrc203 {
+
+class Motions {
+ public:
+  using OnStarted = StageController::OnStarted;
+  using Live = std::map<MotionId, LiveMotionPtr>;
+
+  Motions(StateStore& store, Registers& registers, Rights& rights, Tasks& tasks, Violations& violations);
+
+  // A new one, which waits for enter().
+  LiveMotionPtr create(MotionKind kind, AxisSet axes, RequestContext context, OnStarted started);
+  // Its turn. `prebuffer`: it will set prebuffers, which belong to one motion unless the profile says that each axis
+  // has its own. queue_full, deadline_passed, what Rights refuse, stopped, not_sent.
+  Task<Result<void>> enter(LiveMotionPtr live, bool prebuffer);
+  // A line of its own goes out.
+  void written(LiveMotion& live) { change(live, MotionEvent::written); }
+  // Its start was accepted, or its axes were seen to move. Nothing where it is running already.
+  void started(LiveMotion& live);
+  void jog_changed(LiveMotion& live, JogEvent event);
+
+  // The jog must end: `why`, or nothing where its caller wants it. Not where it must already, or was stopped.
+  void end_jog(LiveMotion& live, std::optional<Problem> why);
+
+  // Its outcome; only the first counts.
+  void end(LiveMotion& live, MotionState outcome, std::optional<Problem> problem);
+  // Before anything of it was sent: stopped where that is the problem, else failed.
+  void refuse(LiveMotion& live, const Problem& problem);
+  // A step of it did not succeed: stopped where a stop was asked for, else failed.
+  void give_up(LiveMotion& live, const Problem& problem);
+  // Of one that restores something: all of that is over.
+  void leave(LiveMotion& live);
+
+  // From outside.
+  void stop_asked(LiveMotion& live, const std::string& who);
+  // All on these axes. Those that it has stopped.
+  std::vector<MotionId> stop_asked(AxisSet axes, const std::string& who);
+  // All that have their turn; and those that wait for it are refused.
+  void line_lost(const std::string& why);
+  void completion_seen(int axis, bool doubtful, bool deduced);
+
+  const Live& live() const { return live_; }
+  LiveMotionPtr find_live(MotionId id) const;  // null: none
+  std::optional<Motion> find(MotionId id) const;
+  std::vector<Motion> all() const;  // oldest first
+  const std::deque<Motion>& ended() const { return ended_; }
+
+  // The axes of motions that are shown as running, and of those that have their turn.
+  AxisSet running() const;
+  AxisSet inside() const;
+  bool anything_moves() const;  // also somebody else's
+  bool others_inside(const LiveMotion& live) const { return gate_.others_inside(live.motion.id); }
+  // In a chain axis numbers follow one another, so that nothing can be told apart before its end.
+  bool any_chain() const;
+
+  MotionGate& gate() { return gate_; }
+  // Notified when the pace of the polls may be another.
+  Signal& pace_changed() { return pace_changed_; }
+
+ private:
+  void change(LiveMotion& live, MotionEvent event);
+  void show(LiveMotion& live, MotionState state);
+
+  StateStore& store_;
+  Registers& registers_;
+  Rights& rights_;
+  Tasks& tasks_;
+  Violations& violations_;
+  MotionGate gate_;
+  Signal pace_changed_;
+  Live live_;
+  std::deque<Motion> ended_;
+  MotionId last_ = 0;
+};
+
+// Its axes' places; those of others may go on moving.
+Positions places_of(const LiveMotion& live, const State& state);
+// stopped: by whom.
+Problem stopped_by(const LiveMotion& live);
+
+}  // namespace axisgate::shrc203

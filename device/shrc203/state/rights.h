@@ -1,0 +1,35 @@
+// Whether a caller may use axes: the epochs that he means, and what the keeper of leases says
+// (device/stage/permission.h).
+#pragma once
+
+#include "device/core/problem.h"
+#include "device/core/tasks.h"
+#include "device/shrc203/stage.h"
+#include "device/shrc203/state/state_store.h"
+#include "device/stage/permission.h"
+
+namespace axisgate::shrc203 {
+
+class Rights {
+ public:
+  Rights(Permission& permission, const StateStore& store, const Tasks& tasks)
+      : permission_(permission), store_(store), tasks_(tasks) {}
+
+  // epoch_passed, where the request was meant for another.
+  Result<void> check_epochs(const RequestContext& context) const;
+  // Also what the keeper of leases refuses: before anything is queued.
+  Result<void> may_use(const RequestContext& context, AxisSet axes);
+  // What the keeper alone refuses.
+  Result<void> still_may_use(const Use& use) { return permission_.may_use(use, tasks_.now()); }
+
+  // A motion has its turn, or has left its axes.
+  void begin(const Use& use) { permission_.begin(use, tasks_.now()); }
+  void end(MotionId motion) { permission_.end(motion, tasks_.now()); }
+
+ private:
+  Permission& permission_;
+  const StateStore& store_;
+  const Tasks& tasks_;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,117 @@
+// What is known of the controller: one State, and what is known beside it. Whoever learns something tells it here, so
+// that each fact is written in one place; who reads sees State.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "device/core/problem.h"
+#include "device/core/tasks.h"
+#include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/reply.h"
+#include "device/shrc203/line/link.h"
+#include "device/shrc203/planning/plan.h"
+#include "device/shrc203/profile.h"
+#include "device/shrc203/stage.h"
+#include "device/stage/envelope.h"
+
+namespace axisgate::shrc203 {
+
+// Why the link is not up, as far as anything is decided by it; State::link_problem has it in words.
+enum class LinkTrouble { none, line, mode, format, motion };
+
+// On the controller's strand, like all of this folder.
+class StateStore {
+ public:
+  StateStore(const Profile& profile, EventSink& events, const Tasks& tasks)
+      : profile_(profile), events_(events), tasks_(tasks) {}
+
+  const State& state() const { return state_; }
+  AxisSet controllable() const { return state_.controllable(); }
+  const Profile& profile() const { return profile_; }
+  Positions positions() const { return positions_of(state_); }
+  Envelope envelope(const RequestContext& context) const { return {profile_, state_, context.who, context.role}; }
+
+  void publish() { emit(StateChanged{}); }
+  void emit(const Event& event) { events_.on_event(event, tasks_.now()); }
+
+  // The link. The trouble is told with it in not_up().
+  void show_link(LinkPhase phase) { state_.link = shown(phase); }  // what writes State::link
+  bool line_works() const { return state_.link == LinkState::up || state_.link == LinkState::doubtful; }
+  void note_trouble(LinkTrouble trouble, std::string words);
+  void note_trouble(LinkTrouble trouble) { trouble_ = trouble; }
+  LinkTrouble trouble() const { return trouble_; }
+  // Whether somebody must put it right at the front panel before the link can be up.
+  bool panel_is_wrong() const { return trouble_ == LinkTrouble::mode || trouble_ == LinkTrouble::format; }
+  void note_wrong_panel();
+  Problem not_up() const;  // link_down, wrong_mode
+
+  // Counts connects and losses, so that a procedure notices a new one.
+  std::uint64_t connection() const { return connection_; }
+  void connected() { ++connection_; }
+  // Nothing that was read is true any more, and what moved may move on.
+  void lost();
+  void may_move_unseen() { state_.moving_unknown = true; }
+
+  // The handshake.
+  void identified(const Identity& identity);
+  // The serial number that has passed a handshake; empty before the first.
+  const std::string& unit() const { return unit_; }
+  void note_mode(std::string mode) { state_.mode = std::move(mode); }
+  void note_format(std::string format) { state_.format = std::move(format); }
+  void note_controllable(AxisSet axes);
+  // The handshake has passed. What this answers is the device epoch.
+  std::uint64_t begin_epoch();
+  // The travel limits count from the origin that the axis has homed to: coordinates set since are from elsewhere.
+  void shift_frame(AxisSet axes);
+  void note_homed(AxisSet axes);
+
+  // Readings. False, and nothing is noted, where they make no sense; `ready` and `busy` are the axes that are.
+  struct Read {
+    AxisSet ready, busy;
+  };
+  std::optional<Read> note_positions(const Reply& reply);
+  // Of axes that are busy and none of ours: two readings must say it, since one flipped bit makes a B of an R.
+  void note_foreign_motion(AxisSet busy, AxisSet ours);
+  void note_excited(int axis, bool excited) { state_.axis(axis).excited = excited; }
+  void note_outputs(std::optional<int> outputs) { state_.outputs = outputs; }
+  void note_trigger(std::optional<Trigger> trigger) { state_.trigger = std::move(trigger); }
+  void note_armed(AxisSet axes, bool armed);
+  // `told`: what ?:P was answered.
+  void note_scale(int axis, const Scale& scale) { state_.axis(axis).scale = scale; }
+  void note_scales_told(std::string told) { scales_told_ = std::move(told); }
+  const std::string& scales_told() const { return scales_told_; }
+
+  // The speeds that D: sets, also by the prebuffer settings that have some (manual 68)). What no D: can set was
+  // misread, and is not known.
+  void note_speeds(const commands::Speeds& speeds);
+  void forget_speeds(AxisSet axes);
+  void note_origin_speeds(int axis, const std::optional<SpeedSetting>& speed);
+  commands::Speeds speeds(AxisSet axes) const;
+  commands::Speeds origin_speeds(AxisSet axes) const;
+  bool speeds_known(AxisSet axes) const { return speeds(axes).size() == static_cast<std::size_t>(axes.count()); }
+  bool origin_speeds_known(AxisSet axes) const {
+    return origin_speeds(axes).size() == static_cast<std::size_t>(axes.count());
+  }
+
+  // The last reading was READY, and nothing has happened since.
+  bool settled() const { return settled_; }
+  void settle() { settled_ = true; }
+  void unsettle() { settled_ = false; }
+
+ private:
+  const Profile& profile_;
+  EventSink& events_;
+  const Tasks& tasks_;
+  State state_;
+  std::string unit_;
+  std::string scales_told_;
+  LinkTrouble trouble_ = LinkTrouble::none;
+  std::uint64_t connection_ = 0;
+  AxisSet moved_unasked_;  // at the last reading
+  bool settled_ = false;
+};
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,47 @@
+#include "device/shrc203/state/switch_audit.h"
+
+#include <utility>
+
+#include "device/core/quantity.h"
+#include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/reply.h"
+
+namespace axisgate::shrc203 {
+
+std::optional<int> SwitchAudit::item_set_by(const Command& command) {
+  if (command.row->meaning != Meaning::switches) return {};
+  return static_cast<int>(*parse_integer(*command.arguments.first("k")));
+}
+
+Command SwitchAudit::question_of(int item) { return commands::ask_all_switches(item); }
+
+void SwitchAudit::before(int item, std::optional<Values> values) { before_.try_emplace(item, std::move(values)); }
+
+void SwitchAudit::after(int item, std::optional<Values> values) { after_.insert_or_assign(item, std::move(values)); }
+
+std::vector<int> SwitchAudit::items() const {
+  std::vector<int> items;
+  for (const auto& [item, values] : before_) items.push_back(item);
+  return items;
+}
+
+std::optional<SwitchesChanged> SwitchAudit::result(const std::string& who) const {
+  SwitchesChanged told{who, {}, false};
+  for (const auto& [item, old] : before_) {
+    const auto found = after_.find(item);
+    const bool known = old && found != after_.end() && found->second && found->second->size() == old->size();
+    if (!known) {
+      told.unknown = true;
+      continue;
+    }
+    const Values& now = *found->second;
+    for (std::size_t number = 0; number < now.size(); ++number) {
+      if ((*old)[number] == now[number]) continue;
+      told.changes.push_back({item, static_cast<int>(number), (*old)[number], now[number]});
+    }
+  }
+  if (told.changes.empty() && !told.unknown) return {};
+  return told;
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,37 @@
+// One caller's transaction, while it runs: what its steps share.
+#pragma once
+
+#include <set>
+#include <vector>
+
+#include "device/shrc203/command/codec.h"
+#include "device/shrc203/planning/plan.h"
+#include "device/shrc203/stage.h"
+#include "device/shrc203/state/live_motion.h"
+#include "device/shrc203/state/switch_audit.h"
+#include "device/stage/stage_controller.h"
+
+namespace axisgate::shrc203 {
+
+struct Transaction {
+  enum class Started { no, accepted, in_doubt };
+  // What its lines may have left otherwise than it is known.
+  enum class Changed { memory_switches, scale, everything };  // everything: the controller was reset
+
+  const std::string& who() const { return request.context.who; }
+  void tell_end(std::optional<Problem> problem) const;
+
+  ExecuteRequest request;
+  std::vector<Command> commands;
+  StageController::OnExecute tell;
+  LiveMotionPtr live{};     // null: questions and settings that may come between another's lines
+  Positions destination{};  // a saved position, where it goes to one
+  Started started = Started::no;
+  std::set<Changed> changed{};
+  SwitchAudit audit{};
+};
+
+// Of a question for a saved position: not_found.
+Problem nothing_saved(const Command& question);
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,112 @@
+// The state machines of a path's segment, a jog, a stop and the way out of HOST: every state with every event, typed
+// from the tables in device/shrc203/README.md.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "device/shrc203/state/jog_life.h"
+#include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/segment_life.h"
+#include "device/shrc203/state/stop_life.h"
+#include "tests/unit/transition_table.h"
+
+namespace axisgate::shrc203::lives_test {
+namespace {
+
+using testing_tables::illegal_pairs;
+using testing_tables::Table;
+
+TEST(SegmentTable, EachPairLeadsWhereThePageSays) {
+  const Table table = {
+      {"stationary", {"setting", "-", "-", "-", "-", "-", "-", "-", "-"}},
+      {"setting", {"-", "running", "doubtful", "-", "-", "-", "-", "-", "-"}},
+      {"running", {"-", "-", "-", "refilling", "-", "-", "-", "stationary", "-"}},
+      {"refilling", {"-", "-", "-", "-", "chained", "doubtful", "-", "-", "-"}},
+      {"chained", {"-", "-", "-", "-", "-", "-", "running", "-", "-"}},
+      {"doubtful", {"-", "-", "-", "-", "-", "-", "-", "-", "stationary"}},
+  };
+  const int illegal = illegal_pairs<SegmentPhase, SegmentEvent>(
+      table, kSegmentPhases,
+      {"set_asked", "start_accepted", "start_doubted", "refill_asked", "refill_accepted", "refill_doubted", "ended",
+       "came_to_rest", "found"},
+      [](SegmentPhase phase, SegmentEvent event) { return next(phase, event); });
+  EXPECT_EQ(illegal, 45);
+}
+
+TEST(JogTable, EachPairLeadsWhereThePageSays) {
+  const Table table = {
+      {"preparing", {"running", "-", "-", "ending", "-", "-"}},
+      {"running", {"-", "changing_speed", "-", "ending", "-", "-"}},
+      {"changing_speed", {"-", "-", "running", "ending", "-", "-"}},
+      {"ending", {"ending", "-", "ending", "ending", "stopping", "-"}},
+      {"stopping", {"stopping", "-", "stopping", "stopping", "-", "ending"}},
+  };
+  const int illegal = illegal_pairs<JogPhase, JogEvent>(
+      table, kJogPhases, {"begun", "speed_asked", "speed_answered", "must_end", "stop_asked", "stop_answered"},
+      [](JogPhase phase, JogEvent event) { return next(phase, event); });
+  EXPECT_EQ(illegal, 16);
+}
+
+TEST(StopTable, EachPairLeadsWhereThePageSays) {
+  const Table table = {
+      {"writing", {"slowing", "ended", "-", "-"}},
+      {"slowing", {"-", "-", "slowing_again", "ended"}},
+      {"slowing_again", {"-", "-", "-", "ended"}},
+      {"ended", {"-", "-", "-", "-"}},
+  };
+  const int illegal =
+      illegal_pairs<StopPhase, StopEvent>(table, kStopPhases, {"answered", "refused", "ran_on", "finished"},
+                                          [](StopPhase phase, StopEvent event) { return next(phase, event); });
+  EXPECT_EQ(illegal, 11);
+}
+
+TEST(NonHostTable, EachPairLeadsWhereThePageSays) {
+  const Table table = {
+      {"host", {"leaving", "-", "-", "-", "-", "host"}},
+      {"leaving", {"-", "leaving", "memory_switches", "program", "program_edit", "host"}},
+      {"memory_switches", {"-", "leaving", "memory_switches", "program", "program_edit", "host"}},
+      {"program", {"-", "leaving", "memory_switches", "program", "program_edit", "host"}},
+      {"program_edit", {"-", "leaving", "memory_switches", "program", "program_edit", "host"}},
+  };
+  const int illegal = illegal_pairs<NonHostPhase, NonHostEvent>(
+      table, kNonHostPhases,
+      {"began", "entered_host", "entered_switches", "entered_program", "entered_edit", "returned"},
+      [](NonHostPhase phase, NonHostEvent event) { return next(phase, event); });
+  EXPECT_EQ(illegal, 8);
+}
+
+class Reported : public Violations {
+ public:
+  void illegal(std::string_view machine, std::string_view state, std::string_view event) override {
+    all.push_back(std::string(machine) + " " + std::string(state) + " " + std::string(event));
+  }
+  std::vector<std::string> all;
+};
+
+TEST(NonHost, AnIllegalEventIsReportedAndChangesNothing) {
+  Reported reported;
+  NonHost non_host(reported);
+  non_host.entered(Mode::memory_switches);
+  EXPECT_EQ(reported.all, std::vector<std::string>{"non_host host entered_switches"});
+  EXPECT_FALSE(non_host.away());
+}
+
+TEST(NonHost, OnlyTheEditModesAnswerNoPositions) {
+  Reported reported;
+  NonHost non_host(reported);
+  non_host.began();
+  EXPECT_TRUE(non_host.away());
+  EXPECT_FALSE(non_host.edits());
+  non_host.entered(Mode::program);
+  EXPECT_TRUE(non_host.in_program());
+  EXPECT_FALSE(non_host.edits());
+  non_host.entered(Mode::program_edit);
+  EXPECT_TRUE(non_host.edits());
+  non_host.returned();
+  EXPECT_FALSE(non_host.away());
+  EXPECT_TRUE(reported.all.empty());
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203::lives_test

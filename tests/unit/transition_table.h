@@ -1,0 +1,39 @@
+// A state machine held against its table as device/shrc203/README.md draws it: one row a state, one cell an event.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace axisgate::testing_tables {
+
+// By the state's name; "-" cannot be.
+using Table = std::map<std::string, std::vector<std::string>>;
+
+// Every pair is looked at. Yields how many of them cannot be.
+template <class State, class Event, class Next>
+int illegal_pairs(const Table& table, std::size_t states, const std::vector<std::string>& events, Next next) {
+  int illegal = 0;
+  EXPECT_EQ(table.size(), states);
+  for (std::size_t state = 0; state < states; ++state) {
+    const auto from = static_cast<State>(state);
+    const auto row = table.find(std::string(name(from)));
+    if (row == table.end() || row->second.size() != events.size()) {
+      ADD_FAILURE() << "the table has no whole row for " << name(from);
+      continue;
+    }
+    for (std::size_t event = 0; event < events.size(); ++event) {
+      EXPECT_EQ(name(static_cast<Event>(event)), events[event]);
+      const auto to = next(from, static_cast<Event>(event));
+      EXPECT_EQ(to ? std::string(name(*to)) : "-", row->second[event]) << name(from) << ", " << events[event];
+      illegal += to ? 0 : 1;
+    }
+  }
+  return illegal;
+}
+
+}  // namespace axisgate::testing_tables
