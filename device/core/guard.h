@@ -38,6 +38,7 @@ enum class Guard {
   question_grammar,
   shared_questions,
   restart_suspected,
+  restart_read_twice,
   late_answers_hide_restarts,
   question_before_pause_ends,
   foreign_traffic,

@@ -165,6 +165,30 @@ TEST(Hazard, H21_BehindALateAnswer) {
   }
 }
 
+// Seed 20000561: after the restart one flipped bit shows axis 1 at 1 instead of 0. That was taken for the controller of
+// before, and a motion that it had forgotten SUCCEEDED.
+TEST(Hazard, H21_OneDamagedReadingProvesNothing) {
+  for (int phase = 0; phase < 1200 && !HasFailure(); phase += 110) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 4000}});
+    world.run_for(milliseconds(1500 + phase));
+    const std::uint64_t epoch = world.controller().state().device_epoch;
+    restart(world, milliseconds(900));
+    bool damaged = false;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      const std::size_t zero = line.find("P+0");
+      if (damaged || kind != LineKind::reply || world.wire().commands().back() != "Q:SPC" || zero == line.npos)
+        return {};
+      damaged = true;
+      std::string other = line;
+      return {.drop = false, .delay = {}, .instead = other.replace(zero, 3, "P+1") + "\r\n"};
+    });
+    expect_new_epoch(world, epoch);
+    EXPECT_TRUE(damaged) << world.replay();
+  }
+}
+
 // Without a restart a quiet line stays what it is, whatever is asked on it and whenever.
 TEST(Hazard, H21_NoFalseAlarm) {
   World world(quiet());

@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "device/core/tasks.h"
+#include "device/shrc203/planning/plan.h"
 #include "device/shrc203/session/dialogue.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/state/state_store.h"
@@ -19,7 +20,10 @@ class RestartCheck {
   Task<void> run(std::uint64_t connection);
 
  private:
-  bool anywhere_else() const;
+  bool anywhere_but_zero() const;
+  bool still_at(const Positions& before) const;  // an axis shows the nonzero position that was known before
+  // False where no answer made sense in several attempts, or another connection has come.
+  Task<bool> read_positions(std::uint64_t connection);
 
   Dialogue& dialogue_;
   Line& line_;
