@@ -61,7 +61,7 @@ std::uint32_t start_generation() {
   const auto now = static_cast<std::uint32_t>(std::time(nullptr));
   const Result<std::uint32_t> generation = server::next_generation(server::default_state_directory(), now);
   if (generation) return *generation;
-  spdlog::warn("{}; lease tokens are told from those of earlier runs by the clock alone",
+  spdlog::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
                server::explain(generation.error()));
   return now;
 }

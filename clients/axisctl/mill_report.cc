@@ -37,11 +37,11 @@ double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 ordered_json to_json(const Point& p) { return {{"x", plain(p.x)}, {"y", plain(p.y)}, {"z", plain(p.z)}}; }
 
 ordered_json end_of(const Bounds& bounds, double Reach::*end) {
-  ordered_json told;
+  ordered_json reported;
   for (const auto& [axis, reach] : {std::pair{"x", bounds.x}, {"y", bounds.y}, {"z", bounds.z}}) {
-    told[axis] = reach.any ? ordered_json(plain(reach.*end)) : ordered_json();
+    reported[axis] = reach.any ? ordered_json(plain(reach.*end)) : ordered_json();
   }
-  return told;
+  return reported;
 }
 
 }  // namespace
@@ -78,11 +78,11 @@ void print_summary(const Check& check, const Profile& profile, bool origin_known
                            profile.default_z1 * step));
   }
   if (!origin_known) print_line("without --origin the work area is not checked, and heights assume Z0 at the bottom");
-  const Diagnostics& told = check.diagnostics();
-  if (told.count(Severity::error) > job.commands) print_line("more errors than commands: is it a job in RML-1?");
-  print_line(fmt::format("{}, {}, {}", counted(told.count(Severity::error), "error"),
-                         counted(told.count(Severity::warning), "warning"),
-                         counted(told.count(Severity::note), "note")));
+  const Diagnostics& reported = check.diagnostics();
+  if (reported.count(Severity::error) > job.commands) print_line("more errors than commands: is it a job in RML-1?");
+  print_line(fmt::format("{}, {}, {}", counted(reported.count(Severity::error), "error"),
+                         counted(reported.count(Severity::warning), "warning"),
+                         counted(reported.count(Severity::note), "note")));
 }
 
 void print_json(const Check& check) {
@@ -98,7 +98,7 @@ void print_json(const Check& check) {
          one.text}}.dump());
   }
   const Summary& job = check.summary();
-  const Diagnostics& told = check.diagnostics();
+  const Diagnostics& reported = check.diagnostics();
   print_line(ordered_json{
       {"final", to_json(job.final)},
       {"bounds", job.bounds.z.any ? ordered_json{{"min", end_of(job.bounds, &Reach::lowest)},
@@ -110,10 +110,10 @@ void print_json(const Check& check) {
       {"rpm", job.rpm.any ? ordered_json{{"low", job.rpm.lowest}, {"high", job.rpm.highest}} : ordered_json()},
       {"spin_ups", job.spin_ups},
       {"commands", job.commands},
-      {"errors", told.count(Severity::error)},
-      {"warnings", told.count(Severity::warning)},
-      {"notes", told.count(Severity::note)},
-      {"omitted", told.omitted()}}
+      {"errors", reported.count(Severity::error)},
+      {"warnings", reported.count(Severity::warning)},
+      {"notes", reported.count(Severity::note)},
+      {"omitted", reported.omitted()}}
                  .dump());
 }
 

@@ -227,7 +227,7 @@ void add_target(CLI::App& app, Target& target) {
 
 void add_position_verbs(CLI::App& app, Options& options) {
   CLI::App* save = add_verb(app, options, Verb::save, "save", "save the present position under a name");
-  save->add_flag("--coordinates", options.coordinates, "save the coordinates, not the place");
+  save->add_flag("--coordinates", options.coordinates, "save the coordinates, not the physical position");
   save->add_flag("--keep", options.keep, "do not replace a saved position");
   add_verb(app, options, Verb::positions, "positions", "show the saved positions");
   CLI::App* go = add_verb(app, options, Verb::go, "go", "move to a saved position");

@@ -86,14 +86,14 @@ int start_and_wait(const Session& session, const v1::Device& device, const std::
   if (session.options.no_wait) return report_started(session, start());
   MotionFollower follower(session, device);
   const v1::Motion started = start();
-  say_on_interrupt_that_motion_goes_on();
+  say_on_interrupt_that_motion_continues();
   follower.follow(started.name());
   const v1::Motion outcome = await_outcome(session, started.name());
   follower.finish();
   return report_outcome(session, device, outcome);
 }
 
-void say_on_interrupt_that_motion_goes_on() {
+void say_on_interrupt_that_motion_continues() {
   struct sigaction action = {};
   action.sa_handler = leave_motion_running;
   sigaction(SIGINT, &action, nullptr);

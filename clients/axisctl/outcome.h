@@ -22,6 +22,6 @@ int report_started(const Session& session, const v1::Motion& motion);
 int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start);
 
 // From now on Ctrl-C says that the motion goes on, before it ends axisctl with exit code 130.
-void say_on_interrupt_that_motion_goes_on();
+void say_on_interrupt_that_motion_continues();
 
 }  // namespace axisgate::axisctl

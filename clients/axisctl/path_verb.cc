@@ -71,7 +71,7 @@ int run(const Session& session, const v1::Device& device, const std::vector<v1::
   MotionFollower follower(session, device);
   const auto stream = session.connection.stage->RunPath(&context);
   v1::Motion motion = start_path(session, *stream, device, segments);
-  say_on_interrupt_that_motion_goes_on();
+  say_on_interrupt_that_motion_continues();
   follower.follow(motion.name());
   while (read_motion(*stream, motion)) {
   }

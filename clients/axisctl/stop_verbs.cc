@@ -35,7 +35,7 @@ int report(const Session& session, const v1::Device& device, const Response& res
   for (const v1::AxisStop& stop : response.axes()) {
     if (!stop.has_ready() || !stop.ready()) {
       throw Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not confirmed stationary", stop.axis()),
-                    "look at the stage"};
+                    "check the stage"};
     }
   }
   return kDone;

@@ -32,7 +32,7 @@ enum class Reason {
   emergency_stopped,
   device_error,
   wrong_mode,
-  left_over_setting,
+  stale_setpoint,
   position_unknown,
   device_refused,
   identity_mismatch,
@@ -62,7 +62,7 @@ enum class Reason {
   unexplained,
 };
 
-// "LEFT_OVER_SETTING" and the like, as they stand in the API and in log lines.
+// "STALE_SETPOINT" and the like, as they stand in the API and in log lines.
 std::string_view name(Reason reason);
 
 struct Problem {

@@ -210,8 +210,9 @@ std::string pulse_text(const Scale& scale) {
 
 Result<Scale> scale_of(const Quantity& pulse) {
   if (pulse.unit == Unit::pulses || pulse.value.digits <= 0) {
-    return fail(Reason::invalid_request, in_quotes(text_of(pulse.value, pulse.unit)) + " is no way of one pulse",
-                "Give a way above 0 in nm, um, mm or deg.");
+    return fail(Reason::invalid_request,
+                in_quotes(text_of(pulse.value, pulse.unit)) + " is no resolution (displacement of one pulse)",
+                "Give a displacement above 0 in nm, um, mm or deg.");
   }
   const int decimals = pulse.value.decimals - scale_units_exponent(pulse.unit);
   const auto digits = times_power_of_ten(pulse.value.digits, -decimals);
@@ -219,7 +220,7 @@ Result<Scale> scale_of(const Quantity& pulse) {
   if (!per_pulse) {
     return fail(Reason::out_of_range,
                 in_quotes(text_of(pulse.value, pulse.unit)) + " has more than 18 digits as a pulse",
-                "Give a shorter way.");
+                "Give a shorter displacement.");
   }
   return Scale{*per_pulse, pulse.unit == Unit::degrees};
 }

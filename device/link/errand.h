@@ -16,8 +16,8 @@ namespace axisgate {
 // does not wait any more: `done` is not called then, and the thread ends by itself when `work` does. Call it, and let
 // go, on the strand or when no thread runs its io_context; let go before the io_context ends.
 template <class Value>
-[[nodiscard]] std::shared_ptr<void> run_errand(const Strand& strand, std::function<Value()> work,
-                                               std::function<void(Value)> done) {
+[[nodiscard]] std::shared_ptr<void> run_blocking_task(const Strand& strand, std::function<Value()> work,
+                                                      std::function<void(Value)> done) {
   struct Waiting {
     std::mutex mutex;
     // Emptied when nobody waits any more: a strand may not outlive its io_context, as this thread may.

@@ -19,7 +19,7 @@ Opener opener_on_strand(std::function<OpenedLine()> open) {
 
 Opener opener_on_thread(std::function<OpenedLine()> open) {
   return [open = std::move(open)](const Strand& strand, OnOpened opened) {
-    return run_errand<OpenedLine>(strand, open, std::move(opened));
+    return run_blocking_task<OpenedLine>(strand, open, std::move(opened));
   };
 }
 

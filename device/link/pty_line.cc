@@ -68,8 +68,8 @@ void PtyLine::reopen(Duration) {
 // That the machine's own end has emptied the other one's input would be told with the next bytes, and cost them their
 // answers. A packet of one byte takes the news and no bytes.
 void PtyLine::forget_flush() {
-  char news = TIOCPKT_DATA;
-  [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &news, 1);
+  char changed = TIOCPKT_DATA;
+  [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &changed, 1);
 }
 
 // Where clients followed each other since the last look, the bytes are the last one's if it has written at all. That a

@@ -71,7 +71,7 @@ class NameServer : public std::enable_shared_from_this<NameServer> {
     const auto tell = [weak = weak_from_this()](const Lookup& found) {
       if (const auto self = weak.lock()) self->tell(found);
     };
-    asking_ = run_errand<Lookup>(
+    asking_ = run_blocking_task<Lookup>(
         strand, [settings = settings_] { return look_up(settings); }, tell);
   }
 

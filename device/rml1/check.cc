@@ -33,20 +33,20 @@ Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
       worst_(profile.acceleration.worst, profile.acceleration.corner_mm, 1 + profile.acceleration.slower) {}
 
 void Check::feed(std::string_view bytes) {
-  if (told_ == JobKind::Told::nothing_yet) bytes = recognise(bytes);
+  if (verdict_ == JobKind::Verdict::nothing_yet) bytes = recognise(bytes);
   if (!is_g_code()) parser_.feed(bytes);
 }
 
 // What is left of the bytes when the kind is known; until then they are held.
 std::string_view Check::recognise(std::string_view bytes) {
   std::size_t count = 0;
-  while (told_ == JobKind::Told::nothing_yet && count < bytes.size()) told_ = kind_.take(bytes[count++]);
+  while (verdict_ == JobKind::Verdict::nothing_yet && count < bytes.size()) verdict_ = kind_.take(bytes[count++]);
   held_ += bytes.substr(0, count);
   if (is_g_code()) {
     diagnostics_.error(0, kind_.place(), "1-2", [] {
       return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
     });
-  } else if (told_ == JobKind::Told::rml) {
+  } else if (verdict_ == JobKind::Verdict::rml) {
     parser_.feed(std::exchange(held_, {}));
   }
   return bytes.substr(count);

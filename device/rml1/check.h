@@ -44,7 +44,7 @@ class Check : private MachineListener {
   void feed(std::string_view bytes);
   void finish();
 
-  bool is_g_code() const { return told_ == JobKind::Told::g_code; }
+  bool is_g_code() const { return verdict_ == JobKind::Verdict::g_code; }
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const Summary& summary() const { return summary_; }  // after finish()
   const Machine& machine() const { return machine_; }
@@ -64,7 +64,7 @@ class Check : private MachineListener {
   bool origin_known_;
   Diagnostics diagnostics_;
   JobKind kind_;
-  JobKind::Told told_ = JobKind::Told::nothing_yet;
+  JobKind::Verdict verdict_ = JobKind::Verdict::nothing_yet;
   std::string held_;  // until the kind is told
   Machine machine_;
   Parser parser_;

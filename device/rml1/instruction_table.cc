@@ -20,25 +20,25 @@ constexpr Parameter kRevolutions{true, 0, kLongHighest, true, true};
 constexpr Parameter kMachineHeight{true, kLongLowest, kLongHighest, true, true};
 
 constexpr Row plot(std::string_view name, Coordinates coordinates, Tool tool) {
-  return {name,        Deed::plot, name.size() == 1 ? "3-1" : "3-2", Takes::sets, 2,
-          coordinates, tool,       {kCoordinate, kCoordinate}};
+  return {name, Operation::plot,           name.size() == 1 ? "3-1" : "3-2", Takes::sets, 2, coordinates,
+          tool, {kCoordinate, kCoordinate}};
 }
 
-constexpr Row nothing(std::string_view name, Deed deed, std::string_view section,
+constexpr Row nothing(std::string_view name, Operation operation, std::string_view section,
                       Coordinates coordinates = Coordinates::kept, Tool tool = Tool::kept) {
-  return {name, deed, section, Takes::nothing, 0, coordinates, tool, {}};
+  return {name, operation, section, Takes::nothing, 0, coordinates, tool, {}};
 }
 
-constexpr Row one(std::string_view name, Deed deed, std::string_view section, Parameter parameter) {
-  return {name, deed, section, Takes::up_to, 1, Coordinates::kept, Tool::kept, {parameter}};
+constexpr Row one(std::string_view name, Operation operation, std::string_view section, Parameter parameter) {
+  return {name, operation, section, Takes::up_to, 1, Coordinates::kept, Tool::kept, {parameter}};
 }
 
 constexpr Row heights(std::string_view name, std::string_view section) {
-  return {name, Deed::heights, section, Takes::up_to, 2, Coordinates::kept, Tool::kept, {kZ1, kZ2}};
+  return {name, Operation::heights, section, Takes::up_to, 2, Coordinates::kept, Tool::kept, {kZ1, kZ2}};
 }
 
 constexpr Row feed(std::string_view name, std::string_view section) {
-  return {name, Deed::feed,        section,    Takes::sets,
+  return {name, Operation::feed,   section,    Takes::sets,
           3,    Coordinates::kept, Tool::kept, {kCoordinate, kCoordinate, kCoordinate}};
 }
 
@@ -48,28 +48,28 @@ constexpr Row kRows[] = {
     plot("I", Coordinates::relative, Tool::lowered),
     plot("M", Coordinates::absolute, Tool::raised),
     plot("R", Coordinates::relative, Tool::raised),
-    nothing("^", Deed::call, "3-1"),
-    nothing("H", Deed::home, "3-1", Coordinates::absolute, Tool::raised),
-    one("F", Deed::plane_speed, "3-1", kPlaneSpeed),
-    one("V", Deed::height_speed, "3-1", kHeightSpeed),
-    one("W", Deed::dwell, "3-1", kMilliseconds),
+    nothing("^", Operation::call, "3-1"),
+    nothing("H", Operation::home, "3-1", Coordinates::absolute, Tool::raised),
+    one("F", Operation::plane_speed, "3-1", kPlaneSpeed),
+    one("V", Operation::height_speed, "3-1", kHeightSpeed),
+    one("W", Operation::dwell, "3-1", kMilliseconds),
     feed("Z", "3-1"),
-    nothing("DF", Deed::defaults, "3-2", Coordinates::absolute),
-    nothing("IN", Deed::initialize, "3-2", Coordinates::absolute, Tool::raised),
+    nothing("DF", Operation::defaults, "3-2", Coordinates::absolute),
+    nothing("IN", Operation::initialize, "3-2", Coordinates::absolute, Tool::raised),
     plot("PA", Coordinates::absolute, Tool::kept),
     plot("PD", Coordinates::kept, Tool::lowered),
     plot("PR", Coordinates::relative, Tool::kept),
     plot("PU", Coordinates::kept, Tool::raised),
-    one("VS", Deed::plane_speed, "3-2", kPlaneSpeed),
-    one("!DW", Deed::dwell, "3-3", kMilliseconds),
-    one("!MC", Deed::spindle, "3-3", kSwitch),
-    nothing("!NR", Deed::pause, "3-3"),
+    one("VS", Operation::plane_speed, "3-2", kPlaneSpeed),
+    one("!DW", Operation::dwell, "3-3", kMilliseconds),
+    one("!MC", Operation::spindle, "3-3", kSwitch),
+    nothing("!NR", Operation::pause, "3-3"),
     heights("!PZ", "3-3"),
-    one("!RC", Deed::revolutions, "3-3", kRevolutions),
-    one("!VZ", Deed::height_speed, "3-3", kHeightSpeed),
-    one("!ZM", Deed::height, "3-3", kMachineHeight),
-    one("!ZO", Deed::surface, "3-3", kMachineHeight),
-    {"!ZE", Deed::extension, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {}},
+    one("!RC", Operation::revolutions, "3-3", kRevolutions),
+    one("!VZ", Operation::height_speed, "3-3", kHeightSpeed),
+    one("!ZM", Operation::height, "3-3", kMachineHeight),
+    one("!ZO", Operation::surface, "3-3", kMachineHeight),
+    {"!ZE", Operation::extension, "3-3", Takes::axes, 0, Coordinates::kept, Tool::kept, {}},
     feed("!ZZ", "3-3"),
 };
 
@@ -79,8 +79,8 @@ constexpr Row beyond(Row row) {
 }
 
 constexpr Row kTolerated[] = {
-    beyond(one("J", Deed::ignored, "2-2", kSwitch)),
-    beyond(one("!", Deed::spindle, "2-2", kSwitch)),
+    beyond(one("J", Operation::ignored, "2-2", kSwitch)),
+    beyond(one("!", Operation::spindle, "2-2", kSwitch)),
 };
 
 }  // namespace

@@ -12,7 +12,7 @@
 
 namespace axisgate::rml1 {
 
-enum class Deed : std::uint8_t {
+enum class Operation : std::uint8_t {
   plot,          // D I M R PA PR PU PD: the tool up or down, then X and Y
   feed,          // Z !ZZ: three axes at once
   extension,     // !ZE: any axes at once
@@ -56,7 +56,7 @@ struct Parameter {
 
 struct Row {
   std::string_view name;  // one letter or symbol, two letters, or ! and two letters; in capitals
-  Deed deed = Deed::ignored;
+  Operation operation = Operation::ignored;
   std::string_view section;
   Takes takes = Takes::nothing;
   std::uint8_t count = 0;

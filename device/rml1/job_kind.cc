@@ -8,24 +8,24 @@ bool is_mark(char c) { return c == '\xEF' || c == '\xBB' || c == '\xBF'; }
 
 }  // namespace
 
-JobKind::Told JobKind::take(char c) {
-  if (told_ != Told::nothing_yet) return told_;
-  told_ = judge(c);
+JobKind::Verdict JobKind::take(char c) {
+  if (verdict_ != Verdict::nothing_yet) return verdict_;
+  verdict_ = judge(c);
   next_ =
       c == '\n' ? Place{next_.offset + 1, next_.line + 1, 1} : Place{next_.offset + 1, next_.line, next_.column + 1};
-  if (told_ == Told::nothing_yet && next_.offset == kLongest) told_ = Told::rml;
-  return told_;
+  if (verdict_ == Verdict::nothing_yet && next_.offset == kLongest) verdict_ = Verdict::rml;
+  return verdict_;
 }
 
-JobKind::Told JobKind::judge(char c) {
+JobKind::Verdict JobKind::judge(char c) {
   if (in_ == In::comment) {
     if (c == '\n') in_ = In::blanks;
-    return Told::nothing_yet;
+    return Verdict::nothing_yet;
   }
   if (in_ == In::letter) return judge_behind_letter(c);
-  if (in_ == In::number && (is_digit(c) || c == '.')) return Told::nothing_yet;
+  if (in_ == In::number && (is_digit(c) || c == '.')) return Verdict::nothing_yet;
   word_ = next_;
-  if (c == '%' || c == '(') return Told::g_code;
+  if (c == '%' || c == '(') return Verdict::g_code;
   if (is_letter(c)) {
     letter_ = capital(c);
     in_ = In::letter;
@@ -34,18 +34,18 @@ JobKind::Told JobKind::judge(char c) {
   } else if (is_delimiter(c) || is_mark(c)) {
     in_ = In::blanks;
   } else {
-    return Told::rml;
+    return Verdict::rml;
   }
-  return Told::nothing_yet;
+  return Verdict::nothing_yet;
 }
 
-JobKind::Told JobKind::judge_behind_letter(char c) {
-  if (is_blank(c)) return Told::nothing_yet;
-  if (!begins_number(c)) return Told::rml;
+JobKind::Verdict JobKind::judge_behind_letter(char c) {
+  if (is_blank(c)) return Verdict::nothing_yet;
+  if (!begins_number(c)) return Verdict::rml;
   const bool only_g_code = letter_ == 'G' || letter_ == 'N' || letter_ == 'O';
-  if (only_g_code) return is_digit(c) ? Told::g_code : Told::rml;
+  if (only_g_code) return is_digit(c) ? Verdict::g_code : Verdict::rml;
   in_ = In::number;
-  return Told::nothing_yet;
+  return Verdict::nothing_yet;
 }
 
 }  // namespace axisgate::rml1

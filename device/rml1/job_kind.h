@@ -13,18 +13,18 @@ namespace axisgate::rml1 {
 // comments and words that either may mean: T1, M3, F100. Everything else is a job.
 class JobKind {
  public:
-  enum class Told : std::uint8_t { nothing_yet, rml, g_code };
+  enum class Verdict : std::uint8_t { nothing_yet, rml, g_code };
 
   // `c` is the next byte. Once told, the same for ever; told after kLongest bytes at the latest.
-  Told take(char c);
+  Verdict take(char c);
 
   const Place& place() const { return word_; }  // of the G-code that was told
 
  private:
   enum class In : std::uint8_t { blanks, comment, letter, number };
 
-  Told judge(char c);
-  Told judge_behind_letter(char c);
+  Verdict judge(char c);
+  Verdict judge_behind_letter(char c);
 
   static constexpr std::size_t kLongest = 1 << 16;  // the comments of some programs draw a picture
 
@@ -32,7 +32,7 @@ class JobKind {
   Place word_;  // of the last word's letter
   char letter_ = 0;
   In in_ = In::blanks;
-  Told told_ = Told::nothing_yet;
+  Verdict verdict_ = Verdict::nothing_yet;
 };
 
 }  // namespace axisgate::rml1

@@ -19,19 +19,19 @@ bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
 
 template <class Text>
 void Judge::warn_once(Cause cause, const Place& place, std::string_view section, Text&& text) {
-  if (told_.insert(cause).second) diagnostics_.add(0, Severity::warning, place, section, text);
+  if (reported_.insert(cause).second) diagnostics_.add(0, Severity::warning, place, section, text);
 }
 
 void Judge::moved(const Move& move) {
   last_ = move.place;
-  if (move.deed == Deed::plot && !move.lowered && move.from.z <= 0 && move.from.z == move.to.z) {
+  if (move.operation == Operation::plot && !move.lowered && move.from.z <= 0 && move.from.z == move.to.z) {
     warn_once(Cause::on_the_surface, move.place, "3-2",
               [] { return "travels at Z2 = 0: with the tool on the surface of the workpiece"; });
   }
   if (!move.below_surface()) return;
   if (!move.turning && !move.lifts()) {
     warn_once(Cause::no_spindle, move.place, "5-2", [] {
-      return "goes below the surface while the spindle stands still: !MC0 forbids it, and !MC1 permits it again";
+      return "goes below the surface while the spindle is off: !MC0 forbids it, and !MC1 permits it again";
     });
   }
   if (stock_) judge_stock(move);
@@ -88,7 +88,7 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
                                                         : "what lies outside is not cut");
     };
     if (cuts) warn_once(Cause::cuts_outside_area, place, "5-1", text);
-    if (!cuts && told_.insert(Cause::travels_outside_area).second) {
+    if (!cuts && reported_.insert(Cause::travels_outside_area).second) {
       diagnostics_.add(0, Severity::note, place, "5-1", text);
     }
   } else if (target.z < box.lowest.z) {
@@ -102,7 +102,7 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
 // Nothing in a job tells its unit; a lift by a whole travel does.
 void Judge::lifted(double steps, const Instruction& by) {
   const auto travel_of = [steps](double z_mm, double step) { return std::abs(z_mm / step - steps) <= kHalfStep; };
-  if (told_.contains(Cause::lift) || travel_of(profile_.z_mm, profile_.step_mm)) return;
+  if (reported_.contains(Cause::lift) || travel_of(profile_.z_mm, profile_.step_mm)) return;
   std::vector<std::string> names;
   double step_mm = 0;
   for (const KnownMachine& other : others_) {

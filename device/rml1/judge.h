@@ -65,7 +65,7 @@ class Judge {
   std::optional<Stock> stock_;
   std::vector<KnownMachine> others_;
   Diagnostics& diagnostics_;
-  std::set<Cause> told_;
+  std::set<Cause> reported_;
   Bounds asked_;  // of what was commanded; X and Y of what cuts alone, where the origin is known
   Place widest_x_, widest_y_, deepest_;
   std::optional<Place> last_;

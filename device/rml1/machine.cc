@@ -77,45 +77,45 @@ void Machine::execute(const Instruction& instruction) {
 void Machine::perform(const Instruction& instruction) {
   const bool given = instruction.count > 0 && instruction.given[0];
   const double value = instruction.values[0];
-  switch (instruction.row->deed) {
-    case Deed::plot:
+  switch (instruction.row->operation) {
+    case Operation::plot:
       return plot(instruction);
-    case Deed::feed:
+    case Operation::feed:
       return feed(instruction);
-    case Deed::extension:
+    case Operation::extension:
       return extension(instruction);
-    case Deed::home:
+    case Operation::home:
       return home(instruction);
-    case Deed::initialize:
+    case Operation::initialize:
       return initialize(instruction);
-    case Deed::defaults:
+    case Operation::defaults:
       return set_defaults();
-    case Deed::plane_speed:
+    case Operation::plane_speed:
       cutting_speed_ = given ? std::clamp(value, profile_.speed.cutting_minimum, profile_.speed.cutting_maximum)
                              : profile_.speed.cutting_default;
       return;
-    case Deed::height_speed:
+    case Operation::height_speed:
       z_speed_ =
           given ? std::clamp(value, profile_.speed.z_minimum, profile_.speed.z_maximum) : profile_.speed.z_default;
       return;
-    case Deed::dwell:
+    case Operation::dwell:
       dwell_s_ = given ? value / 1000 : 0;
       return;
-    case Deed::heights:
+    case Operation::heights:
       return set_heights(instruction);
-    case Deed::spindle:
+    case Operation::spindle:
       return set_spindle(instruction);
-    case Deed::revolutions:
+    case Operation::revolutions:
       if (given) rpm_ = profile_.spindle.rpm(value);
       return;
-    case Deed::pause:
+    case Operation::pause:
       return pause(instruction);
-    case Deed::height:
+    case Operation::height:
       return set_height(instruction);
-    case Deed::surface:
+    case Operation::surface:
       return set_surface(instruction);
-    case Deed::call:
-    case Deed::ignored:
+    case Operation::call:
+    case Operation::ignored:
       return;
   }
 }
@@ -166,11 +166,11 @@ void Machine::extension(const Instruction& instruction) {
       moves = true;
     } else if (profile_.rotary && axis.letter == profile_.rotary->letter) {
       rotation = &axis;
-    } else if (!other_axis_told_) {
-      other_axis_told_ = true;
+    } else if (!other_axis_reported_) {
+      other_axis_reported_ = true;
       diagnostics_.add(0, Severity::warning, axis.place, "3-3", [&] {
         return fmt::format(
-            "the {0} has no axis {1}: what is told of it is ignored (where it has one, [rotary] belongs into its "
+            "the {0} has no axis {1}: what the job says of it is ignored (where it has one, [rotary] belongs into its "
             "profile)",
             profile_.name, axis.letter);
       });
@@ -331,7 +331,7 @@ void Machine::move_height(double z, const Instruction& instruction) {
 void Machine::move_to(const Point& there, double speed, const Instruction& instruction, bool height_alone) {
   start_spindle(instruction);
   listener_.commanded(clipper_.commanded(), there, height_alone, instruction);
-  const bool holds = profile_.holds_flat_commands && instruction.row->deed == Deed::plot && !height_alone;
+  const bool holds = profile_.holds_flat_commands && instruction.row->operation == Operation::plot && !height_alone;
   const Point held = box().held(there);
   clipper_.move_to(holds ? Point{held.x, held.y, there.z} : there, driven(speed, instruction));
 }
@@ -354,8 +354,8 @@ Clipper::Driven Machine::driven(double speed, const Instruction& by) {
 void Machine::drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by) {
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
-  listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->deed == Deed::plot, turning_, by.end,
-                   by.row->deed, by.place});
+  listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->operation == Operation::plot, turning_,
+                   by.end, by.row->operation, by.place});
 }
 
 // No axis goes faster than it can.

@@ -20,13 +20,13 @@ struct Origin {
 
 // A straight piece of the real path.
 struct Move {
-  Point from, to;          // steps, in workpiece coordinates; never the same
-  double speed = 0;        // mm/s, as commanded and within the axes' highest
-  bool lowered = false;    // by a command that keeps the tool lowered
-  bool turning = false;    // whether the spindle turns
-  std::uint64_t end = 0;   // bytes of the job that had to come before
-  Deed deed = Deed::plot;  // of the command
-  Place place;             // where it begins
+  Point from, to;                         // steps, in workpiece coordinates; never the same
+  double speed = 0;                       // mm/s, as commanded and within the axes' highest
+  bool lowered = false;                   // by a command that keeps the tool lowered
+  bool turning = false;                   // whether the spindle turns
+  std::uint64_t end = 0;                  // bytes of the job that had to come before
+  Operation operation = Operation::plot;  // of the command
+  Place place;                            // where it begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   bool lifts() const { return from.x == to.x && from.y == to.y && to.z > from.z; }
@@ -122,7 +122,7 @@ class Machine : public ParserListener {
   bool permitted_ = true, turning_ = false;
   double rpm_ = 0;
   double angle_ = 0;  // degrees, of the axis of rotation
-  bool other_axis_told_ = false;
+  bool other_axis_reported_ = false;
 };
 
 }  // namespace axisgate::rml1

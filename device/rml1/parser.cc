@@ -203,7 +203,7 @@ void Parser::unknown(char second) {
 }
 
 void Parser::begin_command(const Row& row) {
-  called_ = row.deed == Deed::call;
+  called_ = row.operation == Operation::call;
   state_ = State::search;
   if (called_) {
     call_place_ = name_place_;
@@ -266,8 +266,8 @@ bool Parser::in_number(char c) {
   const bool lone = number_.sign_alone() || number_.point_alone();
   end_number();
   const bool comma = c == ',' && !number_.sign_alone();
-  const bool goes_on = !list_full() && (comma || (is_blank(c) && !lone));
-  if (!goes_on) {
+  const bool continues = !list_full() && (comma || (is_blank(c) && !lone));
+  if (!continues) {
     end_list();
     return false;
   }
@@ -368,7 +368,7 @@ void Parser::finish() {
   }
   if (state_ == State::axes) {
     diagnostics_.add(0, Severity::warning, instruction_.place, "3-3", [] {
-      return "!ZE has no terminator: what stands behind its last separator is not executed, and the next job's first "
+      return "!ZE has no terminator: what follows its last separator is not executed, and the next job's first "
              "bytes are taken for it";
     });
   } else {

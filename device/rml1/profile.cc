@@ -26,7 +26,7 @@ class ProfileReader {
     ConfigTable root(source, "", file_, errors_);
     profile.name = needed(root, "name", root.text("name"), "the machine's name");
     if (profile.name.empty() && root.has("name")) root.error("name", "is empty; use the machine's name");
-    constexpr std::string_view kStep = "the way of one step in mm, 0.0001 to 10";
+    constexpr std::string_view kStep = "the displacement of one step in mm, 0.0001 to 10";
     profile.step_mm = needed(root, "step_mm", root.number("step_mm", 0.0001, 10, kStep), kStep);
     section(root, "area", [&](ConfigTable& table) { read_area(table, profile); });
     section(root, "z", [&](ConfigTable& table) { read_z(table, profile); });
@@ -207,8 +207,8 @@ double Spindle::rpm(double n) const {
   if (n >= 100 && law == Law::direct) return std::clamp(n, minimum_rpm, maximum_rpm);
   const double stage = std::min(n, 15.0);
   const double even = (maximum_rpm - minimum_rpm) / 15;
-  const double told = stage_0_rpm.value_or(minimum_rpm) + stage * rpm_per_stage.value_or(even);
-  return std::clamp(told, minimum_rpm, maximum_rpm);
+  const double reported = stage_0_rpm.value_or(minimum_rpm) + stage * rpm_per_stage.value_or(even);
+  return std::clamp(reported, minimum_rpm, maximum_rpm);
 }
 
 Configured<Profile> parse_profile(std::string_view text, const std::string& file) {

@@ -24,17 +24,17 @@
 #include "device/shrc203/session/clear_errors.h"
 #include "device/shrc203/session/dialogue.h"
 #include "device/shrc203/session/ending.h"
-#include "device/shrc203/session/excursion.h"
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/session/front_panel.h"
 #include "device/shrc203/session/handshake.h"
 #include "device/shrc203/session/lease_orders.h"
 #include "device/shrc203/session/lease_settings.h"
+#include "device/shrc203/session/non_host_visit.h"
+#include "device/shrc203/session/orphaned_jogs.h"
 #include "device/shrc203/session/polling.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/session/restart_check.h"
 #include "device/shrc203/session/restorer.h"
-#include "device/shrc203/session/runaways.h"
 #include "device/shrc203/session/session.h"
 #include "device/shrc203/session/settings_reader.h"
 #include "device/shrc203/session/stops.h"
@@ -79,17 +79,18 @@ struct Controller::Rooms {
   SettingsReader settings_reader{dialogue, reader, store};
   Explainer explainer{dialogue, reader, line, store, registers, non_host, tasks};
   Stops stops{dialogue, line, reader, store, motions, registers, non_host, tasks, session};
-  Runaways runaways{stops};
+  OrphanedJogs orphaned_jogs{stops};
   LeaseSettings lease_settings{reader, store, pending, permission};
   Restorer restorer{dialogue, reader, store, motions, pending, permission, ending, tasks};
   LeaseOrders lease_orders{permission, stops, restorer, tasks};
-  Excursion excursion{dialogue, line, reader, settings_reader, store, motions, registers, non_host, tasks};
-  Handshake handshake{dialogue, line,      reader,   settings_reader, runaways, store,
+  NonHostVisit non_host_visit{dialogue, line, reader, settings_reader, store, motions, registers, non_host, tasks};
+  Handshake handshake{dialogue, line,      reader,   settings_reader, orphaned_jogs, store,
                       motions,  registers, non_host, permission,      tasks};
   RestartCheck restart_check{dialogue, line, reader, store, tasks};
   ErrorClearing error_clearing{dialogue, reader, store, rights, non_host, tasks};
   WindDown wind_down{line, stops, restorer, store, motions, ending, tasks};
-  Session session{line, handshake, restart_check, stops, runaways, store, motions, registers, rights, ending, tasks};
+  Session session{line,    handshake, restart_check, stops,  orphaned_jogs, store,
+                  motions, registers, rights,        ending, tasks};
 
   TriggerCount triggers{dialogue, store};
   Watch watch{line, reader, triggers, store, motions, tasks};
@@ -113,9 +114,9 @@ struct Controller::Rooms {
   Jogs jogs{entry, speeds, starter, watch, watchdog, reader, restorer, stops, store, motions, rights, tasks};
   SavedPositions saved{dialogue, explainer, entry, speeds, starter, watch, restorer, store, motions, rights, tasks};
   TransactionStart transaction_start{dialogue, explainer, entry, lease_settings, restorer, reader, store, motions};
-  TransactionLines transaction_lines{dialogue, explainer, lease_settings, excursion, session,
-                                     non_host, pending,   store,          motions,   tasks};
-  TransactionEnd transaction_end{line, reader, watch, excursion, non_host, registers, store, motions, tasks};
+  TransactionLines transaction_lines{dialogue, explainer, lease_settings, non_host_visit, session,
+                                     non_host, pending,   store,          motions,        tasks};
+  TransactionEnd transaction_end{line, reader, watch, non_host_visit, non_host, registers, store, motions, tasks};
   Transactions transactions{transaction_start, transaction_lines, transaction_end, stops, store, rights,
                             permission,        non_host,          ending,          tasks};
   Polling polling{reader, store, motions, non_host, tasks, [this] { return watch.watches_any(); }};
@@ -237,7 +238,7 @@ Result<void> Controller::check(const ScanRequest& request) const { return rooms_
 Result<void> Controller::check(const GoToPositionRequest& request) const { return rooms_->saved.check(request); }
 
 Result<void> Controller::check_use(const RequestContext& context, AxisSet axes) {
-  return rooms_->rights.may_use(context, axes);
+  return rooms_->rights.authorize(context, axes);
 }
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
@@ -274,7 +275,7 @@ void Controller::wind_down(TimePoint now, OnWoundDown done) {
   at(now, [&] { rooms_->tasks.spawn(rooms_->wind_down.run(std::move(done))); });
 }
 
-int Controller::owed_answers() const { return rooms_->line.owed(); }
+int Controller::outstanding_answers() const { return rooms_->line.outstanding(); }
 
 std::size_t Controller::queued(Lane lane) const {
   return rooms_->line.queued(lane) + (lane == Lane::motion ? rooms_->motions.gate().waiting() : 0);

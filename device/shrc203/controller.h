@@ -50,7 +50,7 @@ class Controller : public StageController {
   std::optional<Motion> find_motion(MotionId id) const override;
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
-  int owed_answers() const override;
+  int outstanding_answers() const override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:

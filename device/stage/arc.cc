@@ -22,7 +22,7 @@ constexpr int kTurnsMax = 1000;              // manual 74) E:3
 constexpr double kReachMax = 2.0 * static_cast<double>(kPulsesMax);
 
 // In pulses: more than doubles leave over of a curve within kReachMax, and less than anybody can tell.
-constexpr double kLeftOver = 1e-3;
+constexpr double kRemainder = 1e-3;
 
 constexpr double kSecondsMax = 1e9;  // what a Duration holds, several times over
 
@@ -67,7 +67,7 @@ struct Span {
   }
   bool within(double reach) const { return lowest >= -reach && highest <= reach; }
   Extent rounded() const {
-    return {std::llround(std::floor(lowest + kLeftOver)), std::llround(std::ceil(highest - kLeftOver))};
+    return {std::llround(std::floor(lowest + kRemainder)), std::llround(std::ceil(highest - kRemainder))};
   }
 };
 
@@ -165,9 +165,9 @@ ArcEnd end_of(const Arc& arc) {
 }
 
 bool ends_on_whole_pulses(const Arc& arc) {
-  constexpr double kReckoning = 1e-6;  // pulses: far above what doubles lose here, far below a half
+  constexpr double kRounding = 1e-6;  // pulses: far above what doubles lose here, far below a half
   const Way way = way_after(arc, arc.sweep);
-  const auto whole = [](double place) { return std::abs(place - std::round(place)) < kReckoning; };
+  const auto whole = [](double place) { return std::abs(place - std::round(place)) < kRounding; };
   return whole(way.first) && whole(way.second) && whole(arc.rise);
 }
 

@@ -21,8 +21,8 @@ struct PlanePoint {
 // The command's d, 0 and 1, where the first axis points to the right and the second one up.
 enum class Rotation { clockwise, counterclockwise };
 
-// A piece of a circle, or rounds of it. Told by its course and not by its center, which is too far away to reckon with
-// where three points lie nearly on one line.
+// A piece of a circle, or rounds of it. Verdict by its course and not by its center, which is too far away to reckon
+// with where three points lie nearly on one line.
 struct Arc {
   double radius = 0;   // pulses
   double heading = 0;  // radians: where it sets out to, 0 along the first axis, a quarter turn along the second

@@ -27,7 +27,7 @@ Envelope::Envelope(const Profile& profile, const State& state, std::string_view 
 
 Result<void> Envelope::check_axis(int axis) const {
   if (axis < 1 || axis > kAxisCount) {
-    return fail(Reason::unknown_axis, fmt::format("there is no axis {}: an SHRC-203 has axes 1 to 3", axis));
+    return fail(Reason::unknown_axis, fmt::format("there is no axis {}: the axes are 1 to {}", axis, kAxisCount));
   }
   if (state_.controllable().empty()) {
     return fail(Reason::link_down,
@@ -40,25 +40,27 @@ Result<void> Envelope::check_axis(int axis) const {
                    "use one of the controllable axes");
   }
   if (!state_.axis(axis).scale) {
-    return fail_on(axis, Reason::position_unknown,
-                   fmt::format("the way of one pulse of {} is not known yet", label(axis)),
+    return fail_on(axis, Reason::position_unknown, fmt::format("{}: resolution unknown", label(axis)),
                    "wait until the device is up");
   }
   return check_stage(axis);
 }
 
+tl::unexpected<Problem> Envelope::position_unknown(int axis) const {
+  return fail_on(axis, Reason::position_unknown, label(axis) + ": position unknown", "wait until the device is up");
+}
+
 Result<void> Envelope::check_stage(int axis) const {
   const auto& stage = profile(axis).stage;
-  const auto& told = state_.axis(axis).scale;
-  if (!stage || !told || *told == stage->pulse || !guarded(Guard::stage_of_profile)) return {};
-  return fail_on(
-      axis, Reason::identity_mismatch,
-      fmt::format("a pulse of {} is {} by the controller (?:P) and {} by the profile of its stage, {}: "
-                  "another stage is plugged in, the divisions were changed, or the profile is wrong",
-                  label(axis), pulse_text(*told), pulse_text(stage->pulse), stage->model),
-      fmt::format("plug in the {}, set divisions that make {} of a pulse (`axisctl divisions`), or put right "
-                  "the profile that the configuration names as the axis's stage",
-                  stage->model, pulse_text(stage->pulse)));
+  const auto& reported = state_.axis(axis).scale;
+  if (!stage || !reported || *reported == stage->pulse || !guarded(Guard::stage_of_profile)) return {};
+  return fail_on(axis, Reason::identity_mismatch,
+                 fmt::format("a pulse of {} is {} by the controller (?:P) and {} by the profile of its stage, {}: "
+                             "another stage is plugged in, the divisions were changed, or the profile is wrong",
+                             label(axis), pulse_text(*reported), pulse_text(stage->pulse), stage->model),
+                 fmt::format("plug in the {}, set divisions that make {} of a pulse (`axisctl divisions`), or correct "
+                             "the profile that the configuration names as the axis's stage",
+                             stage->model, pulse_text(stage->pulse)));
 }
 
 Result<void> Envelope::check_homed(int axis) const {

@@ -48,6 +48,9 @@ class Envelope {
   // unknown_unit, not_representable, out_of_range.
   Result<std::int64_t> pulses(int axis, const Quantity& distance) const;
 
+  // What is answered where a target cannot be computed: position_unknown.
+  tl::unexpected<Problem> position_unknown(int axis) const;
+
   const State& state() const { return state_; }
   std::string label(int axis) const;                         // "axis 1 (sample)"
   std::string as_text(int axis, std::int64_t pulses) const;  // "1.5mm", as the axis is shown

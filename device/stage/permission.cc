@@ -4,7 +4,7 @@ namespace axisgate::stage {
 namespace {
 
 class EverybodyMay final : public Permission {
-  Result<void> may_use(const Use&, TimePoint) override { return {}; }
+  Result<void> authorize(const Use&, TimePoint) override { return {}; }
   void begin(const Use&, TimePoint) override {}
   void end(MotionId, TimePoint) override {}
   void stop_asked(const Use&, TimePoint) override {}

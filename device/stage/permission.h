@@ -46,7 +46,7 @@ class Permission {
   virtual ~Permission() = default;
 
   // lease_held, lease_lost or stopped_by, where the caller may not use all of these axes now.
-  virtual Result<void> may_use(const Use& use, TimePoint now) = 0;
+  virtual Result<void> authorize(const Use& use, TimePoint now) = 0;
 
   // The motion has its turn on its axes; and has left them, whatever became of it.
   virtual void begin(const Use& use, TimePoint now) = 0;

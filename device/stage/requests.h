@@ -133,7 +133,7 @@ struct StopReport {
     std::optional<std::int64_t> position_pulses;
   };
   std::vector<Axis> axes;
-  std::optional<Problem> problem;  // outcome_unknown, link_down, left_over_setting ...
+  std::optional<Problem> problem;  // outcome_unknown, link_down, stale_setpoint ...
 };
 
 // What became of the motions that there were when the gateway began to end.

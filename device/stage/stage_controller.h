@@ -79,7 +79,7 @@ class StageController : public LineMachine {
 
   virtual std::size_t queued(Lane lane) const = 0;
   // Answers to abandoned probes of the line that may still come.
-  virtual int owed_answers() const = 0;
+  virtual int outstanding_answers() const = 0;
 
   // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
   // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers

@@ -23,22 +23,22 @@ Problem stopped_problem(const Latch& latch, TimePoint now) {
 
 }  // namespace
 
-Result<void> Leases::may_use(const Use& use, TimePoint now) {
+Result<void> Leases::authorize(const Use& use, TimePoint now) {
   if (use.axes.empty()) return {};
   expire(now);
   for (const HeldBack& one : held_back_) {
     const bool concerns = one.who == use.who && one.latch.axes.touches(use.axes);
     if (concerns && guarded(Guard::latch_without_lease)) return tl::unexpected(stopped_problem(one.latch, now));
   }
-  return use.lease != 0 ? may_use_leased(use, now) : may_borrow(use, now);
+  return use.lease != 0 ? authorize_leased(use, now) : may_borrow(use, now);
 }
 
-Result<void> Leases::may_use_leased(const Use& use, TimePoint now) {
+Result<void> Leases::authorize_leased(const Use& use, TimePoint now) {
   const Held* held = find(use.lease);
   if (held == nullptr) return tl::unexpected(lost_problem(use.lease));
   const Lease& lease = held->lease;
-  const bool goes_on = held->goes_on && running_.contains(use.motion);
-  if (!lease.ending.empty() && !goes_on) return tl::unexpected(lost_problem(use.lease));
+  const bool continues = held->continues && running_.contains(use.motion);
+  if (!lease.ending.empty() && !continues) return tl::unexpected(lost_problem(use.lease));
   if (!lease.terms.axes.contains(use.axes) && guarded(Guard::lease_axes)) {
     return fail(
         Reason::outside_lease,

@@ -165,7 +165,7 @@ std::optional<Duration> Leases::expected_wait(std::size_t place, TimePoint now) 
 }
 
 std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
-  const auto told = [&](const LeaseTerms& terms, const std::string& who, std::string_view does, TimePoint since) {
+  const auto reported = [&](const LeaseTerms& terms, const std::string& who, std::string_view does, TimePoint since) {
     const std::string purpose = terms.purpose.empty() ? "" : fmt::format(" (\"{}\")", terms.purpose);
     return Problem{
         .reason = Reason::lease_held,
@@ -174,12 +174,12 @@ std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
   };
   for (const Held& held : held_) {
     if (held.lease.terms.axes.touches(axes)) {
-      return told(held.lease.terms, held.lease.holder, "has held", held.lease.since);
+      return reported(held.lease.terms, held.lease.holder, "has held", held.lease.since);
     }
   }
   for (const Waiting& waiting : waiting_) {
     if (waiting.lease.terms.axes.touches(axes)) {
-      return told(waiting.lease.terms, waiting.lease.holder, "has waited for", waiting.lease.since);
+      return reported(waiting.lease.terms, waiting.lease.holder, "has waited for", waiting.lease.since);
     }
   }
   return {};
@@ -207,11 +207,11 @@ void Leases::device_restarted(TimePoint now) {
   settle(now);
 }
 
-void Leases::end_lease(Held& held, std::string why, bool goes_on) {
+void Leases::end_lease(Held& held, std::string why, bool continues) {
   ended_.push_back({held.lease.token, why});
   if (ended_.size() > kEndedKept) ended_.pop_front();
   held.lease.ending = std::move(why);
-  held.goes_on = goes_on;
+  held.continues = continues;
 }
 
 void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.push_back({++last_order_, axes, who}); }

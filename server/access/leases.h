@@ -118,7 +118,7 @@ class Leases : public stage::Permission {
   // Called after every change of what the members above tell. Must not call back.
   std::function<void(TimePoint now)> on_change;
 
-  Result<void> may_use(const stage::Use& use, TimePoint now) override;
+  Result<void> authorize(const stage::Use& use, TimePoint now) override;
   void begin(const stage::Use& use, TimePoint now) override;
   void end(MotionId motion, TimePoint now) override;
   void stop_asked(const stage::Use& stop, TimePoint now) override;
@@ -133,7 +133,7 @@ class Leases : public stage::Permission {
   enum class Settings { untouched, changed, being_restored };
   struct Held {
     Lease lease;
-    bool goes_on = false;  // of an ending one: what runs may send on until it has ended
+    bool continues = false;  // of an ending one: what runs may send on until it has ended
     Settings settings = Settings::untouched;
   };
   struct Waiting {
@@ -154,11 +154,11 @@ class Leases : public stage::Permission {
   Held* find(LeaseToken token);
   Result<Held*> find_held(LeaseToken token, TimePoint now);
   Problem lost_problem(LeaseToken token) const;
-  Result<void> may_use_leased(const stage::Use& use, TimePoint now);
+  Result<void> authorize_leased(const stage::Use& use, TimePoint now);
   Result<void> may_borrow(const stage::Use& use, TimePoint now);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
-  void end_lease(Held& held, std::string why, bool goes_on);
+  void end_lease(Held& held, std::string why, bool continues);
   void order_stop(AxisSet axes, const std::string& who);
   void expire(TimePoint now);
   void settle(TimePoint now);

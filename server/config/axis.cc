@@ -56,7 +56,7 @@ std::string wrong_with_caller(std::string_view whose) {
   const auto blank = whose.find(' ');
   const std::string_view way = whose.substr(0, blank);
   const std::string_view name = blank == std::string_view::npos ? "" : whose.substr(blank + 1);
-  if (way == "tcp") return "is known by an address only, which whoever is on this machine may have";
+  if (way == "tcp") return "is known by an address only, which everybody on this machine may have";
   const bool known = way == "unix" || way == "cert" || way == "token";
   if (!known) return "is neither a role nor a caller as the daemon names them";
   const auto printable = [](char c) { return c >= ' ' && c <= '~'; };

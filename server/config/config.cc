@@ -173,7 +173,7 @@ class ConfigReader {
       table.missing("host", "the serial server's name or address, e.g. \"192.168.0.20\"");
     if (host && !is_host(*host)) {
       table.error("host", fmt::format("\"{}\" is neither a host name nor an address; the port has a key of its own, "
-                                      "and an IPv6 address stands without brackets",
+                                      "and an IPv6 address has no brackets",
                                       *host));
     }
     const std::optional<std::int64_t> port = table.integer("port", 1, 65535);

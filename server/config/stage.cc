@@ -59,8 +59,8 @@ Unit checked_unit(ConfigTable& table, bool rotary, Unit otherwise) {
 }
 
 Scale read_pulse(ConfigTable& table, bool rotary) {
-  const std::string_view allowed = rotary ? "the way of one pulse as a text in quotes, \"0.0025deg\""
-                                          : "the way of one pulse as a text in quotes, \"1um\"";
+  const std::string_view allowed = rotary ? "the displacement of one pulse as a text in quotes, \"0.0025deg\""
+                                          : "the displacement of one pulse as a text in quotes, \"1um\"";
   const std::optional<std::string> text = table.text("pulse");
   if (!text && !table.has("pulse")) table.missing("pulse", allowed);
   if (!text) return {};

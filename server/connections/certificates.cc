@@ -92,7 +92,7 @@ Result<WallTime> expiry(const std::string& path) {
   if (!certificates) return tl::unexpected(certificates.error());
   std::tm utc{};
   if (ASN1_TIME_to_tm(X509_get0_notAfter(certificates->front().get()), &utc) != 1) {
-    return refuse(fmt::format("{} does not say when it expires", path), "have it made anew");
+    return refuse(fmt::format("{} does not say when it expires", path), "have a new one made");
   }
   return std::chrono::system_clock::from_time_t(::timegm(&utc));
 }

@@ -66,7 +66,7 @@ void Device::on_wound_down(const stage::WindDownReport& report) {
   publish_due();
   shutdown();
   if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
-  spdlog::info("{}: the line is closed; motions that were under way: {}", name(),
+  spdlog::info("{}: the line is closed; motions that were running: {}", name(),
                report.motions.empty() ? "none" : count_by_outcome(report.motions));
 }
 
@@ -88,7 +88,7 @@ void Device::publish_due() {
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
     metrics_.set_queued(static_cast<Lane>(lane), controller_->queued(static_cast<Lane>(lane)));
   }
-  metrics_.set_owed_answers(controller_->owed_answers());
+  metrics_.set_outstanding_answers(controller_->outstanding_answers());
   if (!std::exchange(state_due_, false)) return;
   const stage::State& state = controller_->state();
   metrics_.set_state(state);

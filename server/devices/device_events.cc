@@ -11,7 +11,7 @@
 namespace axisgate::server {
 namespace {
 
-constexpr Duration kStrangeLinePause = std::chrono::seconds(1);
+constexpr Duration kUnexpectedLinePause = std::chrono::seconds(1);
 
 std::string because(const std::optional<Problem>& problem) {
   return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
@@ -64,7 +64,7 @@ void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
 void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {
   publish(motion, now);
   spdlog::warn(
-      "{}: FOREIGN_MOTION: {} moves, and nobody asked for it here: the front panel, or a gateway before this one",
+      "{}: FOREIGN_MOTION: {} moves, and nobody here requested it: the front panel, or a gateway before this one",
       device_, to_string(motion.axes));
 }
 
@@ -75,7 +75,7 @@ void DeviceEvents::tell(const stage::SwitchesChanged& change, TimePoint now) {
                  one.item, escaped(one.after), escaped(one.before), escaped(change.who));
   }
   if (!change.unknown) return;
-  spdlog::warn("{}: memory switches may be others for good, and nobody can tell which (MS:, by {}): compare them",
+  spdlog::warn("{}: memory switches may have changed permanently, and it is unknown which (MS:, by {}): compare them",
                device_, escaped(change.who));
 }
 
@@ -87,8 +87,9 @@ void DeviceEvents::tell(const stage::ProgramNotice& notice, TimePoint now) {
 void DeviceEvents::tell(const stage::PathProgress& progress, TimePoint now) {
   publish(progress, now);
   if (progress.step != stage::PathProgress::Step::underrun) return;
-  spdlog::warn("{}: motion {}: underrun before segment {}: the chain had ended, the path goes on from rest", device_,
-               progress.motion, progress.segment);
+  spdlog::warn(
+      "{}: motion {}: underrun before segment {}: the chain had ended, and the path continues from a standstill",
+      device_, progress.motion, progress.segment);
 }
 
 void DeviceEvents::tell(const stage::BarrierEntered& barrier, TimePoint) {
@@ -96,19 +97,19 @@ void DeviceEvents::tell(const stage::BarrierEntered& barrier, TimePoint) {
 }
 
 void DeviceEvents::tell(const stage::UnexpectedLine& line, TimePoint now) {
-  if (now < next_strange_line_) {
-    ++strange_lines_untold_;
+  if (now < next_unexpected_line_) {
+    ++unexpected_lines_unlogged_;
     return;
   }
   spdlog::warn("{}: dropped a line that nothing waited for: \"{}\" ({} more since the last such message)", device_,
-               escaped(line.text), strange_lines_untold_);
-  next_strange_line_ = now + kStrangeLinePause;
-  strange_lines_untold_ = 0;
+               escaped(line.text), unexpected_lines_unlogged_);
+  next_unexpected_line_ = now + kUnexpectedLinePause;
+  unexpected_lines_unlogged_ = 0;
 }
 
 void DeviceEvents::tell(const stage::IllegalTransition& fault, TimePoint) {
   spdlog::error(
-      "{}: INTERNAL: {} while the {} was {}, which cannot be; everything is stopped and the line is opened anew. "
+      "{}: INTERNAL: {} while the {} was {}, which is impossible; everything is stopped and the line is opened again. "
       "Please "
       "report it with the device's recording of this moment: axisctl record --device {}, axisctl support",
       device_, fault.event, fault.machine, fault.state, device_);

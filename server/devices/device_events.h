@@ -62,8 +62,8 @@ class DeviceEvents : public stage::EventSink {
   // A line that stays away is tried again and again: the same news of it is told once.
   std::optional<stage::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.
-  TimePoint next_strange_line_{};
-  std::uint64_t strange_lines_untold_ = 0;
+  TimePoint next_unexpected_line_{};
+  std::uint64_t unexpected_lines_unlogged_ = 0;
 };
 
 }  // namespace axisgate::server

@@ -116,13 +116,13 @@ Result<void> SavedPositions::read() {
         !positions_.emplace(std::pair(position->device, position->name), *position).second) {
       return fail(Reason::internal,
                   fmt::format("{}:{}: {}", path_, number,
-                              position ? "its name or its number stands above already" : "is no saved position"),
-                  "mend or remove the line: the controller keeps the position, and the gateway only its name");
+                              position ? "its name or its number is used above already" : "is no saved position"),
+                  "correct or remove the line: the controller keeps the position, and the gateway only its name");
     }
   }
   if (file.bad()) {
     return fail(Reason::internal, fmt::format("cannot read all of the saved positions in {}", path_),
-                "look at the disk: the file is left as it is");
+                "check the disk: the file is left as it is");
   }
   return {};
 }

@@ -42,15 +42,14 @@ class ConnectionMetrics::Part final : public prometheus::Collectable {
     const std::lock_guard lock(mutex_);
     if (!ask_) return {};
     const ConnectionCounts counts = ask_();
-    return {
-        {"axisgate_connections",
-         "Client connections that are open: ordinary ones (open), and those that are served a stop only (reserve).",
-         MetricType::Gauge,
-         {open_of_kind("open", counts.open), open_of_kind("reserve", counts.in_reserve)}},
-        counter("axisgate_connections_refused_total",
-                "Connections for which there was no ordinary place: they were served a stop only.", counts.reserved),
-        counter("axisgate_descriptors_exhausted_total",
-                "Times that a connection found no descriptor free in the daemon.", counts.out_of_descriptors)};
+    return {{"axisgate_connections",
+             "Client connections that are open: ordinary ones (open), and those that are served a stop only (reserve).",
+             MetricType::Gauge,
+             {open_of_kind("open", counts.open), open_of_kind("reserve", counts.in_reserve)}},
+            counter("axisgate_connections_refused_total", "Connections beyond the limit: they could only stop.",
+                    counts.reserved),
+            counter("axisgate_descriptors_exhausted_total",
+                    "Times that a connection found no descriptor free in the daemon.", counts.out_of_descriptors)};
   }
 
  private:

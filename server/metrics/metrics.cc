@@ -59,18 +59,18 @@ Metrics::Metrics()
       time_limits_(
           counter(*registry_, "axisgate_time_limits_total",
                   "Time limits that passed: of a reply, of a probe in a barrier, or of a command in its queue.")),
-      owed_answers_(gauge(*registry_, "axisgate_owed_answers",
-                          "Answers to abandoned probes that may still come, and will be dropped.")),
+      outstanding_answers_(gauge(*registry_, "axisgate_outstanding_answers",
+                                 "Answers to abandoned probes that may still come, and will be dropped.")),
       completions_(counter(*registry_, "axisgate_completions_total",
                            "Axis numbers that came over the line by themselves: the axis said that it arrived.")),
       motions_(counter(*registry_, "axisgate_motions_total", "Motions that ended, by kind and outcome.")),
       stops_(counter(*registry_, "axisgate_stops_total",
-                     "Stops asked for: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
+                     "Stops requested: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
       positions_(gauge(*registry_, "axisgate_position_pulses",
                        "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
       link_up_(gauge(*registry_, "axisgate_link_up", "1 when the configured controller answers, else 0.")),
       barriers_(counter(*registry_, "axisgate_barriers_total",
-                        "How often a time limit or garbage made the gateway find its place in the replies anew.")),
+                        "How often the gateway matched replies and commands again after a timeout or garbage.")),
       underruns_(counter(*registry_, "axisgate_underruns_total",
                          "Path segments that came after the chain had ended: OK where OK_D was due.")),
       unexpected_lines_(counter(*registry_, "axisgate_unexpected_lines_total",
@@ -117,7 +117,7 @@ DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)
       line_busy_(metrics.line_busy_.Add({{"device", device_}})),
       bytes_in_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "in"}})),
       bytes_out_(metrics.line_bytes_.Add({{"device", device_}, {"direction", "out"}})),
-      owed_answers_(metrics.owed_answers_.Add({{"device", device_}})) {
+      outstanding_answers_(metrics.outstanding_answers_.Add({{"device", device_}})) {
   using Limit = stage::TimeLimitPassed::Kind;
   for (const Limit kind : {Limit::reply, Limit::probe, Limit::queue}) {
     time_limits_.at(static_cast<std::size_t>(kind)) =

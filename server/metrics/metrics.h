@@ -51,7 +51,7 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& line_busy_;
   prometheus::Family<prometheus::Counter>& line_bytes_;
   prometheus::Family<prometheus::Counter>& time_limits_;
-  prometheus::Family<prometheus::Gauge>& owed_answers_;
+  prometheus::Family<prometheus::Gauge>& outstanding_answers_;
   prometheus::Family<prometheus::Counter>& completions_;
   prometheus::Family<prometheus::Counter>& motions_;
   prometheus::Family<prometheus::Counter>& stops_;
@@ -74,7 +74,7 @@ class DeviceMetrics {
   void on_event(const stage::Event& event);
   void set_state(const stage::State& state);
   void set_queued(Lane lane, std::size_t commands);
-  void set_owed_answers(int answers) { owed_answers_.Set(answers); }
+  void set_outstanding_answers(int answers) { outstanding_answers_.Set(answers); }
   void count_recorder_drops(std::uint64_t lines) {
     recorder_drops_.Increment(static_cast<double>(lines));
   }  // any thread
@@ -125,7 +125,7 @@ class DeviceMetrics {
   prometheus::Counter& line_busy_;
   prometheus::Counter& bytes_in_;
   prometheus::Counter& bytes_out_;
-  prometheus::Gauge& owed_answers_;
+  prometheus::Gauge& outstanding_answers_;
 };
 
 }  // namespace axisgate::server

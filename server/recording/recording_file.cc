@@ -26,7 +26,7 @@ RecordingFile::RecordingFile(std::string path, DeviceRecorder& recorder, Duratio
       subscription_(recorder.subscribe([this] {
         {
           const std::lock_guard lock(mutex_);
-          news_ = true;
+          pending_ = true;
         }
         changed_.notify_all();
       })),
@@ -56,11 +56,11 @@ void RecordingFile::run() {
 bool RecordingFile::wait() {
   std::unique_lock lock(mutex_);
   if (complaint_.empty()) {
-    changed_.wait(lock, [this] { return news_ || ending_; });
+    changed_.wait(lock, [this] { return pending_ || ending_; });
   } else {
     changed_.wait_for(lock, retry_pause_, [this] { return ending_; });
   }
-  news_ = false;
+  pending_ = false;
   return !ending_;
 }
 

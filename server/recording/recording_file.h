@@ -44,7 +44,7 @@ class RecordingFile {
   std::string complaint_;  // what the log was told last; empty: all is well
   std::mutex mutex_;
   std::condition_variable changed_;
-  bool news_ = true;
+  bool pending_ = true;
   bool ending_ = false;
   std::unique_ptr<WakeUps::Subscription> subscription_;
   std::thread thread_;

@@ -62,7 +62,7 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::emergency_stopped:
     case Reason::device_error:
     case Reason::wrong_mode:
-    case Reason::left_over_setting:
+    case Reason::stale_setpoint:
     case Reason::position_unknown:
     case Reason::device_refused:
     case Reason::identity_mismatch:

@@ -30,7 +30,7 @@ Every numbered command of the manual, in its order. Made from the command table 
   motors are; *no limit*: no limit sensor is detected. Then the mode in which it works; `Execute` takes the `?:`
   questions of HOST in program mode and memory switch edit mode, too.
 - **Class**: what it does, for the axes that it names or the controller as a whole. Of a question, how its answer is kept
-  apart from a completion, which is a bare `1`, `2` or `3`: *by its form*; *asked for all axes*, so that it has commas;
+  apart from a completion, which is a bare `1`, `2` or `3`: *by its form*; *sent for all axes*, so that it has commas;
   *waits* until no completion can come; *closed* by an `!:S` behind it while a single motion runs.
 - **RPC**, **axisctl**: the typed call and the verb that do it, or tell it. They send `HRT:` and `ZRT:` where `H:` and
   `Z:` would do the same, `D:` for `DS:`, `DF:` and `DR:`, `EP:` for `E:`, `KP:` for `K:`, `PIT:GRT` and `PAV:GRT` for
@@ -235,7 +235,7 @@ std::string separation(Separation separation) {
     case Separation::grammar:
       return "by its form";
     case Separation::all_axes:
-      return "asked for all axes";
+      return "sent for all axes";
     case Separation::waits:
       return "waits";
     case Separation::closed:
@@ -265,7 +265,7 @@ std::string class_in_words(const CommandRow& row) {
   Texts parts{effect(row)};
   if (row.third_axis) parts.emplace_back("axis 3 moves along");
   if (row.shifts_frame) parts.emplace_back("new frame epoch");
-  if (row.rescales) parts.emplace_back("a pulse is another way");
+  if (row.rescales) parts.emplace_back("the resolution changes");
   if (row.restarts) parts.emplace_back("the controller restarts");
   if (row.beside_motion) parts.emplace_back("waits for no motion");
   if (row.sets_speeds == SetsSpeeds::of_motion) parts.emplace_back("speeds stay set");

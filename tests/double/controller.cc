@@ -80,7 +80,7 @@ Result<void> Controller::check_epochs(const RequestContext& context) const {
 
 Result<void> Controller::allowed(const RequestContext& context, AxisSet axes) {
   if (const auto good = check_epochs(context); !good) return good;
-  return permission_.may_use({context.who, context.lease, axes, 0}, now_);
+  return permission_.authorize({context.who, context.lease, axes, 0}, now_);
 }
 
 Result<void> Controller::check_up() const {

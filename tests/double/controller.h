@@ -58,7 +58,7 @@ class Controller final : public StageController, private Wire::Listener {
   std::optional<Motion> find_motion(MotionId id) const override;
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
-  int owed_answers() const override { return 0; }  // a late answer has an old sequence number
+  int outstanding_answers() const override { return 0; }  // a late answer has an old sequence number
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:

@@ -51,7 +51,7 @@ bool Controller::take_turn() {
   auto& [id, live] = *live_.begin();
   if (live.has_turn) return false;
   const Use use{live.context.who, live.context.lease, kAxis, id};
-  auto good = permission_.may_use(use, now_);
+  auto good = permission_.authorize(use, now_);
   if (good) good = check_epochs(live.context);
   if (!good) {
     end(id, MotionState::failed, good.error());
@@ -272,7 +272,7 @@ std::optional<Problem> Controller::must_end(const Live& live) {
                    .hint = "renew it several times in that time"};
   }
   if (live.context.lease != 0) {
-    const auto good = permission_.may_use({live.context.who, live.context.lease, kAxis, 0}, now_);
+    const auto good = permission_.authorize({live.context.who, live.context.lease, kAxis, 0}, now_);
     if (!good) return good.error();
   }
   if (live.motion.state != MotionState::running) return {};
@@ -280,7 +280,7 @@ std::optional<Problem> Controller::must_end(const Live& live) {
   if (!bound || *bound > now_) return {};
   return Problem{.reason = Reason::outside_travel,
                  .message = "axis 1 came near its travel limit",
-                 .hint = "move it the rest of the way, or jog it back",
+                 .hint = "move it the remaining displacement, or jog it back",
                  .axis = 1};
 }
 

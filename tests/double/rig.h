@@ -21,7 +21,7 @@ namespace axisgate::rotor {
 // Says no when told to, and writes down what it is asked and told.
 class Porter final : public Permission {
  public:
-  Result<void> may_use(const Use& use, TimePoint) override {
+  Result<void> authorize(const Use& use, TimePoint) override {
     ++asked;
     if (answers_left && (*answers_left)-- == 0) {
       answers_left.reset();

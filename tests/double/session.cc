@@ -21,7 +21,7 @@ std::optional<Problem> Controller::may_write(const Asked& asked) {
   if (asked.motion == 0) return {};
   Live* live = find(asked.motion);
   if (live == nullptr) return Problem{.reason = Reason::stopped, .message = "the motion has ended"};
-  const auto good = permission_.may_use({live->context.who, live->context.lease, kAxis, asked.motion}, now_);
+  const auto good = permission_.authorize({live->context.who, live->context.lease, kAxis, asked.motion}, now_);
   if (!good) return good.error();
   live->wrote = true;
   return {};

@@ -76,13 +76,13 @@ void Wire::link_up(TimePoint) {
 
 void Wire::lose(const std::string& why, TimePoint now) {
   open_ = false;
-  std::vector<std::pair<Asked, bool>> given_up;  // and whether it was written
+  std::vector<std::pair<Asked, bool>> abandoned;  // and whether it was written
   if (auto lost = std::exchange(in_flight_, {})) {
     tell_end(*lost, Outcome::link_lost, "", now);
-    given_up.emplace_back(std::move(lost->what.asked), true);
+    abandoned.emplace_back(std::move(lost->what.asked), true);
   }
   for (std::size_t lane = static_cast<std::size_t>(Lane::stop) + 1; lane < kLaneCount; ++lane) {
-    for (auto& waiting : std::exchange(queues_[lane], {})) given_up.emplace_back(std::move(waiting.asked), false);
+    for (auto& waiting : std::exchange(queues_[lane], {})) abandoned.emplace_back(std::move(waiting.asked), false);
   }
   listener_.wire_lost(why);
   link_.reopen(reopen_wait_);
@@ -92,7 +92,7 @@ void Wire::lose(const std::string& why, TimePoint now) {
                         .hint =
                             "try again when "
                             "the device is up"};
-  for (const auto& [asked, written] : given_up) asked.done({{}, written, problem});
+  for (const auto& [asked, written] : abandoned) asked.done({{}, written, problem});
 }
 
 void Wire::receive(std::string_view bytes, TimePoint now) {

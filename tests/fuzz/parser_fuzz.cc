@@ -13,7 +13,7 @@ namespace {
 
 using namespace axisgate::rml1;
 
-struct Told {
+struct Verdict {
   std::string_view name;
   Place place;
   bool first = false;
@@ -24,13 +24,13 @@ struct Told {
   std::uint64_t end = 0;
   std::vector<std::tuple<char, double, bool, Place>> axes;
 
-  friend bool operator==(const Told&, const Told&) = default;
+  friend bool operator==(const Verdict&, const Verdict&) = default;
 };
 
 class Listener : public ParserListener {
  public:
   void execute(const Instruction& instruction) override {
-    Told one;
+    Verdict one;
     one.name = instruction.row->name;
     one.place = instruction.place;
     one.first = instruction.first;
@@ -49,11 +49,11 @@ class Listener : public ParserListener {
   }
   void quit() override { told.push_back({.name = "ESC.K"}); }
 
-  std::vector<Told> told;
+  std::vector<Verdict> told;
 };
 
 struct Read {
-  std::vector<Told> told;
+  std::vector<Verdict> told;
   std::uint64_t commands = 0;
   Diagnostics diagnostics;
 };

@@ -58,7 +58,7 @@ class End(unittest.TestCase):
         log = self.daemon.log()
         self.assertIn("ending: SIGTERM", log)
         self.assertRegex(log, r"motion 1 .* is STOPPED")
-        self.assertIn("the line is closed; motions that were under way: 1 STOPPED", log)
+        self.assertIn("the line is closed; motions that were running: 1 STOPPED", log)
 
     def test_finish_waits_for_what_moves_and_takes_nothing_new(self):
         self.start("finish")
@@ -71,7 +71,7 @@ class End(unittest.TestCase):
         self.assertEqual(self.daemon.exit_code(), 0)
         self.assertEqual(move.end(), 0, move.errors)
         self.assertEqual(self.position(), (100_000, False))
-        self.assertIn("the line is closed; motions that were under way: 1 SUCCEEDED", self.daemon.log())
+        self.assertIn("the line is closed; motions that were running: 1 SUCCEEDED", self.daemon.log())
 
     def test_a_second_signal_ends_at_once(self):
         self.start("finish")

@@ -28,7 +28,7 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::emergency_stopped, grpc::FAILED_PRECONDITION},
       {Reason::device_error, grpc::FAILED_PRECONDITION},
       {Reason::wrong_mode, grpc::FAILED_PRECONDITION},
-      {Reason::left_over_setting, grpc::FAILED_PRECONDITION},
+      {Reason::stale_setpoint, grpc::FAILED_PRECONDITION},
       {Reason::position_unknown, grpc::FAILED_PRECONDITION},
       {Reason::device_refused, grpc::FAILED_PRECONDITION},
       {Reason::identity_mismatch, grpc::FAILED_PRECONDITION},

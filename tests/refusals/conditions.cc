@@ -53,7 +53,7 @@ Condition program_busy() {
 // It is entered at rest, and nothing that moves is taken there: an axis moves that was started at the front panel.
 Condition editing_busy() {
   return {.name = "Busy, in program edit mode",
-          .manual = "\"In the case of Busy, it will be NG\": 112) to 116). Nothing there tells which axes move (111))",
+          .manual = "\"In the case of Busy, it will be NG\": 112) to 116). Nothing there shows which axes move (111))",
           .reason = Reason::device_refused,
           .told = "program edit mode",
           .cases = ordinary([](const Sentence& one) { return one.says('B') && one.where == Where::editing; }),

@@ -27,7 +27,7 @@ const std::vector<Condition>& all_conditions() {
   return kept;
 }
 
-std::string described(const Told& told) {
+std::string described(const Verdict& told) {
   if (!told.problem) {
     return fmt::format("no problem, {} replies, ended: {}\n{}", told.answers.size(), told.ended, told.replay);
   }
@@ -35,7 +35,7 @@ std::string described(const Told& told) {
 }
 
 // What is wrong with it; empty where nothing is.
-std::string wrong_with(const Condition& condition, const Case& one, const Told& told) {
+std::string wrong_with(const Condition& condition, const Case& one, const Verdict& told) {
   const Reason wanted = one.reason == Reason::unspecified ? condition.reason : one.reason;
   if (!told.problem || told.problem->reason != wanted) return fmt::format("not {}", name(wanted));
   if (told.problem->message.find(condition.told) == std::string::npos) return "does not tell " + condition.told;
@@ -52,7 +52,7 @@ TEST_P(Ng, TheSimulatorRefuses) {
 // Struck as the line arrives: the gateway learns it from NG.
 TEST_P(Ng, TheGatewaySaysWhy) {
   for (const Case& one : GetParam()->cases) {
-    const Told told = at_gateway(*GetParam(), one, Moment::as_it_arrives);
+    const Verdict told = at_gateway(*GetParam(), one, Moment::as_it_arrives);
     EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
   }
 }
@@ -60,7 +60,7 @@ TEST_P(Ng, TheGatewaySaysWhy) {
 TEST_P(Ng, TheGatewayKnowsItBefore) {
   if (!GetParam()->strikes_early) return;
   for (const Case& one : GetParam()->cases) {
-    const Told told = at_gateway(*GetParam(), one, Moment::before);
+    const Verdict told = at_gateway(*GetParam(), one, Moment::before);
     EXPECT_EQ(wrong_with(*GetParam(), one, told), "") << one.line << ": " << described(told);
     if (GetParam()->never_sent(*one.sentence)) {
       EXPECT_EQ(told.sent, 0) << one.line;
@@ -98,7 +98,7 @@ TEST(Ordinary, TheGatewayTakesEachCommand) {
   for (const Sentence& sentence : sentences()) {
     if (sentence.command == "JD:" || sentence.command == "P:U") continue;
     const Case one{&sentence, sentence.line, sentence.whole(), {}, {}};
-    const Told told = at_gateway(nothing, one, Moment::before);
+    const Verdict told = at_gateway(nothing, one, Moment::before);
     EXPECT_TRUE(told.ended && !told.problem) << sentence.line << ": " << described(told);
     EXPECT_EQ(told.sent, 1) << sentence.line;
   }
@@ -112,7 +112,7 @@ TEST(Stop, OfAnAxisWithoutExcitationIsNoProblem) {
                       }};
   const Case one{&stop, stop.line, {stop.line}, {}, {}};
   EXPECT_EQ(at_simulator(off, one), "NG");
-  const Told told = at_gateway(off, one, Moment::as_it_arrives);
+  const Verdict told = at_gateway(off, one, Moment::as_it_arrives);
   EXPECT_EQ(told.answers, Lines{"NG"});
   EXPECT_TRUE(told.ended && !told.problem) << described(told);
 }
@@ -125,7 +125,7 @@ TEST(FasterJog, EndsWithTheReasonOfTheRefusal) {
                             condition.name == "Emergency stop";
     if (!ends_a_jog) continue;
     ++tried;
-    const Told told = of_a_faster_jog(condition);
+    const Verdict told = of_a_faster_jog(condition);
     EXPECT_TRUE(told.ended) << condition.name;
     EXPECT_EQ(told.answers.empty() ? "nothing" : told.answers.front(), "NG") << condition.name << "\n" << told.replay;
     EXPECT_EQ(wrong_with(condition, {}, told), "") << condition.name << ": " << described(told);

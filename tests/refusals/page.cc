@@ -13,13 +13,13 @@ namespace {
 constexpr std::string_view kIntroduction = R"(# SHRC-203: why it is refused
 
 From each condition under which the manual lets the controller answer `NG` to what the gateway says of it. Made by
-`tests/refusals/` from what the gateway told over the simulator, command by command; do not edit it. `COMMANDS.md` has
+`tests/refusals/` from what the gateway reported with the simulator, command by command; do not edit it. `COMMANDS.md` has
 each command's form and conditions, `refusals.cc` what the axes show and which commands that stands against.
 
 - **Reason**, **gRPC**: those of `proto/axisgate/v1/common.proto`. The message names the line, the axis or the mode.
 - **Sent**: whether the line is written when the condition has been there for three seconds, brought about at the front
-  panel. What is answered `NG` has changed nothing; the gateway then asks the controller until something tells why.
-- Where nothing tells, it is `UNEXPLAINED`, and the message holds what is known. `L:` with a motor off is `NG`, and no
+  panel. What is answered `NG` has changed nothing; the gateway then asks the controller for the cause.
+- Where nothing shows it, it is `UNEXPLAINED`, and the message holds what is known. `L:` with a motor off is `NG`, and no
   problem: the axis stands.
 )";
 

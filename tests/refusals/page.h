@@ -14,7 +14,7 @@ namespace axisgate::refusals {
 struct Outcome {
   const Condition* condition = nullptr;
   const Case* one = nullptr;
-  Told told;
+  Verdict told;
   bool sent = true;
 };
 

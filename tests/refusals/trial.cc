@@ -29,7 +29,7 @@ simulation::Setup set_up(const Condition& condition) {
 }
 
 // Within the silence that ends a jog.
-void jog(World& world, std::shared_ptr<Told> told, std::optional<Quantity> speed = {}) {
+void jog(World& world, std::shared_ptr<Verdict> told, std::optional<Quantity> speed = {}) {
   JogRequest request;
   request.axes = {{1, 1, std::move(speed)}};
   request.context = world.context("tester", milliseconds(300));
@@ -39,7 +39,7 @@ void jog(World& world, std::shared_ptr<Told> told, std::optional<Quantity> speed
   });
 }
 
-void execute(World& world, const Lines& lines, std::shared_ptr<Told> told) {
+void execute(World& world, const Lines& lines, std::shared_ptr<Verdict> told) {
   world.controller().execute({lines, world.context("tester", seconds(3))}, world.now(),
                              [told](const ExecuteEvent& event) {
                                if (event.kind == ExecuteEvent::Kind::reply) told->answers.push_back(event.answer);
@@ -67,7 +67,7 @@ std::string at_simulator(const Condition& condition, const Case& one) {
   return bench.ask(one.line);
 }
 
-Told at_gateway(const Condition& condition, const Case& one, Moment moment) {
+Verdict at_gateway(const Condition& condition, const Case& one, Moment moment) {
   World world(set_up(condition));
   // What the device says to another does not come here.
   bool by_another = true, struck = false, asked = false;
@@ -100,7 +100,7 @@ Told at_gateway(const Condition& condition, const Case& one, Moment moment) {
   }
   asked = true;
   const auto first = world.wire().commands().size();
-  const auto told = std::make_shared<Told>();
+  const auto told = std::make_shared<Verdict>();
   if (one.line.starts_with("J:") && one.whole.size() == 1 && one.line == one.sentence->line) {
     jog(world, told);
   } else {
@@ -114,7 +114,7 @@ Told at_gateway(const Condition& condition, const Case& one, Moment moment) {
   return *told;
 }
 
-Told of_a_faster_jog(const Condition& condition) {
+Verdict of_a_faster_jog(const Condition& condition) {
   World world(set_up(condition));
   bool struck = false;
   world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
@@ -125,7 +125,7 @@ Told of_a_faster_jog(const Condition& condition) {
     }
     return {};
   });
-  Told told;
+  Verdict told;
   world.on_motion = [&](const Motion& motion) {
     if (!is_outcome(motion.state)) return;
     told.ended = struck;
@@ -136,7 +136,7 @@ Told of_a_faster_jog(const Condition& condition) {
     if (ended != nullptr && ended->line.starts_with("JD:1")) told.answers.push_back(ended->reply);
   };
   (void)world.run_until_up();
-  const auto started = std::make_shared<Told>();
+  const auto started = std::make_shared<Verdict>();
   jog(world, started, pulses(2000));
   (void)world.run_until([&] { return told.ended; }, std::chrono::minutes(1));
   told.replay = world.replay();

@@ -16,17 +16,17 @@ std::string at_simulator(const Condition& condition, const Case& one);
 // seen what there is to be seen.
 enum class Moment { as_it_arrives, before };
 
-struct Told {
+struct Verdict {
   bool ended = false;
   std::optional<Problem> problem;
   std::vector<std::string> answers;
   int sent = 0;  // how often the line was written
   std::string replay;
 };
-Told at_gateway(const Condition& condition, const Case& one, Moment moment);
+Verdict at_gateway(const Condition& condition, const Case& one, Moment moment);
 
 // Of a jog that runs when the condition strikes, as JD: is about to reach the controller: its answers, and the jog's
 // end.
-Told of_a_faster_jog(const Condition& condition);
+Verdict of_a_faster_jog(const Condition& condition);
 
 }  // namespace axisgate::refusals

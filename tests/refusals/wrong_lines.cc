@@ -116,11 +116,11 @@ std::vector<Condition> about_order() {
   const auto with_a_prebuffer = [&](const Sentence& start) {
     return Case{&start, start.line, {way.line, start.line}, {way.line}, {}};
   };
-  all.push_back({.name = "A prebuffer left over",
+  all.push_back({.name = "A stale prebuffer",
                  .manual = "2. does not say what a start does where M: and MP: are both set; here it is refused. "
                            "Somebody has set MP: for axis 1 and never started it",
-                 .reason = Reason::left_over_setting,
-                 .told = "left over",
+                 .reason = Reason::stale_setpoint,
+                 .told = "stale prebuffer",
                  .cases = {with_a_prebuffer(go), with_a_prebuffer(go_of)},
                  .strikes = [](Device& device, TimePoint now) { device.receive("MP:1+P100\r\nQ:SPC\r\n", now); },
                  .set_up = [](simulation::Setup& setup) { (void)setup.options.set("go_with_both_buffers", "ng"); },
@@ -169,7 +169,7 @@ std::vector<Condition> about_other_modes() {
                            wrong("P:SET", "P:SET,1,CM,1,1,0,100,100,0,0,1,0,0"),
                            wrong("P:SET", "P:SET,1,E,1,1,1,2,100,200,90,0,1,0,5")}});
   all.push_back({.name = "Number or value that the memory switch does not have",
-                 .manual = "119) to 126) \"OK or NG\": which they are tells another volume",
+                 .manual = "119) to 126) \"OK or NG\": another volume says which they are",
                  .reason = Reason::device_refused,
                  .told = "memory switch",
                  .cases = {wrong("MS:SET", "MS:SET,0,1,9"), wrong("MS:SET", "MS:SET,0,999,1"),

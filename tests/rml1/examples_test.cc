@@ -18,7 +18,7 @@ namespace {
 // The guideline's own examples of the parameter reader use a command that it does not have (2-5).
 constexpr Parameter kInt{true, kIntLowest, kIntHighest, false, false};
 constexpr Row kIp[] = {
-    {"IP", Deed::ignored, "2-5", Takes::up_to, 4, Coordinates::kept, Tool::kept, {kInt, kInt, kInt, kInt}}};
+    {"IP", Operation::ignored, "2-5", Takes::up_to, 4, Coordinates::kept, Tool::kept, {kInt, kInt, kInt, kInt}}};
 
 std::span<const Row> rows_for(const Paragraph& example) {
   return example.all("%").empty() ? std::span<const Row>() : std::span<const Row>(kIp);

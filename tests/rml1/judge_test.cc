@@ -60,7 +60,7 @@ TEST(Stock, IsCutThrough) {
 TEST(Spindle, IsForbiddenBelowTheSurface) {
   const Judged found = sizes_only("!MC0;PD;PU;PD;PU;");
   EXPECT_THAT(found.told, ElementsAre("warning 0 at 5 [5-2]"));
-  EXPECT_THAT(found.text, HasSubstr("the spindle stands still"));
+  EXPECT_THAT(found.text, HasSubstr("the spindle is off"));
   EXPECT_THAT(sizes_only("!MC0;!MC1;PD;PU;").told, IsEmpty());
   EXPECT_THAT(sizes_only("!MC0;Z9,9,0;PU;").told, IsEmpty());
 }

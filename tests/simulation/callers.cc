@@ -234,7 +234,7 @@ void Callers::check_starts() {
   }
 }
 
-void Callers::come_to_rest() {
+void Callers::become_stationary() {
   world_.set_faults(Faults::none());
   mishaps_.undo_all();
   world_.run_for(seconds(2));  // the last mishap may have been a restart, during which nothing is answered

@@ -16,7 +16,7 @@ class Callers {
 
   void act_for(Duration duration);
   // The line is made perfect; every motion must end and the device must answer.
-  void come_to_rest();
+  void become_stationary();
 
  private:
   void act();

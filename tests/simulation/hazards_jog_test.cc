@@ -317,7 +317,7 @@ TEST(HazardOfJogsEnd, H12_AJogThatWasSetAndNotStarted) {
     const Motion motion = outcome_of(world, 2);
     const bool survives = std::string_view(reading) == "yes";
     EXPECT_EQ(motion.state, survives ? MotionState::failed : MotionState::succeeded) << world.replay();
-    EXPECT_EQ(reason_of(motion), survives ? Reason::left_over_setting : Reason::unspecified);
+    EXPECT_EQ(reason_of(motion), survives ? Reason::stale_setpoint : Reason::unspecified);
     EXPECT_EQ(world.device().position(1), survives ? 0 : 500) << world.replay();
   }
 }

@@ -118,7 +118,7 @@ TEST(Hazard, H06_HomeTwice) {
   EXPECT_EQ(written(world, "HRT"), 1);
 }
 
-TEST(Hazard, H12_LeftOverExecutionSettingIsClearedFirst) {
+TEST(Hazard, H12_StaleSetpointExecutionSettingIsClearedFirst) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   foreign_traffic(world, {"M:1+P500", "A:3+P700"});
@@ -132,7 +132,7 @@ TEST(Hazard, H12_LeftOverExecutionSettingIsClearedFirst) {
   EXPECT_EQ(world.device().position(3), 0);
 }
 
-TEST(Hazard, H12_LeftOverOfTheSameAxisIsReplaced) {
+TEST(Hazard, H12_StaleSetpointOfTheSameAxisIsReplaced) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   foreign_traffic(world, {"M:1+P500"});
@@ -144,18 +144,18 @@ TEST(Hazard, H12_LeftOverOfTheSameAxisIsReplaced) {
 // What no command is documented to clear: nothing is started over it, on whatever axis it is.
 class HazardH12 : public testing::TestWithParam<const char*> {};
 
-TEST_P(HazardH12, LeftOverThatCannotBeClearedRefusesMotion) {
+TEST_P(HazardH12, StaleSetpointThatCannotBeClearedRefusesMotion) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   foreign_traffic(world, {GetParam()});
   const std::size_t first = world.wire().commands().size();
   std::optional<Result<Motion>> started;
   world.controller().move(move_of(world, {{2, 1000}}, true), world.now(), [&](Result<Motion> m) { started = m; });
-  EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::left_over_setting) << world.replay();
+  EXPECT_EQ(reason_of(outcome_of(world, 1)), Reason::stale_setpoint) << world.replay();
   ASSERT_TRUE(started && !started->has_value());
   EXPECT_NE(started->error().hint, "") << "without a remedy";
   world.controller().home({AxisSet::of(2), world.context("tester")}, world.now(), [](Result<Motion>) {});
-  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::left_over_setting) << world.replay();
+  EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::stale_setpoint) << world.replay();
   EXPECT_EQ(motion_lines(world, first), 0) << world.replay();
   for (int axis = 1; axis <= kAxisCount; ++axis) EXPECT_EQ(world.device().starts(axis), 0);
 }

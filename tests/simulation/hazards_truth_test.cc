@@ -179,7 +179,7 @@ TEST(Hazard, H14_AStopThatKeepsThePrebuffer) {
     world.run_for(milliseconds(600));
     const StopReport report = stopped(world);
     EXPECT_EQ(outcome_of(world, 1).state, MotionState::stopped) << world.replay();
-    const bool kept = report.problem && report.problem->reason == Reason::left_over_setting;
+    const bool kept = report.problem && report.problem->reason == Reason::stale_setpoint;
     EXPECT_TRUE(kept || written(world, "L:") > 1) << reading << ": nobody looked\n" << world.replay();
     EXPECT_FALSE(world.device().busy(1) || world.device().busy(2)) << reading;
   }
@@ -200,22 +200,22 @@ TEST(Hazard, H38_StopsThatComeTogetherAreOne) {
 }
 
 // Left over in the controller by somebody else, by a failure, or by a caller's own lines: it is found before a motion.
-class LeftOver : public testing::Test {
+class StaleSetpoint : public testing::Test {
  protected:
-  LeftOver() : world(quiet()) {
+  StaleSetpoint() : world(quiet()) {
     EXPECT_TRUE(world.run_until_up()) << world.replay();
     moved(world, {{1, 100}});  // from now on the registers are known
   }
   void expect_refused() {
     const std::size_t before = world.outcomes().size();
     move_by(world, {{3, 1000}});
-    EXPECT_EQ(reason_of(outcome_of(world, before + 1)), Reason::left_over_setting) << world.replay();
+    EXPECT_EQ(reason_of(outcome_of(world, before + 1)), Reason::stale_setpoint) << world.replay();
     EXPECT_EQ(world.device().starts(3), 0);
   }
   World world;
 };
 
-TEST_F(LeftOver, H12_BySomebodyElseWhileTheLineWasDown) {
+TEST_F(StaleSetpoint, H12_BySomebodyElseWhileTheLineWasDown) {
   foreign_traffic(world, {"MP:2+P500"});
   expect_refused();
 }
@@ -238,14 +238,14 @@ TEST(Hazard, H12_LookedForByTwoAtOnce) {
   }
 }
 
-TEST_F(LeftOver, H12_ByAMotionWhoseStartWasLost) {
+TEST_F(StaleSetpoint, H12_ByAMotionWhoseStartWasLost) {
   world.wire().set_script(drop_first(world, LineKind::command, "G:"));
   move_by(world, {{2, 500}});
   EXPECT_EQ(outcome_of(world, 2).state, MotionState::failed) << world.replay();
   expect_refused();
 }
 
-TEST_F(LeftOver, H12_ByACallersOwnLines) {
+TEST_F(StaleSetpoint, H12_ByACallersOwnLines) {
   execute(world, {"AP:2+P0", "MP:1+P300", "G:1"});  // where axis 2 stands already
   expect_refused();
 }

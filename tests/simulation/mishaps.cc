@@ -52,8 +52,8 @@ void Mishaps::later(Duration after, std::function<void()> undo) {
 
 void Mishaps::strike() {
   if (over_) return;
-  using Deed = void (Mishaps::*)();
-  static const std::vector<Deed> deeds = {
+  using Operation = void (Mishaps::*)();
+  static const std::vector<Operation> deeds = {
       &Mishaps::reboot,     &Mishaps::leave_host, &Mishaps::other_dialect, &Mishaps::emergency,
       &Mishaps::excitation, &Mishaps::limit,      &Mishaps::overflow,      &Mishaps::scale,
       &Mishaps::slow,       &Mishaps::stuck,      &Mishaps::disconnection, &Mishaps::fall_asleep,

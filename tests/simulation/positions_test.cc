@@ -91,7 +91,7 @@ TEST_F(ToPositions, APlaceStaysWhereItIsWhenCoordinatesAreSetAnew) {
   exec("R:1");
   const Motion compared = go(to(true, 1, {{1, 1000}, {2, 0}, {3, 0}}));
   EXPECT_EQ(reason_of(compared), Reason::epoch_passed) << world.replay();
-  EXPECT_THAT(compared.problem->message, testing::HasSubstr("tells -500,0,0 of number 1 of its places (PIT:)"));
+  EXPECT_THAT(compared.problem->message, testing::HasSubstr("reports -500,0,0 for number 1 of its positions (PIT:)"));
   EXPECT_EQ(world.device().position(1), 0);
   const Motion motion = go(to(true, 1, {}));
   EXPECT_EQ(motion.state, MotionState::succeeded) << world.replay();
@@ -111,7 +111,7 @@ TEST_F(ToPositions, NothingMovesWhereARestartHasEmptiedThePlace) {
   for (const Coordinates& expected : {Coordinates{{1, 1000}, {2, 0}, {3, 0}}, Coordinates()}) {
     const Motion motion = go(to(true, 1, expected));
     EXPECT_EQ(reason_of(motion), Reason::epoch_passed) << world.replay();
-    EXPECT_EQ(motion.problem->message, "the controller holds nothing under number 1 of its places (PIT:)");
+    EXPECT_EQ(motion.problem->message, "the controller holds nothing under number 1 of its positions (PIT:)");
     EXPECT_EQ(motion.problem->sent, "PIT:GET,1");
     EXPECT_EQ(motion.problem->wire_reply, "NG");
   }

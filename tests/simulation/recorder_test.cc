@@ -112,7 +112,7 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   World& world = recorded.world();
   Callers callers(world, GetParam(), Faults::hostile().mishaps_an_hour);
   callers.act_for(minutes(10));
-  callers.come_to_rest();
+  callers.become_stationary();
   ASSERT_TRUE(world.violations().empty()) << world.violations().front();
 
   const std::string text = recorded.text();
@@ -138,7 +138,7 @@ TEST(RecordedFromTheMiddle, IsDoneAgain) {
   RecordedWorld recorded(drawn_setup(7100, Faults::none()));
   Callers callers(recorded.world(), 7100);
   callers.act_for(minutes(1));
-  callers.come_to_rest();
+  callers.become_stationary();
   const Recording whole = parsed(recorded.text());
   Recording rest{whole.header, {}};
   int begun = 0;

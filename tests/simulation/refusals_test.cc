@@ -96,11 +96,11 @@ TEST(WhyNg, BusyIsTold) {
   EXPECT_EQ(execute(world, {"D:1S100F1000R100"}).back(), "AXIS_BUSY") << world.replay();
 }
 
-TEST(WhyNg, ALeftOverPrebufferIsTold) {
+TEST(WhyNg, AStaleSetpointPrebufferIsTold) {
   World world(quiet());
   foreign_traffic(world, {"MP:2+P100"});
   ASSERT_TRUE(world.run_until_up());
-  EXPECT_EQ(execute(world, {"M:1+P100", "G:1"}).back(), "LEFT_OVER_SETTING") << world.replay();
+  EXPECT_EQ(execute(world, {"M:1+P100", "G:1"}).back(), "STALE_SETPOINT") << world.replay();
 }
 
 TEST(WhyNg, TheModeIsTold) {

@@ -54,26 +54,26 @@ TEST_F(StageOfProfile, AnotherOneIsMovedByNothing) {
   const TimePoint now = world->now();
   const AxisSet first = AxisSet::of(1);
   Controller& controller = world->controller();
-  using Told = Controller::OnStarted;
+  using Verdict = Controller::OnStarted;
   const RequestContext context = world->context("tester");
-  const std::function<void(Told)> requests[] = {
-      [&](Told told) {
+  const std::function<void(Verdict)> requests[] = {
+      [&](Verdict told) {
         controller.move(move_of(*world, {{2, 100}, {1, 100}}, true), now, std::move(told));
       },
-      [&](Told told) {
+      [&](Verdict told) {
         controller.move(move_of(*world, {{1, 100}}, false), now, std::move(told));
       },
-      [&](Told told) { controller.run_path(line_of(*world, 3), now, std::move(told)); },
-      [&](Told told) {
+      [&](Verdict told) { controller.run_path(line_of(*world, 3), now, std::move(told)); },
+      [&](Verdict told) {
         controller.jog({{{1, 1, {}}}, context}, now, std::move(told));
       },
-      [&](Told told) {
+      [&](Verdict told) {
         controller.home({first, context}, now, std::move(told));
       },
-      [&](Told told) {
+      [&](Verdict told) {
         controller.home({{}, context}, now, std::move(told));
       },
-      [&](Told told) {
+      [&](Verdict told) {
         controller.return_to_origin({first, context}, now, std::move(told));
       }};
   for (const auto& ask : requests) EXPECT_EQ(refused(ask), Reason::identity_mismatch);

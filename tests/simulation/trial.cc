@@ -12,7 +12,7 @@ TrialResult run(const Trial& trial) {
   world.wire().spare(trial.spared);
   Callers callers(world, trial.seed, trial.faults.mishaps_an_hour, trial.shapes);
   callers.act_for(trial.duration);
-  callers.come_to_rest();
+  callers.become_stationary();
   TrialResult result;
   if (!world.violations().empty()) {
     result.violation = world.violations().front();

@@ -63,7 +63,7 @@ void Users::act(User& user) {
     case 4:
       return keep_alive(user);
     case 5:
-      return give_up(user);
+      return disconnect(user);
     case 6:
       return crash(user);
     case 7:
@@ -171,7 +171,7 @@ void Users::keep_alive(User& user) {
   }
 }
 
-void Users::give_up(User& user) {
+void Users::disconnect(User& user) {
   if (user.token == 0) return;
   const std::string& to = world_.random().pick(users_).name;
   const bool handed = world_.random().chance(0.5);

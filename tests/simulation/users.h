@@ -54,7 +54,7 @@ class Users {
   void acquire(User& user);
   void take_over(User& user);
   void keep_alive(User& user);
-  void give_up(User& user);
+  void disconnect(User& user);
   void crash(User& user);
   void move(User& user, server::LeaseToken token);
   void path(User& user, server::LeaseToken token);

@@ -70,7 +70,7 @@ std::string World::replay() const {
   return text;
 }
 
-// Told by what was last written, what the device does and what the controller says of its line. A setting or a start
+// Verdict by what was last written, what the device does and what the controller says of its line. A setting or a start
 // under way tells more than another axis that moves.
 Phase World::phase() const {
   if (controller_->state().link != LinkState::up) return Phase::barrier;
@@ -94,15 +94,15 @@ void World::step(TimePoint limit) {
   for (const auto& at : {wire_.next_event(), controller_->next_deadline(), device_->next_deadline()}) {
     if (at && *at < next) next = *at;
   }
-  if (!deeds_.empty() && deeds_.begin()->first < next) next = deeds_.begin()->first;
+  if (!operations_.empty() && operations_.begin()->first < next) next = operations_.begin()->first;
   steps_here_ = next > now_ ? 0 : steps_here_ + 1;
   if (steps_here_ > 100'000) violation("time stands still: a deadline that has passed is named again and again");
   now_ = std::max(now_, next);
   wire_.advance(now_);
   device_->advance(now_);
   controller_->advance(now_);
-  while (!deeds_.empty() && deeds_.begin()->first <= now_) {
-    const auto deed = deeds_.extract(deeds_.begin()).mapped();
+  while (!operations_.empty() && operations_.begin()->first <= now_) {
+    const auto deed = operations_.extract(operations_.begin()).mapped();
     wire_.pass_bytes(now_);
     deed();
   }

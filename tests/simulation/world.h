@@ -51,7 +51,7 @@ class World : public stage::EventSink {
   // The host sleeps: time has passed, and what came meanwhile comes first.
   void sleep_for(Duration duration) { now_ += duration; }
   // Runs `deed` at that time, in the middle of whatever goes on then, even of a line.
-  void at(TimePoint when, std::function<void()> deed) { deeds_.emplace(when, std::move(deed)); }
+  void at(TimePoint when, std::function<void()> deed) { operations_.emplace(when, std::move(deed)); }
   void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last
   // The cable is pulled and put into another unit, and back at its return. While it visits, nothing but its identity
   // may be asked, and nothing but a stop told.
@@ -101,7 +101,7 @@ class World : public stage::EventSink {
   std::size_t written_before_reboot_ = 0;
   std::array<std::int64_t, stage::kAxisCount> before_reboot_{};
   TimePoint now_{};
-  std::multimap<TimePoint, std::function<void()>> deeds_;
+  std::multimap<TimePoint, std::function<void()>> operations_;
   std::size_t written_when_last_ended_ = 0;  // commands, when an exchange last ended
   std::size_t written_before_visit_ = 0;     // commands, when another unit came
   int steps_here_ = 0;

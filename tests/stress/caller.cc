@@ -41,7 +41,7 @@ void expect_excuse(const Problem& problem, const std::string& asked) {
       Reason::deadline_passed,  Reason::completion_outstanding,
       Reason::queue_full,       Reason::not_found,
       Reason::outcome_unknown,  Reason::target_not_reached,
-      Reason::position_unknown, Reason::left_over_setting,
+      Reason::position_unknown, Reason::stale_setpoint,
       Reason::stopped_by,       Reason::too_fast};  // a path, by a machine whose load makes each answer late
   EXPECT_TRUE(kExcuses.contains(problem.reason)) << asked << ": " << name(problem.reason) << ": " << problem.message;
 }

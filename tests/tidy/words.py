@@ -80,7 +80,7 @@ _ANY = re.compile(
     re.IGNORECASE,
 )
 # Names of the API and of the configuration stay until they are renamed there.
-_KEPT = re.compile(r"(?:REASON_)?LEFT_OVER_SETTING|left_over_setting|oneof news|NewsCase|news_case")
+_KEPT = re.compile(r"oneof news|NewsCase|news_case")
 
 
 def _blank(text):

@@ -24,7 +24,7 @@ class BarrierTest : public testing::Test {
                    [this](std::string_view line) { lines.emplace_back(line); });
   }
   std::vector<std::string> lines;
-  OwedAnswers owed;
+  OutstandingAnswers owed;
 };
 
 TEST_F(BarrierTest, EchoThenIdentityThenSilence) {
@@ -134,7 +134,7 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_EQ(owed.identities, 1);
   EXPECT_TRUE(it.on_line(kIdentity, at(520)));
   EXPECT_EQ(owed.identities, 0);
-  EXPECT_FALSE(pay_owed(owed, kIdentity)) << "no more than is owed";
+  EXPECT_FALSE(settle_outstanding(owed, kIdentity)) << "no more than is owed";
 }
 
 // The first identity to come was asked for before the stop, whose OK is still on its way.

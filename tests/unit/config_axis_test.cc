@@ -109,7 +109,7 @@ TEST(ConfigAxis, LimitsOfThoseWhoDoNotMoveOrAreNotKnown) {
       errors_of_whose("observer"),
       ElementsAre(StartsWith("lab.toml:11: device.axis.narrower.whose: \"observer\" moves nothing anyway; use ")));
   EXPECT_THAT(errors_of_whose("tcp 127.0.0.1:39482"),
-              ElementsAre(HasSubstr("is known by an address only, which whoever is on this machine may have; use ")));
+              ElementsAre(HasSubstr("is known by an address only, which everybody on this machine may have; use ")));
 }
 
 TEST(ConfigAxis, NarrowerLimitsAreInUnitsOfTheAxis) {

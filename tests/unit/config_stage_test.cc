@@ -165,10 +165,12 @@ TEST_F(ConfigStage, WhatEveryProfileSays) {
       errors("unit = \"mm\"\n"),
       ElementsAre("stages/x.toml:1: name: is missing; use the stage's model, 1 to 64 printable ASCII characters",
                   "stages/x.toml:1: kind: is missing; use \"linear\" or \"rotary\""));
-  EXPECT_THAT(errors("name = \"\\u001b[2J\"\nkind = \"linear\"\n"),
-              ElementsAre("stages/x.toml:1: name: will not do; use the stage's model, 1 to 64 printable ASCII "
-                          "characters",
-                          "stages/x.toml:1: pulse: is missing; use the way of one pulse as a text in quotes, \"1um\""));
+  EXPECT_THAT(
+      errors("name = \"\\u001b[2J\"\nkind = \"linear\"\n"),
+      ElementsAre(
+          "stages/x.toml:1: name: will not do; use the stage's model, 1 to 64 printable ASCII "
+          "characters",
+          "stages/x.toml:1: pulse: is missing; use the displacement of one pulse as a text in quotes, \"1um\""));
   EXPECT_THAT(errors("name = \"x\"\nkind = \"round\"\n"),
               ElementsAre("stages/x.toml:2: kind: \"round\" is not known; use one of \"linear\", \"rotary\""));
 }
@@ -177,19 +179,25 @@ TEST_F(ConfigStage, APulseIsAWayOfItsKind) {
   const std::string linear = "name = \"x\"\nkind = \"linear\"\n", rotary = "name = \"x\"\nkind = \"rotary\"\n";
   EXPECT_THAT(errors(linear + "pulse = 1\n"),
               ElementsAre("stages/x.toml:3: pulse: 1 will not do; use a text in quotes"));
-  EXPECT_THAT(errors(linear + "pulse = \"1\"\n"),
-              ElementsAre("stages/x.toml:3: pulse: \"1pulse\" is no way of one pulse. Give a way above 0 in nm, um, mm "
-                          "or deg."));
-  EXPECT_THAT(errors(linear + "pulse = \"0um\"\n"), ElementsAre(HasSubstr("pulse: \"0um\" is no way of one pulse")));
+  EXPECT_THAT(
+      errors(linear + "pulse = \"1\"\n"),
+      ElementsAre(
+          "stages/x.toml:3: pulse: \"1pulse\" is no resolution (displacement of one pulse). Give a displacement "
+          "above 0 in nm, um, mm "
+          "or deg."));
+  EXPECT_THAT(errors(linear + "pulse = \"0um\"\n"),
+              ElementsAre(HasSubstr("pulse: \"0um\" is no resolution (displacement of one pulse)")));
   EXPECT_THAT(errors(linear + "pulse = \"1inch\"\n"), ElementsAre(HasSubstr("pulse: \"inch\" is not a unit")));
   EXPECT_THAT(
       errors(linear + "pulse = \"0.0025deg\"\n"),
-      ElementsAre("stages/x.toml:3: pulse: is in deg, and the stage slides; use the way of one pulse as a text in "
-                  "quotes, \"1um\""));
+      ElementsAre(
+          "stages/x.toml:3: pulse: is in deg, and the stage slides; use the displacement of one pulse as a text in "
+          "quotes, \"1um\""));
   EXPECT_THAT(
       errors(rotary + "pulse = \"1um\"\n"),
-      ElementsAre("stages/x.toml:3: pulse: is in um, and the stage turns; use the way of one pulse as a text in "
-                  "quotes, \"0.0025deg\""));
+      ElementsAre(
+          "stages/x.toml:3: pulse: is in um, and the stage turns; use the displacement of one pulse as a text in "
+          "quotes, \"0.0025deg\""));
 }
 
 TEST_F(ConfigStage, ATurnIsOfStagesThatTurn) {

@@ -77,7 +77,7 @@ class ContinuityTable : public testing::TestWithParam<Case> {
         continuity.answered(step.kind == Step::Kind::taken, now);
         break;
       case Step::Kind::told:
-        EXPECT_EQ(continuity.told(step.line, now), step.verdict);
+        EXPECT_EQ(continuity.compare(step.line, now), step.verdict);
         break;
     }
     EXPECT_EQ(continuity.open(), step.doubt != Doubt::none);
@@ -262,7 +262,7 @@ TEST(ContinuityStop, WithoutAnyAnswerAfterAPauseProvesNothing) {
     continuity.wrote("?:CMD", kOnTheWire, at(500));
     continuity.wrote("L:1", kOnTheWire, at(500));
     continuity.wrote("?:CMD", kOnTheWire, at(1100));
-    EXPECT_EQ(continuity.told("L:1", at(1110)), Verdict::open) << "behind " << before;
+    EXPECT_EQ(continuity.compare("L:1", at(1110)), Verdict::open) << "behind " << before;
     EXPECT_TRUE(continuity.open());
     EXPECT_FALSE(continuity.only_late());
   }
@@ -271,7 +271,7 @@ TEST(ContinuityStop, WithoutAnyAnswerAfterAPauseProvesNothing) {
 class ContinuityTells : public testing::Test {
  protected:
   std::vector<std::string> told_of(std::vector<std::string> lines) const {
-    std::erase_if(lines, [this](const std::string& line) { return !continuity.tells(line); });
+    std::erase_if(lines, [this](const std::string& line) { return !continuity.could_be(line); });
     return lines;
   }
   Continuity continuity;
@@ -288,26 +288,26 @@ TEST_F(ContinuityTells, WhatLooksLikeACommand) {
 
 // G and *IDN? have no colon.
 TEST_F(ContinuityTells, WhatWasSentFromHere) {
-  EXPECT_FALSE(continuity.tells("G"));
+  EXPECT_FALSE(continuity.could_be("G"));
   continuity.begin(at(0));
   continuity.wrote("G", kOnTheWire, at(0));
-  EXPECT_TRUE(continuity.tells("G"));
+  EXPECT_TRUE(continuity.could_be("G"));
   continuity.answered(true, at(10));
-  EXPECT_TRUE(continuity.tells("G"));
+  EXPECT_TRUE(continuity.could_be("G"));
   continuity.wrote("*IDN?", kOnTheWire, at(20));
-  EXPECT_TRUE(continuity.tells("G")) << "*IDN? may not have come in";
-  EXPECT_TRUE(continuity.tells("*IDN?"));
+  EXPECT_TRUE(continuity.could_be("G")) << "*IDN? may not have come in";
+  EXPECT_TRUE(continuity.could_be("*IDN?"));
   continuity.answered(true, at(30));
-  EXPECT_FALSE(continuity.tells("G")) << "*IDN? has been answered since";
+  EXPECT_FALSE(continuity.could_be("G")) << "*IDN? has been answered since";
   continuity.connected();
-  EXPECT_FALSE(continuity.tells("*IDN?"));
+  EXPECT_FALSE(continuity.could_be("*IDN?"));
 }
 
 // It is no sign that nothing happened in the pause before it.
 TEST_F(ContinuityTells, NotWhatWasSentAfterAPause) {
   continuity.begin(at(0));
   continuity.wrote("G", kOnTheWire, at(151));
-  EXPECT_FALSE(continuity.tells("G"));
+  EXPECT_FALSE(continuity.could_be("G"));
 }
 
 }  // namespace

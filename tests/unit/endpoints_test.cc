@@ -49,7 +49,7 @@ TEST_F(UnixListenerTest, TheDirectoryIsThisUsersAndTheSocketEverybodys) {
   EXPECT_EQ(status.st_mode & 07777, 0700u);
 }
 
-TEST_F(UnixListenerTest, OneThatIsServedIsRefusedAndOneThatIsLeftOverRemoved) {
+TEST_F(UnixListenerTest, OneThatIsServedIsRefusedAndOneThatIsStaleSetpointRemoved) {
   {
     const Result<UnixListener> first = UnixListener::open(path_);
     EXPECT_THAT(refusal(), HasSubstr("served by another process"));

@@ -51,8 +51,8 @@ TEST_F(FeedingTest, AStraightLineIsEndedByBothNumbers) {
 }
 
 TEST_F(FeedingTest, WhatIsShorterIsRefused) {
-  EXPECT_TRUE(check_feeding(path({kShortest, kShortest, kShortest}), pace));
-  const auto refused = check_feeding(path({kShortest, kShortest - milliseconds(1), kShortest}), pace);
+  EXPECT_TRUE(check_refill_feasibility(path({kShortest, kShortest, kShortest}), pace));
+  const auto refused = check_refill_feasibility(path({kShortest, kShortest - milliseconds(1), kShortest}), pace);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, Reason::too_fast);
   EXPECT_EQ(refused.error().message,
@@ -63,14 +63,14 @@ TEST_F(FeedingTest, WhatIsShorterIsRefused) {
 
 TEST_F(FeedingTest, WhatIsFollowedByARestMayBeShort) {
   PathPlan plan = path({milliseconds(1), kShortest});
-  EXPECT_FALSE(check_feeding(plan, pace));
+  EXPECT_FALSE(check_refill_feasibility(plan, pace));
   plan.segments[1].rest = milliseconds(1);
-  EXPECT_TRUE(check_feeding(plan, pace)) << "the next one is set while nothing runs";
+  EXPECT_TRUE(check_refill_feasibility(plan, pace)) << "the next one is set while nothing runs";
 }
 
 TEST_F(FeedingTest, TheLastSegmentMayBeShort) {
-  EXPECT_TRUE(check_feeding(path({milliseconds(1)}), pace)) << "nothing is set while it runs";
-  EXPECT_TRUE(check_feeding(path({kShortest, milliseconds(1)}), pace));
+  EXPECT_TRUE(check_refill_feasibility(path({milliseconds(1)}), pace)) << "nothing is set while it runs";
+  EXPECT_TRUE(check_refill_feasibility(path({kShortest, milliseconds(1)}), pace));
 }
 
 }  // namespace

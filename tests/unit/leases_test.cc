@@ -41,7 +41,7 @@ class LeasesTest : public testing::Test {
         });
   }
   Reason may(const std::string& who, LeaseToken lease, AxisSet axes, MotionId motion = 0) {
-    const auto allowed = leases_.may_use({who, lease, axes, motion}, now_);
+    const auto allowed = leases_.authorize({who, lease, axes, motion}, now_);
     if (!allowed) told_ = allowed.error().message;
     return allowed ? Reason::unspecified : allowed.error().reason;
   }

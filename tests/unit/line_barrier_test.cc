@@ -72,10 +72,10 @@ TEST_F(LineBarrierTest, ARepeatedProbeTellsNothingOfTheLine) {
   script({{"?:CMD\r\n", ""}});
   pass(kProbeLimit);
   script({{"?:CMD\r\n", "?:CMD\r\n"}, {"*IDN?\r\n", kIdentityLine}});
-  EXPECT_EQ(line.owed(), 1);
+  EXPECT_EQ(line.outstanding(), 1);
   pass(2 * kSilence);
   EXPECT_EQ(late->message(), "\"G:1\" was not answered in time");
-  EXPECT_EQ(line.owed(), 0) << "answers come in order, so that of the first ?:CMD is lost";
+  EXPECT_EQ(line.outstanding(), 0) << "answers come in order, so that of the first ?:CMD is lost";
 }
 
 TEST_F(LineBarrierTest, WhatCannotBeTheAnswerIsGarbage) {
@@ -157,25 +157,25 @@ TEST_F(LineBarrierTest, ThreeProbesWithoutAnswerCloseTheLine) {
   EXPECT_THAT(news(), ElementsAre("barrier: \"G:1\" was not answered in time", "lost: no answer to three probes"));
   EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250)));
   EXPECT_FALSE(line.exchanging());
-  EXPECT_EQ(line.owed(), 3);
+  EXPECT_EQ(line.outstanding(), 3);
   link_up();
   EXPECT_EQ(sent(), "*IDN?\r\n");
-  EXPECT_EQ(line.owed(), 0) << "the line before has taken them along";
+  EXPECT_EQ(line.outstanding(), 0) << "the line before has taken them along";
 }
 
 TEST_F(LineBarrierTest, AnswersToProbesThatWereGivenUpAreSwallowedLater) {
   asked_and_late("O:1");
   script({{"?:CMD\r\n", "O:1\r\n"}, {"*IDN?\r\n", ""}});
   pass(kProbeLimit - milliseconds(5));
-  EXPECT_EQ(line.owed(), 1);
+  EXPECT_EQ(line.outstanding(), 1);
   script({{"*IDN?\r\n", kIdentityLine}});
   pass(kSilence);
-  line.still_the_same(now);
+  line.confirm_no_restart(now);
   news();
   const auto question = ask("?:V");
   script({{"?:V\r\n", kIdentityLine + "V2.00.000\r\n"}});
   EXPECT_EQ(question->reply(), "V2.00.000");
-  EXPECT_EQ(line.owed(), 0);
+  EXPECT_EQ(line.outstanding(), 0);
   receive(kIdentityLine);
   EXPECT_THAT(news(), ElementsAre("unexpected SIGMAKOKI,SHRC-203,2106001001,V2.00.000")) << "no more than are owed";
 }
@@ -187,10 +187,10 @@ TEST_F(LineBarrierTest, NGIsNotBelievedWhileAnIdentityIsOwed) {
   pass(kProbeLimit - milliseconds(5));
   script({{"*IDN?\r\n", kIdentityLine}});
   pass(kSilence);
-  line.still_the_same(now);
+  line.confirm_no_restart(now);
   const auto setting = ask("O:2");
   script({{"O:2\r\n", "NG\r\n"}, {"?:CMD\r\n", "O:2\r\n"}, {"*IDN?\r\n", kIdentityLine}});
-  EXPECT_EQ(line.owed(), 0);
+  EXPECT_EQ(line.outstanding(), 0);
   pass(kSilence);
   EXPECT_TRUE(setting->result->in_doubt());
   EXPECT_FALSE(setting->result->refused());
@@ -223,7 +223,7 @@ TEST_F(LineBarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   receive("OK\r\n" + kIdentityLine);
   pass(4 * kSilence);
   EXPECT_THAT(news(), testing::Contains("passed"));
-  EXPECT_EQ(line.owed(), 0);
+  EXPECT_EQ(line.outstanding(), 0);
 }
 
 TEST_F(LineBarrierTest, AStopThatWaitsForAnAnswerIsWrittenAsTheBarrierBegins) {

@@ -176,7 +176,7 @@ TEST_F(LineTest, WhereARestartIsSuspectedOtherFactsComeFirst) {
   script({{"?:CMD\r\n", "L:1\r\n"}, {"Q:SPC\r\n", "P+0,P+0,P+0,0,0,0,R,R,R\r\n"}});
   EXPECT_FALSE(waiting->ended());
   EXPECT_THAT(news(), IsEmpty()) << "it has been told";
-  line.still_the_same(now);
+  line.confirm_no_restart(now);
   script({{"O:2\r\n", "OK\r\n"}});
   EXPECT_TRUE(waiting->result->accepted());
   EXPECT_THAT(listener.learnt, ElementsAre(LineLearned::What::same_controller));
@@ -192,7 +192,7 @@ TEST_F(LineTest, BehindALateAnswerARestartIsPossibleAndNoMore) {
   EXPECT_EQ(question->reply(), "V2.00.000");
   EXPECT_THAT(news(), ElementsAre("restart suspected"));
   EXPECT_TRUE(line.restart_only_possible());
-  line.still_the_same(now);
+  line.confirm_no_restart(now);
   EXPECT_FALSE(line.restart_only_possible());
 }
 

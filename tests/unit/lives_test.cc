@@ -29,7 +29,7 @@ TEST(SegmentTable, EachPairLeadsWhereThePageSays) {
   const int illegal = illegal_pairs<SegmentPhase, SegmentEvent>(
       table, kSegmentPhases,
       {"set_asked", "start_accepted", "start_doubted", "refill_asked", "refill_accepted", "refill_doubted", "ended",
-       "came_to_rest", "found"},
+       "became_stationary", "found"},
       [](SegmentPhase phase, SegmentEvent event) { return next(phase, event); });
   EXPECT_EQ(illegal, 45);
 }

@@ -51,7 +51,7 @@ TEST_F(MetricsTest, TheLineTellsItsBytesItsTimeAndWhatRanOut) {
   exchange.latency = std::chrono::milliseconds(250);
   exchange.waited = std::chrono::milliseconds(15);
   device_.on_event(exchange);
-  device_.set_owed_answers(2);
+  device_.set_outstanding_answers(2);
   const std::string text = page();
   EXPECT_THAT(text, HasSubstr("axisgate_line_bytes_total{device=\"stage\",direction=\"out\"} 5\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_line_bytes_total{device=\"stage\",direction=\"in\"} 4\n"));
@@ -60,7 +60,7 @@ TEST_F(MetricsTest, TheLineTellsItsBytesItsTimeAndWhatRanOut) {
   EXPECT_THAT(text, HasSubstr("axisgate_line_busy_seconds_total{device=\"stage\"} 0.25\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_queue_wait_seconds_bucket{device=\"stage\",lane=\"poll\",le=\"0.01\"} 0\n"));
   EXPECT_THAT(text, HasSubstr("axisgate_queue_wait_seconds_bucket{device=\"stage\",lane=\"poll\",le=\"0.02\"} 1\n"));
-  EXPECT_THAT(text, HasSubstr("axisgate_owed_answers{device=\"stage\"} 2\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_outstanding_answers{device=\"stage\"} 2\n"));
 }
 
 TEST_F(MetricsTest, OnlyEndedMotionsCount) {
@@ -135,7 +135,7 @@ TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
       {"axisgate_line_bytes_total", {"device", "direction"}},
       {"axisgate_link_up", {"device"}},
       {"axisgate_motions_total", {"device", "kind", "outcome"}},
-      {"axisgate_owed_answers", {"device"}},
+      {"axisgate_outstanding_answers", {"device"}},
       {"axisgate_queue_depth", {"device", "lane"}},
       {"axisgate_queue_wait_seconds", {"device", "lane"}},
       {"axisgate_recorder_dropped_total", {"device"}},

@@ -25,7 +25,7 @@ TEST(Names, OfReasonsStayAsPublished) {
                         "UNKNOWN_UNIT",      "OUT_OF_RANGE",    "OUTSIDE_TRAVEL",    "TOO_FAST",
                         "NOT_REPRESENTABLE", "MALFORMED_LINE",  "UNKNOWN_COMMAND",   "INCOMPLETE_TRANSACTION",
                         "NOT_FOUND",         "AXIS_BUSY",       "NOT_EXCITED",       "LIMIT_DETECTED",
-                        "EMERGENCY_STOPPED", "DEVICE_ERROR",    "WRONG_MODE",        "LEFT_OVER_SETTING",
+                        "EMERGENCY_STOPPED", "DEVICE_ERROR",    "WRONG_MODE",        "STALE_SETPOINT",
                         "POSITION_UNKNOWN",  "DEVICE_REFUSED",  "IDENTITY_MISMATCH", "LINK_DOWN",
                         "NOT_SENT",          "REPLY_TIMED_OUT", "LINE_FAULT",        "COMPLETION_OUTSTANDING",
                         "DEADLINE_PASSED",   "QUEUE_FULL",      "STOPPED",           "TARGET_NOT_REACHED",

@@ -183,7 +183,7 @@ TEST_F(SavedPositionsTest, ALineThatIsNoneIsNamed) {
     write("# axisgate positions 1\n" + good + bad);
     EXPECT_EQ(why_not_opened(), "INTERNAL: " + path_ + ":3: is no saved position") << bad;
   }
-  const std::string twice = "INTERNAL: " + path_ + ":2: its name or its number stands above already";
+  const std::string twice = "INTERNAL: " + path_ + ":2: its name or its number is used above already";
   write(good + "stage a place 2 1:1 18 2106001001 anna\n");
   EXPECT_EQ(why_not_opened(), twice);
   write(good + "stage b place 1 1:1 18 2106001001 anna\n");

@@ -260,9 +260,10 @@ TEST_F(SimulatorControl, InputsOutputsTriggers) {
 TEST_F(SimulatorControl, SleepOnlyAtRest) {
   EXPECT_EQ(bench.send("M:1+P500\r\nG:1\r\n"), "OK OK");
   EXPECT_EQ(say("busy"), "ok yes no no");
-  EXPECT_EQ(say("sleep on"),
-            "error: an axis is BUSY, and only at rest does it fall asleep or wake; wait until `busy` says no, or stop "
-            "it");
+  EXPECT_EQ(
+      say("sleep on"),
+      "error: an axis is BUSY, and it falls asleep or wakes only while stationary; wait until `busy` says no, or stop "
+      "it");
   bench.rest();
   EXPECT_EQ(say("busy 1"), "ok no");
   EXPECT_EQ(say("sleep on"), "ok");

@@ -78,7 +78,7 @@ Result<Command> parse_command(std::string_view text) {
   if (wrong) return tl::unexpected(*std::move(wrong));
   if (const CommandRow* row = begun_by(text)) {
     return fail(Reason::malformed_line, fmt::format("\"{}\" has not the form of {}: {}", text, row->name, row->format),
-                fmt::format("`axisctl commands {}` says what the letters stand for", row->name));
+                fmt::format("`axisctl commands {}` explains the letters", row->name));
   }
   return fail(Reason::unknown_command, fmt::format("\"{}\" is no command that the gateway knows", text),
               "`axisctl commands` lists them with their parameters");

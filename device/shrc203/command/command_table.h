@@ -33,7 +33,7 @@ struct Parameter {
 // How this row's answer is kept apart from a completion, which is a bare 1, 2 or 3.
 enum class Separation {
   grammar,   // the answer is never a bare axis number
-  all_axes,  // asked for all axes and the wanted fields picked, so that the answer has commas
+  all_axes,  // sent for all axes and the wanted fields picked, so that the answer has commas
   waits,     // not sent while a possible completion lies within the answer's range
   closed,    // while a single motion runs: closed by an !:S and asked until two answers agree; else as `waits`
 };
@@ -110,7 +110,7 @@ struct CommandRow {
   bool shifts_frame = false;   // makes another coordinate of the place where the axis stands
   bool third_axis = false;     // moves axis 3 beside the axes that it names
   bool beside_motion = false;  // nothing to motion, so that it waits for none
-  bool rescales = false;       // a pulse is another way afterwards
+  bool rescales = false;       // the resolution is another afterwards
   bool restarts = false;       // the controller boots, and is silent meanwhile
   SetsSpeeds sets_speeds = SetsSpeeds::no;
   bool completes = false;  // axis numbers follow once it has ended; for G and G: after a prebuffer setting only

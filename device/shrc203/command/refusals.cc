@@ -25,7 +25,8 @@ bool no_limit(const CommandRow& row) { return row.needs.no_limit; }
 
 constexpr std::string_view kClear = "clear it once it is safe: axisctl clear";
 constexpr std::string_view kRestart =
-    "mend its cause and restart the controller: axisctl reset, or power off and on; `axisctl clear` does not clear it";
+    "remove its cause and restart the controller: axisctl reset, or power off and on; `axisctl clear` does not clear "
+    "it";
 
 constexpr AxisCondition kConditions[] = {
     {"emergency stop (bit 6)", bit<6>, motion, true, Reason::emergency_stopped, "is in emergency stop",
@@ -38,19 +39,20 @@ constexpr AxisCondition kConditions[] = {
     {"limit error S5 (bit 8)", bit<8>, motion, true, Reason::limit_detected, "has met its limit",
      "clear it (axisctl clear), then move away from it"},
     {"counter overflow S6 (bit 9)", bit<9>, motion, true, Reason::device_error, "has counted beyond nine digits (S6)",
-     "give the place another coordinate: axisctl zero {}"},
+     "set another coordinate here: axisctl zero {}"},
     {"auto config error (bit 10)", bit<10>, motion, true, Reason::device_error, "shows an auto config error", kRestart},
     {"system error S7 (bit 13)", bit<13>, motion, true, Reason::device_error, "shows a system error (S7)", kRestart},
     {"overheat error S10 (bit 15)", bit<15>, motion, true, Reason::device_error,
      "shows that its driver is too hot (S10)", "let it cool down, then restart the controller: axisctl reset"},
-    {"busy", busy, ready, false, Reason::axis_busy, "is moving", "wait until it stands, or stop it: axisctl stop"},
+    {"busy", busy, ready, false, Reason::axis_busy, "is moving",
+     "wait until it is stationary, or stop it: axisctl stop"},
     {"excitation off", off, excited, false, Reason::not_excited, "has its motor off",
      "switch it on: axisctl motor {} on"},
-    {"limit sensor (bits 20, 21)", at_limit, no_limit, false, Reason::limit_detected, "stands at its limit",
+    {"limit sensor (bits 20, 21)", at_limit, no_limit, false, Reason::limit_detected, "is at its limit",
      "move it away from there by itself: axisctl move {}=..."},
 };
 
-Problem told(const AxisCondition& condition, int axis) {
+Problem reported(const AxisCondition& condition, int axis) {
   return {.reason = condition.reason,
           .message = fmt::format("axis {} {}", axis, condition.what),
           .hint = fmt::format(fmt::runtime(condition.hint), axis),
@@ -65,7 +67,7 @@ std::optional<Problem> refusal_by(const CommandRow& row, AxisSet axes, const Sta
   for (const AxisCondition& condition : kConditions) {
     if (!condition.refuses(row)) continue;
     for (const int axis : axes.list()) {
-      if (condition.shown(state.axis(axis))) return told(condition, axis);
+      if (condition.shown(state.axis(axis))) return reported(condition, axis);
     }
   }
   return {};
@@ -82,18 +84,18 @@ std::optional<Problem> busy_shown(AxisSet axes, const State& state) {
 std::optional<Problem> error_shown(AxisSet axes, const State& state) {
   for (const AxisCondition& condition : kConditions) {
     for (const int axis : axes.list()) {
-      if (condition.error && condition.shown(state.axis(axis))) return told(condition, axis);
+      if (condition.error && condition.shown(state.axis(axis))) return reported(condition, axis);
     }
   }
   return {};
 }
 
-Problem left_over(AxisSet axes) {
-  return {.reason = Reason::left_over_setting,
-          .message = fmt::format(
-              "a prebuffer or jog setting is left over on {} and would run with the next start; no command is "
-              "documented to clear it",
-              to_string(axes)),
+Problem stale_setpoint(AxisSet axes) {
+  return {.reason = Reason::stale_setpoint,
+          .message =
+              fmt::format("a stale prebuffer or jog setting is on {} and would run with the next start; no command is "
+                          "documented to clear it",
+                          to_string(axes)),
           .hint = "reset the controller (RESET: or power), then home it"};
 }
 
@@ -106,10 +108,10 @@ Problem unexplained(std::string_view sent, AxisSet axes, const State& state) {
                          axis.status.raw);
   }
   return {.reason = Reason::unexplained,
-          .message =
-              fmt::format("the controller refused {} (NG), and nothing that it tells explains it: mode {}, format {}{}",
-                          sent, state.mode, state.format, facts),
-          .hint = "compare its parameters with `axisctl commands`, and look at the controller's display",
+          .message = fmt::format(
+              "the controller refused {} (NG), and nothing that it reports explains it: mode {}, format {}{}", sent,
+              state.mode, state.format, facts),
+          .hint = "compare its parameters with `axisctl commands`, and check the controller's display",
           .sent = std::string(sent),
           .wire_reply = "NG"};
 }

@@ -37,7 +37,7 @@ std::optional<Problem> busy_shown(AxisSet axes, const State& state);
 std::optional<Problem> error_shown(AxisSet axes, const State& state);
 
 // Of what somebody has set on these axes and never started, and no command deletes.
-Problem left_over(AxisSet axes);
+Problem stale_setpoint(AxisSet axes);
 
 // Where nothing tells: what there is to go by. `sent` is the line.
 Problem unexplained(std::string_view sent, AxisSet axes, const State& state);

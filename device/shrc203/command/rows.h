@@ -69,7 +69,7 @@ constexpr CommandRow question(std::string_view name, std::string_view format, st
           .meaning = name.starts_with("?:") || name == "*IDN?" ? Meaning::inquiry : Meaning::none};
 }
 
-// A question per axis whose single answer could be a completion: asked for all axes at once.
+// A question per axis whose single answer could be a completion: sent for all axes at once.
 constexpr CommandRow axis_question(std::string_view name, std::string_view format, std::string_view description,
                                    int section, std::span<const Parameter> parameters, std::string_view reply) {
   CommandRow row = question(name, format, description, section, parameters, reply);

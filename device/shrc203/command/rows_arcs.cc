@@ -22,10 +22,11 @@ constexpr Parameter kEnd2{"e2",    "end from here, axis with the larger number",
                           "pulses"};
 constexpr Parameter kAngle{"ae", "angle of the arc", Kind::angle, {}, 0, 360, "degrees"};
 constexpr Parameter kHelixAngle{"ae", "angle of the helix", Kind::angle, {}, 0, 360'000, "degrees"};
-constexpr Parameter kRiseOfTurn{"z", "way of axis 3 in each rotation", Kind::decimal, {}, 0, 999'999'999, "pulses"};
+constexpr Parameter kRiseOfTurn{"z",     "displacement of axis 3 in each rotation", Kind::decimal, {}, 0, 999'999'999,
+                                "pulses"};
 constexpr Parameter kRiseByAngle{
-    "z", "way of axis 3, from 360 degrees on in each rotation", Kind::decimal, {}, 0, 999'999'999, "pulses"};
-constexpr Parameter kRise{"z", "way of axis 3", Kind::decimal, {}, 0, 999'999'999, "pulses"};
+    "z", "displacement of axis 3, from 360 degrees on in each rotation", Kind::decimal, {}, 0, 999'999'999, "pulses"};
+constexpr Parameter kRise{"z", "displacement of axis 3", Kind::decimal, {}, 0, 999'999'999, "pulses"};
 
 constexpr std::array kCircle{kPlane,   kRotation,     kSign,         kLineUnit,    kCenter1,
                              kCenter2, kMinimumSpeed, kMaximumSpeed, kAcceleration};

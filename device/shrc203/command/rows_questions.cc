@@ -14,7 +14,7 @@ constexpr CommandRow kQuestionsRows[] = {
     question("SRQ:S", "SRQ:[<a>]S", "status of each axis", 7, kAxesOnly, "hex*,ready*"),
     question("?:V", "?:V", "firmware version", 8, kNone, "version"),
     axis_question("?:R", "?:R[<a>]", "resolution of the scale in nm", 9, kAxesOnly, "decimal*"),
-    axis_question("?:P", "?:P[<a>]", "way of one pulse in nm", 10, kAxesOnly, "decimal*"),
+    axis_question("?:P", "?:P[<a>]", "resolution: displacement of one pulse in nm", 10, kAxesOnly, "decimal*"),
     axis_question("?:S", "?:S[<a>]", "divisions of the motor driver", 11, kAxesOnly, "number:1:8000*"),
     axis_question("?:AN", "?:AN[<a>]", "name of the axis in the memory switches", 12, kAxesOnly, "axis_name*"),
     question("?:D", "?:D[<a>]", "speeds S, F and time R", 13, kAxesOnly, "speed*"),

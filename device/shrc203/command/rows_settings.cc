@@ -45,8 +45,8 @@ constexpr CommandRow rescales(CommandRow row) {
 }
 
 constexpr CommandRow kSettingsRows[] = {
-    shifts_frame(command("PSET:", "PSET:<a>{<m><u><c>}", "make this the coordinate of where the axis stands", 45,
-                         kCoordinates, Effect::setting, kReady)),
+    shifts_frame(command("PSET:", "PSET:<a>{<m><u><c>}", "set the coordinate of the present position", 45, kCoordinates,
+                         Effect::setting, kReady)),
     restarts(
         whole_controller(command("RESET:", "RESET:", "restart the controller", 46, kNone, Effect::setting, kNothing))),
     whole_controller(

@@ -17,9 +17,9 @@ bool is_known_command(std::string_view line) { return parse_command(line).has_va
 
 }  // namespace
 
-Barrier::Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed,
+Barrier::Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
                  std::function<void(std::string_view)> write)
-    : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), owed_(owed), write_(std::move(write)) {}
+    : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), outstanding_(outstanding), write_(std::move(write)) {}
 
 void Barrier::start(TimePoint now) {
   const bool ask = !line_in_doubt_.empty() && guarded(Guard::received_or_not);
@@ -27,7 +27,7 @@ void Barrier::start(TimePoint now) {
 }
 
 void Barrier::restart(TimePoint now) {
-  owe();
+  expect_answer();
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
   begin(Step::identity, now);
 }
@@ -35,7 +35,7 @@ void Barrier::restart(TimePoint now) {
 void Barrier::begin(Step step, TimePoint now) {
   step_ = step;
   probes_ = 0;
-  older_ = guarded(Guard::older_identities) ? owed_.identities : 0;
+  older_ = guarded(Guard::older_identities) ? outstanding_.identities : 0;
   if (step == Step::silence) {
     silence_ = guarded(Guard::silence) ? std::max(limits_.silence, 2 * (now - probed_)) : Duration::zero();
     deadline_ = now + silence_;
@@ -52,10 +52,10 @@ void Barrier::probe(TimePoint now) {
   deadline_ = now + limits_.reply;
 }
 
-void Barrier::owe() {
-  if (!guarded(Guard::owed_answers)) return;
-  if (step_ == Step::echo) ++owed_.echoes;
-  if (step_ == Step::identity) ++owed_.identities;
+void Barrier::expect_answer() {
+  if (!guarded(Guard::outstanding_answers)) return;
+  if (step_ == Step::echo) ++outstanding_.echoes;
+  if (step_ == Step::identity) ++outstanding_.identities;
 }
 
 bool Barrier::is_echo(std::string_view line) const { return line == line_in_doubt_ || is_known_command(line); }
@@ -72,7 +72,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   if (step_ == Step::identity) {
     if (older_ > 0 && parse_identity(line)) {
       --older_;
-      return pay_owed(owed_, line);
+      return settle_outstanding(outstanding_, line);
     }
     if (auto identity = parse_identity(line)) {
       identity_ = std::move(identity);
@@ -80,9 +80,9 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
       return true;
     }
   }
-  const bool owed = pay_owed(owed_, line);
+  const bool outstanding = settle_outstanding(outstanding_, line);
   silence_broken(now);
-  return owed;
+  return outstanding;
 }
 
 void Barrier::on_half_line(TimePoint now) {
@@ -99,7 +99,7 @@ void Barrier::advance(TimePoint now) {
     state_ = now < silence_limit_ ? State::passed : State::failed;
     return;
   }
-  owe();
+  expect_answer();
   if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
     state_ = State::failed;
   } else {
@@ -107,13 +107,13 @@ void Barrier::advance(TimePoint now) {
   }
 }
 
-bool pay_owed(OwedAnswers& owed, std::string_view line) {
-  if (owed.identities > 0 && parse_identity(line)) {
-    --owed.identities;
+bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line) {
+  if (outstanding.identities > 0 && parse_identity(line)) {
+    --outstanding.identities;
     return true;
   }
-  if (owed.echoes > 0 && is_known_command(line)) {
-    --owed.echoes;
+  if (outstanding.echoes > 0 && is_known_command(line)) {
+    --outstanding.echoes;
     return true;
   }
   return false;

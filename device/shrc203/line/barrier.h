@@ -21,7 +21,7 @@
 namespace axisgate::shrc203 {
 
 // Answers to probes that were given up: they may come at any later time.
-struct OwedAnswers {
+struct OutstandingAnswers {
   int echoes = 0;
   int identities = 0;
 };
@@ -34,7 +34,8 @@ class Barrier {
   };
 
   // `line_in_doubt` is empty after a connect: ?:CMD is then not asked. `write` sends one line.
-  Barrier(std::string line_in_doubt, Limits limits, OwedAnswers& owed, std::function<void(std::string_view)> write);
+  Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
+          std::function<void(std::string_view)> write);
 
   void start(TimePoint now);
   // A Stop was written in between: begin anew.
@@ -60,13 +61,13 @@ class Barrier {
   enum class Step { echo, identity, silence };
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
-  void owe();
+  void expect_answer();
   void silence_broken(TimePoint now);
   bool is_echo(std::string_view line) const;
 
   std::string line_in_doubt_;
   Limits limits_;
-  OwedAnswers& owed_;
+  OutstandingAnswers& outstanding_;
   std::function<void(std::string_view)> write_;
   State state_ = State::probing;
   Step step_ = Step::echo;
@@ -84,6 +85,6 @@ class Barrier {
 };
 
 // Whether `line` may be the answer to an owed probe; if so it is paid.
-bool pay_owed(OwedAnswers& owed, std::string_view line);
+bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line);
 
 }  // namespace axisgate::shrc203

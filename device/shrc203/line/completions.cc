@@ -14,11 +14,11 @@ void Completions::started(AxisSet axes, TimePoint now) {
 }
 
 void Completions::chained(AxisSet axes, TimePoint now) {
-  AxisSet news;
+  AxisSet changed;
   for (const int number : axes.list()) {
-    if (!axis(number).possible || axis(number).until) news.add(number);
+    if (!axis(number).possible || axis(number).until) changed.add(number);
   }
-  if (guarded(Guard::possible_after_chained_setting)) started(news, now);
+  if (guarded(Guard::possible_after_chained_setting)) started(changed, now);
 }
 
 void Completions::arrived(int axis_number) { axis(axis_number).arrived = true; }

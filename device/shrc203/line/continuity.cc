@@ -70,11 +70,11 @@ void Continuity::doubt(bool strongly, TimePoint due, TimePoint now) {
   open_ = open_ || strongly || late;
 }
 
-bool Continuity::tells(std::string_view line) const {
+bool Continuity::could_be(std::string_view line) const {
   return std::ranges::find(before_, line) != before_.end() || looks_like_command(line);
 }
 
-Continuity::Verdict Continuity::told(std::string_view line_before, TimePoint now) {
+Continuity::Verdict Continuity::compare(std::string_view line_before, TimePoint now) {
   const bool refused = std::exchange(refused_, false);
   const bool known = std::ranges::find(before_, line_before) != before_.end() || (refused && in_time_);
   const bool ours = line_before == kQuestion || std::ranges::find(unproven_, line_before) != unproven_.end();

@@ -36,10 +36,10 @@ class Continuity {
   void answered(bool taken, TimePoint now);
 
   // Whether this can be what ?:CMD tells. After a restart it may tell what it likes; that too is left to other facts.
-  bool tells(std::string_view line) const;
+  bool could_be(std::string_view line) const;
   enum class Verdict { same, open, foreign };
   // What ?:CMD was answered.
-  Verdict told(std::string_view line_before, TimePoint now);
+  Verdict compare(std::string_view line_before, TimePoint now);
 
  private:
   void doubt(bool strongly, TimePoint due, TimePoint now);

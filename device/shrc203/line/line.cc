@@ -29,7 +29,7 @@ bool Line::change(LinkEvent event, TimePoint now) {
   const LinkPhase before = state_.phase();
   if (state_.happened(event)) return true;
   listener_.line_event(IllegalTransition{"link", name(before), name(event)}, now);
-  give_up(fmt::format("internal error: {} while the link was {}", name(event), name(before)), now);
+  disconnect(fmt::format("internal error: {} while the link was {}", name(event), name(before)), now);
   return false;
 }
 
@@ -38,7 +38,7 @@ void Line::link_up(TimePoint now) {
   if (!change(LinkEvent::port_opened, now)) return;
   listener_.line_opened(now);
   framer_.clear();
-  owed_ = {};
+  outstanding_ = {};
   maybe_in_two_ = false;
   after_refused_stop_.reset();
   pace_.connected();
@@ -51,7 +51,7 @@ void Line::link_up(TimePoint now) {
 
 void Line::link_down(TimePoint now, std::string_view why) {
   if (state_.port_open()) {
-    give_up(std::string(why), now);
+    disconnect(std::string(why), now);
     return;
   }
   change(LinkEvent::lost, now);
@@ -60,7 +60,7 @@ void Line::link_down(TimePoint now, std::string_view why) {
   backoff_ = std::min(backoff_ * 2, kReopenBackoffMax);
 }
 
-void Line::give_up(const std::string& why, TimePoint now) {
+void Line::disconnect(const std::string& why, TimePoint now) {
   change(LinkEvent::lost, now);
   barrier_.reset();
   reservations_.clear();
@@ -90,7 +90,7 @@ void Line::open(AxisSet controllable, TimePoint now) {
   pump(now);
 }
 
-void Line::still_the_same(TimePoint now) {
+void Line::confirm_no_restart(TimePoint now) {
   now_ = now;
   if (!change(LinkEvent::same_controller, now)) return;
   listener_.same_controller(now);
@@ -154,10 +154,10 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
 void Line::withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem) {
   queue_.drain([&](const WaitingPtr& waiting) { return chosen(waiting->request); },
                [&](const WaitingPtr& waiting) {
-                 Problem told = problem;
-                 told.sent = waiting->request.command.line;
+                 Problem reported = problem;
+                 reported.sent = waiting->request.command.line;
                  for (auto& answer : waiting->answers) {
-                   answer.deliver({.written = false, .problem = told});
+                   answer.deliver({.written = false, .problem = reported});
                  }
                });
 }
@@ -192,10 +192,12 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
             .sent = line};
   }
   if (!conflicts(request).empty()) {
-    return {.reason = Reason::completion_outstanding,
-            .message = "an axis number may still come over the line, and could not be told from this command's answer",
-            .hint = "ask again once the motion has ended",
-            .sent = line};
+    return {
+        .reason = Reason::completion_outstanding,
+        .message =
+            "an axis number may still come over the line, and could not be distinguished from this command's answer",
+        .hint = "ask again once the motion has ended",
+        .sent = line};
   }
   if (!reservations_.empty() && request.lane > Lane::path_refill) {
     return {.reason = Reason::deadline_passed,
@@ -212,9 +214,9 @@ Problem Line::why_expired(const ExchangeRequest& request) const {
 void Line::advance(TimePoint now) {
   now_ = now;
   if (barrier_) {
-    const int owed_before = owed();
+    const int outstanding_before = outstanding();
     barrier_->advance(now);
-    if (owed() > owed_before) listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::probe}, now);
+    if (outstanding() > outstanding_before) listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::probe}, now);
     barrier_moved(now);
   } else if (in_flight_ && now >= in_flight_->limit) {
     listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::reply}, now);
@@ -266,7 +268,7 @@ Barrier::Limits Line::connect_limits() {
 }
 
 std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt, Barrier::Limits limits) {
-  return std::make_unique<Barrier>(std::move(line_in_doubt), limits, owed_,
+  return std::make_unique<Barrier>(std::move(line_in_doubt), limits, outstanding_,
                                    [this](std::string_view line) { write_line(line); });
 }
 

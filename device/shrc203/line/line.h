@@ -65,9 +65,9 @@ class LineListener {
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
   virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
-  // Nothing but a stop and what belongs to the handshake is sent before still_the_same() or give_up().
+  // Nothing but a stop and what belongs to the handshake is sent before confirm_no_restart() or disconnect().
   virtual void restart_suspected(TimePoint now) = 0;
-  virtual void same_controller(TimePoint now) = 0;  // still_the_same() was called
+  virtual void same_controller(TimePoint now) = 0;  // confirm_no_restart() was called
   // `doubtful`: not expected now, or seen in a barrier.
   virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
   virtual void line_event(const Event& event, TimePoint now) = 0;
@@ -98,9 +98,9 @@ class Line {
   // The motion whose start is on the wire; 0 for none.
   MotionId starting() const;
 
-  void open(AxisSet controllable, TimePoint now);       // the handshake has passed
-  void give_up(const std::string& why, TimePoint now);  // close, and open again after the backoff
-  void still_the_same(TimePoint now);                   // the suspected restart was none
+  void open(AxisSet controllable, TimePoint now);          // the handshake has passed
+  void disconnect(const std::string& why, TimePoint now);  // close, and open again after the backoff
+  void confirm_no_restart(TimePoint now);                  // the suspected restart was none
   bool restart_only_possible() const { return continuity_.only_late(); }
 
   // A reading told these axes to stand, or to move.
@@ -118,7 +118,7 @@ class Line {
   const Completions& completions() const { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
   // Answers to abandoned probes that may still come.
-  int owed() const { return owed_.echoes + owed_.identities; }
+  int outstanding() const { return outstanding_.echoes + outstanding_.identities; }
 
  private:
   struct Waiting {
@@ -172,7 +172,7 @@ class Line {
   void enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why, TimePoint now);
   void barrier_moved(TimePoint now);
   void in_barrier(std::string_view text, TimePoint now);
-  void hear_echo(std::string_view line_before, TimePoint now);
+  void on_last_command(std::string_view line_before, TimePoint now);
   void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
   void learned(LineLearned::What what, AxisSet axes = {});
@@ -203,7 +203,7 @@ class Line {
   std::unique_ptr<Barrier> barrier_;
   std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
   WaitingPtr doubted_waiting_;
-  OwedAnswers owed_;
+  OutstandingAnswers outstanding_;
   std::optional<Problem> sealed_;
 };
 

@@ -62,21 +62,21 @@ void Line::receive(std::string_view bytes, TimePoint now) {
 
 void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   const bool overlong = line.overlong && guarded(Guard::overlong_lines);
-  if (const auto told = program_notice(line.text); told && guarded(Guard::notices_told_apart)) {
-    return listener_.line_event(ProgramNotice{*told}, now);
+  if (const auto reported = program_notice(line.text); reported && guarded(Guard::notices_distinguished)) {
+    return listener_.line_event(ProgramNotice{*reported}, now);
   }
   if (!overlong && on_axis_number(line.text, now)) return;
   if (barrier_) return in_barrier(line.text, now);
   if (!in_flight_) {
-    if (!pay_owed(owed_, line.text)) unexpected(line.text, now);
+    if (!settle_outstanding(outstanding_, line.text)) unexpected(line.text, now);
     return;
   }
   if (!in_flight_->numbers.empty()) return on_line_while_closing(line.text, now);
   const auto& row = *in_flight_->waiting->request.command.row;
   const bool refusal = line.text == "NG" || line.text == "NG_I";
-  if (owed_.identities > 0 && refusal && guarded(Guard::owed_refusals)) {
+  if (outstanding_.identities > 0 && refusal && guarded(Guard::outstanding_refusals)) {
     // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
-    --owed_.identities;
+    --outstanding_.identities;
     doubt_answer(line.text, now);
     return;
   }
@@ -85,37 +85,38 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   const bool maybe_older = is_stop && maybe_in_two_ && !after_refused_stop_;
   if (refusal && maybe_older && guarded(Guard::refusals_before_stops)) return doubt_answer(line.text, now);
   const bool line_before = in_flight_->echo_first || row.meaning == Meaning::line_before;
-  const bool told = !overlong && (continuity_.tells(line.text) || !guarded(Guard::possible_lines_before));
-  if (line_before && !told) return doubt_answer(line.text, now);
-  if (std::exchange(in_flight_->echo_first, false)) return hear_echo(line.text, now);
+  const bool possible = !overlong && (continuity_.could_be(line.text) || !guarded(Guard::possible_lines_before));
+  if (line_before && !possible) return doubt_answer(line.text, now);
+  if (std::exchange(in_flight_->echo_first, false)) return on_last_command(line.text, now);
   auto reply = overlong ? std::nullopt : parse_reply(row, line.text, controllable_.count());
   if (reply) {
     on_reply(std::move(*reply), now);
     return;
   }
-  if (pay_owed(owed_, line.text)) return;
+  if (settle_outstanding(outstanding_, line.text)) return;
   doubt_answer(line.text, now);
 }
 
 void Line::in_barrier(std::string_view text, TimePoint now) {
   const bool echoed = barrier_->echo().has_value(), identified = barrier_->identity().has_value();
   if (!barrier_->on_line(text, now)) unexpected(text, now);
-  if (!echoed && barrier_->echo()) hear_echo(*barrier_->echo(), now);
+  if (!echoed && barrier_->echo()) on_last_command(*barrier_->echo(), now);
   if (!barrier_) return;  // given up
   if (!identified && barrier_->identity()) continuity_.answered(true, now);
   barrier_moved(now);
 }
 
 // Who else writes may have set anything, and moved the frame: as after a restart, nothing is known any more.
-void Line::hear_echo(std::string_view line_before, TimePoint now) {
-  const auto verdict = continuity_.told(line_before, now);
+void Line::on_last_command(std::string_view line_before, TimePoint now) {
+  const auto verdict = continuity_.compare(line_before, now);
   // Part of the ?:CMD may have been a question of its own.
   maybe_in_two_ = verdict != Continuity::Verdict::same;
   if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
-    give_up(fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
-                        "line is disturbed",
-                        escaped(line_before)),
-            now);
+    disconnect(
+        fmt::format("the controller was last sent \"{}\", and not from here: another program uses the line, or the "
+                    "line is disturbed",
+                    escaped(line_before)),
+        now);
   }
 }
 
@@ -197,7 +198,7 @@ void Line::close(TimePoint now) {
 void Line::on_reply(Reply reply, TimePoint now) {
   const auto& request = in_flight_->waiting->request;
   const bool line_before = request.command.row->meaning == Meaning::line_before;
-  const std::string told = line_before ? reply.text : "";
+  const std::string reported = line_before ? reply.text : "";
   if (!line_before) continuity_.answered(reply.kind != Reply::Kind::ng && reply.kind != Reply::Kind::ng_i, now);
   const auto outcome = outcome_of(reply.kind);
   if (reply.kind == Reply::Kind::ng_i) {
@@ -220,7 +221,7 @@ void Line::on_reply(Reply reply, TimePoint now) {
   }
   if (reply.kind == Reply::Kind::ok_d) completions_.chained(request.command.axes(controllable_), now);
   finish({.written = true, .reply = std::move(reply)}, outcome, now);
-  if (line_before) hear_echo(told, now);
+  if (line_before) on_last_command(reported, now);
 }
 
 ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,
@@ -259,9 +260,9 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
   std::string last_line(in_flight_->numbers.empty() ? doubted_waiting_->request.command.line
                                                     : commands::text(kClosing));
   doubted_ = std::move(doubted);
-  const InFlight given_up = std::move(*in_flight_);
+  const InFlight abandoned = std::move(*in_flight_);
   in_flight_.reset();
-  listener_.line_event(ended(given_up, *doubted_, outcome, now), now);
+  listener_.line_event(ended(abandoned, *doubted_, outcome, now), now);
   change(LinkEvent::answer_doubted, now);
   listener_.barrier_entered(why, now);
   barrier_ = make_barrier(std::move(last_line), barrier_limits());
@@ -272,19 +273,19 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
 void Line::barrier_moved(TimePoint now) {
   if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
   if (barrier_->state() == Barrier::State::failed) {
-    give_up("no answer to three probes", now);
+    disconnect("no answer to three probes", now);
     return;
   }
   const Identity identity = *barrier_->identity();
-  const std::optional<bool> barrier_told = barrier_->received();
+  const std::optional<bool> barrier_reported = barrier_->received();
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
-  owed_.echoes = 0;
+  outstanding_.echoes = 0;
   maybe_in_two_ = false;
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
   const bool connecting = state_.phase() == LinkPhase::identifying;
   if (doubted_waiting_) {
-    if (const auto received = barrier_told) {
+    if (const auto received = barrier_reported) {
       doubted_->problem->message +=
           *received ? "; the controller had received it" : "; the controller had not taken it";
     }
@@ -303,14 +304,14 @@ void Line::barrier_moved(TimePoint now) {
 
 void Line::ready(AxisSet axes, TimePoint now) {
   now_ = now;
-  const AxisSet news = completions_.ready(axes, now);
-  if (!news.empty()) learned(LineLearned::What::ready, news);
+  const AxisSet changed = completions_.ready(axes, now);
+  if (!changed.empty()) learned(LineLearned::What::ready, changed);
 }
 
 void Line::busy(AxisSet axes, TimePoint now) {
   now_ = now;
-  const AxisSet news = completions_.busy(axes);
-  if (!news.empty()) learned(LineLearned::What::busy, news);
+  const AxisSet changed = completions_.busy(axes);
+  if (!changed.empty()) learned(LineLearned::What::busy, changed);
 }
 
 void Line::learned(LineLearned::What what, AxisSet axes) { listener_.line_event(LineLearned{what, axes}, now_); }

@@ -161,7 +161,7 @@ bool Line::write_waiting_stops() {
                                        .message =
                                            "the stop was written while the line was being resynchronised; its answer "
                                            "cannot be believed",
-                                       .hint = "look at the positions",
+                                       .hint = "check the positions",
                                        .sent = waiting->request.command.line};
                  for (auto& answer : waiting->answers) answer.deliver({.written = true, .problem = problem});
                });

@@ -14,7 +14,7 @@ Result<std::int64_t> way_of_approach(const AxisMove& move, const Envelope& envel
   if (way && *way == 0) {
     return fail_on(move.axis, Reason::invalid_request,
                    envelope.label(move.axis) + ": an approach of 0 comes from no side",
-                   "give the way by which the axis comes to its target, such as 50um or -50um");
+                   "give the displacement of the approach to the target, such as 50um or -50um");
   }
   return way;
 }
@@ -53,8 +53,7 @@ Result<PathPlan> Approaches::plan(const MoveRequest& request) const {
     const auto way = way_of_approach(*asked, limits);
     if (!way) return tl::unexpected(way.error());
     if (!one.target || !from[static_cast<std::size_t>(one.axis - 1)]) {
-      return fail_on(one.axis, Reason::position_unknown, "where " + limits.label(one.axis) + " stands is not known",
-                     "wait until the device is up");
+      return limits.position_unknown(one.axis);
     }
     one.amount = *one.target;
     const std::int64_t before = *one.target - *way;
@@ -68,7 +67,7 @@ Result<PathPlan> Approaches::plan(const MoveRequest& request) const {
   path.segments = {segment_to(first, from), segment_to(*std::move(last), from)};
   if (path.segments[0].end == path.begin) path.segments.erase(path.segments.begin());  // it stands there already
   time_moves(path, store_.speeds(path.axes));
-  path.segments.back().from_rest = path.axes.count() > 1 || !check_feeding(path, pace_);
+  path.segments.back().from_rest = path.axes.count() > 1 || !check_refill_feasibility(path, pace_);
   return path;
 }
 

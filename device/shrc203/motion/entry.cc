@@ -64,8 +64,8 @@ Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
     if ((busy == 0 || !guarded(Guard::axes_stand_first)) && !late_numbers()) break;
     if (tasks_.now() >= live->context.not_after) {
       const int late = busy != 0 ? busy : axes.list().front();
-      co_return fail_on(late, Reason::axis_busy, fmt::format("axis {} did not come to rest in the time allowed", late),
-                        "wait until it stands, or stop it: axisctl stop");
+      co_return fail_on(late, Reason::axis_busy, fmt::format("axis {} did not stop in the time allowed", late),
+                        "wait until it is stationary, or stop it: axisctl stop");
     }
     auto pause = tasks_.pause(kReadyPoll);
     co_await pause;
@@ -89,14 +89,14 @@ Task<Result<void>> Entry::clear_stale_setpoints(LiveMotionPtr live, Register reg
   const auto read = co_await reader_.read_registers(live->context.who);
   if (!read) co_return read;
   const AxisSet deletable = registers_.clearable() | registers_.set_in(Register::j);
-  if (guarded(Guard::left_overs_deleted) && !deletable.empty()) {
+  if (guarded(Guard::stale_setpoints_deleted) && !deletable.empty()) {
     const auto deleted = co_await delete_setpoints(live, deletable);
     if (!deleted) co_return deleted;
   }
   const AxisSet lasting = lasting_setpoints(*live, reg);
   const bool whole = store_.profile().prebuffer_scope == Scope::controller;
   const bool concerns = whole ? !lasting.empty() : lasting.touches(live->motion.axes);
-  if (concerns && guarded(Guard::left_overs_refused)) co_return tl::unexpected(left_over(lasting));
+  if (concerns && guarded(Guard::stale_setpoints_refused)) co_return tl::unexpected(stale_setpoint(lasting));
   co_return Result<void>();
 }
 
@@ -110,7 +110,7 @@ Task<Result<void>> Entry::delete_setpoints(LiveMotionPtr live, AxisSet axes) {
   auto pending = dialogue_.exchange(std::move(request));
   const auto cleared = co_await pending;
   if (!cleared.accepted()) {
-    co_return fail(Reason::left_over_setting,
+    co_return fail(Reason::stale_setpoint,
                    "a motion that somebody set and never started is still in the controller, and GC: did not "
                    "delete it",
                    "see that all motors are excited and nothing moves, then try again");

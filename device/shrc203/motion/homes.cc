@@ -37,10 +37,10 @@ Result<void> Homes::check_alone(MotionKind kind, AxisSet axes) const {
   for (const auto& [id, live] : motions_.live()) {
     const bool same = live->motion.kind == kind && live->motion.axes.touches(axes);
     if (!same || !guarded(Guard::one_home_an_axis)) continue;
-    return fail(Reason::axis_busy,
-                fmt::format("{}: motion {} of {} is already under way there", to_string(live->motion.axes), id,
-                            live->motion.who),
-                "wait for its outcome");
+    return fail(
+        Reason::axis_busy,
+        fmt::format("{}: motion {} of {} is already running there", to_string(live->motion.axes), id, live->motion.who),
+        "wait for its outcome");
   }
   return {};
 }
@@ -48,7 +48,7 @@ Result<void> Homes::check_alone(MotionKind kind, AxisSet axes) const {
 void Homes::home(MotionKind kind, HomeRequest request, StageController::OnStarted started) {
   const AxisSet axes = request.axes.empty() ? store_.controllable() : request.axes;
   auto good = check(kind, axes, request.context);
-  if (good) good = rights_.may_use(request.context, axes);
+  if (good) good = rights_.authorize(request.context, axes);
   if (good) good = check_alone(kind, axes);
   if (!good) return started(tl::unexpected(good.error()));
   tasks_.spawn(run(motions_.create(kind, axes, request.context, std::move(started))));
@@ -72,7 +72,7 @@ Task<void> Homes::run(LiveMotionPtr live) {
     const Command command = mechanical ? commands::home(axes) : commands::return_to_origin(axes);
     co_await start_and_watch(live, command);
   } else {
-    motions_.give_up(*live, ready.error());
+    motions_.disconnect(*live, ready.error());
   }
   co_await restorer_.restore_after(live);
 }

@@ -31,8 +31,8 @@ Task<void> JogWatchdog::run(LiveMotionPtr live) {
     const bool runs = live->motion.state == MotionState::running && jog.phase == JogPhase::running;
     // Beside this task: an answer that does not come must not keep a stop waiting.
     if (runs && jog.speeds != jog.sent) tasks_.spawn(change_speeds(live));
-    auto news = jog.news.wait_until(next_look(*live));
-    co_await news;
+    auto changed = jog.changed.wait_until(next_look(*live));
+    co_await changed;
   }
 }
 
@@ -54,7 +54,7 @@ std::optional<Problem> JogWatchdog::must_end(const LiveMotion& live) {
   // Under a lease that lets motion finish it would never end: the lease itself is asked for.
   const Use use{live.context.who, live.context.lease, live.uses, 0};
   if (live.context.lease != 0 && guarded(Guard::jog_ends_with_its_right)) {
-    if (const auto allowed = rights_.still_may_use(use); !allowed) return allowed.error();
+    if (const auto allowed = rights_.still_authorized(use); !allowed) return allowed.error();
   }
   return near_bound(live);
 }
@@ -70,7 +70,7 @@ std::optional<Problem> JogWatchdog::near_bound(const LiveMotion& live) const {
     return Problem{.reason = Reason::outside_travel,
                    .message = fmt::format("{} came near its travel limit of {}", limits.label(axis),
                                           bound ? limits.as_text(axis, *bound) : ""),
-                   .hint = "move it the rest of the way, or jog it back",
+                   .hint = "move it the remaining displacement, or jog it back",
                    .axis = axis};
   }
   return {};
@@ -102,7 +102,7 @@ Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
     speed = bounds.speed_that_fits(axis);
     jog.fastest[axis] = std::max(jog.fastest[axis], speed);
   }
-  jog.news.notify();  // the bound is nearer now
+  jog.changed.notify();  // the bound is nearer now
   for (int attempt = 0; attempt < kJogSpeedTries && !live->life.stop_asked() && !jog.must_end(); ++attempt) {
     auto request = dialogue_.request_of(*live, commands::set_jog_speeds(wanted), Lane::motion);
     request.not_after = tasks_.now() + kJogSpeedWriteLimit;
@@ -116,7 +116,7 @@ Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
   // Also where it was refused: what the caller asks for next is tried anew.
   jog.sent = asked;
   motions_.jog_changed(*live, JogEvent::speed_answered);
-  jog.news.notify();
+  jog.changed.notify();
 }
 
 }  // namespace axisgate::shrc203

@@ -61,7 +61,7 @@ Command jog_setter(const Jog& jog, AxisSet axes) {
 MotionId Jogs::jog(JogRequest request, StageController::OnStarted started) {
   const auto speeds = check_jog(request.axes, store_.envelope(request.context));
   const AxisSet axes = axes_of(request.axes);
-  auto good = speeds ? rights_.may_use(request.context, axes) : tl::unexpected(speeds.error());
+  auto good = speeds ? rights_.authorize(request.context, axes) : tl::unexpected(speeds.error());
   if (!good) {
     started(tl::unexpected(good.error()));
     return 0;
@@ -93,7 +93,7 @@ Result<void> Jogs::renew(MotionId id, const JogAxes& speeds) {
     live->jog->speeds[axis] = *asked;
   }
   live->jog->renewed = tasks_.now();
-  live->jog->news.notify();
+  live->jog->changed.notify();
   return {};
 }
 
@@ -134,7 +134,7 @@ Task<void> Jogs::run(LiveMotionPtr live, JogRequest request) {
   }
   live->speeds_before = store_.speeds(live->motion.axes);  // JD: and D: change them
   co_await start(live, *std::move(slower));
-  live->jog->news.notify();
+  live->jog->changed.notify();
   if (store_.state().link != LinkState::down) {
     // JD: has overwritten F, or not (manual 93), note): it is not known before it was read.
     store_.forget_speeds(live->motion.axes);
@@ -149,7 +149,7 @@ Task<void> Jogs::start(LiveMotionPtr live, MovePlan slower) {
   if (!slower.axes.empty()) {
     const auto lowered = co_await speeds_.set(live, slower);
     if (!lowered) {
-      motions_.give_up(*live, lowered.error());
+      motions_.disconnect(*live, lowered.error());
       co_return;
     }
     store_.note_speeds(speeds_of(slower));
@@ -157,23 +157,23 @@ Task<void> Jogs::start(LiveMotionPtr live, MovePlan slower) {
   const Command setter = jog_setter(*live->jog, live->motion.axes);
   const auto set = co_await starter_.set_and_confirm(live, setter, Lane::motion);
   if (!set) {
-    motions_.give_up(*live, set.error());
+    motions_.disconnect(*live, set.error());
     co_return;
   }
   live->jog->begun = tasks_.now();
   motions_.jog_changed(*live, JogEvent::begun);
   const auto gone = co_await starter_.go(live, {});
   if (!gone) {
-    motions_.give_up(*live, gone.error());
+    motions_.disconnect(*live, gone.error());
     // The refusal may be another line's: what ran all the same would never end.
     stops_.stop(live->motion.axes, {.who = "the gateway: a jog that was refused"});
     co_return;
   }
   if (*gone == Start::in_doubt && co_await starter_.start_never_came(live, setter)) {
-    motions_.give_up(*live, Starter::never_came(*live));
+    motions_.disconnect(*live, Starter::never_came(*live));
     co_return;
   }
-  live->jog->news.notify();
+  live->jog->changed.notify();
   co_await watch_.run(live, *gone);
 }
 

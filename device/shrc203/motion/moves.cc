@@ -47,7 +47,7 @@ Result<MovePlan> Moves::check(const MoveRequest& request) const {
 void Moves::move(MoveRequest request, StageController::OnStarted started) {
   const auto plan = check(request);
   if (!plan) return started(tl::unexpected(plan.error()));
-  if (const auto allowed = rights_.may_use(request.context, plan->set()); !allowed) {
+  if (const auto allowed = rights_.authorize(request.context, plan->set()); !allowed) {
     return started(tl::unexpected(allowed.error()));
   }
   auto live = motions_.create(MotionKind::move, plan->set(), request.context, std::move(started));
@@ -63,16 +63,14 @@ bool Moves::by_prebuffer(const LiveMotion& live) const {
 
 // As the axes are at its turn; the targets are the motion's.
 Result<MovePlan> Moves::plan(LiveMotion& live, const MoveRequest& request) const {
-  auto plan = plan_move(request.moves, request.relative, store_.positions(), store_.envelope(request.context));
+  const Envelope limits = store_.envelope(request.context);
+  auto plan = plan_move(request.moves, request.relative, store_.positions(), limits);
   if (!plan) return plan;
   for (std::size_t i = 0; i < plan->axes.size(); ++i) {
     const AxisPlan& one = plan->axes[i];
     live.motion.results[i].target_pulses = one.target;
     if (one.target) continue;
-    return tl::unexpected(Problem{.reason = Reason::position_unknown,
-                                  .message = fmt::format("where axis {} stands is not known", one.axis),
-                                  .hint = "wait until the device is up",
-                                  .axis = one.axis});
+    return limits.position_unknown(one.axis);
   }
   return plan;
 }
@@ -107,17 +105,17 @@ Task<void> Moves::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuf
   const auto setter = by_prebuffer ? prebuffer_setter(plan, store_.state()) : execution_setter(plan);
   const auto set = co_await starter_.set_and_confirm(live, setter, Lane::motion);
   if (!set) {
-    motions_.give_up(*live, set.error());
+    motions_.disconnect(*live, set.error());
     co_return;
   }
   store_.note_speeds(speeds_of(plan));
   const auto start = co_await starter_.go(live, by_prebuffer ? live->motion.axes : AxisSet());
   if (!start) {
-    motions_.give_up(*live, start.error());
+    motions_.disconnect(*live, start.error());
     co_return;
   }
   if (*start == Start::in_doubt && co_await starter_.start_never_came(live, setter)) {
-    motions_.give_up(*live, Starter::never_came(*live));
+    motions_.disconnect(*live, Starter::never_came(*live));
     co_return;
   }
   co_await watch_.run(live, *start);

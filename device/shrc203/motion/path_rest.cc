@@ -12,16 +12,16 @@ namespace axisgate::shrc203 {
 
 Task<void> PathRun::start_from_rest(int number) {
   release_line();
-  const bool resting = co_await come_to_rest();
+  const bool resting = co_await become_stationary();
   if (!resting) co_return;
-  change(SegmentEvent::came_to_rest);
+  change(SegmentEvent::became_stationary);
   tell(PathProgress::Step::done, running_);
   const bool good = co_await wait_before(number);
   if (good) co_await start(number);
 }
 
 // The segment that runs has ended, and its axis numbers are in: they must not be taken for the next one's.
-Task<bool> PathRun::come_to_rest() {
+Task<bool> PathRun::become_stationary() {
   const bool due = co_await parts_.standstill.wait_until(live_, segment_began_ + segment(running_).shortest);
   if (!due) co_return false;
   for (;;) {
@@ -38,8 +38,8 @@ Task<bool> PathRun::come_to_rest() {
     if (numbers_in && parts_.tasks.now() >= visible_at) {
       end(MotionState::failed,
           Problem{.reason = Reason::target_not_reached,
-                  .message = fmt::format("the axes stand, but not at the end of segment {}", running_),
-                  .hint = "look at the positions and the controller's front panel"});
+                  .message = fmt::format("the axes are stationary, but not at the end of segment {}", running_),
+                  .hint = "check the positions and the controller's front panel"});
       co_return false;
     }
   }
@@ -71,10 +71,9 @@ Task<void> PathRun::resume_from_ready() {
   }
   const auto done = last_run();
   if (!done) {
-    end(MotionState::unknown,
-        Problem{.reason = Reason::outcome_unknown,
-                .message = "the path came to rest at a place that does not tell which segments ran",
-                .hint = "look at the positions before moving on"});
+    end(MotionState::unknown, Problem{.reason = Reason::outcome_unknown,
+                                      .message = "the path stopped at a position that does not show which segments ran",
+                                      .hint = "check the positions before the next motion"});
     co_return;
   }
   for (int number = std::max(1, live_->motion.segments_done + 1); number <= *done; ++number) {

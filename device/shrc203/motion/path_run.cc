@@ -94,7 +94,7 @@ Task<bool> PathRun::start(int number) {
   change(SegmentEvent::set_asked);
   const auto set = co_await parts_.starter.set_and_confirm(live_, setter(number), Lane::path_refill);
   if (!set) {
-    parts_.motions.give_up(*live_, set.error());
+    parts_.motions.disconnect(*live_, set.error());
     co_return false;
   }
   parts_.store.note_speeds(speeds_of(segment(number).move));
@@ -102,7 +102,7 @@ Task<bool> PathRun::start(int number) {
   if (chains(number + 1)) keep_line_free(parts_.tasks.now());  // the next segment is set as soon as this one runs
   const auto gone = co_await parts_.starter.go(live_, plan_.axes);
   if (!gone) {
-    parts_.motions.give_up(*live_, gone.error());
+    parts_.motions.disconnect(*live_, gone.error());
     co_return false;
   }
   running_ = number;
@@ -130,7 +130,7 @@ Task<void> PathRun::refill(int number) {
   if (result.accepted()) {
     parts_.store.note_speeds(speeds_of(segment(number).move));
     tell(PathProgress::Step::sent, number, result.reply->text);
-    if (result.reply->kind == Reply::Kind::ok_d || !guarded(Guard::underruns_told)) {
+    if (result.reply->kind == Reply::Kind::ok_d || !guarded(Guard::underruns_reported)) {
       change(SegmentEvent::refill_accepted);
       co_return;
     }
@@ -143,7 +143,7 @@ Task<void> PathRun::refill(int number) {
 Task<void> PathRun::refill_refused(int number) {
   const auto why = co_await parts_.explainer.explain(setter(number), plan_.axes, live_->context.who);
   const bool standing = co_await parts_.standstill.wait(live_);
-  if (standing) parts_.motions.give_up(*live_, why);
+  if (standing) parts_.motions.disconnect(*live_, why);
 }
 
 // The number that ends a segment is believed when it comes neither too soon nor out of a barrier, and none is missing.
@@ -167,8 +167,8 @@ Task<bool> PathRun::wait_for_segment_end() {
   const TimePoint lost_at = ask_at + kSegmentEndLimit;
   while (!interrupted()) {
     while (live_->completions.empty() && parts_.tasks.now() < ask_at && !interrupted()) {
-      auto news = live_->news.wait_until(ask_at);
-      co_await news;
+      auto changed = live_->changed.wait_until(ask_at);
+      co_await changed;
     }
     if (live_->completions.empty()) {
       ++missed_;
@@ -184,7 +184,7 @@ Task<bool> PathRun::wait_for_segment_end() {
     if (parts_.tasks.now() >= lost_at) {
       end(MotionState::unknown, Problem{.reason = Reason::outcome_unknown,
                                         .message = fmt::format("segment {} did not end in the time it needs", running_),
-                                        .hint = "look at the positions, and stop the axes"});
+                                        .hint = "check the positions, and stop the axes"});
       co_return false;
     }
     if (parts_.tasks.now() >= ask_at) {

@@ -82,7 +82,7 @@ class PathRun {
   bool completion_counts(const LiveMotion::Completion& completion);
   bool is_believed(const LiveMotion::Completion& completion);
   Task<void> start_from_rest(int number);
-  Task<bool> come_to_rest();
+  Task<bool> become_stationary();
   Task<void> resume_from_ready();
   std::optional<int> last_run() const;
   Task<void> watch_end();

@@ -27,7 +27,7 @@ Task<void> PathFollower::follow(LiveMotionPtr live, PathPlan plan) {
 Result<void> may_wait_for_inputs(const Profile& profile, std::string_view what) {
   if (profile.wait_for_inputs || !guarded(Guard::inputs_start_nothing)) return {};
   return fail(Reason::not_allowed,
-              fmt::format("{} lets an input pin start a motion, whoever may stand beside the stage", what),
+              fmt::format("{} lets an input pin start a motion, even while somebody's hands are at the stage", what),
               "an administrator may allow it for this device: wait_for_inputs = true");
 }
 
@@ -41,7 +41,7 @@ Result<PathPlan> Paths::plan(const PathRequest& request) const {
   }
   auto plan = plan_path(request, store_.positions(), store_.envelope(request.context));
   if (!plan || !store_.speeds_known(AxisSet::of(plan->axes.lowest()))) return plan;
-  const auto feasible = check_feeding(*plan, pace_);
+  const auto feasible = check_refill_feasibility(*plan, pace_);
   if (!feasible) return tl::unexpected(feasible.error());
   return plan;
 }
@@ -49,7 +49,7 @@ Result<PathPlan> Paths::plan(const PathRequest& request) const {
 void Paths::run(PathRequest request, StageController::OnStarted started) {
   const auto planned = plan(request);
   if (!planned) return started(tl::unexpected(planned.error()));
-  if (const auto allowed = rights_.may_use(request.context, planned->axes); !allowed) {
+  if (const auto allowed = rights_.authorize(request.context, planned->axes); !allowed) {
     return started(tl::unexpected(allowed.error()));
   }
   auto live = motions_.create(MotionKind::path, planned->axes, request.context, std::move(started));

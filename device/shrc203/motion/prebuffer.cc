@@ -35,7 +35,7 @@ Task<void> Prebuffer::stop_wrong_segment(LiveMotionPtr live, Sent sent) {
       *live, MotionState::failed,
       Problem{.reason = Reason::line_fault,
               .message = fmt::format("segment {} was received wrongly, and all axes were stopped", sent.number),
-              .hint = "check the cable and the line settings, and look at the positions",
+              .hint = "check the cable and the line settings, and check the positions",
               .sent = sent.setter.line});
 }
 

@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "device/shrc203/planning/forecast.h"
+#include "device/shrc203/planning/transaction_prediction.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -20,7 +20,7 @@ Command question_of(const GoToPositionRequest& request) {
 }
 
 std::string label(const GoToPositionRequest& request) {
-  return fmt::format("number {} of its {}", request.number, request.place ? "places (PIT:)" : "coordinates (PAV:)");
+  return fmt::format("number {} of its {}", request.number, request.place ? "positions (PIT:)" : "coordinates (PAV:)");
 }
 
 std::string in_words(const Coordinates& coordinates) {
@@ -30,18 +30,18 @@ std::string in_words(const Coordinates& coordinates) {
 }
 
 // Manual 128), 130): a place is gone after a reset; and a number is anybody's who sends PIT:SET.
-Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& told) {
-  if (!told.empty() && (request.expected.empty() || told == request.expected)) return {};
+Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& reported) {
+  if (!reported.empty() && (request.expected.empty() || reported == request.expected)) return {};
   Problem problem{.reason = Reason::epoch_passed, .sent = question_of(request).line};
-  if (told.empty()) {
+  if (reported.empty()) {
     problem.message = fmt::format("the controller holds nothing under {}", label(request));
     problem.hint = "save the position again";
     problem.wire_reply = "NG";
   } else {
-    problem.message = fmt::format("the controller tells {} of {}, and not {}", in_words(told), label(request),
+    problem.message = fmt::format("the controller reports {} for {}, and not {}", in_words(reported), label(request),
                                   in_words(request.expected));
-    problem.hint = "somebody may have saved another position there, or set coordinates anew: save the position again";
-    problem.wire_reply = in_words(told);
+    problem.hint = "somebody may have saved another position there, or set other coordinates: save the position again";
+    problem.wire_reply = in_words(reported);
   }
   return tl::unexpected(std::move(problem));
 }
@@ -50,8 +50,8 @@ Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& 
 Result<Positions> within(const Envelope& envelope, const State& state, const Coordinates& coordinates) {
   Positions place{};
   for (const auto& [axis, pulses] : coordinates) place[static_cast<std::size_t>(axis - 1)] = pulses;
-  Forecast forecast(envelope, positions_of(state), {}, state.controllable());
-  if (const auto good = forecast.go_to(place); !good) return tl::unexpected(good.error());
+  TransactionPrediction prediction(envelope, positions_of(state), {}, state.controllable());
+  if (const auto good = prediction.go_to(place); !good) return tl::unexpected(good.error());
   return place;
 }
 
@@ -61,10 +61,10 @@ Task<Result<Coordinates>> ask_for_position(Dialogue& dialogue, LiveMotionPtr liv
                                            AxisSet controllable) {
   const auto answer = co_await dialogue.ask_twice(std::move(live), std::move(question));
   if (!answer) co_return tl::unexpected(answer.error());
-  Coordinates told;
-  if (answer->kind != Reply::Kind::data) co_return told;
-  for (const auto& [axis, pulses] : by_axis(*answer, controllable)) told[axis] = *parse_integer(pulses);
-  co_return told;
+  Coordinates reported;
+  if (answer->kind != Reply::Kind::data) co_return reported;
+  for (const auto& [axis, pulses] : by_axis(*answer, controllable)) reported[axis] = *parse_integer(pulses);
+  co_return reported;
 }
 
 Result<void> SavedPositions::check(const GoToPositionRequest& request) const {
@@ -83,7 +83,7 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
   }
   auto good = check(request);
   // Which axes need not move is the controller's business: it is one command for all.
-  if (good) good = rights_.may_use(request.context, AxisSet::all());
+  if (good) good = rights_.authorize(request.context, AxisSet::all());
   if (!good) return started(tl::unexpected(good.error()));
   auto live = motions_.create(MotionKind::move, axes, request.context, std::move(started));
   live->uses = AxisSet::all();
@@ -92,14 +92,14 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
 
 // What the controller holds is what counts, so it is asked at the motion's turn, when nobody else can change it.
 Task<Result<void>> SavedPositions::find(LiveMotionPtr live, GoToPositionRequest request) {
-  const auto told = co_await ask_for_position(dialogue_, live, question_of(request), store_.controllable());
-  if (!told) co_return tl::unexpected(told.error());
-  if (told->empty()) {
+  const auto reported = co_await ask_for_position(dialogue_, live, question_of(request), store_.controllable());
+  if (!reported) co_return tl::unexpected(reported.error());
+  if (reported->empty()) {
     const auto why = co_await explainer_.explain_question(question_of(request), live->context.who);
     if (why) co_return tl::unexpected(*why);
   }
-  if (const auto good = as_expected(request, *told); !good) co_return good;
-  const auto place = within(store_.envelope(live->context), store_.state(), *told);
+  if (const auto good = as_expected(request, *reported); !good) co_return good;
+  const auto place = within(store_.envelope(live->context), store_.state(), *reported);
   if (!place) co_return tl::unexpected(place.error());
   for (auto& result : live->motion.results) {
     result.target_pulses = (*place)[static_cast<std::size_t>(result.axis - 1)];
@@ -117,7 +117,7 @@ Task<void> SavedPositions::run(LiveMotionPtr live, GoToPositionRequest request) 
     const auto start = co_await starter_.start(live, command);
     if (start) co_await watch_.run(live, *start);
   } else {
-    motions_.give_up(*live, ready.error());
+    motions_.disconnect(*live, ready.error());
   }
   co_await restorer_.restore_after(live);
 }

@@ -42,8 +42,8 @@ Task<bool> SegmentHalt::is_still_there(LiveMotionPtr live, Before before) {
   auto problem = error_shown(axes, store_.state());
   if (!problem && !standstill_.is_at(axes, before.place, before.slack)) {
     problem = Problem{.reason = Reason::target_not_reached,
-                      .message = fmt::format("the axes do not stand where segment {} begins any more", before.number),
-                      .hint = "something else has moved them while they rested: look at the positions"};
+                      .message = fmt::format("the axes are no longer at the start of segment {}", before.number),
+                      .hint = "something else has moved them during the dwell: check the positions"};
   }
   if (!problem) co_return true;
   motions_.end(*live, MotionState::failed, *problem);
@@ -58,7 +58,7 @@ void SegmentHalt::show_armed(const LiveMotion& live, bool armed) {
 // Nobody's switch starts it once its owner has lost the right to the axes, whatever becomes of motions that run.
 bool SegmentHalt::has_lost_right(LiveMotion& live) {
   const RequestContext& owner = live.context;
-  const auto allowed = rights_.still_may_use({owner.who, owner.lease, live.uses, 0});
+  const auto allowed = rights_.still_authorized({owner.who, owner.lease, live.uses, 0});
   if (owner.lease == 0 || allowed) return false;
   motions_.end(live, MotionState::stopped, allowed.error());
   return true;
@@ -68,15 +68,15 @@ bool SegmentHalt::has_lost_right(LiveMotion& live) {
 Task<bool> SegmentHalt::wait_for_inputs(LiveMotionPtr live, int pattern) {
   int agreed = 0;
   for (;;) {
-    const auto told = co_await dialogue_.ask(commands::Question::inputs, Lane::motion, live->context.who);
+    const auto reported = co_await dialogue_.ask(commands::Question::inputs, Lane::motion, live->context.who);
     if (live->life.stop_asked() || live->life.line_lost()) co_return false;
     if (has_lost_right(*live)) co_return false;
-    const bool as_wanted = told.reply && !told.problem && parse_integer(told.reply->text) == pattern;
+    const bool as_wanted = reported.reply && !reported.problem && parse_integer(reported.reply->text) == pattern;
     agreed = as_wanted ? agreed + 1 : 0;
-    if (agreed == 2 || (agreed == 1 && !guarded(Guard::inputs_told_twice))) co_return true;
+    if (agreed == 2 || (agreed == 1 && !guarded(Guard::inputs_read_twice))) co_return true;
     const TimePoint again_at = tasks_.now() + (as_wanted ? Duration{} : kInputsPoll);
-    const bool goes_on = co_await standstill_.wait_until(live, again_at);
-    if (!goes_on) co_return false;
+    const bool continues = co_await standstill_.wait_until(live, again_at);
+    if (!continues) co_return false;
   }
 }
 
@@ -97,7 +97,7 @@ Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
     store_.note_trigger({});  // the NG may have been the line's: it is asked for, to be restored
     why = co_await explainer_.explain(setter, AxisSet::all(), live->context.who);
   }
-  motions_.give_up(*live, why);
+  motions_.disconnect(*live, why);
   co_return false;
 }
 

@@ -27,8 +27,8 @@ Task<bool> Standstill::wait(LiveMotionPtr live) {
 
 Task<bool> Standstill::wait_until(LiveMotionPtr live, TimePoint limit) {
   while (tasks_.now() < limit && !live->life.stop_asked() && !live->life.line_lost()) {
-    auto news = live->news.wait_until(limit);
-    co_await news;
+    auto changed = live->changed.wait_until(limit);
+    co_await changed;
   }
   co_return !live->life.stop_asked() && !live->life.line_lost();
 }

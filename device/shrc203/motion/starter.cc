@@ -123,7 +123,7 @@ Task<std::optional<Start>> Starter::start(LiveMotionPtr live, Command command) {
     const auto why = co_await explainer_.explain(command, live->motion.axes, live->context.who);
     motions_.end(*live, MotionState::failed, why);
   } else {
-    motions_.give_up(*live, *result.problem);
+    motions_.disconnect(*live, *result.problem);
   }
   co_return std::nullopt;
 }

@@ -8,9 +8,9 @@
 namespace axisgate::shrc203 {
 
 Task<std::optional<Decimal>> TriggerCount::read_scale_pulse(int axis, std::string caller) {
-  const auto told = co_await dialogue_.ask(Dialogue::Question::scale_resolution, Lane::motion, std::move(caller));
-  if (!is_data(told)) co_return std::nullopt;
-  const auto fields = by_axis(*told.reply, store_.controllable());
+  const auto reported = co_await dialogue_.ask(Dialogue::Question::scale_resolution, Lane::motion, std::move(caller));
+  if (!is_data(reported)) co_return std::nullopt;
+  const auto fields = by_axis(*reported.reply, store_.controllable());
   const auto field = fields.find(axis);
   if (field == fields.end()) co_return std::nullopt;
   const auto resolution = parse_decimal(field->second);
@@ -23,9 +23,9 @@ Task<std::optional<std::int64_t>> TriggerCount::read(LiveMotionPtr live) {
   if (live->scan->trigger.target == Trigger::Target::drive_pulses) {
     co_return store_.state().axis(axis).position_pulses;
   }
-  const auto told = co_await dialogue_.ask(Dialogue::Question::scale_counters, Lane::motion, live->context.who);
-  if (!is_data(told)) co_return std::nullopt;
-  const auto readings = parse_positions(*told.reply, store_.controllable());
+  const auto reported = co_await dialogue_.ask(Dialogue::Question::scale_counters, Lane::motion, live->context.who);
+  if (!is_data(reported)) co_return std::nullopt;
+  const auto readings = parse_positions(*reported.reply, store_.controllable());
   if (!readings) co_return std::nullopt;
   co_return (*readings)[static_cast<std::size_t>(axis - 1)].pulses;
 }

@@ -15,13 +15,13 @@ namespace {
 Problem fell_short_by(const LiveMotion& live, const State& state) {
   auto off = start_refused_by(live.excited, state);
   if (off && off->reason == Reason::not_excited) {
-    off->message = "it came to a stop on the way: " + off->message;
+    off->message = "it stopped before its target: " + off->message;
     return *off;
   }
   return {.reason = Reason::target_not_reached,
-          .message = live.jog ? "the axes stand, although nobody here has stopped them"
-                              : "the axes stand, but not at their targets",
-          .hint = "look at the positions and the controller's front panel"};
+          .message = live.jog ? "the axes are stationary, although nobody here has stopped them"
+                              : "the axes are stationary, but not at their targets",
+          .hint = "check the positions and the controller's front panel"};
 }
 
 bool ended_here(const LiveMotion& live) { return live.life.stop_asked() || (live.jog && live.jog->must_end()); }
@@ -45,10 +45,10 @@ bool Watch::axis_busy(const LiveMotion& live) const {
 }
 
 // Until every axis number has come, or something else happened to the motion, at most until `limit`.
-Task<void> Watch::wait_for_news(LiveMotionPtr live, Seen& seen, TimePoint limit) {
+Task<void> Watch::wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limit) {
   while (tasks_.now() < limit && !live->life.line_lost() && live->wake_ups == seen.wake_ups) {
-    auto news = live->news.wait_until(limit);
-    co_await news;
+    auto changed = live->changed.wait_until(limit);
+    co_await changed;
   }
   seen.wake_ups = live->wake_ups;
 }
@@ -61,12 +61,12 @@ Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
   int failures = 0;
   while (!live->life.has_outcome()) {
     const bool hinted = live->wake_ups != seen.wake_ups;
-    co_await wait_for_news(live, seen, tasks_.now() + pause);
+    co_await wait_for_change(live, seen, tasks_.now() + pause);
     if (live->life.line_lost()) {
       motions_.end(*live, MotionState::unknown,
                    Problem{.reason = Reason::outcome_unknown,
-                           .message = "the line was lost while the motion was under way: " + live->life.line_problem(),
-                           .hint = "look at the positions before moving on"});
+                           .message = "the line was lost during the motion: " + live->life.line_problem(),
+                           .hint = "check the positions before the next motion"});
       break;
     }
     const bool completed = live->completed_by_all();
@@ -152,8 +152,8 @@ void Watch::judge_end(LiveMotion& live, const Seen& seen) {
     motions_.end(
         live, MotionState::unknown,
         Problem{.reason = Reason::outcome_unknown,
-                .message = "the answer to the start was lost, and nothing tells whether the motion ran to its end",
-                .hint = "look at the positions; the motion was not sent again"});
+                .message = "the answer to the start was lost, and nothing shows whether the motion ran to its end",
+                .hint = "check the positions; the motion was not sent again"});
   } else if (live.jog && live.jog->must_end() && !error) {
     judge_jog(live);
   } else if (live.life.stop_asked()) {
@@ -172,7 +172,7 @@ void Watch::judge_jog(LiveMotion& live) {
     motions_.end(live, MotionState::unknown,
                  Problem{.reason = Reason::outcome_unknown,
                          .message = "the controller restarted under the jog",
-                         .hint = "home the axes where their places matter"});
+                         .hint = "home the axes where their positions matter"});
   } else {
     motions_.end(live, jog.why ? MotionState::stopped : MotionState::succeeded, jog.why);
   }

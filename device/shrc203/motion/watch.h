@@ -35,7 +35,7 @@ class Watch {
     std::optional<Positions> ready_at{};  // the last reading was READY there; away from the target two must agree
   };
 
-  Task<void> wait_for_news(LiveMotionPtr live, Seen& seen, TimePoint limit);
+  Task<void> wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limit);
   Task<Result<void>> read_end(LiveMotionPtr live, const Seen& seen);
   void unreadable(LiveMotion& live, const Problem& problem);
   void judge(LiveMotion& live, Seen& seen);

@@ -129,8 +129,7 @@ Result<void> check_axes(const Curve& curve, AxisSet axes, const Positions& from,
     if (good) good = envelope.check_homed(axis);
     if (!good) return good;
     if (from[static_cast<std::size_t>(axis - 1)]) continue;
-    return fail_on(axis, Reason::position_unknown, fmt::format("where {} stands is not known", envelope.label(axis)),
-                   "wait until the device is up");
+    return envelope.position_unknown(axis);
   }
   return check_scales(axes, envelope.state());
 }

@@ -42,7 +42,7 @@ Duration shortest_feasible(const PathPlan& plan, int number, const Pace& pace) {
   return pace.time_of(axis_numbers + setter + kChainedBytes) + pace.usual_turnaround() + kRefillHostDelay;
 }
 
-Result<void> check_feeding(const PathPlan& plan, const Pace& pace) {
+Result<void> check_refill_feasibility(const PathPlan& plan, const Pace& pace) {
   const int count = static_cast<int>(plan.segments.size());
   int too_short = 0;
   Duration longest_needed{};

@@ -16,6 +16,6 @@ Command segment_setter(const PathPlan& plan, int number);
 Duration shortest_feasible(const PathPlan& plan, int number, const Pace& pace);
 
 // too_fast where a segment is shorter. The last one may last as short as it likes.
-Result<void> check_feeding(const PathPlan& plan, const Pace& pace);
+Result<void> check_refill_feasibility(const PathPlan& plan, const Pace& pace);
 
 }  // namespace axisgate::shrc203

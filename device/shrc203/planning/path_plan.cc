@@ -87,9 +87,7 @@ Result<SegmentPlan> PathPlanner::plan_straight(const Segment& segment) const {
   for (auto& one : move->axes) {
     const auto& at = at_[static_cast<std::size_t>(one.axis - 1)];
     if (!at || !one.target) {
-      return fail_on(one.axis, Reason::position_unknown,
-                     fmt::format("where {} stands is not known", envelope_.label(one.axis)),
-                     "wait until the device is up");
+      return envelope_.position_unknown(one.axis);
     }
     for (const std::int64_t beside : {-slack(), slack()}) {
       if (auto good = envelope_.check_target(one.axis, *one.target + beside); !good) {

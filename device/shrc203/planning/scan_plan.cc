@@ -97,7 +97,7 @@ Result<Range> range_of(const ScanRequest& request, const Envelope& envelope) {
   if (!to) return tl::unexpected(to.error());
   if (*from != *to) return Range{*from, *to};
   return fail_on(request.axis, Reason::invalid_request, "the range of the scan begins where it ends",
-                 "give two places that differ");
+                 "give two positions that differ");
 }
 
 }  // namespace

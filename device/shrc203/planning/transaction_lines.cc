@@ -45,16 +45,16 @@ Result<void> check_modes(const std::vector<Command>& commands) {
       return fail(Reason::incomplete_transaction,
                   fmt::format("{} works in {}, and the lines before it lead to {}", row.name, name_of(row.needs.mode),
                               name_of(mode)),
-                  "give the whole way in one: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
+                  "send the whole sequence in one call: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
     }
     if (row.meaning == Meaning::program_pause && command.arguments.first("u") == "1") {
-      return fail(Reason::invalid_request, "P:U1 lets a program go on that nobody here has begun", "run it by P:S");
+      return fail(Reason::invalid_request, "P:U1 continues a program that nobody here has started", "run it by P:S");
     }
     mode = row.enters.value_or(mode);
   }
   if (mode == Mode::host) return {};
   return fail(Reason::incomplete_transaction,
-              fmt::format("the lines leave the controller in {}, where nobody else is answered", name_of(mode)),
+              fmt::format("the lines leave the controller in {}, where it answers nobody else", name_of(mode)),
               "come back in the same lines: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
 }
 
@@ -63,14 +63,14 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
   const auto any = [&](auto of) { return std::ranges::any_of(commands, of); };
   const bool frame = any([](const Command& c) { return c.row->shifts_frame; });
   if (frame && any([](const Command& c) { return c.row->moves() || c.row->effect == Effect::motion_setting; })) {
-    return fail(Reason::invalid_request,
-                "coordinates are set anew in the lines that move, so that where they would lead is not certain",
+    return fail(Reason::invalid_request, "these lines move and also set coordinates: their targets are not certain",
                 "send R:, RC: or PSET: by itself, and the motion after it");
   }
   if (const auto good = check_modes(commands); !good) return good;
   if (commands.size() > 1 && any([](const Command& c) { return destination_question(c).has_value(); })) {
     return fail(Reason::invalid_request,
-                "a motion to a saved position stands alone, since the lines before may change it", "send it by itself");
+                "a motion to a saved position must be the only line: lines before it may change the position",
+                "send it by itself");
   }
   bool set = false;
   for (const Command& command : commands) {
@@ -87,7 +87,7 @@ Result<void> check_transaction(const std::vector<Command>& commands) {
     if (row.effect == Effect::motion_setting || waits.set) set = true;
     const bool is_start = row.meaning == Meaning::go;
     if (row.effect == Effect::stop && commands.size() > 1) {
-      return fail(Reason::invalid_request, "a stop stands alone: it goes before everything else",
+      return fail(Reason::invalid_request, "a stop must be the only line: it goes before everything else",
                   "send it by itself, or use `axisctl stop`");
     }
     if (is_start && !set && guarded(Guard::no_bare_go)) {

@@ -32,7 +32,7 @@ class Replay : LineListener, ByteLink {
   ReplayReport run();
 
  private:
-  struct Deed {
+  struct Operation {
     What what;
     std::string text;
   };
@@ -70,14 +70,14 @@ class Replay : LineListener, ByteLink {
   void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override {
     up_ = suspected_ = false;
-    deeds_.push_back({What::down, why});
+    operations_.push_back({What::down, why});
   }
-  void barrier_entered(const std::string& why, TimePoint) override { deeds_.push_back({What::barrier, why}); }
+  void barrier_entered(const std::string& why, TimePoint) override { operations_.push_back({What::barrier, why}); }
   void barrier_passed(const Identity&, TimePoint) override {}
   void restart_suspected(TimePoint) override { suspected_ = true; }
   void completion_seen(int axis, bool, TimePoint) override {
     line_.completions().arrived(axis);
-    deeds_.push_back({What::completion, std::to_string(axis)});
+    operations_.push_back({What::completion, std::to_string(axis)});
   }
   void line_event(const Event& event, TimePoint) override;
   std::optional<Problem> may_write(const ExchangeRequest&, TimePoint) override { return {}; }
@@ -94,20 +94,20 @@ class Replay : LineListener, ByteLink {
   TimePoint now_{};
   bool up_ = false, suspected_ = false;
   std::uint64_t last_exchange_ = 0;
-  std::deque<Deed> deeds_;         // of the core, not yet compared
-  std::set<std::size_t> asked_;    // moments whose exchange has been asked for
-  std::set<std::size_t> applied_;  // moments that have been fed ahead of others
+  std::deque<Operation> operations_;  // of the core, not yet compared
+  std::set<std::size_t> asked_;       // moments whose exchange has been asked for
+  std::set<std::size_t> applied_;     // moments that have been fed ahead of others
   ReplayReport report_;
 };
 
 void Replay::line_event(const Event& event, TimePoint) {
-  if (const auto* written = std::get_if<BytesWritten>(&event)) deeds_.push_back({What::written, written->bytes});
-  if (const auto* line = std::get_if<UnexpectedLine>(&event)) deeds_.push_back({What::unexpected, line->text});
+  if (const auto* written = std::get_if<BytesWritten>(&event)) operations_.push_back({What::written, written->bytes});
+  if (const auto* line = std::get_if<UnexpectedLine>(&event)) operations_.push_back({What::unexpected, line->text});
   if (const auto* ended = std::get_if<ExchangeEnded>(&event)) {
-    deeds_.push_back({What::ended, std::string(name(ended->outcome))});
+    operations_.push_back({What::ended, std::string(name(ended->outcome))});
   }
   const auto* learned = std::get_if<LineLearned>(&event);
-  if (learned && learned->what == LineLearned::What::barrier_passed) deeds_.push_back({What::barrier_passed, {}});
+  if (learned && learned->what == LineLearned::What::barrier_passed) operations_.push_back({What::barrier_passed, {}});
 }
 
 void Replay::differ(int line, std::string recorded, std::string now) {
@@ -116,14 +116,14 @@ void Replay::differ(int line, std::string recorded, std::string now) {
 }
 
 void Replay::report_unrecorded(int line) {
-  for (const Deed& deed : deeds_) differ(line, "nothing", describe(deed.what, deed.text));
-  deeds_.clear();
+  for (const Operation& operation : operations_) differ(line, "nothing", describe(operation.what, operation.text));
+  operations_.clear();
 }
 
 void Replay::advance() {
   line_.advance(now_);
   const auto due = line_.next_deadline(now_);
-  if (!deeds_.empty() || !due || *due > now_ + kRecordedTimeError) return;
+  if (!operations_.empty() || !due || *due > now_ + kRecordedTimeError) return;
   now_ = std::max(now_, *due);
   line_.advance(now_);
 }
@@ -149,7 +149,7 @@ void Replay::connect_before(TimePoint first) {
   line_.completions().started(header_.may_complete, first - kReplayConnectStep);
   line_.open(*header_.axes, first);
   up_ = true;
-  deeds_.clear();
+  operations_.clear();
 }
 
 ReplayReport Replay::run() {
@@ -213,7 +213,7 @@ void Replay::feed(std::size_t index) {
       return line_.open(moment.axes, now_);
     case What::same_controller:
       suspected_ = false;
-      return line_.still_the_same(now_);
+      return line_.confirm_no_restart(now_);
     case What::ready:
       return line_.ready(moment.axes, now_);
     default:
@@ -226,11 +226,11 @@ void Replay::expect(std::size_t index) {
   if (moment.begins) check_number(moment);
   if (moment.what == What::written) report_.bytes_written += moment.text.size();
   if (moment.what == What::ended) ++report_.exchanges;
-  if (deeds_.empty()) provoke(index);
+  if (operations_.empty()) provoke(index);
   const std::string recorded = describe(moment.what, moment.text);
-  if (deeds_.empty()) return differ(moment.line, recorded, "nothing");
-  const Deed did = std::move(deeds_.front());
-  deeds_.pop_front();
+  if (operations_.empty()) return differ(moment.line, recorded, "nothing");
+  const Operation did = std::move(operations_.front());
+  operations_.pop_front();
   // Why is told in words, which may change.
   const bool in_words = moment.what == What::barrier || moment.what == What::down;
   if (did.what == moment.what && (in_words || did.text == moment.text)) return;
@@ -251,7 +251,7 @@ void Replay::check_number(const Moment& moment) {
 void Replay::provoke(std::size_t index) {
   const Moment& moment = moments_[index];
   advance();
-  if (!deeds_.empty()) return;
+  if (!operations_.empty()) return;
   if (moment.what == What::written) ask_for(index);
   if (moment.what == What::down && !applied_.contains(index)) lose(index);
   if (moment.what == What::ended) {
@@ -283,11 +283,11 @@ void Replay::ask_for(std::size_t index) {
       asked_.erase(cause);
       line_.withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, {});
     }
-    if (!deeds_.empty()) return;
+    if (!operations_.empty()) return;
   }
   ask(index);
-  if (deeds_.empty()) advance();
-  if (!deeds_.empty()) return;
+  if (operations_.empty()) advance();
+  if (!operations_.empty()) return;
   line_.withdraw([](const ExchangeRequest&) { return true; }, {});
 }
 

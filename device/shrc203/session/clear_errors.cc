@@ -21,7 +21,7 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
     done(tl::unexpected(non_host_.problem()));
     co_return;
   }
-  if (const auto allowed = rights_.may_use(context, named); !allowed) {
+  if (const auto allowed = rights_.authorize(context, named); !allowed) {
     done(tl::unexpected(allowed.error()));
     co_return;
   }

@@ -84,8 +84,8 @@ Problem Explainer::values_refused() const {
 
 // Manual 41): 1 it runs, 2 it pauses, 3 it runs one line.
 Task<std::optional<Problem>> Explainer::refusal_by_program(Command command, std::string caller) {
-  const auto told = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, std::move(caller));
-  const auto program = program_status(told);
+  const auto reported = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, std::move(caller));
+  const auto program = program_status(reported);
   if (!program) co_return std::nullopt;
   const auto status = parse_integer(program->status).value_or(0);
   const bool active = status >= 1 && status <= 3;
@@ -106,9 +106,9 @@ Task<std::optional<Problem>> Explainer::refusal_by_program(Command command, std:
 Task<std::optional<Problem>> Explainer::refusal_by_settings(Command command, AxisSet axes, std::string caller) {
   const Meaning meaning = command.row->meaning;
   if (meaning == Meaning::go) {
-    const auto told = co_await reader_.read_registers(caller);
+    const auto reported = co_await reader_.read_registers(caller);
     const AxisSet both = axes & registers_.clearable() & registers_.lasting();
-    if (told && !both.empty()) co_return left_over(both);
+    if (reported && !both.empty()) co_return stale_setpoint(both);
   }
   if (command.row->rescales) {
     auto configured = co_await refusal_by_stage(axes, caller);
@@ -122,9 +122,9 @@ Task<std::optional<Problem>> Explainer::refusal_by_settings(Command command, Axi
 
 Task<std::optional<Problem>> Explainer::refusal_by_stage(AxisSet axes, std::string caller) {
   const auto config = co_await dialogue_.ask(Dialogue::Question::auto_config, Lane::motion, std::move(caller));
-  const auto told =
+  const auto reported =
       config.reply && !config.problem ? by_axis(*config.reply, store_.controllable()) : std::map<int, std::string>();
-  const auto on = [&told](int axis) { return told.contains(axis) && told.at(axis) == "1"; };
+  const auto on = [&reported](int axis) { return reported.contains(axis) && reported.at(axis) == "1"; };
   if (!std::ranges::any_of(axes.list(), on)) co_return std::nullopt;
   co_return Problem{.reason = Reason::device_refused,
                     .message = "the axis is configured by its stage (memory switch AXIS-CONFIG), so S: is invalid",
@@ -157,12 +157,12 @@ Task<std::optional<Problem>> Explainer::wrong_mode(std::string caller) {
                                                                          : "HOST,PROGRAM";
   for (const auto& [question, expected] :
        {std::pair{Dialogue::Question::mode, expected_mode}, {Dialogue::Question::format, "SHOT_FC"}}) {
-    const auto told = co_await dialogue_.ask(question, Lane::question, caller, true);
-    const bool known = told.reply && !told.problem && told.reply->kind == Reply::Kind::data;
-    if (!known || told.reply->text == expected) continue;
+    const auto reported = co_await dialogue_.ask(question, Lane::question, caller, true);
+    const bool known = reported.reply && !reported.problem && reported.reply->kind == Reply::Kind::data;
+    if (!known || reported.reply->text == expected) continue;
     co_return Problem{
         .reason = Reason::wrong_mode,
-        .message = fmt::format("{} tells {}; {} is needed", commands::text(question), told.reply->text, expected),
+        .message = fmt::format("{} reports {}; {} is needed", commands::text(question), reported.reply->text, expected),
         .hint = "put it right at the controller's front panel"};
   }
   co_return std::nullopt;
@@ -182,8 +182,8 @@ Task<bool> Explainer::sleeps(std::string caller) {
   request.caller = std::move(caller);
   request.not_after = tasks_.now() + kSleepQuestionLimit;
   auto pending = dialogue_.exchange(std::move(request));
-  const auto told = co_await pending;
-  co_return told.reply && !told.problem && told.reply->text == "1";
+  const auto reported = co_await pending;
+  co_return reported.reply && !reported.problem && reported.reply->text == "1";
 }
 
 // What is known to stand against a motion, asked anew: somebody may have seen to it at the device.

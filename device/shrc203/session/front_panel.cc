@@ -23,7 +23,7 @@ Task<void> FrontPanel::follow_mode() {
   if (store_.state().mode == "HOST" && store_.state().format == "SHOT_FC") co_return;
   store_.note_wrong_panel();
   const LinkTrouble trouble = store_.trouble();
-  line_.give_up(std::string(store_.state().link_problem), tasks_.now());
+  line_.disconnect(std::string(store_.state().link_problem), tasks_.now());
   store_.note_trouble(trouble);
 }
 

@@ -8,7 +8,7 @@
 #include "device/core/guard.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/session/answers.h"
-#include "device/shrc203/session/excursion.h"
+#include "device/shrc203/session/non_host_visit.h"
 #include "device/stage/own_questions.h"
 
 namespace axisgate::shrc203 {
@@ -21,9 +21,9 @@ bool Handshake::is_expected(const Identity& identity) {
   const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
   if (!guarded(Guard::serial_number) || (identity.model == profile.model && !wrong_serial)) return true;
   const bool as_configured = configured || store_.unit().empty();
-  line_.give_up(fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
-                            profile.model, serial_number, as_configured ? "is configured" : "was here before"),
-                tasks_.now());
+  line_.disconnect(fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
+                               profile.model, serial_number, as_configured ? "is configured" : "was here before"),
+                   tasks_.now());
   return false;
 }
 
@@ -37,7 +37,7 @@ Task<void> Handshake::run(Identity identity, std::uint64_t connection) {
   const bool read = co_await settings_.read(connection);
   if (connection != store_.connection()) co_return;
   if (!read) {
-    line_.give_up("the handshake failed", tasks_.now());
+    line_.disconnect("the handshake failed", tasks_.now());
     co_return;
   }
   if (store_.begin_epoch() > 1) permission_.device_restarted(tasks_.now());
@@ -80,7 +80,7 @@ Task<bool> Handshake::wait_for_host_mode(std::uint64_t connection) {
     auto pause = tasks_.pause(kHandshakeModePoll);
     co_await pause;
   }
-  if (connection == store_.connection()) line_.give_up("the handshake failed: no answer to ?:MODE", tasks_.now());
+  if (connection == store_.connection()) line_.disconnect("the handshake failed: no answer to ?:MODE", tasks_.now());
   co_return false;
 }
 
@@ -106,7 +106,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      runaways_.all_stationary();
+      orphaned_jogs_.all_stationary();
       line_.ready(AxisSet::all(), tasks_.now());
       auto quiet = tasks_.pause(kCompletionAfterReadyMax + kCompletionAfterReadyMargin);
       co_await quiet;
@@ -114,14 +114,15 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     }
     co_await wait_for_others();
   }
-  if (connection == store_.connection()) line_.give_up("the handshake failed: no answer to !:S", tasks_.now());
+  if (connection == store_.connection()) line_.disconnect("the handshake failed: no answer to !:S", tasks_.now());
   co_return false;
 }
 
 Task<void> Handshake::wait_for_others() {
   line_.busy(AxisSet::all(), tasks_.now());
-  runaways_.stop();
-  store_.note_trouble(LinkTrouble::motion, "something moves that the gateway did not start; waiting until it stands");
+  orphaned_jogs_.stop();
+  store_.note_trouble(LinkTrouble::motion,
+                      "something moves that the gateway did not start; waiting until it is stationary");
   const auto read = co_await reader_.read_positions(Lane::question, kGateway, true);
   if (!read) store_.publish();
   auto pause = tasks_.pause(kHandshakeReadyPoll);

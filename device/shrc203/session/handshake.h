@@ -7,8 +7,8 @@
 
 #include "device/core/tasks.h"
 #include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/session/orphaned_jogs.h"
 #include "device/shrc203/session/reader.h"
-#include "device/shrc203/session/runaways.h"
 #include "device/shrc203/session/settings_reader.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/non_host.h"
@@ -23,14 +23,14 @@ enum class FrontPanelRead { fit, wrong, unreadable, format_unreadable };
 
 class Handshake {
  public:
-  Handshake(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, Runaways& runaways,
+  Handshake(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, OrphanedJogs& orphaned_jogs,
             StateStore& store, Motions& motions, Registers& registers, NonHost& non_host, Permission& permission,
             Tasks& tasks)
       : dialogue_(dialogue),
         line_(line),
         reader_(reader),
         settings_(settings),
-        runaways_(runaways),
+        orphaned_jogs_(orphaned_jogs),
         store_(store),
         motions_(motions),
         registers_(registers),
@@ -53,7 +53,7 @@ class Handshake {
   Line& line_;
   Reader& reader_;
   SettingsReader& settings_;
-  Runaways& runaways_;
+  OrphanedJogs& orphaned_jogs_;
   StateStore& store_;
   Motions& motions_;
   Registers& registers_;

@@ -20,7 +20,7 @@ Problem unreadable(commands::Question question, const ExchangeResult& result) {
   const std::string_view sent = commands::text(question);
   return {.reason = Reason::device_refused,
           .message = fmt::format("{} was answered by {}", sent, result.reply->text),
-          .hint = "look at the controller's mode",
+          .hint = "check the controller's mode",
           .sent = std::string(sent),
           .wire_reply = result.reply->text};
 }
@@ -109,10 +109,10 @@ Task<Result<void>> Reader::read_scales(std::string caller) {
       scale->per_pulse = *per_pulse;
       store_.note_scale(number, *scale);
     }
-    store_.note_scales_told(result.reply->text);
+    store_.note_reported_scales(result.reply->text);
     co_return Result<void>();
   }
-  co_return fail(Reason::line_fault, "what a pulse is, is told otherwise every time", "check the cable");
+  co_return fail(Reason::line_fault, "each reading of `?:P` shows another resolution", "check the cable");
 }
 
 Task<Result<void>> Reader::read_origin_speeds(std::string caller) {
@@ -168,7 +168,7 @@ Task<Result<void>> Reader::learn_speeds(AxisSet axes, std::string caller) {
   }
   if (!missing()) co_return Result<void>();
   co_return fail(Reason::line_fault, "the speeds of the axes were read as ones that no axis can have",
-                 "look at them: axisctl exec ?:D; set them: axisctl exec D:...");
+                 "check them: axisctl exec ?:D; set them: axisctl exec D:...");
 }
 
 }  // namespace axisgate::shrc203

@@ -60,12 +60,12 @@ Task<void> RestartCheck::run(std::uint64_t connection) {
   } else if (read && !same && all_at_zero && line_.restart_only_possible()) {
     const auto scale = co_await dialogue_.ask(Dialogue::Question::pulse_length, Lane::question, kGateway, true);
     if (connection != store_.connection()) co_return;
-    same = is_data(scale) && scale.reply->text == store_.scales_told();
+    same = is_data(scale) && scale.reply->text == store_.reported_scales();
   }
   if (same) {
-    line_.still_the_same(tasks_.now());
+    line_.confirm_no_restart(tasks_.now());
   } else {
-    line_.give_up("the controller seems to have restarted", tasks_.now());
+    line_.disconnect("the controller seems to have restarted", tasks_.now());
   }
 }
 

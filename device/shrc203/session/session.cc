@@ -26,7 +26,7 @@ void Session::same_controller(TimePoint) { show_link(); }
 
 void Session::line_connected(const Identity& identity, TimePoint) {
   store_.connected();
-  runaways_.stop();
+  orphaned_jogs_.stop();
   tasks_.spawn(handshake_.run(identity, store_.connection()));
 }
 
@@ -37,7 +37,7 @@ void Session::line_lost(const std::string& why, TimePoint) {
   store_.note_trouble(LinkTrouble::line, why);
   store_.lost();
   for (const auto& [id, live] : motions_.live()) {
-    if (live->jog && live->life.has_written()) runaways_.add(live->motion.axes);
+    if (live->jog && live->life.has_written()) orphaned_jogs_.add(live->motion.axes);
   }
   motions_.line_lost(why);
   if (!changed) return;
@@ -57,7 +57,8 @@ void Session::barrier_passed(const Identity& identity, TimePoint now) {
   const State& state = store_.state();
   const bool same = identity.serial_number == state.serial_number && identity.model == state.model;
   if (same || !guarded(Guard::serial_number_after_barrier)) return;
-  line_.give_up(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number), now);
+  line_.disconnect(fmt::format("another controller answers: {} {}", escaped(identity.model), identity.serial_number),
+                   now);
 }
 
 void Session::restart_suspected(TimePoint) {
@@ -91,8 +92,8 @@ void Session::line_event(const Event& event, TimePoint) {
 
 void Session::illegal(std::string_view machine, std::string_view state, std::string_view event) {
   line_event(IllegalTransition{machine, state, event}, tasks_.now());
-  line_.give_up(fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event),
-                tasks_.now());
+  line_.disconnect(fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event),
+                   tasks_.now());
 }
 
 // The first at once, and then those that came meanwhile as one.
@@ -114,7 +115,7 @@ std::optional<Problem> Session::may_write(const ExchangeRequest& request, TimePo
   if ((!live && !alone) || !guarded(Guard::lease_asked_as_bytes_go)) return {};
   Use use{request.caller, request.lease, request.uses, 0};
   if (live) use = {live->context.who, live->context.lease, live->uses, live->motion.id};
-  const auto allowed = rights_.still_may_use(use);
+  const auto allowed = rights_.still_authorized(use);
   if (allowed) return {};
   return allowed.error();
 }

@@ -11,8 +11,8 @@
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/handshake.h"
+#include "device/shrc203/session/orphaned_jogs.h"
 #include "device/shrc203/session/restart_check.h"
-#include "device/shrc203/session/runaways.h"
 #include "device/shrc203/session/stops.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/registers.h"
@@ -24,13 +24,13 @@ namespace axisgate::shrc203 {
 
 class Session : public LineListener, public Violations {
  public:
-  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, Runaways& runaways,
+  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, OrphanedJogs& orphaned_jogs,
           StateStore& store, Motions& motions, Registers& registers, Rights& rights, const Ending& ending, Tasks& tasks)
       : line_(line),
         handshake_(handshake),
         restart_check_(restart_check),
         stops_(stops),
-        runaways_(runaways),
+        orphaned_jogs_(orphaned_jogs),
         store_(store),
         motions_(motions),
         registers_(registers),
@@ -70,7 +70,7 @@ class Session : public LineListener, public Violations {
   Handshake& handshake_;
   RestartCheck& restart_check_;
   Stops& stops_;
-  Runaways& runaways_;
+  OrphanedJogs& orphaned_jogs_;
   StateStore& store_;
   Motions& motions_;
   Registers& registers_;

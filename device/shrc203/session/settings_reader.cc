@@ -48,7 +48,7 @@ Task<bool> SettingsReader::ask(Answers& answers, std::uint64_t connection) {
 }
 
 bool SettingsReader::take(const Answers& answers) {
-  store_.note_scales_told(answers.scale.reply->text);
+  store_.note_reported_scales(answers.scale.reply->text);
   std::optional<int> outputs;
   if (is_data(answers.outputs)) outputs = static_cast<int>(*parse_integer(answers.outputs.reply->text));
   store_.note_outputs(outputs);

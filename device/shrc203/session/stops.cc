@@ -72,7 +72,7 @@ Problem Stops::unseen() const {
             .hint = "use the front panel, or the wired emergency stop"};
   }
   return {.reason = Reason::outcome_unknown,
-          .message = "the stop was written, but nobody can tell yet what became of it: " + state.link_problem,
+          .message = "the stop was written, but its outcome is not known yet: " + state.link_problem,
           .hint = "use the front panel, or the wired emergency stop"};
 }
 
@@ -82,7 +82,7 @@ Task<void> Stops::run(StopJobPtr job) {
   const bool works = written && !non_host_.edits() && store_.line_works();
   change(*job, works ? StopEvent::answered : StopEvent::refused);
   if (written && !works) job->report.problem = unseen();
-  if (works && guarded(Guard::stop_seen_to_stand)) co_await wait_for_standstill(job);
+  if (works && guarded(Guard::stop_confirmed_stationary)) co_await wait_for_standstill(job);
   if (works && job->kind == StopKind::emergency) {
     // Whether the motors stay excited depends on a memory switch (manual 66)).
     const auto excitation = co_await reader_.read_excitation(job->context.who);
@@ -168,8 +168,8 @@ Task<bool> Stops::look(StopJobPtr job) {
     ready = ready && *axis.ready;
   }
   if (ready && non_host_.in_program()) {
-    const auto told = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, job->context.who);
-    const auto program = program_status(told);
+    const auto reported = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, job->context.who);
+    const auto program = program_status(reported);
     ready = program && !program->runs();
   }
   co_return ready;
@@ -209,7 +209,7 @@ Task<void> Stops::wait_for_standstill(StopJobPtr job) {
     job->report.problem.reset();  // the state seen is the outcome
   } else if (!ready && !job->report.problem) {
     job->report.problem = Problem{.reason = Reason::outcome_unknown,
-                                  .message = "the axes were not seen to stand still",
+                                  .message = "the axes were not confirmed stationary",
                                   .hint = "use the wired emergency stop if they move"};
   }
 }
@@ -225,14 +225,14 @@ Task<bool> Stops::prebuffer_is_empty(StopJobPtr job) {
     reading.take(reg, *answer.reply, store_.controllable());
     if (!reading.set().touches(job->stops())) continue;
     job->report.problem = Problem{
-        .reason = Reason::left_over_setting,
-        .message = fmt::format("the axes were stopped, but {} tells that a prebuffer setting is left in the controller",
+        .reason = Reason::stale_setpoint,
+        .message = fmt::format("the axes were stopped, but {} reports that a stale setpoint is left in the controller",
                                commands::text(question)),
         .hint = "reset the controller (RESET: or power) before moving these axes",
         .wire_reply = answer.reply->text};
     co_return false;
   }
-  if (job->report.problem && job->report.problem->reason == Reason::left_over_setting) job->report.problem.reset();
+  if (job->report.problem && job->report.problem->reason == Reason::stale_setpoint) job->report.problem.reset();
   co_return true;
 }
 

@@ -33,7 +33,7 @@ Task<void> WindDown::run(StageController::OnWoundDown done) {
     motions_.end(*live, MotionState::unknown,
                  Problem{.reason = Reason::outcome_unknown,
                          .message = "the gateway ended before it could see what became of the motion",
-                         .hint = "look at the stage; use the wired emergency stop if it moves"});
+                         .hint = "check the stage; use the wired emergency stop if it moves"});
   }
   co_await restorer_.restore_everything();
   co_await finish_line(report->problem.has_value());

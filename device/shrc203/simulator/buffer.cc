@@ -13,11 +13,11 @@ Setting Setting::only(int axis) const {
 }
 
 void Buffer::put(Setting setting) {
-  give_up(setting.axes);
+  disconnect(setting.axes);
   settings_.push_back(std::move(setting));
 }
 
-void Buffer::give_up(const Axes& axes) {
+void Buffer::disconnect(const Axes& axes) {
   std::erase_if(settings_, [&](Setting& setting) {
     if (!setting.axes.touches(axes)) return false;
     if (setting.indivisible()) return true;

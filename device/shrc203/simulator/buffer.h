@@ -57,7 +57,7 @@ class Buffer {
   void put(Setting setting);
 
   // A line or an arc that uses one of the axes goes as a whole.
-  void give_up(const Axes& axes);
+  void disconnect(const Axes& axes);
   void clear() { settings_.clear(); }
 
   // Cuts what concerns named and other axes in two, except a line or an arc.

@@ -210,8 +210,8 @@ Answer set_wait(Rig& rig, Reader reader, Kind kind, std::int64_t highest) {
   if (!reader.done()) return Answer::ng;
   const auto accepted = rig.motions.set_prebuffer(setting);
   if (accepted == Motions::Accepted::no) return Answer::ng;
-  const bool tells = rig.options.is("wait_reply_while_running", "ok_d");
-  return tells && accepted == Motions::Accepted::chained ? Answer::ok_d : Answer::ok;
+  const bool shows = rig.options.is("wait_reply_while_running", "ok_d");
+  return shows && accepted == Motions::Accepted::chained ? Answer::ok_d : Answer::ok;
 }
 
 Answer wait_time(Rig& rig, Reader reader) { return set_wait(rig, reader, Kind::wait_time, 2550); }

@@ -111,7 +111,7 @@ Done triggers(const Call& call) {
 
 Done sleep(const Call& call) {
   if (call.device.set_sleep(call.is_on(0), call.now)) return {};
-  return fail(Reason::axis_busy, "an axis is BUSY, and only at rest does it fall asleep or wake",
+  return fail(Reason::axis_busy, "an axis is BUSY, and it falls asleep or wakes only while stationary",
               "wait until `busy` says no, or stop it");
 }
 
@@ -166,10 +166,10 @@ constexpr std::array kControlCommands = {
         "on|off",
         "the other bits of manual 5): 10, 11, 12, 14, 16 (17 while BUSY), 22, 23, 24; 22 and 23 stop the axis once",
         flag},
-    ControlCommand{"inputs NUMBER", "what IN1 to IN6 are given, as I: tells it (manual 95))", inputs},
-    ControlCommand{"outputs", "what OUT1 to OUT6 give, as ?:O tells it (manual 26))", outputs},
+    ControlCommand{"inputs NUMBER", "what IN1 to IN6 are given, as I: reports it (manual 95))", inputs},
+    ControlCommand{"outputs", "what OUT1 to OUT6 give, as ?:O reports it (manual 26))", outputs},
     ControlCommand{"triggers", "how many pulses the trigger output has given so far (manual 97) to 101))", triggers},
-    ControlCommand{"sleep on|off", "as SLEEP: (manual 47)); only at rest", sleep},
+    ControlCommand{"sleep on|off", "as SLEEP: (manual 47)); only while stationary", sleep},
     ControlCommand{"power cycle", "off and on: as RESET: (manual 46)); the stages stay where they are",
                    [](const Call& call) -> Done {
                      call.device.power_cycle(call.now);

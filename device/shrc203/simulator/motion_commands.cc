@@ -15,9 +15,9 @@ Answer go_back(Rig& rig, Reader reader, Kind kind, bool reports) {
 }
 
 Answer origin_return(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::origin_return, false); }
-Answer origin_return_told(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::origin_return, true); }
+Answer origin_return_reported(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::origin_return, true); }
 Answer logical_return(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::logical_return, false); }
-Answer logical_return_told(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::logical_return, true); }
+Answer logical_return_reported(Rig& rig, Reader reader) { return go_back(rig, reader, Kind::logical_return, true); }
 
 Answer set_origin(Rig& rig, Reader reader, void (Axis::*set)()) {
   const auto axes = reader.take_axes_or_all(rig.controllable);
@@ -67,14 +67,14 @@ constexpr std::array kMotionCommands = {
     Command{"H2:", origin_return},
     Command{"H3:", origin_return},
     Command{"H4:", origin_return},
-    Command{"HRT:", origin_return_told},
-    Command{"HRT0:", origin_return_told},
-    Command{"HRT1:", origin_return_told},
-    Command{"HRT2:", origin_return_told},
-    Command{"HRT3:", origin_return_told},
-    Command{"HRT4:", origin_return_told},
+    Command{"HRT:", origin_return_reported},
+    Command{"HRT0:", origin_return_reported},
+    Command{"HRT1:", origin_return_reported},
+    Command{"HRT2:", origin_return_reported},
+    Command{"HRT3:", origin_return_reported},
+    Command{"HRT4:", origin_return_reported},
     Command{"Z:", logical_return},
-    Command{"ZRT:", logical_return_told},
+    Command{"ZRT:", logical_return_reported},
     Command{"R:", zero},
     Command{"RC:", unzero},
     Command{"L:", stop},

@@ -108,7 +108,7 @@ void Motions::delete_execution(const Axes& axes) {
     std::copy_if(execution_.settings().begin(), execution_.settings().end(), std::back_inserter(jogs),
                  [](const Setting& setting) { return setting.kind == Kind::jog; });
   }
-  execution_.give_up(axes);
+  execution_.disconnect(axes);
   for (Setting& jog : jogs) execution_.put(std::move(jog));
 }
 
@@ -185,7 +185,7 @@ bool Motions::go(const Axes& axes, TimePoint now) {
   const bool execution_first = both && is("go_with_both_buffers", "execution_first");
   for (Setting& next : waiting) {
     if (!next.axes.touches(axes)) continue;
-    prebuffer_.give_up(next.axes);
+    prebuffer_.disconnect(next.axes);
     if (execution_first && overlaps(next)) {
       next.chains = true;
       prebuffer_.put(std::move(next));

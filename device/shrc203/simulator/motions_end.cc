@@ -113,7 +113,7 @@ void Motions::stop_run(Run& run, const Axes& axes, bool slowly, TimePoint now) {
 // belongs to the operation that is stopped.
 void Motions::apply_stop_to_prebuffer(const Axes& axes) {
   if (is("stop_keeps_prebuffer", "starts_next")) return;
-  migrated_.give_up(axes);
+  migrated_.disconnect(axes);
   auto& waiting = prebuffer_.settings();
   const auto waits_for_others = [&](const Setting& setting) { return setting.chains && !any_operating(setting.axes); };
   if (is("stop_keeps_prebuffer", "kept")) {
@@ -122,7 +122,7 @@ void Motions::apply_stop_to_prebuffer(const Axes& axes) {
     }
   } else {
     std::erase_if(waiting, waits_for_others);
-    prebuffer_.give_up(axes);
+    prebuffer_.disconnect(axes);
   }
 }
 

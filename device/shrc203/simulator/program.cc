@@ -234,7 +234,7 @@ int Program::next_registered(int line) const {
 
 void ProgramMode::power_on() {
   number = 1;
-  tells_completion = tells_trigger = editing = false;
+  reports_completion = reports_trigger = editing = false;
   edited = {};
   run = {};
   notices.clear();

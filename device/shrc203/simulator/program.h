@@ -99,7 +99,7 @@ struct ProgramRun {
   std::array<Loop, kNests> loops{};
   Trigger trigger;                       // of the last line that has set one
   std::optional<TimePoint> trigger_due;  // when the trigger output is looked at next
-  std::int64_t triggers_told = 0;        // of those that the trigger output has emitted
+  std::int64_t triggers_reported = 0;    // of those that the trigger output has emitted
 };
 
 // Program mode (manual 102) to 116)), but for ?:MODE, which the rig keeps.
@@ -113,11 +113,11 @@ struct ProgramMode {
   void tell(std::string_view notice);
 
   std::array<Program, kPrograms> programs;
-  int number = 1;                 // manual 104)
-  bool tells_completion = false;  // manual 109)
-  bool tells_trigger = false;     // manual 110)
-  bool editing = false;           // manual 111)
-  Program edited;                 // the chosen one while it is edited
+  int number = 1;                   // manual 104)
+  bool reports_completion = false;  // manual 109)
+  bool reports_trigger = false;     // manual 110)
+  bool editing = false;             // manual 111)
+  Program edited;                   // the chosen one while it is edited
   ProgramRun run;
   std::vector<std::string> notices;  // COMP and TRIG that are due on the line
 };

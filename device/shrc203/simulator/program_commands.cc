@@ -82,8 +82,8 @@ Answer switch_notice(Rig& rig, Reader reader, bool ProgramMode::*flag) {
   return Answer::ok;
 }
 
-Answer tell_completion(Rig& rig, Reader reader) { return switch_notice(rig, reader, &ProgramMode::tells_completion); }
-Answer tell_trigger(Rig& rig, Reader reader) { return switch_notice(rig, reader, &ProgramMode::tells_trigger); }
+Answer tell_completion(Rig& rig, Reader reader) { return switch_notice(rig, reader, &ProgramMode::reports_completion); }
+Answer tell_trigger(Rig& rig, Reader reader) { return switch_notice(rig, reader, &ProgramMode::reports_trigger); }
 
 Answer edit(Rig& rig, Reader reader) {
   if (!reader.done() || !all_rest(rig)) return Answer::ng;

@@ -23,8 +23,8 @@ Duration tenths(int count) { return std::chrono::milliseconds(100) * count; }
 void tell_triggers(Rig& rig) {
   ProgramRun& run = rig.program.run;
   const std::int64_t emitted = rig.triggers.emitted(rig.now);
-  if (emitted > run.triggers_told && rig.program.tells_trigger) rig.program.tell("TRIG");
-  run.triggers_told = emitted;
+  if (emitted > run.triggers_reported && rig.program.reports_trigger) rig.program.tell("TRIG");
+  run.triggers_reported = emitted;
 }
 
 Triggers::Target target_of(int mode) {
@@ -38,8 +38,8 @@ void start_triggers(Rig& rig) {
   ProgramRun& run = rig.program.run;
   rig.triggers.arm(target_of(run.trigger.mode), run.trigger.axis, std::max<std::int64_t>(run.trigger.interval, 1),
                    rig.now);
-  run.triggers_told = rig.triggers.emitted(rig.now);
-  if (run.trigger.mode < Trigger::kOneShot && rig.program.tells_trigger) run.trigger_due = rig.now + kTriggerTick;
+  run.triggers_reported = rig.triggers.emitted(rig.now);
+  if (run.trigger.mode < Trigger::kOneShot && rig.program.reports_trigger) run.trigger_due = rig.now + kTriggerTick;
 }
 
 void disarm_triggers(Rig& rig) {
@@ -73,7 +73,7 @@ void leave(Rig& rig, Status status) {
 
 void complete(Rig& rig) {
   leave(rig, Status::not_executed);
-  if (rig.program.tells_completion) rig.program.tell("COMP");
+  if (rig.program.reports_completion) rig.program.tell("COMP");
 }
 
 // Lines that are NONE take no time.

@@ -40,12 +40,12 @@ std::optional<JogPhase> next(JogPhase phase, JogEvent event);
 
 // What a jog needs beside its motion.
 struct Jog {
-  explicit Jog(Executor& executor) : news(executor) {}
+  explicit Jog(Executor& executor) : changed(executor) {}
 
   bool must_end() const { return phase >= JogPhase::ending; }
 
   JogPhase phase = JogPhase::preparing;  // changed by Motions::change() alone
-  Signal news;                           // a renewal, a new speed, its start, its end
+  Signal changed;                        // a renewal, a new speed, its start, its end
   TimePoint renewed{};
   TimePoint begun{};                    // when its G: may have been written; of one that is preparing nothing
   std::uint64_t epoch = 0;              // of the device, when it was asked for

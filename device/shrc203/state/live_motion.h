@@ -34,7 +34,7 @@ struct Scan {
 
 struct LiveMotion {
   LiveMotion(Executor& executor, Motion record, RequestContext from)
-      : motion(std::move(record)), context(std::move(from)), news(executor) {}
+      : motion(std::move(record)), context(std::move(from)), changed(executor) {}
 
   // An axis number of it has come.
   struct Completion {
@@ -49,7 +49,7 @@ struct LiveMotion {
   Motion motion;
   MotionLife life;  // changed by Motions alone
   RequestContext context;
-  Signal news;       // a completion of its axes, a stop, the loss of the line
+  Signal changed;    // a completion of its axes, a stop, the loss of the line
   int wake_ups = 0;  // how often all its axis numbers had come, or a stop
   StageController::OnStarted on_started;
   AxisSet uses;     // what it needs the right to: its axes, or all for a command that concerns the whole controller

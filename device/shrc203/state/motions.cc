@@ -37,7 +37,7 @@ void Motions::end_jog(LiveMotion& live, std::optional<Problem> why) {
   if (!live.jog || live.jog->must_end() || live.life.stop_asked()) return;
   jog_changed(live, JogEvent::must_end);
   live.jog->why = std::move(why);
-  live.jog->news.notify();
+  live.jog->changed.notify();
 }
 
 void Motions::show(LiveMotion& live, MotionState state) {
@@ -73,7 +73,7 @@ Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   if (!entered) co_return entered;
   change(*live, MotionEvent::entered);
   const Use use{live->context.who, live->context.lease, live->uses, live->motion.id};
-  const auto allowed = rights_.still_may_use(use);
+  const auto allowed = rights_.still_authorized(use);
   if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
   const auto meant = rights_.check_epochs(live->context);
   rights_.begin(use);
@@ -91,8 +91,8 @@ void Motions::started(LiveMotion& live) {
   change(live, MotionEvent::started);
   show(live, live.life.shown());
   pace_changed_.notify();
-  if (live.jog) live.jog->news.notify();
-  if (auto told = std::exchange(live.on_started, {})) told(live.motion);
+  if (live.jog) live.jog->changed.notify();
+  if (auto reported = std::exchange(live.on_started, {})) reported(live.motion);
 }
 
 void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> problem) {
@@ -111,11 +111,11 @@ void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> 
   const bool had_turn = live.life.has_turn();
   change(live, had_turn && live.restores() ? MotionEvent::finished_to_restore : MotionEvent::finished);
   show(live, outcome);
-  if (auto told = std::exchange(live.on_started, {})) {
+  if (auto reported = std::exchange(live.on_started, {})) {
     if (never_started && live.motion.problem && outcome != MotionState::unknown) {
-      told(tl::unexpected(*live.motion.problem));
+      reported(tl::unexpected(*live.motion.problem));
     } else {
-      told(live.motion);
+      reported(live.motion);
     }
   }
   const MotionId id = live.motion.id;
@@ -132,7 +132,7 @@ void Motions::refuse(LiveMotion& live, const Problem& problem) {
   end(live, problem.reason == Reason::stopped ? MotionState::stopped : MotionState::failed, problem);
 }
 
-void Motions::give_up(LiveMotion& live, const Problem& problem) {
+void Motions::disconnect(LiveMotion& live, const Problem& problem) {
   end(live, live.life.stop_asked() ? MotionState::stopped : MotionState::failed, problem);
 }
 
@@ -155,8 +155,8 @@ std::vector<MotionId> Motions::stop_asked(AxisSet axes, const std::string& who) 
     ++live->wake_ups;
     stopped.push_back(id);
     stop_asked(*live, who);
-    live->news.notify();
-    if (live->jog) live->jog->news.notify();
+    live->changed.notify();
+    if (live->jog) live->jog->changed.notify();
   }
   return stopped;
 }
@@ -167,7 +167,7 @@ void Motions::line_lost(const std::string& why) {
     live->life.lose_line(why);
     // What it wrote last may have been its start, though no answer has come.
     if (live->life.has_written() && guarded(Guard::moving_unknown)) store_.may_move_unseen();
-    live->news.notify();
+    live->changed.notify();
   }
   gate_.withdraw([this](MotionId id) { return live_.contains(id); },
                  {.reason = Reason::not_sent,
@@ -189,7 +189,7 @@ void Motions::completion_seen(int axis, bool doubtful, bool deduced) {
   owner->completions.push_back({axis, doubtful, tasks_.now()});
   if (owner->completed_by_all()) ++owner->wake_ups;
   if (owner->on_completion) owner->on_completion(axis);
-  owner->news.notify();
+  owner->changed.notify();
 }
 
 LiveMotionPtr Motions::find_live(MotionId id) const {

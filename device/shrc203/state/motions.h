@@ -45,7 +45,7 @@ class Motions {
   // Before anything of it was sent: stopped where that is the problem, else failed.
   void refuse(LiveMotion& live, const Problem& problem);
   // A step of it did not succeed: stopped where a stop was asked for, else failed.
-  void give_up(LiveMotion& live, const Problem& problem);
+  void disconnect(LiveMotion& live, const Problem& problem);
   // Of one that restores something: all of that is over.
   void leave(LiveMotion& live);
 

@@ -126,9 +126,9 @@ Held held_jog(const Reply& reply, const Command& setter, AxisSet controllable) {
   return all ? Held::as_set : none ? Held::nothing : Held::other;
 }
 
-bool same_amount(std::string_view told, std::string_view set) {
-  const auto one = parse_decimal(told), other = parse_decimal(set);
-  return one && other ? *one == *other : told == set;
+bool same_amount(std::string_view reported, std::string_view set) {
+  const auto one = parse_decimal(reported), other = parse_decimal(set);
+  return one && other ? *one == *other : reported == set;
 }
 
 // ?:EP tells its kind, axes and rotation, and then all amounts in the order in which they were set (manual 23)).

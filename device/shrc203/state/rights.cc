@@ -12,23 +12,23 @@ Result<void> Rights::check_epochs(const RequestContext& context) const {
   if (passed(context.device_epoch, state.device_epoch) && guarded(Guard::passed_epochs_refused)) {
     return fail(Reason::epoch_passed,
                 fmt::format("the request is of device epoch {}, and this is {}: the controller may have restarted "
-                            "meanwhile, and places may be others",
+                            "meanwhile, and positions may have changed",
                             context.device_epoch, state.device_epoch),
-                "look where the axes are, find their origin where it matters, and take the epoch from Device");
+                "read the positions, home the axes where it matters, and take the epoch from Device");
   }
   if (passed(context.frame_epoch, state.frame_epoch) && guarded(Guard::passed_frames_refused)) {
     return fail(Reason::epoch_passed,
-                fmt::format("the request is of frame epoch {}, and this is {}: somebody has set coordinates anew (R:, "
+                fmt::format("the request is of frame epoch {}, and this is {}: coordinates were set (R:, "
                             "RC:, PSET:), or the controller has restarted",
                             context.frame_epoch, state.frame_epoch),
-                "look where the axes are, reckon the targets anew, and take the epoch from Device");
+                "read the positions, compute the targets again, and take the epoch from Device");
   }
   return {};
 }
 
-Result<void> Rights::may_use(const RequestContext& context, AxisSet axes) {
+Result<void> Rights::authorize(const RequestContext& context, AxisSet axes) {
   if (const auto good = check_epochs(context); !good) return good;
-  return still_may_use({context.who, context.lease, axes, 0});
+  return still_authorized({context.who, context.lease, axes, 0});
 }
 
 }  // namespace axisgate::shrc203

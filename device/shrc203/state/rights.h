@@ -18,9 +18,9 @@ class Rights {
   // epoch_passed, where the request was meant for another.
   Result<void> check_epochs(const RequestContext& context) const;
   // Also what the keeper of leases refuses: before anything is queued.
-  Result<void> may_use(const RequestContext& context, AxisSet axes);
+  Result<void> authorize(const RequestContext& context, AxisSet axes);
   // What the keeper alone refuses.
-  Result<void> still_may_use(const Use& use) { return permission_.may_use(use, tasks_.now()); }
+  Result<void> still_authorized(const Use& use) { return permission_.authorize(use, tasks_.now()); }
 
   // A motion has its turn, or has left its axes.
   void begin(const Use& use) { permission_.begin(use, tasks_.now()); }

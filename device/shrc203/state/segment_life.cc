@@ -12,8 +12,8 @@ std::string_view name(SegmentPhase phase) {
 }
 std::string_view name(SegmentEvent event) {
   static constexpr std::array<std::string_view, kSegmentEvents> kNames = {
-      "set_asked",      "start_accepted", "start_doubted", "refill_asked", "refill_accepted",
-      "refill_doubted", "ended",          "came_to_rest",  "found"};
+      "set_asked",      "start_accepted", "start_doubted",     "refill_asked", "refill_accepted",
+      "refill_doubted", "ended",          "became_stationary", "found"};
   return kNames.at(static_cast<std::size_t>(event));
 }
 // As README.md draws it.
@@ -25,7 +25,7 @@ std::optional<SegmentPhase> next(SegmentPhase phase, SegmentEvent event) {
       {Phase::setting, Event::start_accepted, Phase::running},
       {Phase::setting, Event::start_doubted, Phase::doubtful},
       {Phase::running, Event::refill_asked, Phase::refilling},
-      {Phase::running, Event::came_to_rest, Phase::stationary},
+      {Phase::running, Event::became_stationary, Phase::stationary},
       {Phase::refilling, Event::refill_accepted, Phase::chained},
       {Phase::refilling, Event::refill_doubted, Phase::doubtful},
       {Phase::chained, Event::ended, Phase::running},

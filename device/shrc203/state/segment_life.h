@@ -22,11 +22,11 @@ enum class SegmentEvent {
   start_accepted,
   start_doubted,
   refill_asked,
-  refill_accepted,  // OK_D
-  refill_doubted,   // OK, when the chain has ended (an underrun); no answer; NG
-  ended,            // and the one in the prebuffer runs
-  came_to_rest,     // ended, with nothing behind it
-  found,            // the counters have told which one was the last to run
+  refill_accepted,    // OK_D
+  refill_doubted,     // OK, when the chain has ended (an underrun); no answer; NG
+  ended,              // and the one in the prebuffer runs
+  became_stationary,  // ended, with nothing behind it
+  found,              // the counters have told which one was the last to run
 };
 inline constexpr std::size_t kSegmentEvents = 9;
 

@@ -90,16 +90,16 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
 
 void StateStore::note_foreign_motion(AxisSet busy, AxisSet ours) {
   const AxisSet expected = state_.moving_unknown ? AxisSet::all() : ours;
-  const AxisSet unasked = guarded(Guard::foreign_motion_told) ? busy - expected : AxisSet();
-  AxisSet told;
+  const AxisSet unasked = guarded(Guard::foreign_motion_reported) ? busy - expected : AxisSet();
+  AxisSet reported;
   for (const int number : AxisSet::all().list()) {
     bool& foreign = state_.axis(number).foreign_motion;
     const bool now = unasked.has(number) && (foreign || moved_unasked_.has(number));
-    if (now && !foreign) told.add(number);
+    if (now && !foreign) reported.add(number);
     foreign = now;
   }
   moved_unasked_ = unasked;
-  if (!told.empty()) emit(ForeignMotion{told});
+  if (!reported.empty()) emit(ForeignMotion{reported});
 }
 
 void StateStore::note_armed(AxisSet axes, bool armed) {

@@ -81,8 +81,8 @@ class StateStore {
   void note_armed(AxisSet axes, bool armed);
   // `told`: what ?:P was answered.
   void note_scale(int axis, const Scale& scale) { state_.axis(axis).scale = scale; }
-  void note_scales_told(std::string told) { scales_told_ = std::move(told); }
-  const std::string& scales_told() const { return scales_told_; }
+  void note_reported_scales(std::string reported) { reported_scales_ = std::move(reported); }
+  const std::string& reported_scales() const { return reported_scales_; }
 
   // The speeds that D: sets, also by the prebuffer settings that have some (manual 68)). What no D: can set was
   // misread, and is not known.
@@ -107,7 +107,7 @@ class StateStore {
   const Tasks& tasks_;
   State state_;
   std::string unit_;
-  std::string scales_told_;
+  std::string reported_scales_;
   LinkTrouble trouble_ = LinkTrouble::none;
   std::uint64_t connection_ = 0;
   AxisSet moved_unasked_;  // at the last reading

@@ -26,22 +26,22 @@ std::vector<int> SwitchAudit::items() const {
 }
 
 std::optional<SwitchesChanged> SwitchAudit::result(const std::string& who) const {
-  SwitchesChanged told{who, {}, false};
+  SwitchesChanged reported{who, {}, false};
   for (const auto& [item, old] : before_) {
     const auto found = after_.find(item);
     const bool known = old && found != after_.end() && found->second && found->second->size() == old->size();
     if (!known) {
-      told.unknown = true;
+      reported.unknown = true;
       continue;
     }
     const Values& now = *found->second;
     for (std::size_t number = 0; number < now.size(); ++number) {
       if ((*old)[number] == now[number]) continue;
-      told.changes.push_back({item, static_cast<int>(number), (*old)[number], now[number]});
+      reported.changes.push_back({item, static_cast<int>(number), (*old)[number], now[number]});
     }
   }
-  if (told.changes.empty() && !told.unknown) return {};
-  return told;
+  if (reported.changes.empty() && !reported.unknown) return {};
+  return reported;
 }
 
 }  // namespace axisgate::shrc203

@@ -16,7 +16,7 @@ void Transaction::tell_end(std::optional<Problem> problem) const {
 Problem nothing_saved(const Command& question) {
   return {.reason = Reason::not_found,
           .message = fmt::format("nothing is saved under number {}", question.arguments.first("n").value_or("")),
-          .hint = "save a position there first; a restart of the controller forgets places (PIT:)",
+          .hint = "save a position there first; a restart of the controller deletes saved positions (PIT:)",
           .sent = question.line,
           .wire_reply = "NG"};
 }

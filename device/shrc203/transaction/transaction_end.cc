@@ -9,7 +9,7 @@ Task<void> TransactionEnd::end(Transaction& transaction, bool sent_all) {
   if (non_host_.away()) {
     co_await come_back(transaction, sent_all);
   } else if (transaction.changed.contains(Transaction::Changed::everything)) {
-    line_.give_up("it was reset, and is looked at anew", tasks_.now());
+    line_.disconnect("it was reset, and is read again", tasks_.now());
     motions_.end(*transaction.live, MotionState::succeeded, {});
     if (sent_all) transaction.tell_end({});
   } else {
@@ -19,8 +19,8 @@ Task<void> TransactionEnd::end(Transaction& transaction, bool sent_all) {
 }
 
 Task<void> TransactionEnd::come_back(Transaction& transaction, bool sent_all) {
-  co_await excursion_.read_switches_left(transaction.live, transaction.audit);
-  co_await excursion_.come_back(
+  co_await non_host_visit_.read_switches_left(transaction.live, transaction.audit);
+  co_await non_host_visit_.come_back(
       transaction.live,
       {.sent_all = sent_all, .set_switches = transaction.changed.contains(Transaction::Changed::memory_switches)});
   if (const auto changed = transaction.audit.result(transaction.who())) store_.emit(*changed);
@@ -52,7 +52,7 @@ Task<Result<void>> TransactionEnd::read_what_is_set(Transaction& transaction) {
   if (transaction.changed.contains(Transaction::Changed::scale) && !live->life.line_lost()) {
     const auto read = co_await reader_.read_scales(transaction.who());
     if (!read && !live->life.line_lost()) {
-      line_.give_up("its scale was changed, and could not be read", tasks_.now());
+      line_.disconnect("its scale was changed, and could not be read", tasks_.now());
     }
   }
   if (store_.origin_speeds_known(store_.controllable())) co_return Result<void>();

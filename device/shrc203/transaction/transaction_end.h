@@ -5,7 +5,7 @@
 #include "device/core/tasks.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/motion/watch.h"
-#include "device/shrc203/session/excursion.h"
+#include "device/shrc203/session/non_host_visit.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/non_host.h"
@@ -16,12 +16,12 @@ namespace axisgate::shrc203 {
 
 class TransactionEnd {
  public:
-  TransactionEnd(Line& line, Reader& reader, Watch& watch, Excursion& excursion, const NonHost& non_host,
+  TransactionEnd(Line& line, Reader& reader, Watch& watch, NonHostVisit& non_host_visit, const NonHost& non_host,
                  Registers& registers, StateStore& store, Motions& motions, const Tasks& tasks)
       : line_(line),
         reader_(reader),
         watch_(watch),
-        excursion_(excursion),
+        non_host_visit_(non_host_visit),
         non_host_(non_host),
         registers_(registers),
         store_(store),
@@ -40,7 +40,7 @@ class TransactionEnd {
   Line& line_;
   Reader& reader_;
   Watch& watch_;
-  Excursion& excursion_;
+  NonHostVisit& non_host_visit_;
   const NonHost& non_host_;
   Registers& registers_;
   StateStore& store_;

@@ -15,9 +15,9 @@ namespace axisgate::shrc203 {
 Task<bool> TransactionLines::send_all(Transaction& transaction) {
   for (std::size_t index = 0; index < transaction.commands.size(); ++index) {
     const CommandRow& row = *transaction.commands[index].row;
-    const bool goes_on =
+    const bool continues =
         transaction.started != Transaction::Started::no && !row.moves() && row.effect != Effect::motion_setting;
-    if (transaction.live && transaction.live->life.stop_asked() && !goes_on) {
+    if (transaction.live && transaction.live->life.stop_asked() && !continues) {
       transaction.tell_end(stopped_by(*transaction.live));
       co_return false;
     }
@@ -82,7 +82,7 @@ Task<ExchangeResult> TransactionLines::exchange(Transaction& transaction, Comman
     co_return result;
   }
   result.problem = Problem{.reason = Reason::completion_outstanding,
-                           .message = "the answer could not be told from an axis number",
+                           .message = "the answer could not be distinguished from an axis number",
                            .hint = "ask again once the motion has ended",
                            .sent = command.line};
   co_return result;
@@ -90,11 +90,11 @@ Task<ExchangeResult> TransactionLines::exchange(Transaction& transaction, Comman
 
 // Before the line goes out: to another mode, or back.
 Task<Result<void>> TransactionLines::leave_host(Transaction& transaction, Command command) {
-  if (command.row->enters && !non_host_.away()) excursion_.leave_host(transaction.live->motion.id);
-  const auto known = co_await excursion_.read_switches_before(transaction.live, transaction.audit, command);
+  if (command.row->enters && !non_host_.away()) non_host_visit_.leave_host(transaction.live->motion.id);
+  const auto known = co_await non_host_visit_.read_switches_before(transaction.live, transaction.audit, command);
   if (!known) co_return known;
   if (command.row->enters == Mode::host) {
-    co_await excursion_.read_switches_left(transaction.live, transaction.audit);
+    co_await non_host_visit_.read_switches_left(transaction.live, transaction.audit);
   }
   co_return Result<void>();
 }
@@ -185,7 +185,7 @@ Task<bool> TransactionLines::was_accepted(Transaction& transaction, Command comm
   }
   const bool program = command.row->moves() && command.row->needs.mode == Mode::program;
   if (!program) co_return true;
-  const auto ended = co_await excursion_.wait_for_program(transaction.live);
+  const auto ended = co_await non_host_visit_.wait_for_program(transaction.live);
   if (!ended) transaction.tell_end(ended.error());
   co_return ended.has_value();
 }

@@ -7,9 +7,9 @@
 #include "device/core/tasks.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/session/dialogue.h"
-#include "device/shrc203/session/excursion.h"
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/session/lease_settings.h"
+#include "device/shrc203/session/non_host_visit.h"
 #include "device/shrc203/session/session.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/non_host.h"
@@ -20,13 +20,13 @@ namespace axisgate::shrc203 {
 
 class TransactionLines {
  public:
-  TransactionLines(Dialogue& dialogue, Explainer& explainer, LeaseSettings& settings, Excursion& excursion,
+  TransactionLines(Dialogue& dialogue, Explainer& explainer, LeaseSettings& settings, NonHostVisit& non_host_visit,
                    Session& session, NonHost& non_host, PendingRestores& pending, StateStore& store, Motions& motions,
                    const Tasks& tasks)
       : dialogue_(dialogue),
         explainer_(explainer),
         settings_(settings),
-        excursion_(excursion),
+        non_host_visit_(non_host_visit),
         session_(session),
         non_host_(non_host),
         pending_(pending),
@@ -53,7 +53,7 @@ class TransactionLines {
   Dialogue& dialogue_;
   Explainer& explainer_;
   LeaseSettings& settings_;
-  Excursion& excursion_;
+  NonHostVisit& non_host_visit_;
   Session& session_;
   NonHost& non_host_;
   PendingRestores& pending_;

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "device/shrc203/motion/saved_positions.h"
-#include "device/shrc203/planning/forecast.h"
 #include "device/shrc203/planning/transaction_lines.h"
+#include "device/shrc203/planning/transaction_prediction.h"
 
 namespace axisgate::shrc203 {
 
@@ -74,23 +74,24 @@ Task<Result<void>> TransactionStart::learn_speeds(Transaction& transaction) {
 Task<Result<void>> TransactionStart::ask_for_destination(Transaction& transaction) {
   const auto question = destination_question(transaction.commands.front());
   if (!question) co_return Result<void>();
-  const auto told = co_await ask_for_position(dialogue_, transaction.live, *question, store_.controllable());
-  if (!told) co_return tl::unexpected(told.error());
-  if (told->empty()) {
+  const auto reported = co_await ask_for_position(dialogue_, transaction.live, *question, store_.controllable());
+  if (!reported) co_return tl::unexpected(reported.error());
+  if (reported->empty()) {
     const auto why = co_await explainer_.explain_question(*question, transaction.who());
     co_return tl::unexpected(why ? *why : nothing_saved(*question));
   }
-  for (const auto& [axis, pulses] : *told) transaction.destination[static_cast<std::size_t>(axis - 1)] = pulses;
+  for (const auto& [axis, pulses] : *reported) transaction.destination[static_cast<std::size_t>(axis - 1)] = pulses;
   co_return Result<void>();
 }
 
 Result<void> TransactionStart::check_envelope(Transaction& transaction) {
   LiveMotion& live = *transaction.live;
   const Positions begin = store_.positions();
-  Forecast forecast(store_.envelope(transaction.request.context), begin, store_.speeds(live.motion.axes),
-                    store_.controllable());
+  TransactionPrediction prediction(store_.envelope(transaction.request.context), begin, store_.speeds(live.motion.axes),
+                                   store_.controllable());
   for (const Command& command : transaction.commands) {
-    const auto good = destination_question(command) ? forecast.go_to(transaction.destination) : forecast.add(command);
+    const auto good =
+        destination_question(command) ? prediction.go_to(transaction.destination) : prediction.add(command);
     if (!good) return good;
   }
   bool round_trip = std::ranges::any_of(transaction.commands, [](const Command& command) {
@@ -98,8 +99,8 @@ Result<void> TransactionStart::check_envelope(Transaction& transaction) {
   });
   for (auto& result : live.motion.results) {
     const auto place = static_cast<std::size_t>(result.axis - 1);
-    round_trip = round_trip && forecast.at()[place] == begin[place];
-    result.target_pulses = forecast.at()[place];
+    round_trip = round_trip && prediction.at()[place] == begin[place];
+    result.target_pulses = prediction.at()[place];
   }
   live.goal = round_trip ? Goal::round_trip : Goal::targets;
   return {};

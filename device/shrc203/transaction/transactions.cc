@@ -61,7 +61,7 @@ Result<void> Transactions::check(const ExecuteRequest& request, const std::vecto
     const auto allowed = may_wait_for_inputs(store_.profile(), commands::setter_of(Register::wi).name);
     if (!allowed) return allowed;
   }
-  return rights_.may_use(request.context, axes_used(commands, state.controllable()));
+  return rights_.authorize(request.context, axes_used(commands, state.controllable()));
 }
 
 Task<void> Transactions::run(Transaction transaction) {

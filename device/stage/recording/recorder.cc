@@ -29,8 +29,8 @@ void Recorder::flush() {
 }
 
 void Recorder::tell(const BytesWritten& written) {
-  const bool goes_on = written.exchange > 0 && written.exchange == in_flight_;
-  if (goes_on) {
+  const bool continues = written.exchange > 0 && written.exchange == in_flight_;
+  if (continues) {
     go_on();
   } else {
     begin(written.exchange);
@@ -49,7 +49,7 @@ void Recorder::tell(const BytesReceived& received) {
   const bool rest_of_end = received.bytes == "\n" && last_byte_ == '\r' && open_;
   if (complete_ && !rest_of_end) flush();
   if (!complete_) go_on();
-  const bool joined = goes_on_with_piece(rest_of_end);
+  const bool joined = continues_piece(rest_of_end);
   if (!joined) {
     add(Item::received, {});
     piece_began_ = now_;
@@ -63,7 +63,7 @@ void Recorder::tell(const BytesReceived& received) {
 }
 
 // A whole line is a piece with its LF and no more: when it came may decide how long the line must be silent.
-bool Recorder::goes_on_with_piece(bool rest_of_end) const {
+bool Recorder::continues_piece(bool rest_of_end) const {
   if (open_->items.empty() || now_ - piece_began_ > kOnePiece) return false;
   const RecordedItem& last = open_->items.back();
   if (last.kind != Item::received || last.text.size() >= kPieceBytes) return false;

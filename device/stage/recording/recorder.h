@@ -48,7 +48,7 @@ class Recorder : public EventSink {
   void go_on();
   void add(RecordedItem::Kind kind, std::string text);
   // Bytes that come in now belong to what came in last.
-  bool goes_on_with_piece(bool rest_of_end) const;
+  bool continues_piece(bool rest_of_end) const;
   void remark(RecordedRemark::Kind kind, AxisSet axes, std::string text);
   void finish(const RecordedEvent& event);
 

@@ -58,7 +58,7 @@ void describe(CLI::App& program, Arguments& arguments) {
   program.add_option("--serial-number", arguments.serial_number, "What *IDN? and ?:SN say: another unit")
       ->capture_default_str();
   program.add_option("--control", arguments.control,
-                     "Unix socket to make, for what a person at the device does; `help` on it tells what that is");
+                     "Unix socket to make, for what a person at the device does; `help` on it lists the commands");
   program.add_option("--option", arguments.options, "NAME=VALUE: a reading of the manual; may be repeated")
       ->allow_extra_args(false);
   program.add_flag("--list-options", arguments.list_options, "Print every option and its values, and end")

@@ -50,7 +50,7 @@ TEST_P(HazardH14, StoppedWithASegmentInThePrebuffer) {
     const StopReport report = stopped(world);
     EXPECT_FALSE(world.device().busy(1) || world.device().busy(2)) << after << "\n" << world.replay();
     if (kept() && report.problem) {
-      EXPECT_EQ(report.problem->reason, Reason::left_over_setting) << after << "\n" << world.replay();
+      EXPECT_EQ(report.problem->reason, Reason::stale_setpoint) << after << "\n" << world.replay();
     } else {
       EXPECT_FALSE(report.problem) << after << report.problem->message << "\n" << world.replay();
       expect_every_prebuffer_was_asked_for(world);
@@ -64,7 +64,7 @@ TEST_P(HazardH14, StoppedWithASegmentInThePrebuffer) {
       moved(world, {{1, 100}});
     } else {
       move_by(world, {{1, 100}});
-      EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::left_over_setting) << world.replay();
+      EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::stale_setpoint) << world.replay();
       EXPECT_EQ(starts(world), before);
       world.power_cycle();
       ASSERT_TRUE(world.run_until([&] { return world.controller().state().link != LinkState::up; }, seconds(12)));

@@ -16,10 +16,10 @@
 
 namespace axisgate::shrc203 {
 
-class Excursion {
+class NonHostVisit {
  public:
-  Excursion(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, StateStore& store,
-            Motions& motions, Registers& registers, NonHost& non_host, Tasks& tasks)
+  NonHostVisit(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, StateStore& store,
+               Motions& motions, Registers& registers, NonHost& non_host, Tasks& tasks)
       : dialogue_(dialogue),
         line_(line),
         reader_(reader),

@@ -1,4 +1,4 @@
-#include "device/shrc203/session/excursion.h"
+#include "device/shrc203/session/non_host_visit.h"
 
 #include <fmt/format.h>
 
@@ -15,15 +15,16 @@
 namespace axisgate::shrc203 {
 namespace {
 
-Result<void> program_outcome(const ProgramStatus& told) {
+Result<void> program_outcome(const ProgramStatus& reported) {
   static constexpr std::array<std::string_view, 5> kWhy = {
       "it names axes that are not controllable", "an error occurred", "it came to a line that it cannot run",
       "the motor of one of its axes is off", "one of its axes was BUSY"};
-  const auto status = parse_integer(told.status).value_or(0);
+  const auto status = parse_integer(reported.status).value_or(0);
   if (status < 4 || status > 8) return {};
-  return fail(Reason::device_error,
-              fmt::format("program {} stopped at line {}: {}", told.program, told.line, kWhy[std::size_t(status - 4)]),
-              "mend the line (P:SET), or what it met; see `axisctl status`");
+  return fail(
+      Reason::device_error,
+      fmt::format("program {} stopped at line {}: {}", reported.program, reported.line, kWhy[std::size_t(status - 4)]),
+      "correct the line (P:SET), or remove what it met; see `axisctl status`");
 }
 
 std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
@@ -33,7 +34,7 @@ std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
 }  // namespace
 
 // Before the first line of that transaction: what others have asked for is not sent there.
-void Excursion::leave_host(MotionId motion) {
+void NonHostVisit::leave_host(MotionId motion) {
   non_host_.began();
   if (!guarded(Guard::away_alone)) return;
   line_.withdraw(
@@ -43,31 +44,31 @@ void Excursion::leave_host(MotionId motion) {
       non_host_.problem());
 }
 
-Task<Result<void>> Excursion::read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command) {
+Task<Result<void>> NonHostVisit::read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command) {
   const auto item = SwitchAudit::item_set_by(command);
   if (!item || audit.knows(*item) || !guarded(Guard::switches_audited)) co_return Result<void>();
-  const auto told = co_await dialogue_.ask_twice(std::move(live), SwitchAudit::question_of(*item));
-  if (!told) co_return tl::unexpected(told.error());
-  audit.before(*item, values_of(*told));
+  const auto reported = co_await dialogue_.ask_twice(std::move(live), SwitchAudit::question_of(*item));
+  if (!reported) co_return tl::unexpected(reported.error());
+  audit.before(*item, values_of(*reported));
   co_return Result<void>();
 }
 
-Task<void> Excursion::read_switches_left(LiveMotionPtr live, SwitchAudit& audit) {
+Task<void> NonHostVisit::read_switches_left(LiveMotionPtr live, SwitchAudit& audit) {
   for (const int item : audit.items()) {
     if (!non_host_.in_switches() || live->life.line_lost()) co_return;
-    const auto told = co_await dialogue_.ask_twice(live, SwitchAudit::question_of(item));
-    if (told) audit.after(item, values_of(*told));
+    const auto reported = co_await dialogue_.ask_twice(live, SwitchAudit::question_of(item));
+    if (reported) audit.after(item, values_of(*reported));
   }
 }
 
 // A program runs on the controller's own account, and ?:L tells how far it is (manual 41)): axes are READY between its
 // lines, too.
-Task<Result<void>> Excursion::wait_for_program(LiveMotionPtr live) {
+Task<Result<void>> NonHostVisit::wait_for_program(LiveMotionPtr live) {
   Problem problem;
   for (int failures = 0; failures < kProgramReadTries;) {
-    const auto told = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, live->context.who);
+    const auto reported = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, live->context.who);
     if (live->life.line_lost()) break;
-    const auto program = program_status(told);
+    const auto program = program_status(reported);
     if (program && !program->runs()) {
       const auto outcome = program_outcome(*program);
       const bool stationary = co_await wait_for_axes(live);
@@ -76,18 +77,18 @@ Task<Result<void>> Excursion::wait_for_program(LiveMotionPtr live) {
       co_return outcome;
     }
     failures = program ? 0 : failures + 1;
-    if (told.problem) problem = *told.problem;
+    if (reported.problem) problem = *reported.problem;
     auto pause = tasks_.pause(kProgramPoll);
     co_await pause;
   }
   problem.reason = Reason::outcome_unknown;
-  problem.message = "nobody can tell what became of the program: " + problem.message;
-  problem.hint = "look at the stage and its positions before moving on";
+  problem.message = "the outcome of the program is unknown: " + problem.message;
+  problem.hint = "check the stage and its positions before the next motion";
   co_return tl::unexpected(std::move(problem));
 }
 
 // P:E, too, lets the axes slow down.
-Task<bool> Excursion::wait_for_axes(LiveMotionPtr live) {
+Task<bool> NonHostVisit::wait_for_axes(LiveMotionPtr live) {
   for (const TimePoint limit = tasks_.now() + kReturnToHostLimit; tasks_.now() < limit && !live->life.line_lost();) {
     const auto read = co_await reader_.read_positions(Lane::motion, live->context.who);
     const bool busy = std::ranges::any_of(store_.controllable().list(),
@@ -116,7 +117,7 @@ Task<bool> step_to_host(Dialogue& dialogue, StateStore& store, Lane lane, std::s
   co_return false;
 }
 
-Task<bool> Excursion::wait_for_host(LiveMotionPtr live) {
+Task<bool> NonHostVisit::wait_for_host(LiveMotionPtr live) {
   for (const TimePoint limit = tasks_.now() + kReturnToHostLimit; tasks_.now() < limit && !live->life.line_lost();) {
     const bool host = co_await step_to_host(dialogue_, store_, Lane::motion, live->context.who, false);
     if (host) co_return true;
@@ -128,7 +129,7 @@ Task<bool> Excursion::wait_for_host(LiveMotionPtr live) {
 
 // What is set may be something else now, and with memory switches whatever is read at connecting; a program may have
 // set coordinates anew.
-Task<void> Excursion::come_back(LiveMotionPtr live, Course course) {
+Task<void> NonHostVisit::come_back(LiveMotionPtr live, Course course) {
   const bool program = !live->motion.axes.empty();
   bool known = co_await wait_for_host(live);
   if (known) {
@@ -142,11 +143,11 @@ Task<void> Excursion::come_back(LiveMotionPtr live, Course course) {
   }
   end(*live, known, course.sent_all);
   if (!live->life.line_lost() && (course.set_switches || !known)) {
-    line_.give_up("it was out of HOST, and is looked at anew", tasks_.now());
+    line_.disconnect("it was out of HOST, and is read again", tasks_.now());
   }
 }
 
-void Excursion::end(LiveMotion& live, bool known, bool sent_all) {
+void NonHostVisit::end(LiveMotion& live, bool known, bool sent_all) {
   if (known && live.life.stop_asked()) {
     motions_.end(live, MotionState::stopped, stopped_by(live));
   } else if (known) {
@@ -156,7 +157,7 @@ void Excursion::end(LiveMotion& live, bool known, bool sent_all) {
         live, live.motion.axes.empty() ? MotionState::failed : MotionState::unknown,
         Problem{.reason = Reason::outcome_unknown,
                 .message = "the line was lost while the controller was out of HOST: " + live.life.line_problem(),
-                .hint = "look at the positions and settings before moving on"});
+                .hint = "check the positions and settings before the next motion"});
   }
 }
 

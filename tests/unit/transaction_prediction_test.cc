@@ -1,5 +1,5 @@
 // Where lines would lead, by the manual, and what the envelope has to say to that.
-#include "device/shrc203/planning/forecast.h"
+#include "device/shrc203/planning/transaction_prediction.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-namespace axisgate::shrc203::forecast_test {
+namespace axisgate::shrc203::transaction_prediction_test {
 namespace {
 
 using testing::ElementsAre;
@@ -38,7 +38,7 @@ class ForecastTest : public testing::Test {
   };
   Outcome forecast(const Lines& lines) const {
     const Envelope envelope(profile, state, "unix alice", "operator");
-    Forecast forecast(envelope, start, speeds, state.controllable());
+    TransactionPrediction forecast(envelope, start, speeds, state.controllable());
     Outcome outcome;
     for (const auto& line : lines) {
       const auto command = parse_command(line);
@@ -366,7 +366,7 @@ class ForecastGoToTest : public ForecastTest {
  protected:
   std::string go_to(const Positions& place) {
     const Envelope envelope(profile, state, "unix alice", "operator");
-    Forecast forecast(envelope, start, speeds, state.controllable());
+    TransactionPrediction forecast(envelope, start, speeds, state.controllable());
     const auto good = forecast.go_to(place);
     at = forecast.at();
     return good ? "good" : std::string(name(good.error().reason)) + " " + std::to_string(good.error().axis.value_or(0));
@@ -395,4 +395,4 @@ TEST_F(ForecastGoToTest, IsWithinTheEnvelope) {
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::forecast_test
+}  // namespace axisgate::shrc203::transaction_prediction_test

@@ -6,9 +6,9 @@
 
 namespace axisgate::shrc203 {
 
-class Runaways {
+class OrphanedJogs {
  public:
-  explicit Runaways(Stops& stops) : stops_(stops) {}
+  explicit OrphanedJogs(Stops& stops) : stops_(stops) {}
 
   void add(AxisSet axes) { axes_ = axes_ | axes; }
   // Again and again, until everything was seen to be stationary.

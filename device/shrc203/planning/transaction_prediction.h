@@ -12,10 +12,11 @@
 
 namespace axisgate::shrc203 {
 
-class Forecast {
+class TransactionPrediction {
  public:
   // From where the axes are and how fast they are set, by axis.
-  Forecast(const Envelope& envelope, const Positions& at, std::map<int, SpeedSetting> speeds, AxisSet controllable)
+  TransactionPrediction(const Envelope& envelope, const Positions& at, std::map<int, SpeedSetting> speeds,
+                        AxisSet controllable)
       : envelope_(envelope), at_(at), speeds_(std::move(speeds)), controllable_(controllable) {}
 
   // The next line. What the envelope refuses; invalid_request where nobody can tell where it would lead.

@@ -1,4 +1,4 @@
-#include "device/shrc203/planning/forecast.h"
+#include "device/shrc203/planning/transaction_prediction.h"
 
 #include <fmt/format.h>
 
@@ -19,12 +19,12 @@ bool is_origin_return(const Command& command) {
 
 }  // namespace
 
-Result<void> Forecast::add(const Command& command) {
+Result<void> TransactionPrediction::add(const Command& command) {
   if (auto good = add_speeds(command); !good) return good;
   return add_motion(command);
 }
 
-Result<void> Forecast::add_speeds(const Command& command) {
+Result<void> TransactionPrediction::add_speeds(const Command& command) {
   for (const auto& [axis, minimum, maximum] : speeds_of(command, controllable_)) {
     if (const auto good = envelope_.check_axis(axis); !good) return good;
     // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
@@ -39,7 +39,7 @@ Result<void> Forecast::add_speeds(const Command& command) {
 }
 
 // That it may be set or started, and where it ends.
-Result<void> Forecast::add_motion(const Command& command) {
+Result<void> TransactionPrediction::add_motion(const Command& command) {
   const AxisSet axes = command.axes(controllable_);
   if (command.row->meaning == Meaning::clear_setpoints) delete_settings(axes);
   if (command.row->effect == Effect::motion_setting) return add_setting(command);
@@ -57,7 +57,7 @@ Result<void> Forecast::add_motion(const Command& command) {
 }
 
 // The mechanical origin return is how the axis comes to know its places.
-Result<void> Forecast::add_origin_return(const Command& command) {
+Result<void> TransactionPrediction::add_origin_return(const Command& command) {
   const bool logical = command.row->meaning == Meaning::logical_return;
   for (const int axis : command.axes(controllable_).list()) {
     Result<void> good = envelope_.check_axis(axis);
@@ -72,7 +72,7 @@ Result<void> Forecast::add_origin_return(const Command& command) {
   return {};
 }
 
-Result<void> Forecast::go_to(const Positions& place) {
+Result<void> TransactionPrediction::go_to(const Positions& place) {
   for (const int axis : controllable_.list()) {
     const auto target = place[static_cast<std::size_t>(axis - 1)];
     if (!target) continue;
@@ -88,13 +88,13 @@ Result<void> Forecast::go_to(const Positions& place) {
 }
 
 // Where a stored program leads is not known.
-Result<void> Forecast::add_program() {
+Result<void> TransactionPrediction::add_program() {
   for (const int axis : controllable_.list()) {
     if (envelope_.is_bounded(axis)) {
-      return fail_on(
-          axis, Reason::outside_travel,
-          fmt::format("where a stored program leads is not known, and {} has a travel envelope", envelope_.label(axis)),
-          "give its moves as a path, or have the envelope taken out of the configuration");
+      return fail_on(axis, Reason::outside_travel,
+                     fmt::format("the targets of a stored program are unknown, and {} has a travel envelope",
+                                 envelope_.label(axis)),
+                     "give its moves as a path, or have the envelope taken out of the configuration");
     }
     at_[static_cast<std::size_t>(axis - 1)].reset();
   }
@@ -103,7 +103,7 @@ Result<void> Forecast::add_program() {
 
 // Whether both buffers of one axis run, or which, is an open question: each alone was checked, and here both together;
 // where it is afterwards is not known then.
-Result<void> Forecast::start(int axis) {
+Result<void> TransactionPrediction::start(int axis) {
   started_.add(axis);
   auto& at = at_[static_cast<std::size_t>(axis - 1)];
   const auto pending = std::exchange(pending_[axis], {});
@@ -123,7 +123,7 @@ Result<void> Forecast::start(int axis) {
 }
 
 // Of a line or curve, GC: for some of its axes may delete all or nothing (manual 87)): it stays, and is in doubt.
-void Forecast::delete_settings(AxisSet axes) {
+void TransactionPrediction::delete_settings(AxisSet axes) {
   for (const Register reg : {Register::m, Register::a, Register::k, Register::e}) {
     const AxisSet set = axes_of(reg);
     const bool whole = reg == Register::k || reg == Register::e;
@@ -135,7 +135,7 @@ void Forecast::delete_settings(AxisSet axes) {
   }
 }
 
-Result<void> Forecast::add_setting(const Command& command) {
+Result<void> TransactionPrediction::add_setting(const Command& command) {
   const Register reg = command.row->reg;
   if (reg == Register::e || reg == Register::ep) return add_arc(command);
   const bool relative = reg != Register::a && reg != Register::ap;
@@ -150,9 +150,7 @@ Result<void> Forecast::add_setting(const Command& command) {
   }
   for (const auto& one : plan->axes) {
     if (!one.target) {
-      return fail_on(one.axis, Reason::position_unknown,
-                     fmt::format("where {} stands is not known", envelope_.label(one.axis)),
-                     "wait until the device is up");
+      return envelope_.position_unknown(one.axis);
     }
     const SpeedSetting& speed = speeds_[line ? plan->axes.front().axis : one.axis];
     if (const auto good = envelope_.check_speed(one.axis, line ? speed.minimum : speed.maximum); !good) return good;
@@ -164,7 +162,7 @@ Result<void> Forecast::add_setting(const Command& command) {
 }
 
 // The whole curve, and the speed S of its lower axis in every direction (manual 71) to 82)).
-Result<void> Forecast::add_arc(const Command& command) {
+Result<void> TransactionPrediction::add_arc(const Command& command) {
   const auto line = arc_of(command, envelope_);
   if (!line) return tl::unexpected(line.error());
   AxisSet axes;
@@ -195,10 +193,11 @@ Result<void> Forecast::add_arc(const Command& command) {
   return {};
 }
 
-Result<void> Forecast::check_extent(int axis, const Extent& extent, std::int64_t end) {
+Result<void> TransactionPrediction::check_extent(int axis, const Extent& extent, std::int64_t end) {
   const auto& at = at_[static_cast<std::size_t>(axis - 1)];
   if (!at) {
-    return fail_on(axis, Reason::position_unknown, fmt::format("where {} would be is not known", envelope_.label(axis)),
+    return fail_on(axis, Reason::position_unknown,
+                   fmt::format("{}: the position after these lines is unknown", envelope_.label(axis)),
                    "send the motion by itself");
   }
   for (const auto reached : {extent.lowest, extent.highest, end}) {
@@ -207,7 +206,7 @@ Result<void> Forecast::check_extent(int axis, const Extent& extent, std::int64_t
   return {};
 }
 
-AxisSet Forecast::axes_of(Register reg) const {
+AxisSet TransactionPrediction::axes_of(Register reg) const {
   AxisSet axes;
   for (const auto& [axis, settings] : pending_) {
     if (std::ranges::find(settings, reg, &Pending::reg) != settings.end()) axes.add(axis);
@@ -215,12 +214,12 @@ AxisSet Forecast::axes_of(Register reg) const {
   return axes;
 }
 
-void Forecast::drop(int axis, Register reg) {
+void TransactionPrediction::drop(int axis, Register reg) {
   std::erase_if(pending_[axis], [reg](const Pending& one) { return one.reg == reg; });
 }
 
 // The line or curve before is gone on all its axes: each register holds one, whatever its axes (manual 22) to 25)).
-Result<void> Forecast::overwrite(Register reg, bool lasting) {
+Result<void> TransactionPrediction::overwrite(Register reg, bool lasting) {
   for (const int axis : axes_of(reg).list()) {
     if (const auto good = lasting ? check_chain(axis) : Result<void>(); !good) return good;
     drop(axis, reg);
@@ -229,14 +228,14 @@ Result<void> Forecast::overwrite(Register reg, bool lasting) {
 }
 
 // The one before may have chained, or not: where the next one would start from is not certain.
-Result<void> Forecast::check_chain(int axis) {
+Result<void> TransactionPrediction::check_chain(int axis) {
   if (!started_.has(axis) || std::ranges::none_of(pending_[axis], &Pending::lasting)) return {};
   return fail_on(axis, Reason::invalid_request,
                  fmt::format("{} has a second prebuffer setting before the next start", envelope_.label(axis)),
                  "start each with G:, or run a path");
 }
 
-Result<void> Forecast::add_pending(int axis, const Pending& one) {
+Result<void> TransactionPrediction::add_pending(int axis, const Pending& one) {
   if (const auto good = one.lasting ? check_chain(axis) : Result<void>(); !good) return good;
   drop(axis, one.reg);
   // What belongs to several axes goes for all of them when one is set anew.

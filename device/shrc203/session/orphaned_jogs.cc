@@ -1,11 +1,11 @@
-#include "device/shrc203/session/runaways.h"
+#include "device/shrc203/session/orphaned_jogs.h"
 
 #include "device/core/guard.h"
 
 namespace axisgate::shrc203 {
 
-void Runaways::stop() {
-  if (axes_.empty() || !guarded(Guard::runaways_stopped)) return;
+void OrphanedJogs::stop() {
+  if (axes_.empty() || !guarded(Guard::orphaned_jogs_stopped)) return;
   stops_.stop(axes_, {.who = "the gateway: a jog ran on while the line was lost"});
 }
 
