@@ -6,12 +6,12 @@
 
 #include "device/shrc203/command/listing.h"
 #include "device/shrc203/command/saved_positions.h"
+#include "device/shrc203/command/setting_lines.h"
 #include "device/shrc203/controller.h"
 #include "device/shrc203/planning/transaction_lines.h"
 #include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/simulator.h"
-#include "device/shrc203/transaction/setting_lines.h"
 
 namespace axisgate::shrc203 {
 namespace {

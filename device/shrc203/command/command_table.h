@@ -128,7 +128,7 @@ struct CommandRow {
 
 std::span<const CommandRow> command_table();
 
-// The row of that name, which must exist. For this folder, setting_lines.cc and tests: other code of the driver has
+// The row of that name, which must exist. For this folder and tests: other code of the driver has
 // commands from builders.h, and decides by the attributes of their rows.
 const CommandRow& command_row(std::string_view name);
 

@@ -1,4 +1,4 @@
-#include "device/shrc203/transaction/setting_lines.h"
+#include "device/shrc203/command/setting_lines.h"
 
 #include <fmt/format.h>
 
