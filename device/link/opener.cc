@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "device/link/errand.h"
+#include "device/link/blocking_task.h"
 
 namespace axisgate {
 

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
+#include "device/link/blocking_task.h"
 #include "device/link/clock.h"
-#include "device/link/errand.h"
 
 namespace axisgate {
 namespace {

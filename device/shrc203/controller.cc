@@ -104,12 +104,12 @@ struct Controller::Rooms {
                   triggers, watch,    store,   motions,    session, tasks};
   Disarming disarming{restorer, pending, store, tasks};
   PathFollower follower{parts, disarming, restorer, store};
-  Approaches approaches{entry, follower, store, motions, line.pace()};
+  Approaches approaches{entry, follower, store, motions, line.timing()};
   JogWatchdog watchdog{dialogue, stops, store, motions, rights, tasks};
 
   Moves moves{entry, speeds, starter, watch, restorer, approaches, store, motions, rights, tasks};
   Homes homes{entry, speeds, starter, watch, restorer, store, motions, rights, tasks};
-  Paths paths{entry, follower, store, motions, rights, line.pace(), tasks};
+  Paths paths{entry, follower, store, motions, rights, line.timing(), tasks};
   Scans scans{entry, follower, triggers, reader, store, motions, rights, tasks};
   Jogs jogs{entry, speeds, starter, watch, watchdog, reader, restorer, stops, store, motions, rights, tasks};
   SavedPositions saved{dialogue, explainer, entry, speeds, starter, watch, restorer, store, motions, rights, tasks};

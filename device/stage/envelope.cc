@@ -66,7 +66,7 @@ Result<void> Envelope::check_stage(int axis) const {
 Result<void> Envelope::check_homed(int axis) const {
   bool first = profile(axis).home_first;
   for (const NarrowerLimits* limits : narrower(axis)) first = first || limits->home_first;
-  if (!first || state_.axis(axis).homed || !guarded(Guard::home_comes_first)) return {};
+  if (!first || state_.axis(axis).homed || !guarded(Guard::homing_required)) return {};
   return fail_on(axis, Reason::not_homed,
                  fmt::format("{} has not found its origin since the controller was started, or was last out of sight: "
                              "its travel limits mean nothing yet",
@@ -186,7 +186,7 @@ std::vector<const NarrowerLimits*> Envelope::narrower(int axis) const {
   std::vector<const NarrowerLimits*> theirs;
   for (const NarrowerLimits& limits : profile(axis).narrower) {
     const bool meant = limits.whose == who_ || limits.whose == role_;
-    if (meant && guarded(Guard::narrower_for_some)) theirs.push_back(&limits);
+    if (meant && guarded(Guard::overrides_for_some)) theirs.push_back(&limits);
   }
   return theirs;
 }

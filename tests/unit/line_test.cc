@@ -203,12 +203,12 @@ TEST_F(LineTest, TheTurnaroundIsLearntFromExchangesButNotFromStops) {
   EXPECT_EQ(sent(), "?:V\r\n");
   pass(100);
   receive("V2.00.000\r\n");
-  EXPECT_EQ(line.pace().longest_turnaround(), milliseconds(84));
+  EXPECT_EQ(line.timing().longest_turnaround(), milliseconds(84));
   ask("L:1");
   EXPECT_EQ(sent(), "L:1\r\n");
   pass(200);
   receive("OK\r\n");
-  EXPECT_EQ(line.pace().longest_turnaround(), milliseconds(84));
+  EXPECT_EQ(line.timing().longest_turnaround(), milliseconds(84));
 }
 
 // P:OFF writes to a memory, for 5 s at most (manual 112)).

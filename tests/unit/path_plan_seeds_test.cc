@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "device/shrc203/planning/feeding.h"
 #include "device/shrc203/planning/path_plan.h"
+#include "device/shrc203/planning/refill_feasibility.h"
 #include "tests/simulation/random.h"
 
 namespace axisgate::shrc203::path_plan_seeds_test {

@@ -23,7 +23,7 @@ Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListe
       executor_(executor),
       listener_(listener),
       backoff_(kReopenBackoffMin),
-      pace_(profile.baud) {}
+      timing_(profile.baud) {}
 
 bool Line::change(LinkEvent event, TimePoint now) {
   const LinkPhase before = state_.phase();
@@ -41,7 +41,7 @@ void Line::link_up(TimePoint now) {
   outstanding_ = {};
   maybe_in_two_ = false;
   after_refused_stop_.reset();
-  pace_.connected();
+  timing_.connected();
   completions_.connected();
   continuity_.connected();
   barrier_ = make_barrier({}, connect_limits());
@@ -255,7 +255,7 @@ std::optional<TimePoint> Line::next_deadline(TimePoint now) const {
 }
 
 Barrier::Limits Line::barrier_limits() const {
-  const Duration longest_reply = pace_.time_of(Pace::kReplyBytesMax);
+  const Duration longest_reply = timing_.time_of(LineTiming::kReplyBytesMax);
   return {profile_.reply_limit + longest_reply, std::max(kBarrierSilenceMin, 3 * longest_reply)};
 }
 

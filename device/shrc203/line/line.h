@@ -19,8 +19,8 @@
 #include "device/shrc203/line/barrier.h"
 #include "device/shrc203/line/completions.h"
 #include "device/shrc203/line/continuity.h"
+#include "device/shrc203/line/line_timing.h"
 #include "device/shrc203/line/link.h"
-#include "device/shrc203/line/pace.h"
 #include "device/shrc203/line/reservations.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"
@@ -111,7 +111,7 @@ class Line {
   // ended by then, and from then on nothing until the refill is written or kRefillReservedAfterDue has passed.
   void keep_free(MotionId path, TimePoint due, TimePoint now);
   void release(MotionId path, TimePoint now);
-  const Pace& pace() const { return pace_; }
+  const LineTiming& timing() const { return timing_; }
 
   const Link& state() const { return state_; }
   Completions& completions() { return completions_; }
@@ -187,7 +187,7 @@ class Line {
   Link state_;
   Duration backoff_;
   LineFramer framer_;
-  Pace pace_;
+  LineTiming timing_;
   Reservations reservations_;
   Completions completions_;
   Continuity continuity_;

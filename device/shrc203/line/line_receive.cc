@@ -245,7 +245,7 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   if (result.reply) completions_.answered(done.written);
   const auto& request = done.waiting->request;
   if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
-    pace_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
+    timing_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
   }
   listener_.line_event(ended(done, result, outcome, now), now);
   for (auto& answer : done.waiting->answers) answer.deliver(result);

@@ -20,13 +20,13 @@ bool Line::leaves_refills_alone(const ExchangeRequest& request, TimePoint now) c
   if (profile_.refills != Refills::reserved || request.handshake || request.lane <= Lane::path_refill) return true;
   if (queue_.size(Lane::path_refill) > 0) return false;
   if (reservations_.empty()) return true;
-  Duration length = pace_.longest_exchange(request.command);
-  if (continuity_.due(now)) length += pace_.longest_exchange(commands::ask(kLineBefore));
+  Duration length = timing_.longest_exchange(request.command);
+  if (continuity_.due(now)) length += timing_.longest_exchange(commands::ask(kLineBefore));
   return reservations_.allow(request.motion, length, now);
 }
 
 bool Line::may_settle(TimePoint now) const {
-  return reservations_.empty() || reservations_.allow(0, pace_.longest_exchange(commands::ask(kSettling)), now);
+  return reservations_.empty() || reservations_.allow(0, timing_.longest_exchange(commands::ask(kSettling)), now);
 }
 
 }  // namespace axisgate::shrc203

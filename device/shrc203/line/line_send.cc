@@ -134,7 +134,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const auto& request = waiting->request;
   const auto limit =
       request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
-  const Duration on_the_wire = pace_.time_of(request.command.line.size() + 2 + Pace::kReplyBytesMax);
+  const Duration on_the_wire = timing_.time_of(request.command.line.size() + 2 + LineTiming::kReplyBytesMax);
   // Only a stop does not wait: what is half in must not end as its answer.
   if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
@@ -173,7 +173,7 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
   bytes += "\r\n";
   // What is saved may take long, and that is no sign of a restart.
   const Duration saving = cause ? cause->command.row->reply_limit : Duration::zero();
-  continuity_.wrote(line, pace_.time_of(bytes.size() + Pace::kReplyBytesMax) + saving, now_);
+  continuity_.wrote(line, timing_.time_of(bytes.size() + LineTiming::kReplyBytesMax) + saving, now_);
   link_.write(bytes);
   BytesWritten written;
   written.bytes = std::move(bytes);

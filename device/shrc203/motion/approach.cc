@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/planning/feeding.h"
+#include "device/shrc203/planning/refill_feasibility.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -67,7 +67,7 @@ Result<PathPlan> Approaches::plan(const MoveRequest& request) const {
   path.segments = {segment_to(first, from), segment_to(*std::move(last), from)};
   if (path.segments[0].end == path.begin) path.segments.erase(path.segments.begin());  // it stands there already
   time_moves(path, store_.speeds(path.axes));
-  path.segments.back().from_rest = path.axes.count() > 1 || !check_refill_feasibility(path, pace_);
+  path.segments.back().from_rest = path.axes.count() > 1 || !check_refill_feasibility(path, timing_);
   return path;
 }
 

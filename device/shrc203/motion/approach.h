@@ -3,7 +3,7 @@
 // come to rest between: whether each would go on by itself is open (README: chain_step_on).
 #pragma once
 
-#include "device/shrc203/line/pace.h"
+#include "device/shrc203/line/line_timing.h"
 #include "device/shrc203/motion/entry.h"
 #include "device/shrc203/motion/paths.h"
 #include "device/shrc203/planning/path_plan.h"
@@ -14,8 +14,8 @@ namespace axisgate::shrc203 {
 
 class Approaches {
  public:
-  Approaches(Entry& entry, PathFollower& follower, const StateStore& store, Motions& motions, const Pace& pace)
-      : entry_(entry), follower_(follower), store_(store), motions_(motions), pace_(pace) {}
+  Approaches(Entry& entry, PathFollower& follower, const StateStore& store, Motions& motions, const LineTiming& timing)
+      : entry_(entry), follower_(follower), store_(store), motions_(motions), timing_(timing) {}
 
   // Whether some axis has an approach.
   static bool has_any(const MoveRequest& request);
@@ -28,7 +28,7 @@ class Approaches {
   PathFollower& follower_;
   const StateStore& store_;
   Motions& motions_;
-  const Pace& pace_;
+  const LineTiming& timing_;
 };
 
 }  // namespace axisgate::shrc203

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
-#include "device/shrc203/planning/feeding.h"
+#include "device/shrc203/planning/refill_feasibility.h"
 
 namespace axisgate::shrc203 {
 
@@ -41,7 +41,7 @@ Result<PathPlan> Paths::plan(const PathRequest& request) const {
   }
   auto plan = plan_path(request, store_.positions(), store_.envelope(request.context));
   if (!plan || !store_.speeds_known(AxisSet::of(plan->axes.lowest()))) return plan;
-  const auto feasible = check_refill_feasibility(*plan, pace_);
+  const auto feasible = check_refill_feasibility(*plan, timing_);
   if (!feasible) return tl::unexpected(feasible.error());
   return plan;
 }

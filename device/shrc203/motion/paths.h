@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/line/pace.h"
+#include "device/shrc203/line/line_timing.h"
 #include "device/shrc203/motion/disarming.h"
 #include "device/shrc203/motion/entry.h"
 #include "device/shrc203/motion/path_run.h"
@@ -34,13 +34,13 @@ class PathFollower {
 class Paths {
  public:
   Paths(Entry& entry, PathFollower& follower, const StateStore& store, Motions& motions, Rights& rights,
-        const Pace& pace, Tasks& tasks)
+        const LineTiming& timing, Tasks& tasks)
       : entry_(entry),
         follower_(follower),
         store_(store),
         motions_(motions),
         rights_(rights),
-        pace_(pace),
+        timing_(timing),
         tasks_(tasks) {}
 
   void run(PathRequest request, StageController::OnStarted started);
@@ -56,7 +56,7 @@ class Paths {
   const StateStore& store_;
   Motions& motions_;
   Rights& rights_;
-  const Pace& pace_;
+  const LineTiming& timing_;
   Tasks& tasks_;
 };
 

@@ -36,7 +36,7 @@ std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
 // Before the first line of that transaction: what others have asked for is not sent there.
 void NonHostVisit::leave_host(MotionId motion) {
   non_host_.began();
-  if (!guarded(Guard::away_alone)) return;
+  if (!guarded(Guard::non_host_alone)) return;
   line_.withdraw(
       [motion](const ExchangeRequest& request) {
         return request.lane != Lane::stop && !request.handshake && request.motion != motion;

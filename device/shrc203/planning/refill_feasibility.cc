@@ -1,4 +1,4 @@
-#include "device/shrc203/planning/feeding.h"
+#include "device/shrc203/planning/refill_feasibility.h"
 
 #include <fmt/format.h>
 
@@ -13,8 +13,8 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr std::size_t kAxisNumberBytes = 1 + Pace::kTerminator;
-constexpr std::size_t kChainedBytes = 4 + Pace::kTerminator;  // OK_D
+constexpr std::size_t kAxisNumberBytes = 1 + LineTiming::kTerminator;
+constexpr std::size_t kChainedBytes = 4 + LineTiming::kTerminator;  // OK_D
 
 double milliseconds_of(Duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
@@ -36,19 +36,19 @@ Command segment_setter(const PathPlan& plan, int number) {
   return *std::move(setter);
 }
 
-Duration shortest_feasible(const PathPlan& plan, int number, const Pace& pace) {
+Duration shortest_feasible(const PathPlan& plan, int number, const LineTiming& timing) {
   const std::size_t axis_numbers = static_cast<std::size_t>(plan.axes.count()) * kAxisNumberBytes;
-  const std::size_t setter = segment_setter(plan, number + 1).line.size() + Pace::kTerminator;
-  return pace.time_of(axis_numbers + setter + kChainedBytes) + pace.usual_turnaround() + kRefillHostDelay;
+  const std::size_t setter = segment_setter(plan, number + 1).line.size() + LineTiming::kTerminator;
+  return timing.time_of(axis_numbers + setter + kChainedBytes) + timing.usual_turnaround() + kRefillHostDelay;
 }
 
-Result<void> check_refill_feasibility(const PathPlan& plan, const Pace& pace) {
+Result<void> check_refill_feasibility(const PathPlan& plan, const LineTiming& timing) {
   const int count = static_cast<int>(plan.segments.size());
   int too_short = 0;
   Duration longest_needed{};
   for (int number = 1; number < count; ++number) {
     if (plan.segments[static_cast<std::size_t>(number)].waits()) continue;  // the next one is set at READY
-    const Duration needed = shortest_feasible(plan, number, pace);
+    const Duration needed = shortest_feasible(plan, number, timing);
     longest_needed = std::max(longest_needed, needed);
     const Duration lasts = plan.segments[static_cast<std::size_t>(number - 1)].shortest;
     if (too_short == 0 && lasts + kSegmentTimePrecision < needed) too_short = number;
@@ -59,8 +59,8 @@ Result<void> check_refill_feasibility(const PathPlan& plan, const Pace& pace) {
       Reason::too_fast,
       fmt::format("segment {} takes {:.1f} ms, in which a line of {} baud cannot set the next one: the shortest "
                   "feasible segment time is {}",
-                  too_short, milliseconds_of(lasts), pace.baud(),
-                  in_milliseconds(shortest_feasible(plan, too_short, pace))),
+                  too_short, milliseconds_of(lasts), timing.baud(),
+                  in_milliseconds(shortest_feasible(plan, too_short, timing))),
       fmt::format("let every segment but the last take {} or more: longer or slower ones, or a higher baud rate",
                   in_milliseconds(longest_needed)));
 }

@@ -10,13 +10,13 @@
 
 namespace axisgate::shrc203 {
 
-class Pace {
+class LineTiming {
  public:
   static constexpr std::size_t kReplyBytesMax = 64;  // the longest reply on a path: Q:SPC with three long coordinates
   static constexpr std::size_t kTerminator = 2;      // CR LF
   static constexpr std::size_t kKept = 32;           // so many of the newest exchanges tell the turnaround
 
-  explicit Pace(int baud) : baud_(baud) {}
+  explicit LineTiming(int baud) : baud_(baud) {}
 
   int baud() const { return baud_; }
   Duration time_of(std::size_t bytes) const;  // ten bits a byte

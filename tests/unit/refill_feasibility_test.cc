@@ -1,9 +1,9 @@
-#include "device/shrc203/planning/feeding.h"
+#include "device/shrc203/planning/refill_feasibility.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace axisgate::shrc203::feeding_test {
+namespace axisgate::shrc203::refill_feasibility_test {
 namespace {
 
 using std::chrono::milliseconds;
@@ -19,7 +19,7 @@ SegmentPlan to_and_fro(Duration lasts) { return segment(lasts, {{1, 100, {}, {}}
 // 10,000 baud: a millisecond a byte; answers come without delay.
 class FeedingTest : public testing::Test {
  protected:
-  FeedingTest() { pace.answered(0, 0, {}); }
+  FeedingTest() { timing.answered(0, 0, {}); }
 
   PathPlan path(std::vector<Duration> times) const {
     PathPlan plan{AxisSet::of(1), {}, {}};
@@ -27,7 +27,7 @@ class FeedingTest : public testing::Test {
     return plan;
   }
 
-  Pace pace{10'000};
+  LineTiming timing{10'000};
 };
 
 // "1", "MP:1+P100" and OK_D with CR LF each: 3 + 11 + 6 ms, and 5 ms for the host.
@@ -36,10 +36,10 @@ constexpr auto kShortest = milliseconds(25);
 TEST_F(FeedingTest, TheTimeIsThatOfTheLinesThatMustPass) {
   const PathPlan plan = path({kShortest, kShortest});
   EXPECT_EQ(segment_setter(plan, 2).line, "MP:1+P100");
-  EXPECT_EQ(shortest_feasible(plan, 1, pace), kShortest);
-  pace = Pace(10'000);
-  for (const int time : {3, 3, 90}) pace.answered(0, 0, milliseconds(4 + time));
-  EXPECT_EQ(shortest_feasible(plan, 1, pace), kShortest + milliseconds(3)) << "one slow answer is not what is usual";
+  EXPECT_EQ(shortest_feasible(plan, 1, timing), kShortest);
+  timing = LineTiming(10'000);
+  for (const int time : {3, 3, 90}) timing.answered(0, 0, milliseconds(4 + time));
+  EXPECT_EQ(shortest_feasible(plan, 1, timing), kShortest + milliseconds(3)) << "one slow answer is not what is usual";
 }
 
 TEST_F(FeedingTest, AStraightLineIsEndedByBothNumbers) {
@@ -47,12 +47,12 @@ TEST_F(FeedingTest, AStraightLineIsEndedByBothNumbers) {
   const auto line = segment(kShortest, {{1, 100, {}, SpeedSetting{20000, 50000, 100}}, {2, -7, {}, {}}});
   plan.segments = {line, line};
   EXPECT_EQ(segment_setter(plan, 2).line, "KP:A+P100-P7,S20000F50000R100");
-  EXPECT_EQ(shortest_feasible(plan, 1, pace), milliseconds(2 * 3 + 31 + 6 + 5));
+  EXPECT_EQ(shortest_feasible(plan, 1, timing), milliseconds(2 * 3 + 31 + 6 + 5));
 }
 
 TEST_F(FeedingTest, WhatIsShorterIsRefused) {
-  EXPECT_TRUE(check_refill_feasibility(path({kShortest, kShortest, kShortest}), pace));
-  const auto refused = check_refill_feasibility(path({kShortest, kShortest - milliseconds(1), kShortest}), pace);
+  EXPECT_TRUE(check_refill_feasibility(path({kShortest, kShortest, kShortest}), timing));
+  const auto refused = check_refill_feasibility(path({kShortest, kShortest - milliseconds(1), kShortest}), timing);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().reason, Reason::too_fast);
   EXPECT_EQ(refused.error().message,
@@ -63,15 +63,15 @@ TEST_F(FeedingTest, WhatIsShorterIsRefused) {
 
 TEST_F(FeedingTest, WhatIsFollowedByARestMayBeShort) {
   PathPlan plan = path({milliseconds(1), kShortest});
-  EXPECT_FALSE(check_refill_feasibility(plan, pace));
+  EXPECT_FALSE(check_refill_feasibility(plan, timing));
   plan.segments[1].rest = milliseconds(1);
-  EXPECT_TRUE(check_refill_feasibility(plan, pace)) << "the next one is set while nothing runs";
+  EXPECT_TRUE(check_refill_feasibility(plan, timing)) << "the next one is set while nothing runs";
 }
 
 TEST_F(FeedingTest, TheLastSegmentMayBeShort) {
-  EXPECT_TRUE(check_refill_feasibility(path({milliseconds(1)}), pace)) << "nothing is set while it runs";
-  EXPECT_TRUE(check_refill_feasibility(path({kShortest, milliseconds(1)}), pace));
+  EXPECT_TRUE(check_refill_feasibility(path({milliseconds(1)}), timing)) << "nothing is set while it runs";
+  EXPECT_TRUE(check_refill_feasibility(path({kShortest, milliseconds(1)}), timing));
 }
 
 }  // namespace
-}  // namespace axisgate::shrc203::feeding_test
+}  // namespace axisgate::shrc203::refill_feasibility_test

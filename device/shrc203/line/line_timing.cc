@@ -1,4 +1,4 @@
-#include "device/shrc203/line/pace.h"
+#include "device/shrc203/line/line_timing.h"
 
 #include <algorithm>
 #include <string_view>
@@ -14,17 +14,17 @@ constexpr std::string_view kLongestAcknowledgement = "OK_D";
 
 }  // namespace
 
-Duration Pace::time_of(std::size_t bytes) const {
+Duration LineTiming::time_of(std::size_t bytes) const {
   return std::chrono::nanoseconds(static_cast<std::int64_t>(bytes) * 10 * 1'000'000'000 / baud_);
 }
 
-void Pace::answered(std::size_t line_bytes, std::size_t reply_bytes, Duration latency) {
+void LineTiming::answered(std::size_t line_bytes, std::size_t reply_bytes, Duration latency) {
   const Duration on_the_wire = time_of(line_bytes + reply_bytes + 2 * kTerminator);
   turnarounds_.push_back(std::max(Duration::zero(), latency - on_the_wire));
   if (turnarounds_.size() > kKept) turnarounds_.pop_front();
 }
 
-Duration Pace::usual_turnaround() const {
+Duration LineTiming::usual_turnaround() const {
   if (turnarounds_.empty()) return kTurnaroundAssumed;
   std::vector<Duration> sorted(turnarounds_.begin(), turnarounds_.end());
   const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>((sorted.size() - 1) / 2);
@@ -32,11 +32,11 @@ Duration Pace::usual_turnaround() const {
   return *middle;
 }
 
-Duration Pace::longest_turnaround() const {
+Duration LineTiming::longest_turnaround() const {
   return turnarounds_.empty() ? kTurnaroundAssumed : *std::ranges::max_element(turnarounds_);
 }
 
-Duration Pace::longest_exchange(const Command& command) const {
+Duration LineTiming::longest_exchange(const Command& command) const {
   const auto lasts = [this](std::size_t bytes) { return time_of(bytes + 2 * kTerminator) + longest_turnaround(); };
   const std::size_t line = command.line.size();
   // A question is refused where the mode forbids it, and nothing moves along a path there.
