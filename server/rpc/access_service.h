@@ -1,31 +1,27 @@
 // Who calls, and tokens.
 #pragma once
 
-#include <grpcpp/server_context.h>
-
 #include "axisgate/v1/access.grpc.pb.h"
-#include "server/access/access.h"
+#include "server/api/tokens.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class AccessService final : public api::AccessService::CallbackService {
+class AccessService final : public v1::AccessService::CallbackService {
  public:
   // It outlives this.
-  explicit AccessService(server::Access& access) : access_(access) {}
+  explicit AccessService(const api::Tokens& tokens) : tokens_(tokens) {}
 
-  grpc::ServerUnaryReactor* GetCaller(grpc::CallbackServerContext* context, const api::GetCallerRequest* request,
-                                      api::GetCallerResponse* response) override;
-  grpc::ServerUnaryReactor* CreateToken(grpc::CallbackServerContext* context, const api::CreateTokenRequest* request,
-                                        api::CreateTokenResponse* response) override;
-  grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const api::ListTokensRequest* request,
-                                       api::ListTokensResponse* response) override;
-  grpc::ServerUnaryReactor* RevokeToken(grpc::CallbackServerContext* context, const api::RevokeTokenRequest* request,
-                                        api::RevokeTokenResponse* response) override;
+  grpc::ServerUnaryReactor* GetCaller(grpc::CallbackServerContext* context, const v1::GetCallerRequest* request,
+                                      v1::GetCallerResponse* response) override;
+  grpc::ServerUnaryReactor* CreateToken(grpc::CallbackServerContext* context, const v1::CreateTokenRequest* request,
+                                        v1::CreateTokenResponse* response) override;
+  grpc::ServerUnaryReactor* ListTokens(grpc::CallbackServerContext* context, const v1::ListTokensRequest* request,
+                                       v1::ListTokensResponse* response) override;
+  grpc::ServerUnaryReactor* RevokeToken(grpc::CallbackServerContext* context, const v1::RevokeTokenRequest* request,
+                                        v1::RevokeTokenResponse* response) override;
 
  private:
-  server::Access& access_;
+  const api::Tokens& tokens_;
 };
 
 }  // namespace axisgate::rpc

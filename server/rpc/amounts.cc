@@ -1,8 +1,10 @@
 #include "server/rpc/amounts.h"
 
-#include <fmt/format.h>
-
+#include <algorithm>
+#include <chrono>
 #include <string>
+
+#include "server/api/targets.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -18,45 +20,45 @@ std::int64_t whole(const Quantity& quantity) { return to_pulses(quantity, Scale{
 
 }  // namespace
 
-Result<Quantity> to_quantity(const api::Distance& distance) {
+Result<Quantity> to_quantity(const v1::Distance& distance) {
   switch (distance.amount_case()) {
-    case api::Distance::kPulses:
+    case v1::Distance::kPulses:
       return pulses(distance.pulses());
-    case api::Distance::kNm:
+    case v1::Distance::kNm:
       return decimal(distance.nm(), Unit::nanometers);
-    case api::Distance::kUm:
+    case v1::Distance::kUm:
       return decimal(distance.um(), Unit::micrometers);
-    case api::Distance::kMm:
+    case v1::Distance::kMm:
       return decimal(distance.mm(), Unit::millimeters);
-    case api::Distance::kDegrees:
+    case v1::Distance::kDegrees:
       return decimal(distance.degrees(), Unit::degrees);
-    case api::Distance::AMOUNT_NOT_SET:
+    case v1::Distance::AMOUNT_NOT_SET:
       break;
   }
   return fail(Reason::invalid_request, "a distance has no amount", "set one of pulses, nm, um, mm and degrees");
 }
 
-Result<Quantity> to_quantity(const api::Speed& speed) {
+Result<Quantity> to_quantity(const v1::Speed& speed) {
   switch (speed.amount_case()) {
-    case api::Speed::kPulsesPerS:
+    case v1::Speed::kPulsesPerS:
       return pulses(speed.pulses_per_s());
-    case api::Speed::kNmPerS:
+    case v1::Speed::kNmPerS:
       return decimal(speed.nm_per_s(), Unit::nanometers);
-    case api::Speed::kUmPerS:
+    case v1::Speed::kUmPerS:
       return decimal(speed.um_per_s(), Unit::micrometers);
-    case api::Speed::kMmPerS:
+    case v1::Speed::kMmPerS:
       return decimal(speed.mm_per_s(), Unit::millimeters);
-    case api::Speed::kDegreesPerS:
+    case v1::Speed::kDegreesPerS:
       return decimal(speed.degrees_per_s(), Unit::degrees);
-    case api::Speed::AMOUNT_NOT_SET:
+    case v1::Speed::AMOUNT_NOT_SET:
       break;
   }
   return fail(Reason::invalid_request, "a speed has no amount",
               "set one of pulses_per_s, nm_per_s, um_per_s, mm_per_s and degrees_per_s");
 }
 
-api::Distance to_distance(const Quantity& quantity) {
-  api::Distance distance;
+v1::Distance to_distance(const Quantity& quantity) {
+  v1::Distance distance;
   switch (quantity.unit) {
     case Unit::pulses:
       distance.set_pulses(whole(quantity));
@@ -77,8 +79,8 @@ api::Distance to_distance(const Quantity& quantity) {
   return distance;
 }
 
-api::Speed to_speed(const Quantity& quantity) {
-  api::Speed speed;
+v1::Speed to_speed(const Quantity& quantity) {
+  v1::Speed speed;
   switch (quantity.unit) {
     case Unit::pulses:
       speed.set_pulses_per_s(whole(quantity));
@@ -99,26 +101,28 @@ api::Speed to_speed(const Quantity& quantity) {
   return speed;
 }
 
-api::Unit to_proto(Unit unit) {
-  static_assert(static_cast<int>(Unit::pulses) + 1 == api::UNIT_PULSES);
-  static_assert(static_cast<int>(Unit::degrees) + 1 == api::UNIT_DEGREES);
-  return static_cast<api::Unit>(static_cast<int>(unit) + 1);
-}
-
-Result<int> to_axis(int number) {
-  if (number >= 1 && number <= stage::kAxisCount) return number;
-  return fail(Reason::unknown_axis, fmt::format("there is no axis {}", number), "axes are 1, 2 and 3");
+v1::Unit to_proto(Unit unit) {
+  static_assert(static_cast<int>(Unit::pulses) + 1 == v1::UNIT_PULSES);
+  static_assert(static_cast<int>(Unit::degrees) + 1 == v1::UNIT_DEGREES);
+  return static_cast<v1::Unit>(static_cast<int>(unit) + 1);
 }
 
 Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
-  stage::AxisSet axes;
-  for (const int number : numbers) {
-    const Result<int> axis = to_axis(number);
-    if (!axis) return tl::unexpected(axis.error());
-    if (axes.has(*axis)) return fail(Reason::invalid_request, fmt::format("axis {} is named twice", number));
-    axes.add(*axis);
-  }
-  return axes;
+  return api::checked_axes({numbers.begin(), numbers.end()});
+}
+
+Duration to_duration(const google::protobuf::Duration& duration) {
+  constexpr std::int64_t kSecondsMax = std::int64_t{200} * 366 * 24 * 3600;
+  if (duration.seconds() < 0 || duration.nanos() < 0) return Duration(-1);
+  return std::chrono::seconds(std::min(duration.seconds(), kSecondsMax)) + std::chrono::nanoseconds(duration.nanos());
+}
+
+google::protobuf::Duration to_proto(Duration duration) {
+  google::protobuf::Duration proto;
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(duration);
+  proto.set_seconds(seconds.count());
+  proto.set_nanos(static_cast<std::int32_t>((duration - seconds).count()));
+  return proto;
 }
 
 }  // namespace axisgate::rpc

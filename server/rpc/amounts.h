@@ -1,27 +1,30 @@
 // Distances, speeds and axes as callers write them, as exact quantities; and back.
 #pragma once
 
+#include <google/protobuf/duration.pb.h>
 #include <google/protobuf/repeated_field.h>
 
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
 #include "device/core/quantity.h"
+#include "device/core/time.h"
 #include "device/stage/axes.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
 // invalid_request where no amount is given or it is not an exact decimal.
-Result<Quantity> to_quantity(const api::Distance& distance);
-Result<Quantity> to_quantity(const api::Speed& speed);
+Result<Quantity> to_quantity(const v1::Distance& distance);
+Result<Quantity> to_quantity(const v1::Speed& speed);
 
-api::Distance to_distance(const Quantity& quantity);
-api::Speed to_speed(const Quantity& quantity);
-api::Unit to_proto(Unit unit);
+v1::Distance to_distance(const Quantity& quantity);
+v1::Speed to_speed(const Quantity& quantity);
+v1::Unit to_proto(Unit unit);
 
-// Each 1 to 3, once: else unknown_axis or invalid_request. No axes stay no axes.
+// As api::checked_axes().
 Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers);
-Result<int> to_axis(int number);
+
+// Below zero for one that is, or that is none; 200 years for anything longer.
+Duration to_duration(const google::protobuf::Duration& duration);
+google::protobuf::Duration to_proto(Duration duration);
 
 }  // namespace axisgate::rpc

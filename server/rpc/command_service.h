@@ -2,29 +2,22 @@
 #pragma once
 
 #include "axisgate/v1/command.grpc.pb.h"
-#include "server/access/access.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/commands.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class CommandService final : public api::CommandService::CallbackService {
+class CommandService final : public v1::CommandService::CallbackService {
  public:
-  // All outlive this.
-  CommandService(server::Gateway& gateway, const server::Access& access, StreamLimit& streams)
-      : gateway_(gateway), access_(access), streams_(streams) {}
+  // It outlives this.
+  explicit CommandService(const api::Commands& commands) : commands_(commands) {}
 
-  grpc::ServerUnaryReactor* ListCommands(grpc::CallbackServerContext* context, const api::ListCommandsRequest* request,
-                                         api::ListCommandsResponse* response) override;
-  grpc::ServerWriteReactor<api::ExecuteResponse>* Execute(grpc::CallbackServerContext* context,
-                                                          const api::ExecuteRequest* request) override;
+  grpc::ServerUnaryReactor* ListCommands(grpc::CallbackServerContext* context, const v1::ListCommandsRequest* request,
+                                         v1::ListCommandsResponse* response) override;
+  grpc::ServerWriteReactor<v1::ExecuteResponse>* Execute(grpc::CallbackServerContext* context,
+                                                         const v1::ExecuteRequest* request) override;
 
  private:
-  server::Gateway& gateway_;
-  const server::Access& access_;
-  StreamLimit& streams_;
+  const api::Commands& commands_;
 };
 
 }  // namespace axisgate::rpc

@@ -1,161 +1,98 @@
 #include "server/rpc/control_service.h"
 
-#include <chrono>
 #include <memory>
 #include <utility>
 
+#include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
-#include "server/rpc/ended_stream.h"
+#include "server/rpc/lease_keeping.h"
 #include "server/rpc/lease_news.h"
-#include "server/rpc/lease_streams.h"
+#include "server/rpc/subscribed_stream.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
 namespace {
 
-using server::Lease;
-using server::LeaseTerms;
-using stage::StageController;
-
-constexpr Duration kWaitMax = std::chrono::hours(24);
-
-// Acquiring and taking over alike: what they ask for.
-struct Wish {
-  server::Device* device = nullptr;
-  LeaseTerms terms;
-  stage::RequestContext asked;
-};
-
-template <class Request>
-Result<Wish> to_wish(const server::Gateway& gateway, const grpc::CallbackServerContext& call, const Request& request) {
-  const Result<server::Device*> device = find_device(gateway, request.device());
-  if (!device) return tl::unexpected(device.error());
-  Result<LeaseTerms> terms = to_terms(request.terms());
-  if (!terms) return tl::unexpected(terms.error());
-  Result<stage::RequestContext> asked = mutation_context(call, request.context());
-  if (!asked) return tl::unexpected(asked.error());
-  return Wish{*device, *std::move(terms), *std::move(asked)};
-}
-
-// Tells the caller. One who has gone meanwhile does not keep what nobody would give back.
+// AcquireLease and TakeOverLease alike.
 template <class Response>
-server::Leases::OnLease tell(const std::shared_ptr<UnaryCall<Response>>& call, server::Device& device) {
-  return [call, &device](const Result<Lease>& lease) {
+class WaitingCall final : public api::LeaseSeeker {
+ public:
+  explicit WaitingCall(std::shared_ptr<UnaryCall<Response>> call) : call_(std::move(call)) {}
+
+  bool answer(Result<std::optional<server::Lease>> lease) override {
     if (!lease) {
-      call->refuse(lease.error());
-      return;
+      call_->refuse(lease.error());
+      return true;
     }
-    const bool told = call->try_answer([&](Response& answer) { *answer.mutable_lease() = to_proto(*lease); });
-    if (told) return;
-    device.post([&device, token = lease->token](StageController&, TimePoint later) {
-      (void)device.leases().release(token, later);
+    return call_->try_answer([&](Response& response) {
+      if (*lease) *response.mutable_lease() = to_proto(**lease);
     });
-  };
-}
+  }
+
+  void when_gone(std::function<void()> leave) override { call_->when_cancelled(std::move(leave)); }
+
+ private:
+  const std::shared_ptr<UnaryCall<Response>> call_;
+};
 
 }  // namespace
 
 grpc::ServerUnaryReactor* ControlService::AcquireLease(grpc::CallbackServerContext* context,
-                                                       const api::AcquireLeaseRequest* request,
-                                                       api::AcquireLeaseResponse* response) {
-  const auto call = UnaryCall<api::AcquireLeaseResponse>::start(response);
-  const Result<Wish> wish = to_wish(gateway_, *context, *request);
-  if (!wish) return call->refuse(wish.error());
-  const Result<Duration> wait = to_span(request->wait(), kWaitMax, "wait");
-  if (!wait) return call->refuse(wait.error());
-  if (request->validate_only()) {
-    call->answer([](api::AcquireLeaseResponse&) {});
-    return call.get();
-  }
-  server::Device& device = *wish->device;
-  device.post([call, &device, wish = *wish, wait = *wait](StageController&, TimePoint now) {
-    const std::uint64_t id = device.leases().acquire(wish.terms, wish.asked.who, wait > Duration::zero(), now + wait,
-                                                     now, tell(call, device));
-    if (id == 0) return;
-    call->when_cancelled([&device, id] {
-      device.post([&device, id](StageController&, TimePoint later) { device.leases().withdraw(id, later); });
-    });
-  });
+                                                       const v1::AcquireLeaseRequest* request,
+                                                       v1::AcquireLeaseResponse* response) {
+  const auto call = UnaryCall<v1::AcquireLeaseResponse>::start(response);
+  leases_.acquire(to_checked_call(*context, *request), request->device(), to_wish(request->terms()),
+                  to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
   return call.get();
 }
 
-grpc::ServerBidiReactor<api::KeepLeaseAliveRequest, api::KeepLeaseAliveResponse>* ControlService::KeepLeaseAlive(
-    grpc::CallbackServerContext*) {
-  return LeaseKeeping::start(gateway_, streams_.take());
+grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>* ControlService::KeepLeaseAlive(
+    grpc::CallbackServerContext* context) {
+  using Reactor = grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>;
+  auto keeping = leases_.keep_alive(to_call(*context));
+  if (!keeping) return new EndedStream<Reactor>(keeping.error());
+  return LeaseKeeping::start(*std::move(keeping));
 }
 
-grpc::ServerUnaryReactor* ControlService::ReleaseLease(grpc::CallbackServerContext*,
-                                                       const api::ReleaseLeaseRequest* request,
-                                                       api::ReleaseLeaseResponse* response) {
-  const auto call = UnaryCall<api::ReleaseLeaseResponse>::start(response);
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return call->refuse(device.error());
-  (*device)->post(
-      [call, &device = **device, token = request->context().lease_token()](StageController&, TimePoint now) {
-        const Result<void> done = device.leases().release(token, now);
-        done ? call->answer([](api::ReleaseLeaseResponse&) {}) : static_cast<void>(call->refuse(done.error()));
-      });
+grpc::ServerUnaryReactor* ControlService::ReleaseLease(grpc::CallbackServerContext* context,
+                                                       const v1::ReleaseLeaseRequest* request,
+                                                       v1::ReleaseLeaseResponse* response) {
+  const auto call = UnaryCall<v1::ReleaseLeaseResponse>::start(response);
+  leases_.release(to_call(*context, request->context()), request->device(), answering(call));
   return call.get();
 }
 
-grpc::ServerUnaryReactor* ControlService::HandOverLease(grpc::CallbackServerContext*,
-                                                        const api::HandOverLeaseRequest* request,
-                                                        api::HandOverLeaseResponse* response) {
-  const auto call = UnaryCall<api::HandOverLeaseResponse>::start(response);
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return call->refuse(device.error());
-  (*device)->post([call, &device = **device, token = request->context().lease_token(), to = request->to()](
-                      StageController&, TimePoint now) {
-    const Result<void> done = device.leases().hand_over(token, to, now);
-    done ? call->answer([](api::HandOverLeaseResponse&) {}) : static_cast<void>(call->refuse(done.error()));
-  });
+grpc::ServerUnaryReactor* ControlService::HandOverLease(grpc::CallbackServerContext* context,
+                                                        const v1::HandOverLeaseRequest* request,
+                                                        v1::HandOverLeaseResponse* response) {
+  const auto call = UnaryCall<v1::HandOverLeaseResponse>::start(response);
+  leases_.hand_over(to_call(*context, request->context()), request->device(), request->to(), answering(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* ControlService::TakeOverLease(grpc::CallbackServerContext* context,
-                                                        const api::TakeOverLeaseRequest* request,
-                                                        api::TakeOverLeaseResponse* response) {
-  const auto call = UnaryCall<api::TakeOverLeaseResponse>::start(response);
-  const Result<Wish> wish = to_wish(gateway_, *context, *request);
-  if (!wish) return call->refuse(wish.error());
-  if (request->validate_only()) {
-    call->answer([](api::TakeOverLeaseResponse&) {});
-    return call.get();
-  }
-  server::Device& device = *wish->device;
-  device.post([call, &device, wish = *wish](StageController&, TimePoint now) {
-    device.leases().take_over(wish.terms, wish.asked.who, now, tell(call, device));
-  });
+                                                        const v1::TakeOverLeaseRequest* request,
+                                                        v1::TakeOverLeaseResponse* response) {
+  const auto call = UnaryCall<v1::TakeOverLeaseResponse>::start(response);
+  leases_.take_over(to_checked_call(*context, *request), request->device(), to_wish(request->terms()),
+                    std::make_shared<WaitingCall<v1::TakeOverLeaseResponse>>(call));
   return call.get();
 }
 
-grpc::ServerWriteReactor<api::WatchLeasesResponse>* ControlService::WatchLeases(
-    grpc::CallbackServerContext*, const api::WatchLeasesRequest* request) {
-  using Ended = EndedStream<api::WatchLeasesResponse>;
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return new Ended(device.error());
-  Result<StreamLimit::Place> place = streams_.take();
-  if (!place) return new Ended(place.error());
-  return LeaseWatch::start(**device, *std::move(place));
+grpc::ServerWriteReactor<v1::WatchLeasesResponse>* ControlService::WatchLeases(grpc::CallbackServerContext* context,
+                                                                               const v1::WatchLeasesRequest* request) {
+  return serve<v1::WatchLeasesResponse>(
+      leases_.watch(to_call(*context), request->device()),
+      [](v1::WatchLeasesResponse& response, const api::Board& board) { response = to_proto(*board); });
 }
 
-grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* context, const api::RearmRequest* request,
-                                                api::RearmResponse* response) {
-  const auto call = UnaryCall<api::RearmResponse>::start(response);
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return call->refuse(device.error());
-  const Result<stage::RequestContext> asked = mutation_context(*context, request->context());
-  if (!asked) return call->refuse(asked.error());
-  (*device)->post([call, &device = **device, asked = *asked](StageController&, TimePoint now) {
-    const Result<stage::AxisSet> lifted = device.leases().rearm(asked.lease, asked.who, now);
-    if (!lifted) {
-      call->refuse(lifted.error());
-      return;
-    }
-    call->answer([&](api::RearmResponse& answer) {
-      for (const int axis : lifted->list()) answer.add_axes(axis);
-    });
-  });
+grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
+                                                v1::RearmResponse* response) {
+  const auto call = UnaryCall<v1::RearmResponse>::start(response);
+  leases_.rearm(to_call(*context, request->context()), request->device(),
+                answering<stage::AxisSet>(call, [](v1::RearmResponse& answer, stage::AxisSet lifted) {
+                  for (const int axis : lifted.list()) answer.add_axes(axis);
+                }));
   return call.get();
 }
 

@@ -1,40 +1,33 @@
 // Who may move what: leases, and stops that stay stopped.
 #pragma once
 
-#include <grpcpp/server_context.h>
-
 #include "axisgate/v1/control.grpc.pb.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/leases.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class ControlService final : public api::ControlService::CallbackService {
+class ControlService final : public v1::ControlService::CallbackService {
  public:
-  ControlService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // It outlives this.
+  explicit ControlService(const api::Leases& leases) : leases_(leases) {}
 
-  grpc::ServerUnaryReactor* AcquireLease(grpc::CallbackServerContext* context, const api::AcquireLeaseRequest* request,
-                                         api::AcquireLeaseResponse* response) override;
-  grpc::ServerBidiReactor<api::KeepLeaseAliveRequest, api::KeepLeaseAliveResponse>* KeepLeaseAlive(
+  grpc::ServerUnaryReactor* AcquireLease(grpc::CallbackServerContext* context, const v1::AcquireLeaseRequest* request,
+                                         v1::AcquireLeaseResponse* response) override;
+  grpc::ServerBidiReactor<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>* KeepLeaseAlive(
       grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context, const api::ReleaseLeaseRequest* request,
-                                         api::ReleaseLeaseResponse* response) override;
-  grpc::ServerUnaryReactor* HandOverLease(grpc::CallbackServerContext* context,
-                                          const api::HandOverLeaseRequest* request,
-                                          api::HandOverLeaseResponse* response) override;
-  grpc::ServerUnaryReactor* TakeOverLease(grpc::CallbackServerContext* context,
-                                          const api::TakeOverLeaseRequest* request,
-                                          api::TakeOverLeaseResponse* response) override;
-  grpc::ServerWriteReactor<api::WatchLeasesResponse>* WatchLeases(grpc::CallbackServerContext* context,
-                                                                  const api::WatchLeasesRequest* request) override;
-  grpc::ServerUnaryReactor* Rearm(grpc::CallbackServerContext* context, const api::RearmRequest* request,
-                                  api::RearmResponse* response) override;
+  grpc::ServerUnaryReactor* ReleaseLease(grpc::CallbackServerContext* context, const v1::ReleaseLeaseRequest* request,
+                                         v1::ReleaseLeaseResponse* response) override;
+  grpc::ServerUnaryReactor* HandOverLease(grpc::CallbackServerContext* context, const v1::HandOverLeaseRequest* request,
+                                          v1::HandOverLeaseResponse* response) override;
+  grpc::ServerUnaryReactor* TakeOverLease(grpc::CallbackServerContext* context, const v1::TakeOverLeaseRequest* request,
+                                          v1::TakeOverLeaseResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchLeasesResponse>* WatchLeases(grpc::CallbackServerContext* context,
+                                                                 const v1::WatchLeasesRequest* request) override;
+  grpc::ServerUnaryReactor* Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
+                                  v1::RearmResponse* response) override;
 
  private:
-  server::Gateway& gateway_;
-  StreamLimit& streams_;
+  const api::Leases& leases_;
 };
 
 }  // namespace axisgate::rpc

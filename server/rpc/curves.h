@@ -7,10 +7,8 @@
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-// invalid_request where something is missing, doubled or of the wrong axes, unknown_axis, out_of_range for turns; of an
-// amount as to_quantity().
-Result<stage::Curve> to_curve(const api::Arc& arc);
+// invalid_request where something is missing, doubled or of the wrong axes, unknown_axis; of an amount as
+// to_quantity().
+Result<stage::Curve> to_curve(const v1::Arc& arc);
 
 }  // namespace axisgate::rpc

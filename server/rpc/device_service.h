@@ -2,30 +2,26 @@
 #pragma once
 
 #include "axisgate/v1/device.grpc.pb.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/devices.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class DeviceService final : public api::DeviceService::CallbackService {
+class DeviceService final : public v1::DeviceService::CallbackService {
  public:
-  // Both outlive this.
-  DeviceService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // It outlives this.
+  explicit DeviceService(const api::Devices& devices) : devices_(devices) {}
 
-  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const api::ListDevicesRequest* request,
-                                        api::ListDevicesResponse* response) override;
-  grpc::ServerUnaryReactor* GetDevice(grpc::CallbackServerContext* context, const api::GetDeviceRequest* request,
-                                      api::GetDeviceResponse* response) override;
-  grpc::ServerWriteReactor<api::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
-                                                                  const api::WatchDeviceRequest* request) override;
-  grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const api::ClearErrorsRequest* request,
-                                        api::ClearErrorsResponse* response) override;
+  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const v1::ListDevicesRequest* request,
+                                        v1::ListDevicesResponse* response) override;
+  grpc::ServerUnaryReactor* GetDevice(grpc::CallbackServerContext* context, const v1::GetDeviceRequest* request,
+                                      v1::GetDeviceResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
+                                                                 const v1::WatchDeviceRequest* request) override;
+  grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,
+                                        v1::ClearErrorsResponse* response) override;
 
  private:
-  server::Gateway& gateway_;
-  StreamLimit& streams_;
+  const api::Devices& devices_;
 };
 
 }  // namespace axisgate::rpc

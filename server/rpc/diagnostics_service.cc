@@ -1,29 +1,44 @@
 #include "server/rpc/diagnostics_service.h"
 
-#include <utility>
+#include <fmt/format.h>
+#include <google/protobuf/stubs/common.h>
+#include <grpcpp/grpcpp.h>
 
 #include "server/rpc/call.h"
-#include "server/rpc/ended_stream.h"
-#include "server/rpc/record_stream.h"
-#include "server/rpc/support_report.h"
+#include "server/rpc/news.h"
+#include "server/rpc/subscribed_stream.h"
 
 namespace axisgate::rpc {
+namespace {
 
-grpc::ServerWriteReactor<api::RecordResponse>* DiagnosticsService::Record(grpc::CallbackServerContext*,
-                                                                          const api::RecordRequest* request) {
-  using Ended = EndedStream<api::RecordResponse>;
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return new Ended(device.error());
-  Result<StreamLimit::Place> place = streams_.take();
-  if (!place) return new Ended(place.error());
-  return RecordStream::start(**device, *request, *std::move(place));
+// RecordResponse and GetSupportReportResponse alike.
+template <class Response>
+void fill_text(Response& response, const std::string& text) {
+  response.set_text(text);
 }
 
-grpc::ServerWriteReactor<api::GetSupportReportResponse>* DiagnosticsService::GetSupportReport(
-    grpc::CallbackServerContext*, const api::GetSupportReportRequest*) {
-  Result<StreamLimit::Place> place = streams_.take();
-  if (!place) return new EndedStream<api::GetSupportReportResponse>(place.error());
-  return SupportReport::start(gateway_, *std::move(place));
+std::string describe(const server::Device& device, const stage::State& state) {
+  return to_proto(device, state).DebugString();
+}
+
+std::string versions() {
+  return fmt::format("gRPC {}\nprotobuf {}\n", grpc::Version(),
+                     google::protobuf::internal::VersionString(GOOGLE_PROTOBUF_VERSION));
+}
+
+}  // namespace
+
+grpc::ServerWriteReactor<v1::RecordResponse>* DiagnosticsService::Record(grpc::CallbackServerContext* context,
+                                                                         const v1::RecordRequest* request) {
+  return serve<v1::RecordResponse>(
+      diagnostics_.record(to_call(*context), request->device(), request->skip_kept(), request->follow()),
+      fill_text<v1::RecordResponse>);
+}
+
+grpc::ServerWriteReactor<v1::GetSupportReportResponse>* DiagnosticsService::GetSupportReport(
+    grpc::CallbackServerContext* context, const v1::GetSupportReportRequest*) {
+  return serve<v1::GetSupportReportResponse>(diagnostics_.report(to_call(*context), {versions(), describe}),
+                                             fill_text<v1::GetSupportReportResponse>);
 }
 
 }  // namespace axisgate::rpc

@@ -2,26 +2,22 @@
 #pragma once
 
 #include "axisgate/v1/diagnostics.grpc.pb.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/diagnostics.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class DiagnosticsService final : public api::DiagnosticsService::CallbackService {
+class DiagnosticsService final : public v1::DiagnosticsService::CallbackService {
  public:
-  // Both outlive this.
-  DiagnosticsService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // It outlives this.
+  explicit DiagnosticsService(const api::Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  grpc::ServerWriteReactor<api::RecordResponse>* Record(grpc::CallbackServerContext* context,
-                                                        const api::RecordRequest* request) override;
-  grpc::ServerWriteReactor<api::GetSupportReportResponse>* GetSupportReport(
-      grpc::CallbackServerContext* context, const api::GetSupportReportRequest* request) override;
+  grpc::ServerWriteReactor<v1::RecordResponse>* Record(grpc::CallbackServerContext* context,
+                                                       const v1::RecordRequest* request) override;
+  grpc::ServerWriteReactor<v1::GetSupportReportResponse>* GetSupportReport(
+      grpc::CallbackServerContext* context, const v1::GetSupportReportRequest* request) override;
 
  private:
-  server::Gateway& gateway_;
-  StreamLimit& streams_;
+  const api::Diagnostics& diagnostics_;
 };
 
 }  // namespace axisgate::rpc

@@ -1,18 +1,18 @@
 // A stream that ends at once, most often with a problem.
 #pragma once
 
-#include <grpcpp/support/server_callback.h>
+#include <grpcpp/support/status.h>
 
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
 
-template <class Response>
-class EndedStream final : public grpc::ServerWriteReactor<Response> {
+// `Reactor` is a grpc::ServerWriteReactor or ServerBidiReactor.
+template <class Reactor>
+class EndedStream final : public Reactor {
  public:
   explicit EndedStream(const grpc::Status& status) { this->Finish(status); }
-  explicit EndedStream(const Problem& problem, const Metadata& metadata = {})
-      : EndedStream(to_status(problem, metadata)) {}
+  explicit EndedStream(const Problem& problem) : EndedStream(to_status(problem)) {}
   void OnDone() override { delete this; }
 };
 

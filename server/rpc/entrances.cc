@@ -10,7 +10,6 @@
 namespace axisgate::rpc {
 namespace {
 
-using server::Caller;
 using Credentials = std::shared_ptr<grpc::ServerCredentials>;
 
 // Insecure credentials take no processor. To a client these are the same: no byte of a handshake is exchanged.
@@ -18,7 +17,7 @@ Credentials local(grpc_local_connect_type type) { return grpc::experimental::Loc
 
 std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(grpc::ServerBuilder& builder,
                                                                     const Credentials& credentials, const Gate& gate,
-                                                                    Gatekeeper::Name name, Caller unnamed) {
+                                                                    Gatekeeper::Name name, api::Credential unnamed) {
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
   credentials->SetAuthMetadataProcessor(std::make_shared<Gatekeeper>(gate, std::move(name), std::move(unnamed)));
   return builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, credentials);
@@ -29,14 +28,14 @@ std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(grpc::Server
 Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
                      const std::optional<server::NetworkConfig>& network) {
   const auto nobody_known = [](const grpc::AuthContext&) { return std::optional<std::string>(); };
-  loopback_ = add(builder, local(LOCAL_TCP), gate, nobody_known, gate.access.without_token(kNameless));
+  loopback_ = add(builder, local(LOCAL_TCP), gate, nobody_known, {.who = kAnonymous});
   for (std::size_t slot = 0; slot < callers.size(); ++slot) {
     const auto user = [name = &callers.name(slot)](const grpc::AuthContext&) { return std::optional(*name); };
     unix_.push_back(add(builder, local(UDS), gate, user, {}));
   }
   if (!network) return;
   network_ = add(builder, network_credentials(*network), gate, name_in_certificate,
-                 {"a caller over the network without a certificate", server::Role::nobody});
+                 {.who = "a caller over the network without a certificate", .needs_token = true});
 }
 
 void Entrances::enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot) {

@@ -2,24 +2,20 @@
 #pragma once
 
 #include "axisgate/v1/event.grpc.pb.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/events.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class EventService final : public api::EventService::CallbackService {
+class EventService final : public v1::EventService::CallbackService {
  public:
-  // Both outlive this.
-  EventService(server::Gateway& gateway, StreamLimit& streams) : gateway_(gateway), streams_(streams) {}
+  // It outlives this.
+  explicit EventService(const api::Events& events) : events_(events) {}
 
-  grpc::ServerWriteReactor<api::WatchResponse>* Watch(grpc::CallbackServerContext* context,
-                                                      const api::WatchRequest* request) override;
+  grpc::ServerWriteReactor<v1::WatchResponse>* Watch(grpc::CallbackServerContext* context,
+                                                     const v1::WatchRequest* request) override;
 
  private:
-  server::Gateway& gateway_;
-  StreamLimit& streams_;
+  const api::Events& events_;
 };
 
 }  // namespace axisgate::rpc

@@ -8,15 +8,11 @@
 #include <vector>
 
 #include "device/core/escape.h"
-#include "server/access/tokens.h"
-#include "server/events/wall_time.h"
-#include "server/rpc/method_roles.h"
+#include "server/rpc/method_kinds.h"
+#include "server/rpc/status.h"
 
 namespace axisgate::rpc {
 namespace {
-
-using server::Caller;
-using server::Role;
 
 constexpr const char* kUser = "axisgate_user";
 constexpr const char* kAuthorization = "authorization";
@@ -31,12 +27,12 @@ std::optional<std::string_view> find(const Metadata& metadata, const char* key) 
 }
 
 // The token in `authorization`; empty text where that is something else.
-std::optional<std::string_view> token_in(const std::optional<std::string_view>& authorization) {
+std::optional<std::string> token_in(const std::optional<std::string_view>& authorization) {
   if (!authorization) return std::nullopt;
   // The scheme's letter case does not count (RFC 9110, 11.1).
   const auto same = [](char a, char b) { return std::tolower(static_cast<unsigned char>(a)) == b; };
   const bool bearer = std::ranges::equal(authorization->substr(0, kBearer.size()), kBearer, same);
-  return bearer ? authorization->substr(kBearer.size()) : std::string_view{};
+  return std::string(bearer ? authorization->substr(kBearer.size()) : std::string_view{});
 }
 
 // "tcp 127.0.0.1:39482": gRPC says "ipv4:127.0.0.1:39482" or "ipv6:%5B::1%5D:39482".
@@ -46,25 +42,16 @@ std::string from_where(const grpc::CallbackServerContext& call) {
   return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
 }
 
-// Whom the connection told of; none: nobody.
+// Whom the connection named; none: nobody.
 std::optional<std::string> named_user(const grpc::ServerContextBase& call) {
   const std::vector<grpc::string_ref> users = call.auth_context()->FindPropertyValues(kUser);
   if (users.empty()) return std::nullopt;
   return std::string(users.front().data(), users.front().size());
 }
 
-std::string user_of(const grpc::CallbackServerContext& call) {
-  const std::optional<std::string> user = named_user(call);
-  return user ? *user : from_where(call);
-}
-
-grpc::Status refuse(grpc::StatusCode code, const std::string& message, const std::string& hint) {
-  return {code, fmt::format("{}; {}", message, hint)};
-}
-
 }  // namespace
 
-Caller Gatekeeper::without_token(grpc::AuthContext& connection) {
+api::Credential Gatekeeper::without_token(grpc::AuthContext& connection) {
   const std::optional<std::string> who = name_(connection);
   if (!who) return unnamed_;
   {
@@ -73,7 +60,7 @@ Caller Gatekeeper::without_token(grpc::AuthContext& connection) {
     const std::lock_guard lock(mutex_);
     if (connection.FindPropertyValues(kUser).empty()) connection.AddProperty(kUser, *who);
   }
-  return gate_.access.without_token(*who);
+  return {.who = *who};
 }
 
 grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContext* connection, OutputMetadata*,
@@ -84,56 +71,24 @@ grpc::Status Gatekeeper::Process(const InputMetadata& metadata, grpc::AuthContex
 }
 
 grpc::Status Gatekeeper::judge(const InputMetadata& metadata, grpc::AuthContext& connection) {
-  const std::optional<std::string_view> token = token_in(find(metadata, kAuthorization));
-  const Result<Caller> caller =
-      token ? gate_.access.by_token(*token, server::calendar_now()) : without_token(connection);
-  if (!caller) return refuse(grpc::StatusCode::UNAUTHENTICATED, caller.error().message, caller.error().hint);
-  if (caller->role == Role::nobody) {
-    return refuse(grpc::StatusCode::UNAUTHENTICATED, fmt::format("{} needs a token here", caller->who),
-                  "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
-  }
+  const std::optional<std::string> token = token_in(find(metadata, kAuthorization));
+  const api::Credential credential = token ? api::Credential{.token = token} : without_token(connection);
   const std::string_view method = find(metadata, kMethod).value_or("");
-  const Role needed = role_for(method, gate_.access);
-  if (caller->role < needed) {
-    return refuse(grpc::StatusCode::PERMISSION_DENIED,
-                  fmt::format("{} asks for the role {}, and {} is {}", escaped(method), name(needed), caller->who,
-                              name(caller->role)),
-                  "call as the user as whom the daemon runs, over the Unix socket, or with a token of that role");
-  }
-  const Result<void> room = gate_.limits.check(caller->who, method);
-  if (!room) return refuse(grpc::StatusCode::RESOURCE_EXHAUSTED, room.error().message, room.error().hint);
-  return grpc::Status::OK;
+  const Result<server::Caller> caller = gate_.admission.let_in(kind_of(method), credential, method);
+  if (caller) return grpc::Status::OK;
+  const Problem& problem = caller.error();
+  return {code_of(problem.reason), fmt::format("{}; {}", problem.message, problem.hint)};
 }
 
-std::string caller(const grpc::CallbackServerContext& call) {
-  const auto token = token_in(find(call.client_metadata(), kAuthorization));
-  return token ? server::token_caller(server::name_in(*token)) : user_of(call);
+api::Credential credential_of(const grpc::CallbackServerContext& call) {
+  if (auto token = token_in(find(call.client_metadata(), kAuthorization))) return {.token = std::move(token)};
+  const std::optional<std::string> user = named_user(call);
+  return {.who = user ? *user : from_where(call)};
 }
 
 std::string identity(const grpc::ServerContextBase& call) {
-  const auto token = token_in(find(call.client_metadata(), kAuthorization));
-  return token ? server::token_caller(server::name_in(*token)) : named_user(call).value_or(kNameless);
-}
-
-Result<std::string> role_of(const grpc::CallbackServerContext& call, const server::Access& access) {
-  const Result<Caller> known = caller_with_role(call, access);
-  if (!known) return tl::unexpected(known.error());
-  return std::string(name(known->role));
-}
-
-Result<Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access) {
-  const auto token = token_in(find(call.client_metadata(), kAuthorization));
-  return token ? access.by_token(*token, server::calendar_now()) : access.without_token(user_of(call));
-}
-
-Result<void> check_command_role(const std::string& line, const server::Caller& caller, const server::Access& access) {
-  if (caller.role == Role::admin || !access.only_for_admins(line)) return {};
-  Problem problem{.reason = Reason::not_allowed,
-                  .message = fmt::format("only an administrator may send this command, and {} is {}", caller.who,
-                                         name(caller.role)),
-                  .hint = "ask one, or leave it out of `admin_commands` in the configuration",
-                  .sent = line};
-  return tl::unexpected(std::move(problem));
+  const std::optional<std::string> token = token_in(find(call.client_metadata(), kAuthorization));
+  return token ? api::name_of({.token = token}) : named_user(call).value_or(kAnonymous);
 }
 
 }  // namespace axisgate::rpc

@@ -10,31 +10,30 @@
 #include <string>
 #include <utility>
 
-#include "server/access/access.h"
-#include "server/rpc/call_limits.h"
+#include "server/api/admission.h"
+#include "server/api/call.h"
 #include "server/rpc/rpc_metrics.h"
 
 namespace axisgate::rpc {
 
-// Who comes in nameless. They have their limits together, since nothing tells them apart for certain.
-inline constexpr const char* kNameless = "a caller over TCP";
+// Callers whom nothing names. They have their limits together, since nothing distinguishes them for certain.
+inline constexpr const char* kAnonymous = "a caller over TCP";
 
 // What all gatekeepers ask, and where they report.
 struct Gate {
-  const server::Access& access;
-  const CallLimits& limits;
+  const api::Admission& admission;
   RpcMetrics& metrics;
 };
 
-// Of one entrance, which calls of one kind come in by. Refusals by a gatekeeper have a message but no details:
-// gRPC 1.51 sends none from there.
+// Of one endpoint, which calls of one kind come in by. Refusals by a gatekeeper have a message but no details: gRPC
+// 1.51 sends none from there.
 class Gatekeeper final : public grpc::AuthMetadataProcessor {
  public:
-  // Whom the connection itself tells of: "unix alice", "cert alice"; none: nobody knows.
+  // Whom the connection itself names: "unix alice", "cert alice"; none: nobody.
   using Name = std::function<std::optional<std::string>(const grpc::AuthContext& connection)>;
 
-  // `unnamed` is who comes in here without a token where `name` knows nobody. What `gate` names outlives this.
-  Gatekeeper(const Gate& gate, Name name, server::Caller unnamed)
+  // `unnamed` is who comes in here where `name` names nobody. What `gate` names outlives this.
+  Gatekeeper(const Gate& gate, Name name, api::Credential unnamed)
       : gate_(gate), name_(std::move(name)), unnamed_(std::move(unnamed)) {}
 
   // It waits for nothing, and so needs no thread of gRPC's pool.
@@ -45,27 +44,18 @@ class Gatekeeper final : public grpc::AuthMetadataProcessor {
 
  private:
   grpc::Status judge(const InputMetadata& metadata, grpc::AuthContext& connection);
-  server::Caller without_token(grpc::AuthContext& connection);
+  api::Credential without_token(grpc::AuthContext& connection);
 
   const Gate gate_;
   const Name name_;
-  const server::Caller unnamed_;
+  const api::Credential unnamed_;
   std::mutex mutex_;
 };
 
-// As whom a call that was let in is known: by its token, its user on the Unix socket, its certificate, or where it
-// comes from.
-std::string caller(const grpc::CallbackServerContext& call);
+// Of a call that was let in: its token, and its user on the Unix socket, its certificate, or where it comes from.
+api::Credential credential_of(const grpc::CallbackServerContext& call);
 
-// By whose limits a call counts that was let in: as caller(), or kNameless.
+// By whose limits a call counts that was let in: its caller's name, or kAnonymous.
 std::string identity(const grpc::ServerContextBase& call);
-
-// Of a call that was let in: "operator". unauthenticated, where its token was revoked since.
-Result<std::string> role_of(const grpc::CallbackServerContext& call, const server::Access& access);
-
-// With the role; of a call that was let in. unauthenticated, where its token was revoked since.
-Result<server::Caller> caller_with_role(const grpc::CallbackServerContext& call, const server::Access& access);
-// not_allowed where the line is one that the configuration keeps for administrators.
-Result<void> check_command_role(const std::string& line, const server::Caller& caller, const server::Access& access);
 
 }  // namespace axisgate::rpc

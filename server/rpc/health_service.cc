@@ -24,7 +24,7 @@ bool is_service(std::string_view name) {
 // One answer, which never changes; the stream ends with the call.
 class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheckResponse>, HealthCheckResponse> {
  public:
-  static HealthWatch* start(HealthCheckResponse::ServingStatus status, StreamLimit::Place place) {
+  static HealthWatch* start(HealthCheckResponse::ServingStatus status, api::Streams::Place place) {
     std::shared_ptr<HealthWatch> watch(new HealthWatch(status, std::move(place)));
     watch->open();
     watch->pump();
@@ -32,7 +32,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
   }
 
  private:
-  HealthWatch(HealthCheckResponse::ServingStatus status, StreamLimit::Place place)
+  HealthWatch(HealthCheckResponse::ServingStatus status, api::Streams::Place place)
       : status_(status), place_(std::move(place)) {}
 
   Next next() override {
@@ -43,7 +43,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
   }
 
   const HealthCheckResponse::ServingStatus status_;
-  const StreamLimit::Place place_;
+  const api::Streams::Place place_;
   bool told_ = false;
 };
 
@@ -61,8 +61,8 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, con
 
 grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext*,
                                                                     const HealthCheckRequest* request) {
-  Result<StreamLimit::Place> place = streams_.take();
-  if (!place) return new EndedStream<HealthCheckResponse>(place.error());
+  Result<api::Streams::Place> place = streams_.take(api::RequestKind::watch_door);
+  if (!place) return new EndedStream<grpc::ServerWriteReactor<HealthCheckResponse>>(place.error());
   const bool known = is_service(request->service());
   return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,
                             *std::move(place));

@@ -5,13 +5,13 @@
 
 #include <string_view>
 
-#include "server/rpc/stream_limit.h"
+#include "server/api/streams.h"
 
 namespace axisgate::rpc {
 
 class HealthService final : public grpc::health::v1::Health::CallbackService {
  public:
-  explicit HealthService(StreamLimit& streams) : streams_(streams) {}
+  explicit HealthService(api::Streams& streams) : streams_(streams) {}
 
   grpc::ServerUnaryReactor* Check(grpc::CallbackServerContext* context,
                                   const grpc::health::v1::HealthCheckRequest* request,
@@ -20,7 +20,7 @@ class HealthService final : public grpc::health::v1::Health::CallbackService {
       grpc::CallbackServerContext* context, const grpc::health::v1::HealthCheckRequest* request) override;
 
  private:
-  StreamLimit& streams_;
+  api::Streams& streams_;
 };
 
 }  // namespace axisgate::rpc

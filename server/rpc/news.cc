@@ -9,8 +9,8 @@
 #include "device/core/escape.h"
 #include "device/link/clock.h"
 #include "device/stage/envelope.h"
+#include "server/api/names.h"
 #include "server/rpc/amounts.h"
-#include "server/rpc/call.h"
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
@@ -20,25 +20,25 @@ using stage::LinkState;
 using stage::MotionKind;
 using stage::MotionState;
 
-api::LinkState to_link_state(LinkState state) {
-  static_assert(static_cast<int>(LinkState::down) + 1 == api::LINK_STATE_DOWN);
-  static_assert(static_cast<int>(LinkState::connecting) + 1 == api::LINK_STATE_CONNECTING);
-  static_assert(static_cast<int>(LinkState::up) + 1 == api::LINK_STATE_UP);
-  static_assert(static_cast<int>(LinkState::doubtful) + 1 == api::LINK_STATE_DOUBTFUL);
-  return static_cast<api::LinkState>(static_cast<int>(state) + 1);
+v1::LinkState to_link_state(LinkState state) {
+  static_assert(static_cast<int>(LinkState::down) + 1 == v1::LINK_STATE_DOWN);
+  static_assert(static_cast<int>(LinkState::connecting) + 1 == v1::LINK_STATE_CONNECTING);
+  static_assert(static_cast<int>(LinkState::up) + 1 == v1::LINK_STATE_UP);
+  static_assert(static_cast<int>(LinkState::doubtful) + 1 == v1::LINK_STATE_DOUBTFUL);
+  return static_cast<v1::LinkState>(static_cast<int>(state) + 1);
 }
 
-api::MotionKind to_motion_kind(MotionKind kind) {
-  static_assert(static_cast<int>(MotionKind::move) + 1 == api::MOTION_KIND_MOVE);
-  static_assert(static_cast<int>(MotionKind::scan) + 1 == api::MOTION_KIND_SCAN);
-  return static_cast<api::MotionKind>(static_cast<int>(kind) + 1);
+v1::MotionKind to_motion_kind(MotionKind kind) {
+  static_assert(static_cast<int>(MotionKind::move) + 1 == v1::MOTION_KIND_MOVE);
+  static_assert(static_cast<int>(MotionKind::scan) + 1 == v1::MOTION_KIND_SCAN);
+  return static_cast<v1::MotionKind>(static_cast<int>(kind) + 1);
 }
 
-api::MotionState to_motion_state(MotionState state) {
-  static_assert(static_cast<int>(MotionState::queued) + 1 == api::MOTION_STATE_QUEUED);
-  static_assert(static_cast<int>(MotionState::succeeded) + 1 == api::MOTION_STATE_SUCCEEDED);
-  static_assert(static_cast<int>(MotionState::unknown) + 1 == api::MOTION_STATE_UNKNOWN);
-  return static_cast<api::MotionState>(static_cast<int>(state) + 1);
+v1::MotionState to_motion_state(MotionState state) {
+  static_assert(static_cast<int>(MotionState::queued) + 1 == v1::MOTION_STATE_QUEUED);
+  static_assert(static_cast<int>(MotionState::succeeded) + 1 == v1::MOTION_STATE_SUCCEEDED);
+  static_assert(static_cast<int>(MotionState::unknown) + 1 == v1::MOTION_STATE_UNKNOWN);
+  return static_cast<v1::MotionState>(static_cast<int>(state) + 1);
 }
 
 // Empty where it is not known or the axis is shown in a unit that does not fit its scale.
@@ -48,7 +48,7 @@ std::string position(const stage::AxisState& axis, Unit unit) {
   return shown ? to_string(*shown) : "";
 }
 
-void fill_stage(int number, const stage::Profile& profile, const stage::State& state, api::Axis& axis) {
+void fill_stage(int number, const stage::Profile& profile, const stage::State& state, v1::Axis& axis) {
   const auto& stage = profile.axes[static_cast<std::size_t>(number - 1)].stage;
   if (!stage) return;
   axis.set_stage(stage->model);
@@ -60,14 +60,14 @@ void fill_stage(int number, const stage::Profile& profile, const stage::State& s
   if (place) axis.set_position_in_turn(to_string(*place));
 }
 
-void fill_limits(const stage::AxisProfile& profile, api::Axis& axis) {
+void fill_limits(const stage::AxisProfile& profile, v1::Axis& axis) {
   if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
   if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
   if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
   axis.set_home_first(profile.home_first);
 }
 
-void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisState& state, api::Axis& axis) {
+void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisState& state, v1::Axis& axis) {
   axis.set_number(number);
   axis.set_name(profile.name);
   axis.set_unit(to_proto(profile.unit));
@@ -90,26 +90,24 @@ void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisS
   if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
 }
 
-void fill_age(TimePoint read, api::Device& device) {
+void fill_age(TimePoint read, v1::Device& device) {
   if (read == TimePoint{}) return;
   const Duration age = std::max(Duration::zero(), monotonic_now() - read);
-  const auto seconds = std::chrono::floor<std::chrono::seconds>(age);
-  device.mutable_age()->set_seconds(seconds.count());
-  device.mutable_age()->set_nanos(static_cast<std::int32_t>((age - seconds).count()));
+  *device.mutable_age() = to_proto(age);
   *device.mutable_read_time() = to_proto(server::to_wall(read));
 }
 
 // Each fact's own place in an Event.
 struct EventFiller {
   const server::FactRecord& record;
-  api::Event& event;
+  v1::Event& event;
 
   void operator()(const stage::MotionChanged& change) const {
     *event.mutable_motion() = to_proto(record.device, change.motion, record.revision);
   }
   void operator()(const stage::CompletionSeen& seen) const {
     event.mutable_completion()->set_axis(seen.axis);
-    if (seen.motion != 0) event.mutable_completion()->set_motion(motion_name(record.device, seen.motion));
+    if (seen.motion != 0) event.mutable_completion()->set_motion(api::motion_name(record.device, seen.motion));
   }
   void operator()(const stage::PathProgress& progress) const {
     *event.mutable_path_progress() = to_proto(record.device, progress);
@@ -122,11 +120,11 @@ struct EventFiller {
     for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
   void operator()(const stage::SwitchesChanged& change) const {
-    api::SwitchesChanged& told = *event.mutable_switches_changed();
+    v1::SwitchesChanged& told = *event.mutable_switches_changed();
     told.set_who(change.who);
     told.set_unknown(change.unknown);
     for (const auto& one : change.changes) {
-      api::SwitchChange& proto = *told.add_changes();
+      v1::SwitchChange& proto = *told.add_changes();
       proto.set_item(one.item);
       proto.set_number(one.number);
       proto.set_before(escaped(one.before));
@@ -134,8 +132,8 @@ struct EventFiller {
     }
   }
   void operator()(const stage::ProgramNotice& notice) const {
-    static_assert(static_cast<int>(stage::ProgramNotice::Kind::trigger) + 1 == api::ProgramNotice::KIND_TRIGGER);
-    event.mutable_program_notice()->set_kind(static_cast<api::ProgramNotice::Kind>(static_cast<int>(notice.kind) + 1));
+    static_assert(static_cast<int>(stage::ProgramNotice::Kind::trigger) + 1 == v1::ProgramNotice::KIND_TRIGGER);
+    event.mutable_program_notice()->set_kind(static_cast<v1::ProgramNotice::Kind>(static_cast<int>(notice.kind) + 1));
     event.mutable_program_notice()->set_count(notice.count);
   }
   void operator()(const stage::StopRequested& stop) const {
@@ -147,11 +145,11 @@ struct EventFiller {
 
 }  // namespace
 
-void fill_trigger(const stage::Trigger& trigger, api::Trigger& proto) {
+void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto) {
   using Target = stage::Trigger::Target;
-  static_assert(static_cast<int>(Target::none) + 1 == api::Trigger::TARGET_NONE);
-  static_assert(static_cast<int>(Target::scale_minus) + 1 == api::Trigger::TARGET_SCALE_MINUS);
-  proto.set_target(static_cast<api::Trigger::Target>(static_cast<int>(trigger.target) + 1));
+  static_assert(static_cast<int>(Target::none) + 1 == v1::Trigger::TARGET_NONE);
+  static_assert(static_cast<int>(Target::scale_minus) + 1 == v1::Trigger::TARGET_SCALE_MINUS);
+  proto.set_target(static_cast<v1::Trigger::Target>(static_cast<int>(trigger.target) + 1));
   proto.set_axis(trigger.axis);
   proto.set_interval(trigger.interval);
 }
@@ -165,9 +163,9 @@ google::protobuf::Timestamp to_proto(server::WallTime time) {
   return stamp;
 }
 
-api::Device to_proto(const server::Device& device, const stage::State& state) {
-  api::Device proto;
-  proto.set_name(device_name(device));
+v1::Device to_proto(const server::Device& device, const stage::State& state) {
+  v1::Device proto;
+  proto.set_name(api::device_name(device.name()));
   proto.set_kind(std::string(device.kind().name()));
   proto.set_link(to_link_state(state.link));
   proto.set_link_problem(state.link_problem);
@@ -180,7 +178,7 @@ api::Device to_proto(const server::Device& device, const stage::State& state) {
   proto.set_device_epoch(state.device_epoch);
   proto.set_frame_epoch(state.frame_epoch);
   for (int number = 1; number <= stage::kAxisCount; ++number) {
-    api::Axis& axis = *proto.add_axes();
+    v1::Axis& axis = *proto.add_axes();
     fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number), axis);
     fill_stage(number, device.profile(), state, axis);
   }
@@ -201,8 +199,8 @@ struct Moment {
   }
 };
 
-api::Scan to_proto(const stage::ScanResult& scan) {
-  api::Scan proto;
+v1::Scan to_proto(const stage::ScanResult& scan) {
+  v1::Scan proto;
   proto.set_run_from_pulses(scan.run_from);
   proto.set_run_to_pulses(scan.run_to);
   if (scan.expected) proto.set_expected_triggers(*scan.expected);
@@ -211,20 +209,20 @@ api::Scan to_proto(const stage::ScanResult& scan) {
   return proto;
 }
 
-void set_times(api::Motion& proto, const stage::Motion& motion, const Moment& moment) {
+void set_times(v1::Motion& proto, const stage::Motion& motion, const Moment& moment) {
   *proto.mutable_create_time() = to_proto(moment.at(motion.created));
   if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(moment.at(motion.started));
   if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(moment.at(motion.ended));
 }
 
-api::Motion to_proto(const std::string& device, const stage::Motion& motion, std::uint64_t revision) {
-  api::Motion proto;
-  proto.set_name(motion_name(device, motion.id));
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision) {
+  v1::Motion proto;
+  proto.set_name(api::motion_name(device, motion.id));
   proto.set_kind(to_motion_kind(motion.kind));
   proto.set_state(to_motion_state(motion.state));
   for (const int axis : motion.axes.list()) proto.add_axes(axis);
   for (const stage::AxisResult& result : motion.results) {
-    api::AxisResult& one = *proto.add_results();
+    v1::AxisResult& one = *proto.add_results();
     one.set_axis(result.axis);
     if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
     if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
@@ -242,23 +240,27 @@ api::Motion to_proto(const std::string& device, const stage::Motion& motion, std
   return proto;
 }
 
-api::PathProgress to_proto(const std::string& device, const stage::PathProgress& progress) {
+v1::Motion to_proto(const api::CurrentMotion& motion) {
+  return to_proto(motion.device, motion.motion, motion.revision);
+}
+
+v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress) {
   using Step = stage::PathProgress::Step;
-  static_assert(static_cast<int>(Step::sent) + 1 == api::PathProgress::STEP_SENT);
-  static_assert(static_cast<int>(Step::underrun) + 1 == api::PathProgress::STEP_UNDERRUN);
-  api::PathProgress proto;
-  proto.set_motion(motion_name(device, progress.motion));
-  proto.set_step(static_cast<api::PathProgress::Step>(static_cast<int>(progress.step) + 1));
+  static_assert(static_cast<int>(Step::sent) + 1 == v1::PathProgress::STEP_SENT);
+  static_assert(static_cast<int>(Step::underrun) + 1 == v1::PathProgress::STEP_UNDERRUN);
+  v1::PathProgress proto;
+  proto.set_motion(api::motion_name(device, progress.motion));
+  proto.set_step(static_cast<v1::PathProgress::Step>(static_cast<int>(progress.step) + 1));
   proto.set_segment(progress.segment);
   proto.set_wire_reply(escaped(progress.wire_reply));
   return proto;
 }
 
-api::Event to_proto(const server::FactRecord& record, const std::string& run) {
-  api::Event event;
+v1::Event to_proto(const server::FactRecord& record, const std::string& run) {
+  v1::Event event;
   event.set_revision(record.revision);
   *event.mutable_time() = to_proto(record.time);
-  event.set_device("devices/" + record.device);
+  event.set_device(api::device_name(record.device));
   event.set_run(run);
   std::visit(EventFiller{record, event}, record.fact);
   if (const auto* changed = std::get_if<stage::MotionChanged>(&record.fact)) {
@@ -270,7 +272,7 @@ api::Event to_proto(const server::FactRecord& record, const std::string& run) {
 template <class Response>
 void fill(Response& response, const stage::StopReport& report) {
   for (const stage::StopReport::Axis& axis : report.axes) {
-    api::AxisStop& one = *response.add_axes();
+    v1::AxisStop& one = *response.add_axes();
     one.set_axis(axis.axis);
     one.set_wire_reply(escaped(axis.wire_reply));
     one.set_named(axis.named);
@@ -280,7 +282,7 @@ void fill(Response& response, const stage::StopReport& report) {
   if (report.problem) *response.mutable_problem() = to_proto(*report.problem);
 }
 
-template void fill(api::StopResponse&, const stage::StopReport&);
-template void fill(api::EmergencyStopResponse&, const stage::StopReport&);
+template void fill(v1::StopResponse&, const stage::StopReport&);
+template void fill(v1::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

@@ -4,39 +4,41 @@
 #include <google/protobuf/timestamp.pb.h>
 
 #include <cstdint>
+#include <string>
+#include <string_view>
 
 #include "axisgate/v1/device.pb.h"
 #include "axisgate/v1/event.pb.h"
 #include "axisgate/v1/motion.pb.h"
 #include "axisgate/v1/stage.pb.h"
 #include "device/stage/stage_controller.h"
+#include "server/api/motion_watch.h"
 #include "server/devices/device.h"
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
 google::protobuf::Timestamp to_proto(server::WallTime time);
 
 // With the state's age as of now.
-void fill_trigger(const stage::Trigger& trigger, api::Trigger& proto);
+void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 
-api::Device to_proto(const server::Device& device, const stage::State& state);
+v1::Device to_proto(const server::Device& device, const stage::State& state);
 
 // `revision` is that of the newest fact about the motion, 0 when not known.
-api::Motion to_proto(const std::string& device, const stage::Motion& motion, std::uint64_t revision);
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision);
+v1::Motion to_proto(const api::CurrentMotion& motion);
 
-api::PathProgress to_proto(const std::string& device, const stage::PathProgress& progress);
+v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
 
-api::Event to_proto(const server::FactRecord& record, const std::string& run);
+v1::Event to_proto(const server::FactRecord& record, const std::string& run);
 
 // StopResponse and EmergencyStopResponse alike.
 template <class Response>
 void fill(Response& response, const stage::StopReport& report);
 
-extern template void fill(api::StopResponse&, const stage::StopReport&);
-extern template void fill(api::EmergencyStopResponse&, const stage::StopReport&);
+extern template void fill(v1::StopResponse&, const stage::StopReport&);
+extern template void fill(v1::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/api/api.h"
 #include "server/connections/callers.h"
 #include "server/connections/listener.h"
 #include "server/metrics/connection_metrics.h"
@@ -23,6 +24,7 @@
 #include "server/rpc/diagnostics_service.h"
 #include "server/rpc/entrances.h"
 #include "server/rpc/event_service.h"
+#include "server/rpc/half_close.h"
 #include "server/rpc/health_service.h"
 #include "server/rpc/network_credentials.h"
 #include "server/rpc/position_service.h"
@@ -31,7 +33,6 @@
 #include "server/rpc/simulator_service.h"
 #include "server/rpc/stage_service.h"
 #include "server/rpc/stop_only.h"
-#include "server/rpc/stream_limit.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -75,15 +76,14 @@ class Server::Services {
   void build_reserve();
   void build(grpc::ServerBuilder& builder, Part& part);
 
-  const server::Access& access_;
+  api::Api api_;
+  const HalfClose half_close_;
   const std::optional<server::NetworkConfig> network_;
   const int message_bytes_max_;
   std::unique_ptr<server::Listener> listener_;
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;
-  CallLimits call_limits_;
   server::CallerSlots callers_;
-  StreamLimit streams_;
   DeviceService devices_;
   StageService stage_;
   EventService events_;
@@ -105,24 +105,24 @@ class Server::Services {
 
 Server::Services::Services(server::Gateway& gateway, server::Access& access, server::SavedPositions& positions,
                            std::unique_ptr<server::Listener> listener)
-    : access_(access),
+    : api_(gateway, access, positions),
+      half_close_(gateway),
       network_(gateway.config().network),
       message_bytes_max_(gateway.config().limits.message_bytes),
       listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
-      call_limits_(gateway.config().limits),
       callers_(kCallerSlots),
-      devices_(gateway, streams_),
-      stage_(gateway, access, streams_),
-      events_(gateway, streams_),
-      commands_(gateway, access, streams_),
-      settings_(gateway, access),
-      simulators_(gateway),
-      positions_(gateway, access, positions),
-      diagnostics_(gateway, streams_),
-      control_(gateway, streams_),
-      known_callers_(access),
-      health_(streams_),
+      devices_(api_.devices),
+      stage_(api_.stops, api_.motions, api_.paths, api_.jogs, half_close_),
+      events_(api_.events),
+      commands_(api_.commands),
+      settings_(api_.settings),
+      simulators_(api_.simulators),
+      positions_(api_.positions),
+      diagnostics_(api_.diagnostics),
+      control_(api_.leases),
+      known_callers_(api_.tokens),
+      health_(api_.streams),
       stops_(stage_),
       names_(devices_) {}
 
@@ -171,10 +171,10 @@ void Server::Services::build_reserve() {
 void Server::Services::build(grpc::ServerBuilder& builder, Part& part) {
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
   interceptors.push_back(rpc_metrics_.interceptor());
-  interceptors.push_back(call_limits_.interceptor());
+  interceptors.push_back(counting_interceptor(api_.admission));
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.SetMaxReceiveMessageSize(message_bytes_max_);
-  part.entrances.emplace(builder, callers_, Gate{access_, call_limits_, rpc_metrics_}, network_);
+  part.entrances.emplace(builder, callers_, Gate{api_.admission, rpc_metrics_}, network_);
   part.server = builder.BuildAndStart();
 }
 

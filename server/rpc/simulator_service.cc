@@ -5,15 +5,12 @@
 
 namespace axisgate::rpc {
 
-grpc::ServerUnaryReactor* SimulatorService::Operate(grpc::CallbackServerContext*, const api::OperateRequest* request,
-                                                    api::OperateResponse* response) {
-  const auto call = UnaryCall<api::OperateResponse>::start(response);
-  const Result<server::Device*> device = find_device(gateway_, request->device());
-  if (!device) return call->refuse(device.error());
-  (*device)->line().operate(request->command(), [call](const Result<std::string>& done) {
-    if (!done) return static_cast<void>(call->refuse(done.error()));
-    call->answer([&](api::OperateResponse& answer) { answer.set_answer(*done); });
-  });
+grpc::ServerUnaryReactor* SimulatorService::Operate(grpc::CallbackServerContext* context,
+                                                    const v1::OperateRequest* request, v1::OperateResponse* response) {
+  const auto call = UnaryCall<v1::OperateResponse>::start(response);
+  simulators_.operate(to_call(*context), request->device(), request->command(),
+                      answering<std::string>(
+                          call, [](v1::OperateResponse& answer, const std::string& text) { answer.set_answer(text); }));
   return call.get();
 }
 

@@ -2,22 +2,20 @@
 #pragma once
 
 #include "axisgate/v1/simulator.grpc.pb.h"
-#include "server/gateway.h"
+#include "server/api/simulators.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class SimulatorService final : public api::SimulatorService::CallbackService {
+class SimulatorService final : public v1::SimulatorService::CallbackService {
  public:
-  // Outlives this.
-  explicit SimulatorService(server::Gateway& gateway) : gateway_(gateway) {}
+  // It outlives this.
+  explicit SimulatorService(const api::Simulators& simulators) : simulators_(simulators) {}
 
-  grpc::ServerUnaryReactor* Operate(grpc::CallbackServerContext* context, const api::OperateRequest* request,
-                                    api::OperateResponse* response) override;
+  grpc::ServerUnaryReactor* Operate(grpc::CallbackServerContext* context, const v1::OperateRequest* request,
+                                    v1::OperateResponse* response) override;
 
  private:
-  server::Gateway& gateway_;
+  const api::Simulators& simulators_;
 };
 
 }  // namespace axisgate::rpc

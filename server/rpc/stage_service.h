@@ -2,54 +2,52 @@
 #pragma once
 
 #include "axisgate/v1/stage.grpc.pb.h"
-#include "server/access/access.h"
-#include "server/gateway.h"
-#include "server/rpc/stream_limit.h"
+#include "server/api/jogs.h"
+#include "server/api/motions.h"
+#include "server/api/paths.h"
+#include "server/api/stops.h"
+#include "server/rpc/half_close.h"
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
-class StageService final : public api::StageService::CallbackService {
+class StageService final : public v1::StageService::CallbackService {
  public:
   // All outlive this.
-  StageService(server::Gateway& gateway, const server::Access& access, StreamLimit& streams)
-      : gateway_(gateway), access_(access), streams_(streams) {}
+  StageService(const api::Stops& stops, const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs,
+               const HalfClose& half_close)
+      : stops_(stops), motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
 
-  grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const api::MoveRequest* request,
-                                 api::MoveResponse* response) override;
-  grpc::ServerUnaryReactor* Home(grpc::CallbackServerContext* context, const api::HomeRequest* request,
-                                 api::HomeResponse* response) override;
+  grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
+                                 v1::MoveResponse* response) override;
+  grpc::ServerUnaryReactor* Home(grpc::CallbackServerContext* context, const v1::HomeRequest* request,
+                                 v1::HomeResponse* response) override;
   grpc::ServerUnaryReactor* ReturnToOrigin(grpc::CallbackServerContext* context,
-                                           const api::ReturnToOriginRequest* request,
-                                           api::ReturnToOriginResponse* response) override;
-  grpc::ServerBidiReactor<api::RunPathRequest, api::RunPathResponse>* RunPath(
+                                           const v1::ReturnToOriginRequest* request,
+                                           v1::ReturnToOriginResponse* response) override;
+  grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>* RunPath(
       grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const api::ScanRequest* request,
-                                 api::ScanResponse* response) override;
-  grpc::ServerBidiReactor<api::JogRequest, api::JogResponse>* Jog(grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
-                                 api::StopResponse* response) override;
-  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context,
-                                          const api::EmergencyStopRequest* request,
-                                          api::EmergencyStopResponse* response) override;
-  grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const api::GetMotionRequest* request,
-                                      api::GetMotionResponse* response) override;
-  grpc::ServerUnaryReactor* ListMotions(grpc::CallbackServerContext* context, const api::ListMotionsRequest* request,
-                                        api::ListMotionsResponse* response) override;
-  grpc::ServerWriteReactor<api::WatchMotionResponse>* WatchMotion(grpc::CallbackServerContext* context,
-                                                                  const api::WatchMotionRequest* request) override;
-  grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const api::CancelMotionRequest* request,
-                                         api::CancelMotionResponse* response) override;
+  grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
+                                 v1::ScanResponse* response) override;
+  grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* Jog(grpc::CallbackServerContext* context) override;
+  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const v1::StopRequest* request,
+                                 v1::StopResponse* response) override;
+  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context, const v1::EmergencyStopRequest* request,
+                                          v1::EmergencyStopResponse* response) override;
+  grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const v1::GetMotionRequest* request,
+                                      v1::GetMotionResponse* response) override;
+  grpc::ServerUnaryReactor* ListMotions(grpc::CallbackServerContext* context, const v1::ListMotionsRequest* request,
+                                        v1::ListMotionsResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchMotionResponse>* WatchMotion(grpc::CallbackServerContext* context,
+                                                                 const v1::WatchMotionRequest* request) override;
+  grpc::ServerUnaryReactor* CancelMotion(grpc::CallbackServerContext* context, const v1::CancelMotionRequest* request,
+                                         v1::CancelMotionResponse* response) override;
 
  private:
-  // A path is held whole, up to tens of megabytes: fewer of them than of other streams.
-  static constexpr int kPathsMax = 32;
-
-  server::Gateway& gateway_;
-  const server::Access& access_;
-  StreamLimit& streams_;
-  StreamLimit paths_{kPathsMax};
+  const api::Stops& stops_;
+  const api::Motions& motions_;
+  const api::Paths& paths_;
+  const api::Jogs& jogs_;
+  const HalfClose& half_close_;
 };
 
 }  // namespace axisgate::rpc

@@ -10,21 +10,21 @@ namespace {
 constexpr std::size_t kDeviceTextMax = 512;
 
 // Both enums count alike; the API's file is the one that must not change.
-static_assert(static_cast<int>(Reason::unspecified) == api::REASON_UNSPECIFIED);
-static_assert(static_cast<int>(Reason::axis_busy) == api::REASON_AXIS_BUSY);
-static_assert(static_cast<int>(Reason::link_down) == api::REASON_LINK_DOWN);
-static_assert(static_cast<int>(Reason::deadline_passed) == api::REASON_DEADLINE_PASSED);
-static_assert(static_cast<int>(Reason::internal) == api::REASON_INTERNAL);
-static_assert(static_cast<int>(Reason::unexplained) == api::REASON_UNEXPLAINED);
+static_assert(static_cast<int>(Reason::unspecified) == v1::REASON_UNSPECIFIED);
+static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
+static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
+static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
+static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
+static_assert(static_cast<int>(Reason::unexplained) == v1::REASON_UNEXPLAINED);
 
-void pack(const char* type, const google::protobuf::Message& detail, api::ErrorStatus& status) {
+void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
   any.set_type_url(std::string("type.googleapis.com/") + type);
   any.set_value(detail.SerializeAsString());
 }
 
-api::ErrorInfo to_info(const api::Problem& problem, Reason reason) {
-  api::ErrorInfo info;
+v1::ErrorInfo to_info(const v1::Problem& problem, Reason reason) {
+  v1::ErrorInfo info;
   info.set_reason(std::string(name(reason)));
   info.set_domain("axisgate");
   auto& metadata = *info.mutable_metadata();
@@ -100,9 +100,9 @@ grpc::StatusCode code_of(Reason reason) {
   return grpc::StatusCode::INTERNAL;
 }
 
-api::Problem to_proto(const Problem& problem, const Metadata& metadata) {
-  api::Problem proto;
-  proto.set_reason(static_cast<api::Reason>(problem.reason));
+v1::Problem to_proto(const Problem& problem, const Metadata& metadata) {
+  v1::Problem proto;
+  proto.set_reason(static_cast<v1::Reason>(problem.reason));
   proto.set_message(problem.message);
   proto.set_hint(problem.hint);
   if (problem.axis) proto.set_axis(*problem.axis);
@@ -115,13 +115,19 @@ api::Problem to_proto(const Problem& problem, const Metadata& metadata) {
 grpc::Status to_status(const Problem& problem, const Metadata& metadata) {
   const grpc::StatusCode code = code_of(problem.reason);
   const std::string message = server::explain(problem);
-  const api::Problem detail = to_proto(problem, metadata);
-  api::ErrorStatus status;
+  const v1::Problem detail = to_proto(problem, metadata);
+  v1::ErrorStatus status;
   status.set_code(code);
   status.set_message(message);
   pack("axisgate.v1.Problem", detail, status);
   pack("google.rpc.ErrorInfo", to_info(detail, problem.reason), status);
   return {code, message, status.SerializeAsString()};
+}
+
+grpc::Status to_status(const api::StreamEnd& end) {
+  if (!end.problem) return grpc::Status::OK;
+  if (!end.resume) return to_status(*end.problem);
+  return to_status(*end.problem, {{"resume_revision", std::to_string(*end.resume)}});
 }
 
 }  // namespace axisgate::rpc

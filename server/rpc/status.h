@@ -8,20 +8,22 @@
 
 #include "axisgate/v1/common.pb.h"
 #include "device/core/problem.h"
+#include "server/api/subscription.h"
 
 namespace axisgate::rpc {
-
-namespace api = axisgate::v1;
 
 grpc::StatusCode code_of(Reason reason);
 
 using Metadata = std::map<std::string, std::string>;
 
 // Device text in it is escaped.
-api::Problem to_proto(const Problem& problem, const Metadata& metadata = {});
+v1::Problem to_proto(const Problem& problem, const Metadata& metadata = {});
 
 // Carries an ErrorStatus with Problem and ErrorInfo as its error details, which gRPC sends as the trailing metadata
 // `grpc-status-details-bin`.
 grpc::Status to_status(const Problem& problem, const Metadata& metadata = {});
+
+// Of a stream: OK, or its problem, with the metadata "resume_revision" where it can be resumed.
+grpc::Status to_status(const api::StreamEnd& end);
 
 }  // namespace axisgate::rpc

@@ -16,8 +16,6 @@
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
 // A service of which some methods are served, the rest left to the server's generic service.
 template <class Service>
 class Partly : public Service {
@@ -33,20 +31,19 @@ class Partly : public Service {
   }
 };
 
-class StopService final : public Partly<api::StageService::WithCallbackMethod_Stop<
-                              api::StageService::WithCallbackMethod_EmergencyStop<api::StageService::Service>>> {
+class StopService final : public Partly<v1::StageService::WithCallbackMethod_Stop<
+                              v1::StageService::WithCallbackMethod_EmergencyStop<v1::StageService::Service>>> {
  public:
   // `stage` outlives this.
   explicit StopService(StageService& stage)
-      : Partly("StageService", *api::StopRequest::descriptor()->file(), {"Stop", "EmergencyStop"}), stage_(stage) {}
+      : Partly("StageService", *v1::StopRequest::descriptor()->file(), {"Stop", "EmergencyStop"}), stage_(stage) {}
 
-  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const api::StopRequest* request,
-                                 api::StopResponse* response) override {
+  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const v1::StopRequest* request,
+                                 v1::StopResponse* response) override {
     return stage_.Stop(context, request, response);
   }
-  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context,
-                                          const api::EmergencyStopRequest* request,
-                                          api::EmergencyStopResponse* response) override {
+  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context, const v1::EmergencyStopRequest* request,
+                                          v1::EmergencyStopResponse* response) override {
     return stage_.EmergencyStop(context, request, response);
   }
 
@@ -56,14 +53,14 @@ class StopService final : public Partly<api::StageService::WithCallbackMethod_St
 
 // A stop names its device: whoever does not know it asks here. It is answered from memory.
 class NamesService final
-    : public Partly<api::DeviceService::WithCallbackMethod_ListDevices<api::DeviceService::Service>> {
+    : public Partly<v1::DeviceService::WithCallbackMethod_ListDevices<v1::DeviceService::Service>> {
  public:
   // `devices` outlives this.
   explicit NamesService(DeviceService& devices)
-      : Partly("DeviceService", *api::ListDevicesRequest::descriptor()->file(), {"ListDevices"}), devices_(devices) {}
+      : Partly("DeviceService", *v1::ListDevicesRequest::descriptor()->file(), {"ListDevices"}), devices_(devices) {}
 
-  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const api::ListDevicesRequest* request,
-                                        api::ListDevicesResponse* response) override {
+  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const v1::ListDevicesRequest* request,
+                                        v1::ListDevicesResponse* response) override {
     return devices_.ListDevices(context, request, response);
   }
 

@@ -9,6 +9,7 @@
 #include <mutex>
 #include <utility>
 
+#include "server/api/call.h"
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
@@ -81,5 +82,31 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
   Response* response_;  // gRPC's, until Finish()
   Handle self_;
 };
+
+// Answers the call as the api does: `fill` is called with the response and the outcome.
+template <class Outcome, class Response, class Fill>
+api::Answer<Outcome> answering(std::shared_ptr<UnaryCall<Response>> call, Fill fill) {
+  return [call = std::move(call), fill = std::move(fill)](const Result<Outcome>& outcome) {
+    if (!outcome) return static_cast<void>(call->refuse(outcome.error()));
+    call->answer([&](Response& response) { fill(response, *outcome); });
+  };
+}
+
+// The same for a response with nothing in it.
+template <class Response>
+api::Answer<void> answering(std::shared_ptr<UnaryCall<Response>> call) {
+  return [call = std::move(call)](const Result<void>& done) {
+    if (!done) return static_cast<void>(call->refuse(done.error()));
+    call->answer([](Response&) {});
+  };
+}
+
+// Answers with what is known at once.
+template <class Outcome, class Response, class Fill>
+grpc::ServerUnaryReactor* answer_at_once(Response* response, const Result<Outcome>& outcome, Fill fill) {
+  const auto call = UnaryCall<Response>::start(response);
+  answering<Outcome>(call, std::move(fill))(outcome);
+  return call.get();
+}
 
 }  // namespace axisgate::rpc

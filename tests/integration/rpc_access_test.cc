@@ -152,10 +152,10 @@ class RpcAccess : public RpcTest {
     grpc::ClientContext context;
     limit(context);
     if (!authorization.empty()) context.AddMetadata("authorization", authorization);
-    api::GetCallerResponse caller;
-    const auto stub = api::AccessService::NewStub(channel);
+    v1::GetCallerResponse caller;
+    const auto stub = v1::AccessService::NewStub(channel);
     const grpc::Status status = stub->GetCaller(&context, {}, &caller);
-    return status.ok() ? caller.who() + ", " + api::Role_Name(caller.role()) : status.error_message();
+    return status.ok() ? caller.who() + ", " + v1::Role_Name(caller.role()) : status.error_message();
   }
 
   const std::string certificates_ = directory_ + ".certificates";
@@ -222,7 +222,7 @@ TEST_F(RpcAccess, AMotionByToken) {
   grpc::ClientContext context;
   limit(context);
   context.AddMetadata("authorization", "Bearer " + token(Role::operator_, "right"));
-  api::MoveResponse response;
+  v1::MoveResponse response;
   ASSERT_TRUE(stage_->Move(&context, move_request(1, "1"), &response).ok());
   EXPECT_EQ(response.motion().who(), "token right-operator");
 }
@@ -232,17 +232,17 @@ TEST_F(RpcAccess, CommandsForAdministrators) {
   for (const std::string line : {"BEC:D", "bec: D", "MODE:MANUAL", "FMT:HIT", "RESET:", "MS:ON", "P:ON"}) {
     grpc::ClientContext context;
     limit(context);
-    api::ExecuteRequest request;
+    v1::ExecuteRequest request;
     request.set_device("devices/stage");
     request.add_lines("C:11");
     request.add_lines(line);
-    const auto commands = api::CommandService::NewStub(loopback());
+    const auto commands = v1::CommandService::NewStub(loopback());
     const auto stream = commands->Execute(&context, request);
-    api::ExecuteResponse response;
+    v1::ExecuteResponse response;
     EXPECT_FALSE(stream->Read(&response)) << line;
     const grpc::Status status = stream->Finish();
     EXPECT_EQ(status.error_code(), grpc::PERMISSION_DENIED) << line << " " << status.error_message();
-    EXPECT_EQ(reason(status), api::REASON_NOT_ALLOWED);
+    EXPECT_EQ(reason(status), v1::REASON_NOT_ALLOWED);
   }
 }
 

@@ -8,6 +8,7 @@
 #include <utility>
 #include <variant>
 
+#include "server/api/paths.h"
 #include "server/rpc/news.h"
 #include "server/rpc/targets.h"
 
@@ -29,14 +30,15 @@ Message parsed(const std::string& text) {
 }
 
 stage::Segment segment(const std::string& text) {
-  const Result<stage::Segment> result = to_segment(parsed<api::Segment>(text));
+  const Result<stage::Segment> result = to_segment(parsed<v1::Segment>(text));
   EXPECT_TRUE(result) << text << ": " << result.error().message;
   return result.value_or(stage::Segment{});
 }
 
 // "INVALID_REQUEST: message"
 std::string refused(const std::string& text) {
-  const Result<stage::Segment> result = to_segment(parsed<api::Segment>(text));
+  const Result<stage::Segment> taken = to_segment(parsed<v1::Segment>(text));
+  const Result<void> result = taken ? api::check_segment(*taken) : tl::unexpected(taken.error());
   return result ? "taken" : std::string(name(result.error().reason)) + ": " + result.error().message;
 }
 
@@ -163,18 +165,18 @@ TEST(Segments, RestAndWaitForInputs) {
 
 TEST(Moves, Approach) {
   const auto move = [](const std::string& approach) {
-    return to_move(parsed<api::MoveRequest>("targets { axis: 2 distance { mm: \"1\" } " + approach + " }"), {}, {});
+    return to_move(parsed<v1::MoveRequest>("targets { axis: 2 distance { mm: \"1\" } " + approach + " }"));
   };
   ASSERT_TRUE(move("approach { um: \"-10\" }"));
-  EXPECT_EQ(written(move("approach { um: \"-10\" }")->moves.at(0).approach.value()), "-10um");
-  EXPECT_FALSE(move("")->moves.at(0).approach);
-  EXPECT_EQ(move("approach { um: \"0\" }").error().message, "axis 2: an approach of 0 comes from no side");
+  EXPECT_EQ(written(move("approach { um: \"-10\" }")->targets.at(0).approach.value()), "-10um");
+  EXPECT_FALSE(move("")->targets.at(0).approach);
+  const Result<stage::MoveRequest> from_no_side = api::completed(*move("approach { um: \"0\" }"), {}, {});
+  ASSERT_FALSE(from_no_side);
+  EXPECT_EQ(from_no_side.error().message, "axis 2: an approach of 0 comes from no side");
   EXPECT_EQ(move("approach {}").error().message, "axis 2: a distance has no amount");
 }
 
-Result<stage::ScanRequest> scan(const std::string& text) {
-  return to_scan(parsed<api::ScanRequest>(text), {.who = "anna"});
-}
+Result<stage::ScanRequest> scan(const std::string& text) { return to_scan(parsed<v1::ScanRequest>(text)); }
 
 TEST(Scans, AreTakenAsWritten) {
   const auto taken = scan(
@@ -186,7 +188,6 @@ TEST(Scans, AreTakenAsWritten) {
   EXPECT_EQ(written(taken->speed.value()), "20um");
   EXPECT_EQ(taken->acceleration_ms, 50);
   EXPECT_EQ(std::pair(taken->by_scale, taken->interval), std::pair(false, std::int64_t{100}));
-  EXPECT_EQ(taken->context.who, "anna");
   const auto by_scale = scan("axis: 3 from { pulses: 9 } to { pulses: 1 } scale_pulses: 2");
   ASSERT_TRUE(by_scale);
   EXPECT_EQ(std::pair(by_scale->by_scale, by_scale->interval), std::pair(true, std::int64_t{2}));
@@ -211,15 +212,15 @@ TEST(Scans, AreToldWithWhatIsKnown) {
   motion.kind = stage::MotionKind::scan;
   EXPECT_FALSE(to_proto("stage", motion, 1).has_scan());
   motion.scan = stage::ScanResult{-200, 1300, 16, 11, {}};
-  const api::Motion running = to_proto("stage", motion, 1);
-  EXPECT_EQ(running.kind(), api::MOTION_KIND_SCAN);
+  const v1::Motion running = to_proto("stage", motion, 1);
+  EXPECT_EQ(running.kind(), v1::MOTION_KIND_SCAN);
   EXPECT_EQ(running.scan().run_from_pulses(), -200);
   EXPECT_EQ(running.scan().run_to_pulses(), 1300);
   EXPECT_EQ(running.scan().expected_triggers(), 16);
   EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
   EXPECT_FALSE(running.scan().has_observed_triggers());
   motion.scan = stage::ScanResult{0, 0, {}, {}, 0};
-  const api::Motion ended = to_proto("stage", motion, 1);
+  const v1::Motion ended = to_proto("stage", motion, 1);
   EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
   EXPECT_TRUE(ended.scan().has_observed_triggers());
 }

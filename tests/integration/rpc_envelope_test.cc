@@ -36,14 +36,14 @@ class RpcEnvelope : public RpcTest {
   static std::string own_name() { return server::caller_name(::geteuid()); }
 
   // What the lines were refused for, before any was sent; unspecified where they were not.
-  api::Reason refused(const Lines& lines) {
+  v1::Reason refused(const Lines& lines) {
     grpc::ClientContext context;
     limit(context);
-    api::ExecuteRequest request;
+    v1::ExecuteRequest request;
     request.set_device("devices/stage");
     for (const std::string& line : lines) request.add_lines(line);
     const auto stream = commands_->Execute(&context, request);
-    api::ExecuteResponse response;
+    v1::ExecuteResponse response;
     bool sent = false;
     while (stream->Read(&response)) sent = true;
     const grpc::Status status = stream->Finish();
@@ -54,7 +54,7 @@ class RpcEnvelope : public RpcTest {
 
 TEST_F(RpcEnvelope, ACallerAndARoleHaveNarrowerLimits) {
   grpc::Status status = move(move_request(1, "2.5"));
-  EXPECT_EQ(reason(status), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(reason(status), v1::REASON_OUTSIDE_TRAVEL);
   EXPECT_THAT(status.error_message(), HasSubstr("beyond its travel maximum of 2000um for " + own_name()));
 
   const server::Calendar now = server::calendar_now();
@@ -64,14 +64,14 @@ TEST_F(RpcEnvelope, ACallerAndARoleHaveNarrowerLimits) {
     grpc::ClientContext context;
     limit(context);
     context.AddMetadata("authorization", "Bearer " + *token);
-    api::MoveRequest request = move_request(1, mm);
+    v1::MoveRequest request = move_request(1, mm);
     request.set_validate_only(true);
-    api::MoveResponse response;
+    v1::MoveResponse response;
     return stage_->Move(&context, request, &response);
   };
   EXPECT_TRUE(move_as_guest("2.5").ok());
   status = move_as_guest("3.5");
-  EXPECT_EQ(reason(status), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(reason(status), v1::REASON_OUTSIDE_TRAVEL);
   EXPECT_THAT(status.error_message(), HasSubstr("beyond its travel maximum of 3000um for operator"));
 }
 
@@ -79,71 +79,71 @@ TEST_F(RpcEnvelope, LinesEndWithinTheTravel) {
   for (const Lines& lines :
        {Lines{"M:1+P200001", "G:1"}, Lines{"M:1-M5.1", "G:1"}, Lines{"A:1+U2001", "G:1"}, Lines{"MP:1+M2.1", "G:1"},
         Lines{"AP:1-P500001", "G:1"}, Lines{"MP:1+P150000", "G:1", "MP:1+P60000"}}) {
-    EXPECT_EQ(refused(lines), api::REASON_OUTSIDE_TRAVEL) << lines[0];
+    EXPECT_EQ(refused(lines), v1::REASON_OUTSIDE_TRAVEL) << lines[0];
   }
-  EXPECT_EQ(refused({"MP:1+P1000", "G:1"}), api::REASON_UNSPECIFIED);
+  EXPECT_EQ(refused({"MP:1+P1000", "G:1"}), v1::REASON_UNSPECIFIED);
 }
 
 TEST_F(RpcEnvelope, LinesAreNoFasterThanAllowed) {
   for (const Lines& lines :
        {Lines{"D:1S100F999999R100", "M:1+P1", "G:1"}, Lines{"MP:1+P1,S100F60001R100", "G:1"},
         Lines{"AP:1+P1,S100F60001R100", "G:1"}, Lines{"MP:1+P1", "G:1", "MP:1+P1,S100F60001R100"}}) {
-    EXPECT_EQ(refused(lines), api::REASON_TOO_FAST) << lines[0];
+    EXPECT_EQ(refused(lines), v1::REASON_TOO_FAST) << lines[0];
   }
-  EXPECT_EQ(refused({"MP:1+P1,S100F60000R100", "G:1"}), api::REASON_UNSPECIFIED);
+  EXPECT_EQ(refused({"MP:1+P1,S100F60000R100", "G:1"}), v1::REASON_UNSPECIFIED);
 }
 
 // F stays in the controller, for motions that set none.
 TEST_F(RpcEnvelope, ASpeedIsCheckedWhereNothingMoves) {
-  EXPECT_EQ(refused({"D:1S100F999999R100"}), api::REASON_TOO_FAST);
-  EXPECT_EQ(refused({"D:1S100F60000R100"}), api::REASON_UNSPECIFIED);
+  EXPECT_EQ(refused({"D:1S100F999999R100"}), v1::REASON_TOO_FAST);
+  EXPECT_EQ(refused({"D:1S100F60000R100"}), v1::REASON_UNSPECIFIED);
 }
 
 // Manual 68): 601 um/s are 60,100 pulses/s.
 TEST_F(RpcEnvelope, SpeedsAreInTheUnitOfTheirWay) {
-  EXPECT_EQ(refused({"MP:1+U10,S100F601R100", "G:1"}), api::REASON_TOO_FAST);
-  EXPECT_EQ(refused({"AP:1+M0.01,S0.1F0.7R100", "G:1"}), api::REASON_TOO_FAST);
+  EXPECT_EQ(refused({"MP:1+U10,S100F601R100", "G:1"}), v1::REASON_TOO_FAST);
+  EXPECT_EQ(refused({"AP:1+M0.01,S0.1F0.7R100", "G:1"}), v1::REASON_TOO_FAST);
 }
 
 // What is set last is what starts, from where the axis stands: manual section 2.
 TEST_F(RpcEnvelope, SettingsThatMayChainAreRefused) {
-  EXPECT_EQ(refused({"MP:1+P10", "G:1", "MP:1+P10", "MP:1+P10", "G:1"}), api::REASON_INVALID_REQUEST);
+  EXPECT_EQ(refused({"MP:1+P10", "G:1", "MP:1+P10", "MP:1+P10", "G:1"}), v1::REASON_INVALID_REQUEST);
 }
 
 TEST_F(RpcEnvelope, ASettingReplacesTheOneBefore) {
-  EXPECT_EQ(refused({"M:1-P190000", "M:1+P300000", "G:1"}), api::REASON_OUTSIDE_TRAVEL);
-  EXPECT_EQ(refused({"M:1-P190000", "GC:1", "M:1+P300000", "G:1"}), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(refused({"M:1-P190000", "M:1+P300000", "G:1"}), v1::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(refused({"M:1-P190000", "GC:1", "M:1+P300000", "G:1"}), v1::REASON_OUTSIDE_TRAVEL);
 }
 
 TEST_F(RpcEnvelope, TheLogicalOriginMayLieOutsideTheTravel) {
-  EXPECT_EQ(refused({"Z:2"}), api::REASON_OUTSIDE_TRAVEL);
-  EXPECT_EQ(refused({"ZRT:2"}), api::REASON_OUTSIDE_TRAVEL);
-  EXPECT_EQ(refused({"MP:1+P1000", "G:1"}), api::REASON_UNSPECIFIED);
-  EXPECT_EQ(refused({"ZRT:1"}), api::REASON_UNSPECIFIED);
-  EXPECT_EQ(refused({"HRT:2"}), api::REASON_UNSPECIFIED) << "how the axis learns its place";
+  EXPECT_EQ(refused({"Z:2"}), v1::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(refused({"ZRT:2"}), v1::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(refused({"MP:1+P1000", "G:1"}), v1::REASON_UNSPECIFIED);
+  EXPECT_EQ(refused({"ZRT:1"}), v1::REASON_UNSPECIFIED);
+  EXPECT_EQ(refused({"HRT:2"}), v1::REASON_UNSPECIFIED) << "how the axis learns its place";
 }
 
 TEST_F(RpcEnvelope, OriginReturnComesFirst) {
   for (const Lines& lines : {Lines{"M:3+P1", "G:3"}, Lines{"ZRT:3"}}) {
-    EXPECT_EQ(refused(lines), api::REASON_NOT_HOMED) << lines[0];
+    EXPECT_EQ(refused(lines), v1::REASON_NOT_HOMED) << lines[0];
   }
   grpc::ClientContext context;
   limit(context);
-  api::HomeRequest request;
+  v1::HomeRequest request;
   request.set_device("devices/stage");
   request.add_axes(3);
-  api::HomeResponse response;
+  v1::HomeResponse response;
   ASSERT_TRUE(stage_->Home(&context, request, &response).ok());
-  EXPECT_EQ(outcome(response.motion().name()).state(), api::MOTION_STATE_SUCCEEDED);
-  EXPECT_EQ(refused({"MP:3+P1", "G:3"}), api::REASON_UNSPECIFIED);
+  EXPECT_EQ(outcome(response.motion().name()).state(), v1::MOTION_STATE_SUCCEEDED);
+  EXPECT_EQ(refused({"MP:3+P1", "G:3"}), v1::REASON_UNSPECIFIED);
 }
 
 TEST_F(RpcEnvelope, ADeviceTellsWhichAxesAreHomedFirst) {
   grpc::ClientContext context;
   limit(context);
-  api::GetDeviceRequest request;
+  v1::GetDeviceRequest request;
   request.set_name("devices/stage");
-  api::GetDeviceResponse response;
+  v1::GetDeviceResponse response;
   ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
   EXPECT_FALSE(response.device().axes(0).home_first());
   EXPECT_TRUE(response.device().axes(2).home_first());

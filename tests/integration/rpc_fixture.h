@@ -28,8 +28,6 @@
 
 namespace axisgate::rpc {
 
-namespace api = axisgate::v1;
-
 class RpcTest : public ::testing::Test {
  protected:
   void SetUp() override {
@@ -48,12 +46,12 @@ class RpcTest : public ::testing::Test {
     server_ = *std::move(started);
     gateway_->start();
     channel_ = grpc::CreateChannel("unix:" + config.socket, grpc::InsecureChannelCredentials());
-    devices_ = api::DeviceService::NewStub(channel_);
-    stage_ = api::StageService::NewStub(channel_);
-    events_ = api::EventService::NewStub(channel_);
-    commands_ = api::CommandService::NewStub(channel_);
-    diagnostics_ = api::DiagnosticsService::NewStub(channel_);
-    control_ = api::ControlService::NewStub(channel_);
+    devices_ = v1::DeviceService::NewStub(channel_);
+    stage_ = v1::StageService::NewStub(channel_);
+    events_ = v1::EventService::NewStub(channel_);
+    commands_ = v1::CommandService::NewStub(channel_);
+    diagnostics_ = v1::DiagnosticsService::NewStub(channel_);
+    control_ = v1::ControlService::NewStub(channel_);
     wait_until_up();
   }
 
@@ -76,43 +74,43 @@ class RpcTest : public ::testing::Test {
   void wait_until_up() {
     grpc::ClientContext context;
     limit(context);
-    api::WatchDeviceRequest request;
+    v1::WatchDeviceRequest request;
     request.set_name("devices/stage");
     const auto stream = devices_->WatchDevice(&context, request);
-    api::WatchDeviceResponse response;
+    v1::WatchDeviceResponse response;
     while (stream->Read(&response)) {
-      if (response.device().link() == api::LINK_STATE_UP) break;
+      if (response.device().link() == v1::LINK_STATE_UP) break;
     }
-    ASSERT_EQ(response.device().link(), api::LINK_STATE_UP);
+    ASSERT_EQ(response.device().link(), v1::LINK_STATE_UP);
     context.TryCancel();
   }
 
-  static api::MoveRequest move_request(int axis, const std::string& mm) {
-    api::MoveRequest request;
+  static v1::MoveRequest move_request(int axis, const std::string& mm) {
+    v1::MoveRequest request;
     request.set_device("devices/stage");
-    api::AxisTarget& target = *request.add_targets();
+    v1::AxisTarget& target = *request.add_targets();
     target.set_axis(axis);
     target.mutable_distance()->set_mm(mm);
     return request;
   }
 
-  grpc::Status move(const api::MoveRequest& request, api::Motion* motion = nullptr) {
+  grpc::Status move(const v1::MoveRequest& request, v1::Motion* motion = nullptr) {
     grpc::ClientContext context;
     limit(context);
-    api::MoveResponse response;
+    v1::MoveResponse response;
     const grpc::Status status = stage_->Move(&context, request, &response);
     if (motion != nullptr) *motion = response.motion();
     return status;
   }
 
   // The motion at its outcome.
-  api::Motion outcome(const std::string& name) {
+  v1::Motion outcome(const std::string& name) {
     grpc::ClientContext context;
     limit(context);
-    api::WatchMotionRequest request;
+    v1::WatchMotionRequest request;
     request.set_name(name);
     const auto stream = stage_->WatchMotion(&context, request);
-    api::WatchMotionResponse response;
+    v1::WatchMotionResponse response;
     while (stream->Read(&response)) {
     }
     EXPECT_TRUE(stream->Finish().ok());
@@ -122,9 +120,9 @@ class RpcTest : public ::testing::Test {
   int motion_count() {
     grpc::ClientContext context;
     limit(context);
-    api::ListMotionsRequest request;
+    v1::ListMotionsRequest request;
     request.set_device("devices/stage");
-    api::ListMotionsResponse response;
+    v1::ListMotionsResponse response;
     EXPECT_TRUE(stage_->ListMotions(&context, request, &response).ok());
     return response.motions_size();
   }
@@ -163,11 +161,11 @@ class RpcTest : public ::testing::Test {
     return status;
   }
 
-  static api::Reason reason(const grpc::Status& status) {
-    api::ErrorStatus details;
-    api::Problem problem;
-    if (!details.ParseFromString(status.error_details()) || details.details_size() == 0) return api::REASON_UNSPECIFIED;
-    return problem.ParseFromString(details.details(0).value()) ? problem.reason() : api::REASON_UNSPECIFIED;
+  static v1::Reason reason(const grpc::Status& status) {
+    v1::ErrorStatus details;
+    v1::Problem problem;
+    if (!details.ParseFromString(status.error_details()) || details.details_size() == 0) return v1::REASON_UNSPECIFIED;
+    return problem.ParseFromString(details.details(0).value()) ? problem.reason() : v1::REASON_UNSPECIFIED;
   }
 
   server::ConnectionLimits limits_{100};  // before SetUp()
@@ -177,12 +175,12 @@ class RpcTest : public ::testing::Test {
   std::unique_ptr<server::Gateway> gateway_;
   std::unique_ptr<Server> server_;
   std::shared_ptr<grpc::Channel> channel_;
-  std::unique_ptr<api::DeviceService::Stub> devices_;
-  std::unique_ptr<api::StageService::Stub> stage_;
-  std::unique_ptr<api::EventService::Stub> events_;
-  std::unique_ptr<api::CommandService::Stub> commands_;
-  std::unique_ptr<api::DiagnosticsService::Stub> diagnostics_;
-  std::unique_ptr<api::ControlService::Stub> control_;
+  std::unique_ptr<v1::DeviceService::Stub> devices_;
+  std::unique_ptr<v1::StageService::Stub> stage_;
+  std::unique_ptr<v1::EventService::Stub> events_;
+  std::unique_ptr<v1::CommandService::Stub> commands_;
+  std::unique_ptr<v1::DiagnosticsService::Stub> diagnostics_;
+  std::unique_ptr<v1::ControlService::Stub> control_;
 };
 
 }  // namespace axisgate::rpc

@@ -19,14 +19,13 @@ using Channel = std::shared_ptr<grpc::Channel>;
 // The state of the device at every change, until it goes.
 class OpenStream {
  public:
-  OpenStream(const Channel& channel, const std::string& authorization)
-      : devices_(api::DeviceService::NewStub(channel)) {
+  OpenStream(const Channel& channel, const std::string& authorization) : devices_(v1::DeviceService::NewStub(channel)) {
     context_.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(60)));
     if (!authorization.empty()) context_.AddMetadata("authorization", authorization);
-    api::WatchDeviceRequest request;
+    v1::WatchDeviceRequest request;
     request.set_name("devices/stage");
     reader_ = devices_->WatchDevice(&context_, request);
-    api::WatchDeviceResponse response;
+    v1::WatchDeviceResponse response;
     if (!reader_->Read(&response)) refusal_ = reader_->Finish();
   }
   ~OpenStream() { context_.TryCancel(); }
@@ -34,23 +33,23 @@ class OpenStream {
   const grpc::Status& refusal() const { return refusal_; }  // OK: it was let in
 
  private:
-  const std::unique_ptr<api::DeviceService::Stub> devices_;
+  const std::unique_ptr<v1::DeviceService::Stub> devices_;
   grpc::ClientContext context_;
-  std::unique_ptr<grpc::ClientReader<api::WatchDeviceResponse>> reader_;
+  std::unique_ptr<grpc::ClientReader<v1::WatchDeviceResponse>> reader_;
   grpc::Status refusal_;
 };
 
 // Waits for axis 1 until it goes.
 class WaitingCall {
  public:
-  explicit WaitingCall(api::ControlService::Stub& control) {
+  explicit WaitingCall(v1::ControlService::Stub& control) {
     context_.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(60)));
-    api::AcquireLeaseRequest request;
+    v1::AcquireLeaseRequest request;
     request.set_device("devices/stage");
     request.mutable_terms()->add_axes(1);
     request.mutable_wait()->set_seconds(60);
     thread_ = std::thread([this, &control, request] {
-      api::AcquireLeaseResponse response;
+      v1::AcquireLeaseResponse response;
       control.AcquireLease(&context_, request, &response);
     });
   }
@@ -117,25 +116,25 @@ class RpcLimits : public RpcTest {
   static void expect_stops_get_through(const Channel& channel) {
     for (const char* method : {"Stop", "EmergencyStop"}) {
       const grpc::Status status = ask(channel, std::string("/axisgate.v1.StageService/") + method);
-      EXPECT_EQ(reason(status), api::REASON_INVALID_REQUEST) << method << ": " << status.error_message();
+      EXPECT_EQ(reason(status), v1::REASON_INVALID_REQUEST) << method << ": " << status.error_message();
     }
     EXPECT_TRUE(ask(channel, "/axisgate.v1.DeviceService/ListDevices").ok());
   }
   static grpc::Status stop(const Channel& channel) {
     grpc::ClientContext context;
     limit(context);
-    api::StopRequest request;
+    v1::StopRequest request;
     request.set_device("devices/stage");
-    api::StopResponse response;
-    return api::StageService::NewStub(channel)->Stop(&context, request, &response);
+    v1::StopResponse response;
+    return v1::StageService::NewStub(channel)->Stop(&context, request, &response);
   }
 
-  api::MotionState state(const std::string& motion) {
+  v1::MotionState state(const std::string& motion) {
     grpc::ClientContext context;
     limit(context);
-    api::GetMotionRequest request;
+    v1::GetMotionRequest request;
     request.set_name(motion);
-    api::GetMotionResponse response;
+    v1::GetMotionResponse response;
     stage_->GetMotion(&context, request, &response);
     return response.motion().state();
   }
@@ -144,10 +143,10 @@ class RpcLimits : public RpcTest {
   void wait_for_waiting(int count) {
     grpc::ClientContext context;
     limit(context);
-    api::WatchLeasesRequest request;
+    v1::WatchLeasesRequest request;
     request.set_device("devices/stage");
     const auto stream = control_->WatchLeases(&context, request);
-    api::WatchLeasesResponse board;
+    v1::WatchLeasesResponse board;
     while (stream->Read(&board) && board.waiting_size() != count) continue;
     EXPECT_EQ(board.waiting_size(), count);
     context.TryCancel();
@@ -169,14 +168,14 @@ TEST_F(RpcLimits, AStreamTooManyIsRefusedWhicheverConnectionItComesBy) {
 }
 
 TEST_F(RpcLimits, WithTooManyStreamsAStopGetsThroughAndOthersAreServed) {
-  api::Motion motion;
-  api::MoveRequest request = move_request(1, "4.9");
+  v1::Motion motion;
+  v1::MoveRequest request = move_request(1, "4.9");
   request.mutable_targets(0)->mutable_profile()->mutable_maximum()->set_mm_per_s("0.1");
   ASSERT_TRUE(move(request, &motion).ok());
   const std::array open = {stream(channel_), stream(channel_)};
   ASSERT_EQ(OpenStream(channel_, "").refusal().error_code(), grpc::RESOURCE_EXHAUSTED);
   EXPECT_TRUE(stop(channel_).ok());
-  EXPECT_TRUE(wait_until([&] { return state(motion.name()) == api::MOTION_STATE_STOPPED; }));
+  EXPECT_TRUE(wait_until([&] { return state(motion.name()) == v1::MOTION_STATE_STOPPED; }));
   EXPECT_TRUE(OpenStream(channel_, token("night-scan")).refusal().ok());
   EXPECT_TRUE(OpenStream(loopback(), "").refusal().ok());
   expect_stops_get_through(channel_);
@@ -195,10 +194,10 @@ TEST_F(RpcLimits, ARequestTooManyIsRefusedAndAStopIsNot) {
   grpc::ClientContext context;
   limit(context);
   context.AddMetadata("authorization", another);
-  api::AcquireLeaseRequest all;
+  v1::AcquireLeaseRequest all;
   all.set_device("devices/stage");
   all.mutable_terms()->mutable_time_to_live()->set_seconds(60);
-  api::AcquireLeaseResponse lease;
+  v1::AcquireLeaseResponse lease;
   ASSERT_TRUE(control_->AcquireLease(&context, all, &lease).ok());
   const auto first = std::make_unique<WaitingCall>(*control_);
   auto second = std::make_unique<WaitingCall>(*control_);
@@ -227,7 +226,7 @@ TEST_F(RpcLimits, WhoComesNamelessSharesTheLimit) {
 }
 
 TEST_F(RpcLimits, AMessageTooLargeIsRefused) {
-  api::MoveRequest request = move_request(1, "1");
+  v1::MoveRequest request = move_request(1, "1");
   request.mutable_context()->set_request_id(std::string(3000, 'x'));
   EXPECT_EQ(move(request).error_code(), grpc::INVALID_ARGUMENT);  // read, and found too long an id
   request.mutable_context()->set_request_id(std::string(5000, 'x'));
@@ -245,7 +244,7 @@ class ConnectionLimitsTest : public RpcLimits {
 TEST_F(ConnectionLimitsTest, AConnectionTooManyIsServedAStopOnly) {
   const Channel second = new_channel();
   const grpc::Status refused = ask(second, "/axisgate.v1.AccessService/GetCaller");
-  EXPECT_EQ(reason(refused), api::REASON_QUEUE_FULL);
+  EXPECT_EQ(reason(refused), v1::REASON_QUEUE_FULL);
   EXPECT_THAT(refused.error_message(), AllOf(HasSubstr("for this caller"), HasSubstr("ask again in 1 s")));
   expect_stops_get_through(new_channel());
   const Channel elsewhere = loopback();

@@ -74,10 +74,10 @@ class RpcMetricsTest : public RpcTest {
   grpc::Status watch(std::uint64_t from) {
     grpc::ClientContext context;
     limit(context);
-    api::WatchRequest request;
+    v1::WatchRequest request;
     request.set_from_revision(from);
     const auto stream = events_->Watch(&context, request);
-    api::WatchResponse response;
+    v1::WatchResponse response;
     while (stream->Read(&response)) {
     }
     return stream->Finish();
@@ -129,7 +129,7 @@ TEST_F(RpcMetricsTest, AStreamIsOpenUntilItEnds) {
   EXPECT_EQ(open_streams(kWatch), 0);
   grpc::ClientContext context;
   limit(context);
-  const auto stream = events_->Watch(&context, api::WatchRequest());
+  const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
   EXPECT_EQ(open_streams(kWatch), 1);
   EXPECT_EQ(calls(kWatch, "CANCELLED"), -1);
@@ -143,17 +143,17 @@ TEST_F(RpcMetricsTest, AReaderThatFallsBehindIsSlowAndOneThatComesLateIsNot) {
   EXPECT_EQ(slow_readers(), 0);
   grpc::ClientContext context;
   limit(context);
-  const auto stream = events_->Watch(&context, api::WatchRequest());
+  const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
   publish(2 * server::EventBus::kFactsKept);
-  api::WatchResponse response;
+  v1::WatchResponse response;
   while (stream->Read(&response)) {
   }
-  EXPECT_EQ(reason(stream->Finish()), api::REASON_COMPACTED);
+  EXPECT_EQ(reason(stream->Finish()), v1::REASON_COMPACTED);
   EXPECT_EQ(slow_readers(), 1);
 
-  EXPECT_EQ(reason(watch(1)), api::REASON_COMPACTED);
-  EXPECT_EQ(reason(watch(gateway_->events().newest_revision() + 2)), api::REASON_COMPACTED);
+  EXPECT_EQ(reason(watch(1)), v1::REASON_COMPACTED);
+  EXPECT_EQ(reason(watch(gateway_->events().newest_revision() + 2)), v1::REASON_COMPACTED);
   EXPECT_EQ(slow_readers(), 1);
 }
 
@@ -205,7 +205,7 @@ TEST_F(NotLetInTest, CallsThatAreNotLetInCountByReason) {
   grpc::ClientContext context;
   limit(context);
   context.AddMetadata("authorization", bearer);
-  const auto stream = events_->Watch(&context, api::WatchRequest());
+  const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
   EXPECT_EQ(refused("too_many"), 0);
   EXPECT_EQ(ask("/" + kWatch, bearer).error_code(), grpc::RESOURCE_EXHAUSTED);

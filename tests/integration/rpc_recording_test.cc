@@ -17,10 +17,10 @@ class RecordingTest : public RpcTest {
   grpc::Status record(const std::string& device, std::string* text) {
     grpc::ClientContext context;
     limit(context);
-    api::RecordRequest request;
+    v1::RecordRequest request;
     request.set_device(device);
     const auto stream = diagnostics_->Record(&context, request);
-    api::RecordResponse response;
+    v1::RecordResponse response;
     while (stream->Read(&response)) *text += response.text();
     return stream->Finish();
   }
@@ -31,25 +31,25 @@ TEST_F(RecordingTest, EndsWithTheNewestLineWhenItIsNotToFollow) {
   ASSERT_TRUE(record("devices/stage", &text).ok());
   EXPECT_THAT(text, StartsWith("# axisgate recording 1\n"));
   EXPECT_THAT(text, HasSubstr("*IDN?"));
-  EXPECT_EQ(reason(record("devices/nowhere", &text)), api::REASON_UNKNOWN_DEVICE);
+  EXPECT_EQ(reason(record("devices/nowhere", &text)), v1::REASON_UNKNOWN_DEVICE);
 }
 
 TEST_F(RecordingTest, AReaderThatDoesNotReadHoldsNoMotionUpAndGetsAllLater) {
   grpc::ClientContext context;
   limit(context);
-  api::RecordRequest request;
+  v1::RecordRequest request;
   request.set_device("devices/stage");
   request.set_skip_kept(true);
   request.set_follow(true);
   const auto stream = diagnostics_->Record(&context, request);
   stream->WaitForInitialMetadata();
-  api::RecordResponse response;
+  v1::RecordResponse response;
   ASSERT_TRUE(stream->Read(&response));
   EXPECT_THAT(response.text(), StartsWith("# axisgate recording 1\n"));
   for (int i = 0; i < 20; ++i) {
-    api::Motion motion;
+    v1::Motion motion;
     ASSERT_TRUE(move(move_request(1, i % 2 == 0 ? "0.1" : "0"), &motion).ok());
-    ASSERT_EQ(outcome(motion.name()).state(), api::MOTION_STATE_SUCCEEDED);
+    ASSERT_EQ(outcome(motion.name()).state(), v1::MOTION_STATE_SUCCEEDED);
   }
   int completions = 0;
   while (completions < 20) {
@@ -66,8 +66,8 @@ TEST_F(RecordingTest, AReaderThatDoesNotReadHoldsNoMotionUpAndGetsAllLater) {
 TEST_F(RecordingTest, ASupportReportIsOneTextOfSections) {
   grpc::ClientContext context;
   limit(context);
-  const auto stream = diagnostics_->GetSupportReport(&context, api::GetSupportReportRequest());
-  api::GetSupportReportResponse response;
+  const auto stream = diagnostics_->GetSupportReport(&context, v1::GetSupportReportRequest());
+  v1::GetSupportReportResponse response;
   std::string text;
   while (stream->Read(&response)) text += response.text();
   EXPECT_TRUE(stream->Finish().ok());

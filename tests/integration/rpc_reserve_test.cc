@@ -21,19 +21,19 @@ class ReserveTest : public RpcTest {
   static grpc::Status get_device(const std::shared_ptr<grpc::Channel>& channel) {
     grpc::ClientContext context;
     limit(context);
-    api::GetDeviceRequest request;
+    v1::GetDeviceRequest request;
     request.set_name("devices/stage");
-    api::GetDeviceResponse response;
-    return api::DeviceService::NewStub(channel)->GetDevice(&context, request, &response);
+    v1::GetDeviceResponse response;
+    return v1::DeviceService::NewStub(channel)->GetDevice(&context, request, &response);
   }
 };
 
 std::vector<std::string> methods_of_the_api() {
   std::vector<std::string> methods;
   for (const google::protobuf::Message* request : std::initializer_list<const google::protobuf::Message*>{
-           &api::ListDevicesRequest::default_instance(), &api::MoveRequest::default_instance(),
-           &api::WatchRequest::default_instance(), &api::ExecuteRequest::default_instance(),
-           &api::RecordRequest::default_instance()}) {
+           &v1::ListDevicesRequest::default_instance(), &v1::MoveRequest::default_instance(),
+           &v1::WatchRequest::default_instance(), &v1::ExecuteRequest::default_instance(),
+           &v1::RecordRequest::default_instance()}) {
     const google::protobuf::FileDescriptor* file = request->GetDescriptor()->file();
     for (int i = 0; i < file->service_count(); ++i) {
       for (int k = 0; k < file->service(i)->method_count(); ++k) {
@@ -60,7 +60,7 @@ TEST_F(ReserveTest, StopsAreServedAndEverythingElseIsRefused) {
       seen.insert(method);
     } else {
       EXPECT_EQ(status.error_code(), grpc::RESOURCE_EXHAUSTED);
-      EXPECT_EQ(reason(status), api::REASON_QUEUE_FULL);
+      EXPECT_EQ(reason(status), v1::REASON_QUEUE_FULL);
     }
   }
   EXPECT_EQ(seen.size(), served.size());
@@ -68,18 +68,18 @@ TEST_F(ReserveTest, StopsAreServedAndEverythingElseIsRefused) {
 }
 
 TEST_F(ReserveTest, AStopEndsTheMotionOfAnother) {
-  api::Motion motion;
-  api::MoveRequest request = move_request(1, "4.9");
+  v1::Motion motion;
+  v1::MoveRequest request = move_request(1, "4.9");
   request.mutable_targets(0)->mutable_profile()->mutable_maximum()->set_mm_per_s("0.1");
   ASSERT_TRUE(move(request, &motion).ok());
   grpc::ClientContext context;
   limit(context);
-  api::StopRequest stop;
+  v1::StopRequest stop;
   stop.set_device("devices/stage");
-  api::StopResponse response;
-  const grpc::Status status = api::StageService::NewStub(new_channel())->Stop(&context, stop, &response);
+  v1::StopResponse response;
+  const grpc::Status status = v1::StageService::NewStub(new_channel())->Stop(&context, stop, &response);
   EXPECT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(outcome(motion.name()).state(), api::MOTION_STATE_STOPPED);
+  EXPECT_EQ(outcome(motion.name()).state(), v1::MOTION_STATE_STOPPED);
 }
 
 TEST_F(ReserveTest, AClientThatWasRefusedIsServedOnceThereIsAPlace) {

@@ -13,8 +13,8 @@ using ::testing::HasSubstr;
 class RpcScan : public RpcTest {
  protected:
   // Axis 1, which ends at 5 mm, at the simulator's F of 50,000 pulses/s; 10 nm a pulse.
-  static api::ScanRequest scan_request(std::int64_t from, std::int64_t to) {
-    api::ScanRequest request;
+  static v1::ScanRequest scan_request(std::int64_t from, std::int64_t to) {
+    v1::ScanRequest request;
     request.set_device("devices/stage");
     request.set_axis(1);
     request.mutable_from()->set_pulses(from);
@@ -23,10 +23,10 @@ class RpcScan : public RpcTest {
     return request;
   }
 
-  grpc::Status scan(const api::ScanRequest& request, api::Motion* motion = nullptr) {
+  grpc::Status scan(const v1::ScanRequest& request, v1::Motion* motion = nullptr) {
     grpc::ClientContext context;
     limit(context);
-    api::ScanResponse response;
+    v1::ScanResponse response;
     const grpc::Status status = stage_->Scan(&context, request, &response);
     if (motion != nullptr) *motion = response.motion();
     return status;
@@ -34,12 +34,12 @@ class RpcScan : public RpcTest {
 };
 
 TEST_F(RpcScan, IsToldWithWhatItCameTo) {
-  api::Motion motion;
+  v1::Motion motion;
   const grpc::Status status = scan(scan_request(0, 10'050), &motion);
   ASSERT_TRUE(status.ok()) << status.error_message();
-  EXPECT_EQ(motion.kind(), api::MOTION_KIND_SCAN);
-  const api::Motion ended = outcome(motion.name());
-  EXPECT_EQ(ended.state(), api::MOTION_STATE_SUCCEEDED) << ended.problem().message();
+  EXPECT_EQ(motion.kind(), v1::MOTION_KIND_SCAN);
+  const v1::Motion ended = outcome(motion.name());
+  EXPECT_EQ(ended.state(), v1::MOTION_STATE_SUCCEEDED) << ended.problem().message();
   // At 0, 1000, ... 10,000; the way before is a whole number of intervals.
   EXPECT_EQ(ended.scan().expected_triggers_in_range(), 11);
   EXPECT_LT(ended.scan().run_from_pulses(), 0);
@@ -50,20 +50,20 @@ TEST_F(RpcScan, IsToldWithWhatItCameTo) {
 }
 
 TEST_F(RpcScan, WhatCannotBeIsRefused) {
-  api::ScanRequest request = scan_request(0, 10'000);
+  v1::ScanRequest request = scan_request(0, 10'000);
   request.set_device("devices/nowhere");
-  EXPECT_EQ(reason(scan(request)), api::REASON_UNKNOWN_DEVICE);
+  EXPECT_EQ(reason(scan(request)), v1::REASON_UNKNOWN_DEVICE);
   request = scan_request(0, 10'000);
   request.mutable_context()->set_request_id("a\nb");
-  EXPECT_EQ(reason(scan(request)), api::REASON_INVALID_REQUEST);
+  EXPECT_EQ(reason(scan(request)), v1::REASON_INVALID_REQUEST);
   request = scan_request(0, 10'000);
   request.clear_interval();
-  EXPECT_EQ(reason(scan(request)), api::REASON_INVALID_REQUEST);
+  EXPECT_EQ(reason(scan(request)), v1::REASON_INVALID_REQUEST);
   EXPECT_EQ(motion_count(), 0);
 }
 
 TEST_F(RpcScan, ValidateOnlyChecksAndMovesNothing) {
-  api::ScanRequest request = scan_request(0, 10'000);
+  v1::ScanRequest request = scan_request(0, 10'000);
   request.set_validate_only(true);
   EXPECT_TRUE(scan(request).ok());
   EXPECT_EQ(motion_count(), 0);
@@ -71,14 +71,14 @@ TEST_F(RpcScan, ValidateOnlyChecksAndMovesNothing) {
 
 TEST_F(RpcScan, ItsCheckIsTheControllers) {
   for (const bool validate_only : {true, false}) {
-    api::ScanRequest beyond = scan_request(0, 500'001);
+    v1::ScanRequest beyond = scan_request(0, 500'001);
     beyond.set_validate_only(validate_only);
-    EXPECT_EQ(reason(scan(beyond)), api::REASON_OUTSIDE_TRAVEL);
-    api::ScanRequest fast = scan_request(0, 10'000);
+    EXPECT_EQ(reason(scan(beyond)), v1::REASON_OUTSIDE_TRAVEL);
+    v1::ScanRequest fast = scan_request(0, 10'000);
     fast.set_validate_only(validate_only);
     fast.mutable_speed()->set_pulses_per_s(56'001);  // manual 98) T:P
     const grpc::Status status = scan(fast);
-    EXPECT_EQ(reason(status), api::REASON_TOO_FAST);
+    EXPECT_EQ(reason(status), v1::REASON_TOO_FAST);
     EXPECT_THAT(status.error_message(), HasSubstr("56"));
   }
   EXPECT_EQ(motion_count(), 0);

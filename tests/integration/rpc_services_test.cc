@@ -1,9 +1,12 @@
 #include <gmock/gmock.h>
 
+#include <set>
 #include <thread>
 #include <vector>
 
 #include "server/connections/callers.h"
+#include "server/rpc/method_kinds.h"
+#include "server/rpc/services.h"
 #include "tests/integration/rpc_fixture.h"
 
 namespace axisgate::rpc {
@@ -11,14 +14,35 @@ namespace {
 
 using ::testing::ElementsAre;
 
+// Each method of the services is a kind of request of its own, and is counted as what it is.
+TEST(MethodKinds, EveryServedMethodHasItsOwn) {
+  std::set<api::RequestKind> kinds;
+  for (const ServedMethod& method : served_methods()) {
+    const api::RequestKind kind = kind_of("/" + method.name);
+    EXPECT_NE(kind, api::RequestKind::unlisted) << method.name;
+    const api::Quota quota = api::rule_of(kind).quota;
+    EXPECT_EQ(quota == api::Quota::stream || quota == api::Quota::path, method.streams) << method.name;
+    const bool of_axisgate = method.name.starts_with("axisgate.v1.");
+    EXPECT_TRUE(kinds.insert(kind).second || !of_axisgate) << method.name;
+  }
+  EXPECT_EQ(kinds.size() + 1, api::kRequestKinds);
+}
+
+TEST(MethodKinds, WhatIsNotServedIsUnlisted) {
+  for (const char* method : {"", "/", "/axisgate.v1.StageService/Moves", "/axisgate.v2.StageService/Move",
+                             "axisgate.v1.StageService/Move", "/axisgate.v1.StageService/Move/"}) {
+    EXPECT_EQ(kind_of(method), api::RequestKind::unlisted) << method;
+  }
+}
+
 TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
-  api::Motion motion;
+  v1::Motion motion;
   ASSERT_TRUE(move(move_request(1, "1"), &motion).ok());
   EXPECT_EQ(motion.name(), "devices/stage/motions/1");
   EXPECT_EQ(motion.who(), server::caller_name(::geteuid()));
   EXPECT_GT(motion.revision(), 0u);
-  const api::Motion ended = outcome(motion.name());
-  EXPECT_EQ(ended.state(), api::MOTION_STATE_SUCCEEDED);
+  const v1::Motion ended = outcome(motion.name());
+  EXPECT_EQ(ended.state(), v1::MOTION_STATE_SUCCEEDED);
   EXPECT_GT(ended.revision(), motion.revision());
   ASSERT_EQ(ended.results_size(), 1);
   EXPECT_EQ(ended.results(0).target_pulses(), 100'000);  // 1 mm at 10 nm a pulse
@@ -26,62 +50,62 @@ TEST_F(RpcTest, AMoveSucceedsAndItsStateStandsInTheDevice) {
 
   grpc::ClientContext context;
   limit(context);
-  api::GetDeviceRequest request;
+  v1::GetDeviceRequest request;
   request.set_name("devices/stage");
   request.mutable_max_age();
-  api::GetDeviceResponse response;
+  v1::GetDeviceResponse response;
   ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
   ASSERT_EQ(response.device().axes_size(), 3);
   EXPECT_EQ(response.device().axes(0).position_pulses(), 100'000);
   EXPECT_EQ(response.device().axes(0).position(), "1000");
-  EXPECT_EQ(response.device().axes(0).unit(), api::UNIT_MICROMETERS);
+  EXPECT_EQ(response.device().axes(0).unit(), v1::UNIT_MICROMETERS);
   EXPECT_EQ(response.device().axes(0).travel_maximum().mm(), "5");
 }
 
 TEST_F(RpcTest, BadRequestsAreRefusedWithTheirReason) {
-  api::MoveRequest request = move_request(1, "1");
+  v1::MoveRequest request = move_request(1, "1");
   request.set_device("devices/nowhere");
   grpc::Status status = move(request);
   EXPECT_EQ(status.error_code(), grpc::NOT_FOUND);
-  EXPECT_EQ(reason(status), api::REASON_UNKNOWN_DEVICE);
+  EXPECT_EQ(reason(status), v1::REASON_UNKNOWN_DEVICE);
   request.set_device("stage");
-  EXPECT_EQ(reason(move(request)), api::REASON_INVALID_REQUEST);
-  EXPECT_EQ(reason(move(move_request(4, "1"))), api::REASON_UNKNOWN_AXIS);
-  EXPECT_EQ(reason(move(move_request(1, "5.1"))), api::REASON_OUTSIDE_TRAVEL);
-  EXPECT_EQ(reason(move(move_request(1, "0.0000001"))), api::REASON_NOT_REPRESENTABLE);
+  EXPECT_EQ(reason(move(request)), v1::REASON_INVALID_REQUEST);
+  EXPECT_EQ(reason(move(move_request(4, "1"))), v1::REASON_UNKNOWN_AXIS);
+  EXPECT_EQ(reason(move(move_request(1, "5.1"))), v1::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(reason(move(move_request(1, "0.0000001"))), v1::REASON_NOT_REPRESENTABLE);
   request = move_request(1, "1");
   request.mutable_targets(0)->mutable_distance()->set_degrees("1");
-  EXPECT_EQ(reason(move(request)), api::REASON_UNKNOWN_UNIT);
+  EXPECT_EQ(reason(move(request)), v1::REASON_UNKNOWN_UNIT);
   request = move_request(1, "1");
   request.mutable_context()->set_request_id("a\nb");
-  EXPECT_EQ(reason(move(request)), api::REASON_INVALID_REQUEST);
+  EXPECT_EQ(reason(move(request)), v1::REASON_INVALID_REQUEST);
   request = move_request(1, "1");
   request.mutable_context()->mutable_not_after()->set_seconds(1);
-  EXPECT_EQ(reason(move(request)), api::REASON_DEADLINE_PASSED);
+  EXPECT_EQ(reason(move(request)), v1::REASON_DEADLINE_PASSED);
 }
 
 TEST_F(RpcTest, ValidateOnlyChecksAndMovesNothing) {
-  api::MoveRequest request = move_request(1, "1");
+  v1::MoveRequest request = move_request(1, "1");
   request.set_validate_only(true);
   EXPECT_TRUE(move(request).ok());
   request = move_request(1, "6");
   request.set_validate_only(true);
-  EXPECT_EQ(reason(move(request)), api::REASON_OUTSIDE_TRAVEL);
+  EXPECT_EQ(reason(move(request)), v1::REASON_OUTSIDE_TRAVEL);
   EXPECT_EQ(motion_count(), 0);
 }
 
 // The revisions that a watcher sees, until the first motion's outcome.
-std::vector<std::uint64_t> watch(api::EventService::Stub& stub, std::uint64_t from) {
+std::vector<std::uint64_t> watch(v1::EventService::Stub& stub, std::uint64_t from) {
   grpc::ClientContext context;
   context.set_deadline(server::to_wall(monotonic_now() + std::chrono::seconds(30)));
-  api::WatchRequest request;
+  v1::WatchRequest request;
   request.set_from_revision(from);
   const auto stream = stub.Watch(&context, request);
   std::vector<std::uint64_t> revisions;
-  api::WatchResponse response;
+  v1::WatchResponse response;
   while (stream->Read(&response)) {
     revisions.push_back(response.event().revision());
-    if (response.event().motion().state() >= api::MOTION_STATE_SUCCEEDED) break;
+    if (response.event().motion().state() >= v1::MOTION_STATE_SUCCEEDED) break;
   }
   context.TryCancel();
   return revisions;
@@ -104,25 +128,25 @@ TEST_F(RpcTest, ThreeWatchersSeeTheSameRevisionsAndOneThatComesBackMissesNone) {
 TEST_F(RpcTest, ARevisionOfAnotherRunIsCompacted) {
   grpc::ClientContext context;
   limit(context);
-  api::WatchRequest request;
+  v1::WatchRequest request;
   request.set_from_revision(1);
   request.set_run("another");
   const auto stream = events_->Watch(&context, request);
-  api::WatchResponse response;
+  v1::WatchResponse response;
   EXPECT_FALSE(stream->Read(&response));
   const grpc::Status status = stream->Finish();
-  EXPECT_EQ(reason(status), api::REASON_COMPACTED);
+  EXPECT_EQ(reason(status), v1::REASON_COMPACTED);
   EXPECT_EQ(context.GetServerTrailingMetadata().count("grpc-status-details-bin"), 1u);
 }
 
-api::RunPathRequest header() {
-  api::RunPathRequest part;
+v1::RunPathRequest header() {
+  v1::RunPathRequest part;
   part.mutable_header()->set_device("devices/stage");
   return part;
 }
 
-api::RunPathRequest segment(const std::string& um) {
-  api::RunPathRequest part;
+v1::RunPathRequest segment(const std::string& um) {
+  v1::RunPathRequest part;
   part.mutable_segment()->set_relative(true);
   part.mutable_segment()->mutable_single()->set_axis(1);
   part.mutable_segment()->mutable_single()->mutable_distance()->set_um(um);
@@ -138,18 +162,18 @@ TEST_F(RpcTest, APathTellsEveryStepAndItsOutcome) {
   stream->WritesDone();
   std::vector<int> sent;
   std::vector<int> done;
-  std::vector<api::MotionState> states;
-  api::RunPathResponse response;
+  std::vector<v1::MotionState> states;
+  v1::RunPathResponse response;
   while (stream->Read(&response)) {
     if (response.has_motion()) states.push_back(response.motion().state());
-    const api::PathProgress& progress = response.progress();
-    if (progress.step() == api::PathProgress::STEP_SENT) sent.push_back(progress.segment());
-    if (progress.step() == api::PathProgress::STEP_DONE) done.push_back(progress.segment());
+    const v1::PathProgress& progress = response.progress();
+    if (progress.step() == v1::PathProgress::STEP_SENT) sent.push_back(progress.segment());
+    if (progress.step() == v1::PathProgress::STEP_DONE) done.push_back(progress.segment());
   }
   EXPECT_TRUE(stream->Finish().ok());
   EXPECT_THAT(sent, ElementsAre(1, 2, 3));
   EXPECT_THAT(done, ElementsAre(1, 2, 3));
-  EXPECT_THAT(states, ElementsAre(api::MOTION_STATE_RUNNING, api::MOTION_STATE_SUCCEEDED));
+  EXPECT_THAT(states, ElementsAre(v1::MOTION_STATE_RUNNING, v1::MOTION_STATE_SUCCEEDED));
 }
 
 TEST_F(RpcTest, ABadSegmentIsNamed) {
@@ -160,7 +184,7 @@ TEST_F(RpcTest, ABadSegmentIsNamed) {
   stream->Write(segment("50"));
   stream->Write(segment("fast"));
   stream->WritesDone();
-  api::RunPathResponse response;
+  v1::RunPathResponse response;
   EXPECT_FALSE(stream->Read(&response));
   const grpc::Status status = stream->Finish();
   EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT);
@@ -173,15 +197,15 @@ TEST_F(RpcTest, InputsStartNothing) {
   limit(context);
   const auto stream = stage_->RunPath(&context);
   stream->Write(header());
-  api::RunPathRequest waits = segment("50");
+  v1::RunPathRequest waits = segment("50");
   waits.mutable_segment()->set_inputs(0);
   stream->Write(waits);
   stream->WritesDone();
-  api::RunPathResponse response;
+  v1::RunPathResponse response;
   EXPECT_FALSE(stream->Read(&response));
   const grpc::Status status = stream->Finish();
   EXPECT_EQ(status.error_code(), grpc::PERMISSION_DENIED);
-  EXPECT_EQ(reason(status), api::REASON_NOT_ALLOWED);
+  EXPECT_EQ(reason(status), v1::REASON_NOT_ALLOWED);
   EXPECT_EQ(motion_count(), 0);
 }
 
@@ -195,7 +219,7 @@ TEST_F(RpcTest, AClientThatBreaksOffAPathStartsNothing) {
     EXPECT_EQ(stream->Finish().error_code(), grpc::CANCELLED);
   }
   // A move started afterwards is the first motion: it waits longer than a path would to start.
-  api::Motion motion;
+  v1::Motion motion;
   ASSERT_TRUE(move(move_request(2, "1"), &motion).ok());
   outcome(motion.name());
   EXPECT_EQ(motion_count(), 1);
@@ -204,11 +228,11 @@ TEST_F(RpcTest, AClientThatBreaksOffAPathStartsNothing) {
 TEST_F(RpcTest, ExecuteStreamsRepliesThenCompletions) {
   grpc::ClientContext context;
   limit(context);
-  api::ExecuteRequest request;
+  v1::ExecuteRequest request;
   request.set_device("devices/stage");
   request.add_lines("?:P1");
   const auto stream = commands_->Execute(&context, request);
-  api::ExecuteResponse response;
+  v1::ExecuteResponse response;
   ASSERT_TRUE(stream->Read(&response));
   EXPECT_EQ(response.reply().answer(), "10");
   EXPECT_EQ(response.reply().sent(), "?:P");
@@ -221,39 +245,39 @@ TEST_F(RpcTest, ExecuteRefusesWhatIsNoLine) {
   for (const char* line : {"G:1", "BOGUS", "Q:\r\nG:", "Q:\x7f", ""}) {
     grpc::ClientContext context;
     limit(context);
-    api::ExecuteRequest request;
+    v1::ExecuteRequest request;
     request.set_device("devices/stage");
     request.add_lines(line);
     const auto stream = commands_->Execute(&context, request);
-    api::ExecuteResponse response;
+    v1::ExecuteResponse response;
     EXPECT_FALSE(stream->Read(&response)) << line;
     EXPECT_EQ(stream->Finish().error_code(), grpc::INVALID_ARGUMENT) << line;
   }
 }
 
 TEST_F(RpcTest, StopAnswersPerAxisAndTheMotionIsStopped) {
-  api::Motion motion;
+  v1::Motion motion;
   ASSERT_TRUE(move(move_request(1, "5"), &motion).ok());
   grpc::ClientContext context;
   limit(context);
-  api::StopRequest request;
+  v1::StopRequest request;
   request.set_device("devices/stage");
-  api::StopResponse response;
+  v1::StopResponse response;
   ASSERT_TRUE(stage_->Stop(&context, request, &response).ok());
   ASSERT_EQ(response.axes_size(), 3);
   EXPECT_EQ(response.axes(0).wire_reply(), "OK");
   EXPECT_TRUE(response.axes(0).ready());
-  EXPECT_EQ(outcome(motion.name()).state(), api::MOTION_STATE_STOPPED);
+  EXPECT_EQ(outcome(motion.name()).state(), v1::MOTION_STATE_STOPPED);
 }
 
 TEST_F(RpcTest, TheDaemonEndsWithStreamsOpen) {
   grpc::ClientContext context;
   limit(context);
-  const auto stream = events_->Watch(&context, api::WatchRequest());
+  const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
   server_.reset();
   gateway_.reset();
-  api::WatchResponse response;
+  v1::WatchResponse response;
   while (stream->Read(&response)) {
   }
   EXPECT_FALSE(stream->Finish().ok());

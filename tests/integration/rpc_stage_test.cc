@@ -18,13 +18,13 @@ class RpcStage : public RpcTest {
     axes[1].stage = stage::StageProfile{"Turner", {{10, 0}, true}, Decimal{5, 0}};
   }
 
-  api::Device device() {
+  v1::Device device() {
     grpc::ClientContext context;
     limit(context);
-    api::GetDeviceRequest request;
+    v1::GetDeviceRequest request;
     request.set_name("devices/stage");
     request.mutable_max_age();
-    api::GetDeviceResponse response;
+    v1::GetDeviceResponse response;
     EXPECT_TRUE(devices_->GetDevice(&context, request, &response).ok());
     return response.device();
   }
@@ -32,17 +32,17 @@ class RpcStage : public RpcTest {
   grpc::Status would_home(int axis) {
     grpc::ClientContext context;
     limit(context);
-    api::HomeRequest request;
+    v1::HomeRequest request;
     request.set_device("devices/stage");
     request.add_axes(axis);
     request.set_validate_only(true);
-    api::HomeResponse response;
+    v1::HomeResponse response;
     return stage_->Home(&context, request, &response);
   }
 };
 
 TEST_F(RpcStage, IsToldWithEveryAxis) {
-  const api::Device shown = device();
+  const v1::Device shown = device();
   ASSERT_EQ(shown.axes_size(), 3);
   EXPECT_EQ(shown.axes(0).stage(), "Other");
   EXPECT_THAT(shown.axes(0).stage_problem(), HasSubstr("10 nm by the controller (?:P) and 20 nm by the profile"));
@@ -54,10 +54,10 @@ TEST_F(RpcStage, IsToldWithEveryAxis) {
 }
 
 TEST_F(RpcStage, WhatIsOnlyCheckedIsRefusedAlike) {
-  api::MoveRequest request = move_request(1, "1");
+  v1::MoveRequest request = move_request(1, "1");
   request.set_validate_only(true);
-  EXPECT_EQ(reason(move(request)), api::REASON_IDENTITY_MISMATCH);
-  EXPECT_EQ(reason(would_home(1)), api::REASON_IDENTITY_MISMATCH);
+  EXPECT_EQ(reason(move(request)), v1::REASON_IDENTITY_MISMATCH);
+  EXPECT_EQ(reason(would_home(1)), v1::REASON_IDENTITY_MISMATCH);
   EXPECT_TRUE(would_home(2).ok());
   EXPECT_EQ(motion_count(), 0);
 }

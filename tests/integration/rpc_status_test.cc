@@ -55,13 +55,13 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::unexplained, grpc::FAILED_PRECONDITION},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
-  EXPECT_EQ(std::size(expected), static_cast<std::size_t>(api::Reason_ARRAYSIZE));
+  EXPECT_EQ(std::size(expected), static_cast<std::size_t>(v1::Reason_ARRAYSIZE));
 }
 
 TEST(Status, ReasonsHaveTheSameNumberAndNameInTheApi) {
-  for (int number = 0; number < api::Reason_ARRAYSIZE; ++number) {
+  for (int number = 0; number < v1::Reason_ARRAYSIZE; ++number) {
     const auto reason = static_cast<Reason>(number);
-    const std::string in_api = api::Reason_Name(static_cast<api::Reason>(number));
+    const std::string in_api = v1::Reason_Name(static_cast<v1::Reason>(number));
     EXPECT_EQ("REASON_" + std::string(name(reason)), in_api);
   }
 }
@@ -71,20 +71,20 @@ TEST(Status, CarriesProblemAndErrorInfoInItsDetails) {
   const grpc::Status status = to_status(problem, {{"resume_revision", "7"}});
   EXPECT_EQ(status.error_code(), grpc::FAILED_PRECONDITION);
   EXPECT_EQ(status.error_message(), "axis 2 was refused; excite it");
-  api::ErrorStatus details;
+  v1::ErrorStatus details;
   ASSERT_TRUE(details.ParseFromString(status.error_details()));
   EXPECT_EQ(details.code(), 9);
   ASSERT_EQ(details.details_size(), 2);
   EXPECT_EQ(details.details(0).type_url(), "type.googleapis.com/axisgate.v1.Problem");
-  api::Problem detail;
+  v1::Problem detail;
   ASSERT_TRUE(detail.ParseFromString(details.details(0).value()));
-  EXPECT_EQ(detail.reason(), api::REASON_DEVICE_REFUSED);
+  EXPECT_EQ(detail.reason(), v1::REASON_DEVICE_REFUSED);
   EXPECT_EQ(detail.axis(), 2);
   EXPECT_EQ(detail.sent(), "M:2+P5");
   EXPECT_EQ(detail.wire_reply(), "NG\\x01");
   EXPECT_EQ(detail.metadata().at("resume_revision"), "7");
   EXPECT_EQ(details.details(1).type_url(), "type.googleapis.com/google.rpc.ErrorInfo");
-  api::ErrorInfo info;
+  v1::ErrorInfo info;
   ASSERT_TRUE(info.ParseFromString(details.details(1).value()));
   EXPECT_EQ(info.reason(), "DEVICE_REFUSED");
   EXPECT_EQ(info.domain(), "axisgate");

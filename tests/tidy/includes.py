@@ -20,7 +20,7 @@ _FLOORS = {
     "device": (1, 2),
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/connections": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
-    "server": (3,), "server/rpc": (4,), "clients": (5,), "tests": (6,),
+    "server": (3,), "server/api": (4,), "server/rpc": (5,), "clients": (6,), "tests": (7,),
 }
 # The rooms of a controller: what each is for stands in device/shrc203/README.md.
 _CONTROLLER = "device/shrc203/"

@@ -1,0 +1,65 @@
+// All that can be asked of the gateway, wired. A door is handed this, or the subjects that it needs.
+#pragma once
+
+#include "server/access/access.h"
+#include "server/api/admission.h"
+#include "server/api/commands.h"
+#include "server/api/devices.h"
+#include "server/api/diagnostics.h"
+#include "server/api/events.h"
+#include "server/api/jogs.h"
+#include "server/api/leases.h"
+#include "server/api/motions.h"
+#include "server/api/paths.h"
+#include "server/api/pipeline.h"
+#include "server/api/positions.h"
+#include "server/api/settings.h"
+#include "server/api/simulators.h"
+#include "server/api/stops.h"
+#include "server/api/streams.h"
+#include "server/api/tokens.h"
+#include "server/devices/saved_positions.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+// Thread safe. What a caller asks holds none of it, but each device may answer until the gateway ends.
+class Api {
+ public:
+  // `gateway` outlives this, and `access` and `saved_positions` the gateway.
+  Api(server::Gateway& gateway, const server::Access& access, server::SavedPositions& saved_positions)
+      : admission(access, gateway.config().limits),
+        pipeline(admission),
+        stops(gateway, admission),
+        motions(gateway, pipeline, streams),
+        paths(gateway, pipeline, streams),
+        jogs(gateway, pipeline, streams),
+        leases(gateway, admission, pipeline, streams),
+        settings(gateway, access, pipeline),
+        positions(gateway, pipeline, saved_positions),
+        commands(gateway, access, pipeline, streams),
+        devices(gateway, admission, pipeline, streams),
+        events(gateway, admission, streams),
+        diagnostics(gateway, admission, pipeline, streams),
+        simulators(gateway, pipeline),
+        tokens(access, admission) {}
+
+  Admission admission;
+  Streams streams;
+  const Pipeline pipeline;
+  const Stops stops;
+  const Motions motions;
+  const Paths paths;
+  const Jogs jogs;
+  const Leases leases;
+  const Settings settings;
+  const Positions positions;
+  const Commands commands;
+  const Devices devices;
+  const Events events;
+  const Diagnostics diagnostics;
+  const Simulators simulators;
+  const Tokens tokens;
+};
+
+}  // namespace axisgate::api

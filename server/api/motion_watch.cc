@@ -1,0 +1,85 @@
+#include "server/api/motion_watch.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+#include <utility>
+#include <variant>
+
+namespace axisgate::api {
+
+Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id) {
+  if (std::optional<stage::Motion> motion = controller.find_motion(id)) return *std::move(motion);
+  return fail(Reason::not_found, fmt::format("there is no motion {} on {}", id, controller.profile().name),
+              fmt::format("the newest {} since the daemon started are kept; ListMotions shows them",
+                          stage::StageController::kMotionsKept));
+}
+
+void MotionSubscription::follow_from_now() {
+  const std::lock_guard lock(mutex_);
+  reader_.go_to_newest();
+}
+
+void MotionSubscription::show(server::Device& device, const Result<stage::Motion>& motion) {
+  if (!motion) return end(motion.error());
+  {
+    const std::lock_guard lock(mutex_);
+    device_ = &device;
+    followed_ = motion->id;
+    set_due(CurrentMotion(device, *motion));
+  }
+  wake();
+}
+
+void MotionSubscription::end(const Problem& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!end_) end_ = StreamEnd{problem};
+  }
+  wake();
+}
+
+void MotionSubscription::set_due(CurrentMotion motion) {
+  if (stage::is_outcome(motion.motion.state) && !end_) end_ = StreamEnd{};
+  due_ = std::move(motion);
+}
+
+void MotionSubscription::look(server::Device& device, stage::MotionId id) {
+  device.post([self = self<MotionSubscription>(), &device, id](stage::StageController& controller, TimePoint) {
+    self->follow_from_now();
+    self->show(device, find_motion(controller, id));
+  });
+}
+
+MotionSubscription::Reading MotionSubscription::read() {
+  if (!due_ && !end_ && device_ != nullptr) read_changes();
+  if (due_) {
+    CurrentMotion motion = *std::move(due_);
+    due_.reset();
+    return motion;
+  }
+  if (end_) return *end_;
+  return Nothing{};
+}
+
+void MotionSubscription::read_changes() {
+  while (!due_ && !end_) {
+    const FactReader::Reading reading = reader_.next();
+    if (std::holds_alternative<FactReader::Nothing>(reading)) return;
+    if (std::holds_alternative<FactReader::Compacted>(reading)) {
+      return look(*std::exchange(device_, nullptr), followed_);
+    }
+    const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
+    const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
+    if (change != nullptr && change->motion.id == followed_ && record.device == device_->name()) {
+      set_due(CurrentMotion(*device_, change->motion, record.revision));
+    }
+  }
+}
+
+void MotionWatch::begin() {
+  MotionSubscription::begin();
+  look(*name_.device, name_.id);
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,80 @@
+// The stream of one motion: as it is now and at every change, until its outcome.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/stage/motion.h"
+#include "device/stage/stage_controller.h"
+#include "server/api/facts.h"
+#include "server/api/names.h"
+#include "server/api/subscription.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+// A motion as it is now.
+struct CurrentMotion {
+  // On the device's strand.
+  CurrentMotion(server::Device& its_device, stage::Motion its_motion)
+      : device(its_device.name()), motion(std::move(its_motion)), revision(its_device.motion_revision(motion.id)) {}
+  // As a fact had it.
+  CurrentMotion(server::Device& its_device, stage::Motion its_motion, std::uint64_t of_fact)
+      : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact) {}
+
+  std::string_view device;  // its name in the configuration; valid as long as the gateway
+  stage::Motion motion;
+  std::uint64_t revision = 0;  // of the newest fact about it; 0: not known
+};
+
+// The motion, or not_found. On the device's strand.
+Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id);
+
+// What the streams of one motion share: they follow its changes, and where a reader was too slow for all of them, the
+// motion as it is now takes the place of those that were missed.
+class MotionSubscription : public Subscription<CurrentMotion> {
+ protected:
+  // `gateway` outlives this.
+  MotionSubscription(server::Gateway& gateway, Streams::Place place)
+      : Subscription(std::move(place)), gateway_(gateway), reader_(gateway, 0) {}
+
+  void begin() override { woken_by(gateway_.events()); }
+  Reading read() override;
+
+  // On the device's strand: no change from now on is missed.
+  void follow_from_now();
+  // On the device's strand. Follows it from then on; or ends with what kept it from starting.
+  void show(server::Device& device, const Result<stage::Motion>& motion);
+  // Ends with that problem, after what is due; the first end counts.
+  void end(const Problem& problem);
+  // Fetches the motion as it is now.
+  void look(server::Device& device, stage::MotionId id);
+
+  server::Gateway& gateway_;
+
+ private:
+  void read_changes();
+  void set_due(CurrentMotion motion);
+
+  FactReader reader_;
+  server::Device* device_ = nullptr;  // null: nothing is followed for now
+  stage::MotionId followed_ = 0;
+  std::optional<CurrentMotion> due_;
+  std::optional<StreamEnd> end_;  // after what is due
+};
+
+class MotionWatch final : public MotionSubscription {
+ public:
+  MotionWatch(server::Gateway& gateway, const MotionName& motion, Streams::Place place)
+      : MotionSubscription(gateway, std::move(place)), name_(motion) {}
+
+ private:
+  void begin() override;
+
+  const MotionName name_;
+};
+
+}  // namespace axisgate::api

@@ -1,0 +1,43 @@
+// Devices, motions and positions by the names that callers use.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/stage/motion.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+std::string device_name(std::string_view device_of_config);                          // "devices/{d}"
+std::string motion_name(std::string_view device_of_config, stage::MotionId motion);  // "devices/{d}/motions/{id}"
+std::string position_name(std::string_view device_of_config,
+                          std::string_view position);  // "devices/{d}/positions/{name}"
+
+// invalid_request where the name is not "devices/{d}", unknown_device where no device has that name.
+Result<server::Device*> find_device(const server::Gateway& gateway, std::string_view name);
+
+struct MotionName {
+  server::Device* device = nullptr;  // never null
+  stage::MotionId id = 0;
+};
+// invalid_request where the name is not "devices/{d}/motions/{id}", unknown_device. Whether there is such a motion is
+// not looked up.
+Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name);
+
+struct PositionName {
+  server::Device* device = nullptr;  // never null
+  std::string name;
+};
+// invalid_request where it is not "devices/{d}/positions/{name}", unknown_device. Likewise.
+Result<PositionName> find_position_name(const server::Gateway& gateway, std::string_view name);
+
+// The device of a name that was found.
+template <class Name>
+Result<server::Device*> device_of(const Result<Name>& name) {
+  if (!name) return tl::unexpected(name.error());
+  return name->device;
+}
+
+}  // namespace axisgate::api

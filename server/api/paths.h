@@ -1,0 +1,96 @@
+// Paths: taken in whole, then run; their reader receives the progress until the outcome.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <variant>
+
+#include "device/core/problem.h"
+#include "device/stage/event.h"
+#include "device/stage/stage_controller.h"
+#include "server/api/call.h"
+#include "server/api/facts.h"
+#include "server/api/motion_watch.h"
+#include "server/api/pipeline.h"
+#include "server/api/subscription.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+// What bounds a segment whatever the device: its rest and inputs, the turns of its curve, and the plane of a helix.
+// out_of_range, invalid_request.
+Result<void> check_segment(const stage::Segment& segment);
+
+struct PathStep {
+  std::string_view device;  // its name in the configuration; valid as long as the gateway
+  std::variant<CurrentMotion, stage::PathProgress> what;
+};
+
+// One path. start(), add() and run() are called one after the other; the rest is thread safe.
+class Path final : public Subscription<PathStep> {
+ public:
+  // Both outlive this.
+  Path(server::Gateway& gateway, const Pipeline& pipeline, Streams::Place place)
+      : Subscription(std::move(place)), gateway_(gateway), pipeline_(pipeline), reader_(gateway, 0) {}
+
+  // The head of the path. False: it was refused, the stream ends with the problem, and nothing more is taken in.
+  bool start(const Call& call, std::string_view device);
+  // The next segment, at most stage::PathRequest::kSegmentsMax. False: likewise.
+  bool add(Result<stage::Segment> segment);
+  // A part that is neither. False, always.
+  bool refuse_part(std::string_view message);
+
+  // All segments have come: the path runs. It counts from now on, as far as its call does not say until when.
+  void run();
+  // The caller has gone without a word: what has not been posted by then does not run, since it may be half a path.
+  void break_off();
+
+ private:
+  Result<void> take_head(const Call& call, std::string_view device);
+  Result<void> take_segment(Result<stage::Segment> segment);
+  Result<Admitted> admit() const;
+  void run_on(server::Device& device, stage::StageController& controller, stage::RequestContext context, TimePoint now);
+  void on_started(server::Device& device, const Result<stage::Motion>& motion);
+  bool end(std::optional<Problem> problem);
+  bool broken_off();
+
+  void begin() override { woken_by(gateway_.events()); }
+  Reading read() override;
+  void read_progress();
+  void set_due(const server::FactRecord& record);
+
+  server::Gateway& gateway_;
+  const Pipeline& pipeline_;
+
+  // While the path comes in.
+  std::optional<Call> call_;             // nothing: no head yet
+  server::Device* taken_for_ = nullptr;  // null: likewise
+  stage::PathRequest path_;
+
+  // Under mutex_.
+  bool broken_off_ = false;
+  FactReader reader_;
+  server::Device* device_ = nullptr;  // null: not started
+  stage::MotionId motion_ = 0;
+  std::optional<PathStep> due_;
+  std::optional<StreamEnd> end_;  // after what is due
+};
+
+// Thread safe.
+class Paths {
+ public:
+  // All outlive this.
+  Paths(server::Gateway& gateway, const Pipeline& pipeline, Streams& streams)
+      : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
+
+  // queue_full.
+  Result<std::shared_ptr<Path>> open() const;
+
+ private:
+  server::Gateway& gateway_;
+  const Pipeline& pipeline_;
+  Streams& streams_;
+};
+
+}  // namespace axisgate::api

@@ -1,0 +1,75 @@
+#include "server/api/request_kinds.h"
+
+#include <array>
+
+namespace axisgate::api {
+namespace {
+
+using server::Role;
+using Kind = RequestKind;
+
+// clang-format off
+constexpr std::array<Rule, kRequestKinds> kRules = {{
+    // kind                    least role       special      quota           patience            use             audited
+    {Kind::get_caller,         Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::create_token,       Role::admin,     "",          Quota::request, Patience::question, Use::nothing,   true},
+    {Kind::list_tokens,        Role::admin,     "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::revoke_token,       Role::admin,     "",          Quota::request, Patience::question, Use::nothing,   true},
+    {Kind::list_commands,      Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::execute,            Role::operator_, "",          Quota::stream,  Patience::change,   Use::axes,      false},
+    {Kind::acquire_lease,      Role::operator_, "",          Quota::request, Patience::change,   Use::nothing,   false},
+    {Kind::keep_lease_alive,   Role::operator_, "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::release_lease,      Role::operator_, "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::hand_over_lease,    Role::operator_, "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::take_over_lease,    Role::operator_, "take-over", Quota::request, Patience::change,   Use::nothing,   false},
+    {Kind::watch_leases,       Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::rearm,              Role::operator_, "",          Quota::request, Patience::change,   Use::nothing,   false},
+    {Kind::list_devices,       Role::observer,  "",          Quota::none,    Patience::question, Use::nothing,   false},
+    {Kind::get_device,         Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::watch_device,       Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::clear_errors,       Role::operator_, "BEC:",      Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::record,             Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::get_support_report, Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::watch_events,       Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::save_position,      Role::operator_, "",          Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::list_positions,     Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::delete_position,    Role::operator_, "",          Quota::request, Patience::change,   Use::all_axes,  false},
+    {Kind::move_to_position,   Role::operator_, "",          Quota::request, Patience::motion,   Use::axes,      false},
+    {Kind::get_settings,       Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::change_settings,    Role::operator_, "",          Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::set_coordinates,    Role::operator_, "",          Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::fire_trigger,       Role::operator_, "",          Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::reset_device,       Role::operator_, "RESET:",    Quota::request, Patience::change,   Use::axes,      false},
+    {Kind::operate_simulator,  Role::operator_, "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::move,               Role::operator_, "",          Quota::request, Patience::motion,   Use::axes,      false},
+    {Kind::home,               Role::operator_, "",          Quota::request, Patience::motion,   Use::axes,      false},
+    {Kind::return_to_origin,   Role::operator_, "",          Quota::request, Patience::motion,   Use::axes,      false},
+    {Kind::run_path,           Role::operator_, "",          Quota::path,    Patience::motion,   Use::axes,      false},
+    {Kind::scan,               Role::operator_, "",          Quota::request, Patience::motion,   Use::axes,      false},
+    {Kind::jog,                Role::operator_, "",          Quota::stream,  Patience::motion,   Use::axes,      false},
+    {Kind::stop,               Role::observer,  "",          Quota::none,    Patience::stop,     Use::nothing,   false},
+    {Kind::emergency_stop,     Role::observer,  "",          Quota::none,    Patience::stop,     Use::nothing,   false},
+    {Kind::get_motion,         Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::list_motions,       Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::watch_motion,       Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::cancel_motion,      Role::operator_, "",          Quota::request, Patience::stop,     Use::nothing,   false},
+    {Kind::ask_door,           Role::observer,  "",          Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::watch_door,         Role::observer,  "",          Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::unlisted,           Role::admin,     "",          Quota::request, Patience::question, Use::nothing,   false},
+}};
+// clang-format on
+
+// rule_of() finds a row by its number.
+constexpr bool in_order() {
+  for (std::size_t i = 0; i < kRules.size(); ++i) {
+    if (kRules[i].kind != static_cast<Kind>(i)) return false;
+  }
+  return true;
+}
+static_assert(in_order());
+
+}  // namespace
+
+const Rule& rule_of(RequestKind kind) { return kRules[static_cast<std::size_t>(kind)]; }
+
+}  // namespace axisgate::api

@@ -1,0 +1,60 @@
+#include "server/api/tokens.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "server/api/audit.h"
+#include "server/events/wall_time.h"
+
+namespace axisgate::api {
+namespace {
+
+using server::Calendar;
+
+constexpr auto kLife = std::chrono::days(90);
+
+// Bounded before it is added to a time.
+std::chrono::seconds life_of(const NewToken& wanted) {
+  const std::chrono::seconds longest = server::Tokens::kLifeMax + std::chrono::seconds(1);
+  return std::clamp(wanted.life.value_or(kLife), std::chrono::seconds(0), longest);
+}
+
+}  // namespace
+
+Result<server::Caller> Tokens::caller(const Call& call) const {
+  return admission_.check_role(RequestKind::get_caller, call.credential);
+}
+
+Result<std::optional<CreatedToken>> Tokens::create(const Call& call, const Result<NewToken>& wanted) const {
+  const auto caller = admission_.check_role(RequestKind::create_token, call.credential);
+  if (!caller) return tl::unexpected(caller.error());
+  if (!wanted) return tl::unexpected(wanted.error());
+  const Calendar begins = server::calendar_now(), ends = begins + life_of(*wanted);
+  if (call.validate_only) {
+    const Result<void> checked = access_.tokens().check_new(wanted->name, ends, begins);
+    if (!checked) return tl::unexpected(checked.error());
+    return std::nullopt;
+  }
+  Result<std::string> secret = access_.tokens().create(wanted->name, wanted->role, ends, begins);
+  if (!secret) return tl::unexpected(secret.error());
+  audit(RequestKind::create_token, caller->who,
+        fmt::format("made the token {} ({})", wanted->name, name(wanted->role)));
+  return CreatedToken{*std::move(secret), {wanted->name, wanted->role, begins, ends, {}, {}}};
+}
+
+Result<std::vector<server::Token>> Tokens::list(const Call& call) const {
+  const auto caller = admission_.check_role(RequestKind::list_tokens, call.credential);
+  if (!caller) return tl::unexpected(caller.error());
+  return access_.tokens().list();
+}
+
+Result<void> Tokens::revoke(const Call& call, const std::string& name) const {
+  const auto caller = admission_.check_role(RequestKind::revoke_token, call.credential);
+  if (!caller) return tl::unexpected(caller.error());
+  const Result<void> revoked = access_.tokens().revoke(name, server::calendar_now());
+  if (revoked) audit(RequestKind::revoke_token, caller->who, fmt::format("revoked the token {}", name));
+  return revoked;
+}
+
+}  // namespace axisgate::api

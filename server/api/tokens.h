@@ -1,0 +1,47 @@
+// Who calls, and tokens.
+#pragma once
+
+#include <chrono>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "server/access/access.h"
+#include "server/api/admission.h"
+#include "server/api/call.h"
+
+namespace axisgate::api {
+
+struct NewToken {
+  std::string name;
+  server::Role role = server::Role::operator_;
+  // server::Tokens::kLifeMax at most; nothing: 90 days.
+  std::optional<std::chrono::seconds> life{};
+};
+
+struct CreatedToken {
+  std::string secret;  // nobody can read it a second time
+  server::Token token;
+};
+
+// Thread safe.
+class Tokens {
+ public:
+  // Both outlive this.
+  Tokens(const server::Access& access, const Admission& admission) : access_(access), admission_(admission) {}
+
+  Result<server::Caller> caller(const Call& call) const;
+  // Nothing: it was to be checked only. As server::Tokens::create().
+  Result<std::optional<CreatedToken>> create(const Call& call, const Result<NewToken>& wanted) const;
+  // Oldest first.
+  Result<std::vector<server::Token>> list(const Call& call) const;
+  // As server::Tokens::revoke().
+  Result<void> revoke(const Call& call, const std::string& name) const;
+
+ private:
+  const server::Access& access_;
+  const Admission& admission_;
+};
+
+}  // namespace axisgate::api

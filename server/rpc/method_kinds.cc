@@ -1,0 +1,81 @@
+#include "server/rpc/method_kinds.h"
+
+#include <algorithm>
+#include <array>
+#include <utility>
+
+namespace axisgate::rpc {
+namespace {
+
+using Kind = api::RequestKind;
+using MethodKind = std::pair<std::string_view, Kind>;
+
+constexpr std::string_view kApi = "/axisgate.v1.";
+
+constexpr std::array<MethodKind, 42> kKinds = {{
+    {"AccessService/GetCaller", Kind::get_caller},
+    {"AccessService/CreateToken", Kind::create_token},
+    {"AccessService/ListTokens", Kind::list_tokens},
+    {"AccessService/RevokeToken", Kind::revoke_token},
+    {"CommandService/ListCommands", Kind::list_commands},
+    {"CommandService/Execute", Kind::execute},
+    {"ControlService/AcquireLease", Kind::acquire_lease},
+    {"ControlService/KeepLeaseAlive", Kind::keep_lease_alive},
+    {"ControlService/ReleaseLease", Kind::release_lease},
+    {"ControlService/HandOverLease", Kind::hand_over_lease},
+    {"ControlService/TakeOverLease", Kind::take_over_lease},
+    {"ControlService/WatchLeases", Kind::watch_leases},
+    {"ControlService/Rearm", Kind::rearm},
+    {"DeviceService/ListDevices", Kind::list_devices},
+    {"DeviceService/GetDevice", Kind::get_device},
+    {"DeviceService/WatchDevice", Kind::watch_device},
+    {"DeviceService/ClearErrors", Kind::clear_errors},
+    {"DiagnosticsService/Record", Kind::record},
+    {"DiagnosticsService/GetSupportReport", Kind::get_support_report},
+    {"EventService/Watch", Kind::watch_events},
+    {"PositionService/SavePosition", Kind::save_position},
+    {"PositionService/ListPositions", Kind::list_positions},
+    {"PositionService/DeletePosition", Kind::delete_position},
+    {"PositionService/MoveToPosition", Kind::move_to_position},
+    {"SettingService/GetSettings", Kind::get_settings},
+    {"SettingService/ChangeSettings", Kind::change_settings},
+    {"SettingService/SetCoordinates", Kind::set_coordinates},
+    {"SettingService/FireTrigger", Kind::fire_trigger},
+    {"SettingService/ResetDevice", Kind::reset_device},
+    {"SimulatorService/Operate", Kind::operate_simulator},
+    {"StageService/Move", Kind::move},
+    {"StageService/Home", Kind::home},
+    {"StageService/ReturnToOrigin", Kind::return_to_origin},
+    {"StageService/RunPath", Kind::run_path},
+    {"StageService/Scan", Kind::scan},
+    {"StageService/Jog", Kind::jog},
+    {"StageService/Stop", Kind::stop},
+    {"StageService/EmergencyStop", Kind::emergency_stop},
+    {"StageService/GetMotion", Kind::get_motion},
+    {"StageService/ListMotions", Kind::list_motions},
+    {"StageService/WatchMotion", Kind::watch_motion},
+    {"StageService/CancelMotion", Kind::cancel_motion},
+}};
+
+// gRPC's own services. All that is theirs may be read.
+constexpr std::array<MethodKind, 4> kOfGrpc = {{
+    {"/grpc.health.v1.Health/Watch", Kind::watch_door},
+    {"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", Kind::watch_door},
+    {"/grpc.health.v1.Health/", Kind::ask_door},
+    {"/grpc.reflection.v1alpha.ServerReflection/", Kind::ask_door},
+}};
+
+}  // namespace
+
+Kind kind_of(std::string_view method) {
+  const auto begins = [method](const MethodKind& entry) { return method.starts_with(entry.first); };
+  if (!method.starts_with(kApi)) {
+    const auto found = std::ranges::find_if(kOfGrpc, begins);
+    return found == kOfGrpc.end() ? Kind::unlisted : found->second;
+  }
+  method.remove_prefix(kApi.size());
+  const auto found = std::ranges::find(kKinds, method, &MethodKind::first);
+  return found == kKinds.end() ? Kind::unlisted : found->second;
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,13 @@
+// Which kind of request each method is.
+#pragma once
+
+#include <string_view>
+
+#include "server/api/request_kinds.h"
+
+namespace axisgate::rpc {
+
+// Of "/axisgate.v1.StageService/Move"; unlisted for one that is not known here.
+api::RequestKind kind_of(std::string_view method);
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,160 @@
+// Leases: what a caller may want, and what becomes of one who goes.
+#include <gtest/gtest.h>
+
+#include <atomic>
+
+#include "tests/api/world.h"
+
+namespace axisgate::api {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+// A caller who waits, and may go.
+class WaitingSeeker final : public LeaseSeeker {
+ public:
+  bool answer(Result<std::optional<server::Lease>> lease) override {
+    const std::lock_guard lock(mutex_);
+    lease_ = std::move(lease);
+    return !gone_;
+  }
+  void when_gone(std::function<void()> leave) override {
+    const std::lock_guard lock(mutex_);
+    leave_ = std::move(leave);
+    waits_ = true;
+  }
+  void go() {
+    std::function<void()> leave;
+    {
+      const std::lock_guard lock(mutex_);
+      gone_ = true;
+      leave = leave_;
+    }
+    if (leave) leave();
+  }
+  bool waits() {
+    const std::lock_guard lock(mutex_);
+    return waits_;
+  }
+  std::optional<Result<std::optional<server::Lease>>> lease() {
+    const std::lock_guard lock(mutex_);
+    return lease_;
+  }
+
+ private:
+  std::mutex mutex_;
+  bool gone_ = false, waits_ = false;
+  std::function<void()> leave_;
+  std::optional<Result<std::optional<server::Lease>>> lease_;
+};
+
+class LeasesOfApi : public ::testing::Test {
+ protected:
+  // What refuses it; empty: nothing.
+  std::string refusal(const Result<LeaseWish>& wish, Duration wait = {}) {
+    const auto seeker = std::make_shared<WaitingSeeker>();
+    Call call = World::by(kAnna);
+    call.validate_only = true;
+    world_.api->leases.acquire(call, kDevice, wish, wait, seeker);
+    EXPECT_TRUE(comes_true([&] { return seeker->lease().has_value(); }));
+    const auto lease = seeker->lease();
+    return *lease ? "" : lease->error().message;
+  }
+  std::size_t held() {
+    std::size_t count = 0;
+    world_.on_strand([&](stage::StageController&, TimePoint) { count = world_.device().leases().held().size(); });
+    return count;
+  }
+  std::size_t waiting() {
+    std::size_t count = 0;
+    world_.on_strand(
+        [&](stage::StageController&, TimePoint now) { count = world_.device().leases().waiting(now).size(); });
+    return count;
+  }
+  std::shared_ptr<WaitingSeeker> wait_for_lease() {
+    const auto seeker = std::make_shared<WaitingSeeker>();
+    world_.api->leases.acquire(World::by(kAnna), kDevice, LeaseWish(), seconds(20), seeker);
+    EXPECT_TRUE(comes_true([&] { return seeker->waits(); }));
+    return seeker;
+  }
+
+  World world_;
+};
+
+TEST_F(LeasesOfApi, TermsHaveTheirLimits) {
+  EXPECT_EQ(refusal(LeaseWish{.time_to_live = milliseconds(999)}), "terms.time_to_live is shorter than 1 s");
+  EXPECT_EQ(refusal(LeaseWish{.time_to_live = hours(25)}), "terms.time_to_live is not between 0 and 86400 s");
+  EXPECT_EQ(refusal(LeaseWish{.time_to_live = seconds(-1)}), "terms.time_to_live is not between 0 and 86400 s");
+  EXPECT_EQ(refusal(LeaseWish{.expected_use = hours(24 * 366)}), "terms.expected_use is not between 0 and 31536000 s");
+  EXPECT_EQ(refusal(LeaseWish{.purpose = "a\n"}), "terms.purpose is not at most 200 printable ASCII characters");
+  EXPECT_EQ(refusal(LeaseWish{.purpose = std::string(201, 'x')}),
+            "terms.purpose is not at most 200 printable ASCII characters");
+  EXPECT_EQ(refusal(LeaseWish(), hours(25)), "wait is not between 0 and 86400 s");
+  EXPECT_EQ(
+      refusal(LeaseWish{.time_to_live = hours(24), .expected_use = hours(24 * 365), .purpose = "scan"}, hours(24)), "");
+  EXPECT_EQ(held(), 0u);
+}
+
+TEST_F(LeasesOfApi, NoAxesAreAll) {
+  const auto seeker = std::make_shared<WaitingSeeker>();
+  world_.api->leases.acquire(World::by(kAnna), kDevice, LeaseWish(), {}, seeker);
+  ASSERT_TRUE(comes_true([&] { return seeker->lease().has_value(); }));
+  EXPECT_EQ((**seeker->lease())->terms.axes, stage::AxisSet::all());
+  EXPECT_EQ((**seeker->lease())->holder, kAnna);
+}
+
+TEST_F(LeasesOfApi, AWaitingCallerWhoGoesLeavesItsPlace) {
+  (void)world_.lease_of("unix eve");
+  const auto seeker = wait_for_lease();
+  EXPECT_EQ(waiting(), 1u);
+  seeker->go();
+  EXPECT_EQ(waiting(), 0u);
+}
+
+// It was granted in the moment in which its caller went.
+TEST_F(LeasesOfApi, ALeaseWhoseCallerHasGoneIsGivenBack) {
+  const auto seeker = std::make_shared<WaitingSeeker>();
+  seeker->go();
+  world_.api->leases.acquire(World::by(kAnna), kDevice, LeaseWish(), {}, seeker);
+  EXPECT_TRUE(comes_true([&] { return seeker->lease().has_value() && held() == 0; }));
+}
+
+TEST_F(LeasesOfApi, AHandOverGoesToTheOneWhoWaits) {
+  Call eve = World::by("unix eve");
+  eve.lease = world_.lease_of("unix eve");
+  const auto seeker = wait_for_lease();
+  Asking<void> done;
+  world_.api->leases.hand_over(eve, kDevice, kAnna, done.answer());
+  EXPECT_EQ(done.reason(), Reason::unspecified);
+  EXPECT_TRUE(comes_true([&] { return seeker->lease().has_value(); }));
+}
+
+TEST_F(LeasesOfApi, AConnectionThatBreaksOffLosesWhatItKeptAlive) {
+  World slow([](World& configured) { configured.device_text = "speed = 1\noptions = { speed = \"1000\" }\n"; });
+  Call call = World::by(kAnna);
+  call.lease = slow.lease_of(kAnna);
+  const auto keeping = *slow.api->leases.keep_alive(call);
+  Reader<server::Lease> reader(keeping);
+  keeping->keep(kDevice, call.lease);
+  EXPECT_EQ(reader.next()->token, call.lease);
+  ASSERT_TRUE(slow.move(call, 100'000));
+  keeping->break_off();
+  EXPECT_TRUE(slow.all_ended());
+  EXPECT_EQ(slow.motions().back().state, stage::MotionState::stopped);
+}
+
+TEST_F(LeasesOfApi, OneThatEndsInOrderLosesNothing) {
+  const server::LeaseToken token = world_.lease_of(kAnna);
+  const auto keeping = *world_.api->leases.keep_alive(World::by(kAnna));
+  Reader<server::Lease> reader(keeping);
+  keeping->keep(kDevice, token);
+  ASSERT_TRUE(reader.next());
+  keeping->finish();
+  EXPECT_EQ(reader.reason(), Reason::unspecified);
+  EXPECT_EQ(held(), 1u);
+}
+
+}  // namespace
+}  // namespace axisgate::api
