@@ -64,8 +64,8 @@ Result<void> Envelope::check_stage(int axis) const {
 }
 
 Result<void> Envelope::check_homed(int axis) const {
-  bool first = profile(axis).home_first;
-  for (const NarrowerLimits* limits : narrower(axis)) first = first || limits->home_first;
+  bool first = profile(axis).require_homing;
+  for (const LimitOverride* limits : overrides_for(axis)) first = first || limits->require_homing;
   if (!first || state_.axis(axis).homed || !guarded(Guard::homing_required)) return {};
   return fail_on(axis, Reason::not_homed,
                  fmt::format("{} has not found its origin since the controller was started, or was last out of sight: "
@@ -176,15 +176,15 @@ Result<std::optional<Envelope::Bound>> Envelope::innermost(int axis, std::option
     return {};
   };
   if (const auto good = take(profile(axis), ""); !good) return tl::unexpected(good.error());
-  for (const NarrowerLimits* limits : narrower(axis)) {
+  for (const LimitOverride* limits : overrides_for(axis)) {
     if (const auto good = take(*limits, limits->whose); !good) return tl::unexpected(good.error());
   }
   return found;
 }
 
-std::vector<const NarrowerLimits*> Envelope::narrower(int axis) const {
-  std::vector<const NarrowerLimits*> theirs;
-  for (const NarrowerLimits& limits : profile(axis).narrower) {
+std::vector<const LimitOverride*> Envelope::overrides_for(int axis) const {
+  std::vector<const LimitOverride*> theirs;
+  for (const LimitOverride& limits : profile(axis).overrides) {
     const bool meant = limits.whose == who_ || limits.whose == role_;
     if (meant && guarded(Guard::overrides_for_some)) theirs.push_back(&limits);
   }

@@ -20,7 +20,7 @@ inline constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s (manual 89) D:
 // Of one caller, at one moment. Both others outlive it.
 class Envelope {
  public:
-  // `role` is a word of the configuration, "operator"; with `who` it chooses what is narrower for the caller.
+  // `role` is a word of the configuration, "operator"; with `who` it chooses the overrides of the caller.
   Envelope(const Profile& profile, const State& state, std::string_view who, std::string_view role);
 
   // unknown_axis, link_down, position_unknown where nothing can be converted yet, or as check_stage().
@@ -58,11 +58,11 @@ class Envelope {
  private:
   struct Bound {
     std::int64_t pulses = 0;
-    std::string whose;  // of the narrower limits; empty: everybody's
+    std::string whose;  // of the override; empty: everybody's
   };
   // The innermost of those that apply to the caller: the lowest, or with -1 the highest.
   Result<std::optional<Bound>> innermost(int axis, std::optional<Quantity> AxisLimits::*limit, int sign) const;
-  std::vector<const NarrowerLimits*> narrower(int axis) const;
+  std::vector<const LimitOverride*> overrides_for(int axis) const;
   const AxisProfile& profile(int axis) const { return profile_.axes[static_cast<std::size_t>(axis - 1)]; }
   const Scale& scale(int axis) const { return *state_.axis(axis).scale; }
 

@@ -18,11 +18,11 @@ struct AxisLimits {
   std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame
   std::optional<Quantity> travel_maximum;
   std::optional<Quantity> maximum_speed;  // per second
-  bool home_first = false;                // no other motion before it has found its origin
+  bool require_homing = false;            // no other motion before it has found its origin
 };
 
 // For some callers it is less. What is left out, or wider than everybody's, changes nothing.
-struct NarrowerLimits : AxisLimits {
+struct LimitOverride : AxisLimits {
   std::string whose;  // a role, "operator", or a caller, "token student"
 };
 
@@ -37,7 +37,7 @@ struct AxisProfile : AxisLimits {
   std::string name;               // shown beside the number; may be empty
   Unit unit = Unit::micrometers;  // how positions are shown, and what a bare number in a request means
   std::optional<StageProfile> stage;
-  std::vector<NarrowerLimits> narrower;
+  std::vector<LimitOverride> overrides;
 
   bool rotary() const { return stage ? stage->pulse.rotary : unit == Unit::degrees; }
 };

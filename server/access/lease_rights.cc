@@ -16,9 +16,9 @@ using stage::Use;
 
 Problem stopped_problem(const Latch& latch, TimePoint now) {
   return {.reason = Reason::stopped_by,
-          .message = fmt::format("{} stopped {} {} ago: nothing moves there until you rearm", latch.by,
+          .message = fmt::format("{} stopped {} ({} ago): your motions there are refused until you rearm", latch.by,
                                  to_string(latch.axes), for_people(now - latch.at)),
-          .hint = "find out why, then `axisctl rearm`"};
+          .hint = "find out why, then type `axisctl rearm` (with a lease: inside its `lease run`)"};
 }
 
 }  // namespace

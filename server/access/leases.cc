@@ -25,7 +25,7 @@ Problem Leases::lost_problem(LeaseToken token) const {
   const auto ended = std::ranges::find_if(ended_, [token](const Ended& one) { return one.token == token; });
   return {.reason = Reason::lease_lost,
           .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + ended->why,
-          .hint = "acquire another one (`axisctl lease`)"};
+          .hint = "start another one: `axisctl lease run`"};
 }
 
 Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {
@@ -170,7 +170,7 @@ std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
     return Problem{
         .reason = Reason::lease_held,
         .message = fmt::format("{} {} {} for {}{}", who, does, to_string(terms.axes), for_people(now - since), purpose),
-        .hint = "wait for your turn (--wait), or ask the holder to hand over"};
+        .hint = "to wait, add --wait SECONDS; or ask the holder to hand over"};
   };
   for (const Held& held : held_) {
     if (held.lease.terms.axes.touches(axes)) {

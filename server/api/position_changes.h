@@ -24,7 +24,7 @@ struct Saving {
   server::SavedPosition position;
   server::SavedPositions::Number number;        // taken until all is over
   std::optional<server::SavedPosition> before;  // what had the name
-  Answer<std::optional<NamedPosition>> answer;
+  Answer<std::optional<NamedPosition>> answer{};
   std::vector<std::string> answers{};  // to SET, GET and GET
 };
 void begin(Saving saving, const Turn& turn);

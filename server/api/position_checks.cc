@@ -49,7 +49,7 @@ Result<std::map<int, std::int64_t>> reported_coordinates(const server::SavedPosi
   if (!coordinates.empty()) return coordinates;
   return tl::unexpected(Problem{.reason = Reason::device_refused,
                                 .message = "the controller saved the position, and does not report its coordinates",
-                                .hint = "look at its mode: axisctl status",
+                                .hint = "check its mode: axisctl status",
                                 .sent = question,
                                 .wire_reply = answers[0]});
 }
@@ -69,9 +69,9 @@ Problem refusal_of(Problem problem, const server::SavedPosition& position, const
   if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
   problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);
   if (was_interrupted(position, state)) {
-    problem.message +=
-        fmt::format("; the controller came back {} ago, and may have restarted{}",
-                    server::for_people(now - state.epoch_began), position.place ? ", which empties its places" : "");
+    problem.message += fmt::format("; the controller came back {} ago, and may have restarted{}",
+                                   server::for_people(now - state.epoch_began),
+                                   position.place ? ", which deletes its saved positions" : "");
   }
   problem.hint = again(position);
   return problem;

@@ -50,9 +50,9 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
   using Outcome = std::optional<NamedPosition>;
   const Result<PositionName> found = find_position_name(gateway_, name);
   pipeline_.run(
-      {RequestKind::save_position, call, device_of(found), fault_of(wish)}, answer,
-      [own = own_name(found), wish = wish.value_or(PositionWish()), &gateway = gateway_, &positions = positions_,
-       answer](const Turn& turn) -> Result<Saving> {
+      {RequestKind::save_position, call, device_of(found), fault_of(wish)}, std::move(answer),
+      [own = own_name(found), wish = wish.value_or(PositionWish()), &gateway = gateway_,
+       &positions = positions_](const Turn& turn) -> Result<Saving> {
         const std::string& device = turn.device.name();
         auto number = positions.take_number(device, own, wish.place, wish.keep_existing);
         if (!number) return tl::unexpected(number.error());
@@ -61,11 +61,13 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
         const auto lines = kind.position_lines({wish.place, **number});
         if (!lines) return fail(Reason::invalid_request, "a controller of this kind keeps no positions");
         const SavedPosition position{device, own, wish.place, **number, {}, {}, turn.context.who, {}, {}};
-        return Saving{gateway, positions, kind, *lines, position, *std::move(number), positions.find(device, own),
-                      answer};
+        return Saving{gateway, positions, kind, *lines, position, *std::move(number), positions.find(device, own)};
       },
       [](const Turn&, const Saving&) { return Result<void>(); },
-      [](const Turn& turn, Saving saving, const Answer<Outcome>&) { begin(std::move(saving), turn); });
+      [](const Turn& turn, Saving saving, const Answer<Outcome>& respond) {
+        saving.answer = respond;
+        begin(std::move(saving), turn);
+      });
 }
 
 void Positions::list(const Call& call, std::string_view device, Answer<std::vector<NamedPosition>> answer) const {

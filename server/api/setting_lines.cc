@@ -180,7 +180,7 @@ Result<Lines> lines_of(const SettingsChange& wanted, const stage::Kind& kind, co
 
 Result<Lines> lines_of(const NewCoordinates& coordinates, const stage::Kind& kind, const stage::State& state) {
   if (coordinates.empty()) {
-    return fail(Reason::invalid_request, "no coordinate is given", "name axes, and what their places shall be called");
+    return fail(Reason::invalid_request, "no coordinate is given", "name axes and their new coordinates");
   }
   Coordinates all;
   for (const NewCoordinate& one : coordinates) {

@@ -18,18 +18,18 @@ namespace {
 
 using stage::AxisLimits;
 using stage::AxisProfile;
-using stage::NarrowerLimits;
+using stage::LimitOverride;
 
 constexpr std::array<std::string_view, 4> kLimitKeys = {"travel_minimum", "travel_maximum", "maximum_speed",
-                                                        "home_first"};
+                                                        "require_homing"};
 
 void read_limits(ConfigTable& table, Unit shown, AxisLimits& limits) {
   read_bounds(table, shown, limits);
-  limits.home_first = table.flag("home_first").value_or(false);
+  limits.require_homing = table.flag("require_homing").value_or(false);
 }
 
 // What is wider than everybody's changes nothing, which nobody would notice.
-void check_narrower(ConfigTable& table, const AxisLimits& own, const AxisLimits& theirs) {
+void check_override(ConfigTable& table, const AxisLimits& own, const AxisLimits& theirs) {
   const auto refuse_beyond = [&table](std::string_view key, std::optional<bool> beyond) {
     if (beyond == true) {
       table.error(key, fmt::format("is beyond the axis's own {}, so it would change nothing", key));
@@ -44,8 +44,8 @@ void check_narrower(ConfigTable& table, const AxisLimits& own, const AxisLimits&
   if (below(own.travel_minimum, theirs.travel_maximum) == false) {
     table.error("travel_maximum", "must be above the axis's own travel_minimum");
   }
-  if (table.has("home_first") && !theirs.home_first) {
-    table.error("home_first", "can only be true here, since limits for some are never wider; leave it out");
+  if (table.has("require_homing") && !theirs.require_homing) {
+    table.error("require_homing", "can only be true here, since limits for some are never wider; leave it out");
   }
 }
 
@@ -98,22 +98,21 @@ AxisProfile read_axis(ConfigTable& table, std::string_view file, std::vector<Con
   return axis;
 }
 
-NarrowerLimits read_narrower(ConfigTable& table, const AxisProfile& axis) {
-  NarrowerLimits narrower;
-  narrower.whose = read_whose(table);
-  read_limits(table, axis.unit, narrower);
-  if (axis.stage) check_whole_pulses(table, *axis.stage, narrower);
+LimitOverride read_override(ConfigTable& table, const AxisProfile& axis) {
+  LimitOverride theirs;
+  theirs.whose = read_whose(table);
+  read_limits(table, axis.unit, theirs);
+  if (axis.stage) check_whole_pulses(table, *axis.stage, theirs);
   if (std::ranges::none_of(kLimitKeys, [&](std::string_view key) { return table.has(key); })) {
     table.error("whose", fmt::format("is limited in nothing; give some of {}", fmt::join(kLimitKeys, ", ")));
   }
-  check_narrower(table, axis, narrower);
-  const bool twice = std::ranges::find(axis.narrower, narrower.whose, &NarrowerLimits::whose) != axis.narrower.end();
-  if (twice && !narrower.whose.empty()) {
-    table.error("whose",
-                fmt::format("\"{}\" has narrower limits of this axis already; put them together", narrower.whose));
+  check_override(table, axis, theirs);
+  const bool twice = std::ranges::find(axis.overrides, theirs.whose, &LimitOverride::whose) != axis.overrides.end();
+  if (twice && !theirs.whose.empty()) {
+    table.error("whose", fmt::format("\"{}\" has an override of this axis already; put them together", theirs.whose));
   }
   table.refuse_unknown();
-  return narrower;
+  return theirs;
 }
 
 }  // namespace
@@ -133,9 +132,9 @@ void read_axes(ConfigTable& device, std::string_view file, std::vector<ConfigErr
     if (!axis.name.empty() && !names.insert(axis.name).second) {
       table.error("name", fmt::format("\"{}\" is the name of another axis of this device, too", axis.name));
     }
-    for (const toml::table* narrower : table.tables("narrower")) {
-      ConfigTable whose(*narrower, "device.axis.narrower", file, errors);
-      axis.narrower.push_back(read_narrower(whose, axis));
+    for (const toml::table* theirs : table.tables("override")) {
+      ConfigTable whose(*theirs, "device.axis.override", file, errors);
+      axis.overrides.push_back(read_override(whose, axis));
     }
     if (number) axes[static_cast<std::size_t>(*number - 1)] = std::move(axis);
     table.refuse_unknown();

@@ -114,7 +114,7 @@ void write_limits(TomlWriter& out, const stage::AxisLimits& limits) {
   out.quantity("travel_minimum", limits.travel_minimum);
   out.quantity("travel_maximum", limits.travel_maximum);
   out.quantity("maximum_speed", limits.maximum_speed, "/s");
-  if (limits.home_first) out.key("home_first", "true");
+  if (limits.require_homing) out.key("require_homing", "true");
 }
 
 void write(TomlWriter& out, const stage::StageProfile& stage) {
@@ -133,10 +133,10 @@ void write(TomlWriter& out, int number, const stage::AxisProfile& axis) {
   out.text("unit", symbol(axis.unit));
   write_limits(out, axis);
   if (axis.stage) write(out, *axis.stage);
-  for (const stage::NarrowerLimits& narrower : axis.narrower) {
-    out.table("[[device.axis.narrower]]");
-    out.text("whose", narrower.whose);
-    write_limits(out, narrower);
+  for (const stage::LimitOverride& theirs : axis.overrides) {
+    out.table("[[device.axis.override]]");
+    out.text("whose", theirs.whose);
+    write_limits(out, theirs);
   }
 }
 

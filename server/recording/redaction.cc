@@ -133,7 +133,7 @@ Config Redactor::redact(Config config) {
     if (auto* serial = std::get_if<SerialSettings>(&device.connection)) serial->path = hide(Kind::path, serial->path);
     if (auto* tcp = std::get_if<TcpSettings>(&device.connection)) tcp->host = hide(Kind::host, tcp->host);
     for (stage::AxisProfile& axis : device.profile.axes) {
-      for (stage::NarrowerLimits& limits : axis.narrower) {
+      for (stage::LimitOverride& limits : axis.overrides) {
         if (!role_named(limits.whose)) limits.whose = hidden(limits.whose);
       }
     }

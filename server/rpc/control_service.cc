@@ -6,7 +6,7 @@
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/lease_keeping.h"
-#include "server/rpc/lease_news.h"
+#include "server/rpc/lease_to_proto.h"
 #include "server/rpc/subscribed_stream.h"
 #include "server/rpc/unary_call.h"
 

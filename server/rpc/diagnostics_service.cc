@@ -5,8 +5,8 @@
 #include <grpcpp/grpcpp.h>
 
 #include "server/rpc/call.h"
-#include "server/rpc/news.h"
 #include "server/rpc/subscribed_stream.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

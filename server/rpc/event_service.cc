@@ -1,8 +1,8 @@
 #include "server/rpc/event_service.h"
 
 #include "server/rpc/call.h"
-#include "server/rpc/news.h"
 #include "server/rpc/subscribed_stream.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 

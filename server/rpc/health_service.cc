@@ -36,7 +36,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
       : status_(status), place_(std::move(place)) {}
 
   Next next() override {
-    if (std::exchange(told_, true)) return Wait{};
+    if (std::exchange(reported_, true)) return Wait{};
     HealthCheckResponse response;
     response.set_status(status_);
     return response;
@@ -44,7 +44,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
 
   const HealthCheckResponse::ServingStatus status_;
   const api::Streams::Place place_;
-  bool told_ = false;
+  bool reported_ = false;
 };
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "server/api/targets.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
-#include "server/rpc/news.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "server/rpc/lease_news.h"
+#include "server/rpc/lease_to_proto.h"
 
 namespace axisgate::rpc {
 

@@ -4,8 +4,8 @@
 #include <variant>
 
 #include "server/rpc/call.h"
-#include "server/rpc/news.h"
 #include "server/rpc/targets.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

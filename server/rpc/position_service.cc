@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "server/rpc/call.h"
-#include "server/rpc/news.h"
 #include "server/rpc/positions.h"
+#include "server/rpc/to_proto.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {

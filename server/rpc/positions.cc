@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "server/events/wall_time.h"
-#include "server/rpc/news.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 

@@ -75,10 +75,12 @@ RpcMetrics::RpcMetrics(prometheus::Registry& registry)
                         .Name("axisgate_open_streams")
                         .Help("Streams that are open, by method.")
                         .Register(registry)),
-      refused_(prometheus::BuildCounter()
-                   .Name("axisgate_calls_refused_total")
-                   .Help("Calls that were not let in: nobody knows who calls, he may not, or he has too many open.")
-                   .Register(registry)),
+      refused_(
+          prometheus::BuildCounter()
+              .Name("axisgate_calls_refused_total")
+              .Help(
+                  "Calls refused before any handler: the caller is unknown, may not call, or has too many calls open.")
+              .Register(registry)),
       unauthenticated_(refused_.Add({{"reason", "unauthenticated"}})),
       permission_denied_(refused_.Add({{"reason", "permission_denied"}})),
       too_many_(refused_.Add({{"reason", "too_many"}})) {

@@ -22,7 +22,7 @@
 #include "server/rpc/control_service.h"
 #include "server/rpc/device_service.h"
 #include "server/rpc/diagnostics_service.h"
-#include "server/rpc/entrances.h"
+#include "server/rpc/endpoints.h"
 #include "server/rpc/event_service.h"
 #include "server/rpc/half_close.h"
 #include "server/rpc/health_service.h"
@@ -69,7 +69,7 @@ class Server::Services {
   // A gRPC server and the ways into it.
   struct Part {
     std::unique_ptr<grpc::Server> server;
-    std::optional<Entrances> entrances;
+    std::optional<Endpoints> endpoints;
   };
 
   void build_ordinary();
@@ -137,7 +137,7 @@ Result<void> Server::Services::serve(server::Gateway& gateway, const server::Con
                      const std::optional<uid_t> user = server::peer_uid(connection.get());
                      const auto slot = user ? std::optional(callers_.slot_of(*user)) : std::nullopt;
                      Part& part = service == server::Acceptor::Service::all ? ordinary_ : reserve_;
-                     part.entrances->enter(std::move(connection), origin, slot);
+                     part.endpoints->enter(std::move(connection), origin, slot);
                    });
   connection_metrics_.emplace(gateway.metrics(), [this] { return listener_->counts(); });
   return {};
@@ -174,7 +174,7 @@ void Server::Services::build(grpc::ServerBuilder& builder, Part& part) {
   interceptors.push_back(counting_interceptor(api_.admission));
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.SetMaxReceiveMessageSize(message_bytes_max_);
-  part.entrances.emplace(builder, callers_, Gate{api_.admission, rpc_metrics_}, network_);
+  part.endpoints.emplace(builder, callers_, Gate{api_.admission, rpc_metrics_}, network_);
   part.server = builder.BuildAndStart();
 }
 

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "server/rpc/amounts.h"
-#include "server/rpc/news.h"
 #include "server/rpc/targets.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

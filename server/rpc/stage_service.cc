@@ -5,10 +5,10 @@
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/jog_run.h"
-#include "server/rpc/news.h"
 #include "server/rpc/path_run.h"
 #include "server/rpc/subscribed_stream.h"
 #include "server/rpc/targets.h"
+#include "server/rpc/to_proto.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {

@@ -130,14 +130,15 @@ class Reader {
   bool closed_ = false;
 };
 
-// With local callers as operators, and one observer, "unix olaf". `limits` and `admin_commands` before start().
+// With local callers as operators, and one observer, "unix olaf".
 class World {
  public:
-  World() {
+  // `configure` sets access_config, limits and device_text.
+  explicit World(const std::function<void(World&)>& configure = {}) {
     access_config.roles = {{"unix olaf", server::Role::observer}};
+    if (configure) configure(*this);
     start();
   }
-  explicit World(const std::function<void(World&)>& configure) : World(configure, 0) {}
   ~World() {
     gateway.reset();
     std::filesystem::remove_all(directory);
@@ -224,12 +225,6 @@ class World {
   std::unique_ptr<Api> api;
 
  private:
-  World(const std::function<void(World&)>& configure, int) {
-    access_config.roles = {{"unix olaf", server::Role::observer}};
-    configure(*this);
-    start();
-  }
-
   void start() {
     static const std::vector<const stage::Kind*> kinds = {&rotor::kind()};
     std::filesystem::create_directories(directory);

@@ -227,7 +227,7 @@ constexpr Row kTable[] = {
              "Ordinary/UserSeeds.NobodyMovesWhatAnotherOwns/0"),
     by_tests(Guard::speed_bounded, "speed-bounded", "... or runs faster than allowed",
              "HazardOfBoundedJogs.TooFastIsRefusedAndASlowAxisStartsSlowly"),
-    by_tests(Guard::overrides_for_some, "overrides-for-some", "for some callers it is narrower",
+    by_tests(Guard::overrides_for_some, "overrides-for-some", "some callers have overrides",
              "EnvelopeTest.ARoleHasNarrowerBounds"),
     by_tests(Guard::homing_required, "homing-required", "an axis may have to find its origin first",
              "EnvelopeTest.HomeComesFirst"),

@@ -9,8 +9,8 @@
 #include <variant>
 
 #include "server/api/paths.h"
-#include "server/rpc/news.h"
 #include "server/rpc/targets.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -24,13 +24,13 @@ class RpcEnvelope : public RpcTest {
     axes[0].travel_maximum = millimeters(5);
     axes[0].maximum_speed = millimeters(6, 1);
     for (const auto& [whose, maximum] : {std::pair(std::string("operator"), 3), std::pair(own_name(), 2)}) {
-      auto& narrower = axes[0].narrower.emplace_back();
-      narrower.whose = whose;
-      narrower.travel_maximum = millimeters(maximum);
+      auto& theirs = axes[0].overrides.emplace_back();
+      theirs.whose = whose;
+      theirs.travel_maximum = millimeters(maximum);
     }
     axes[1].travel_minimum = millimeters(1);
     axes[1].travel_maximum = millimeters(3);
-    axes[2].home_first = true;
+    axes[2].require_homing = true;
   }
 
   static std::string own_name() { return server::caller_name(::geteuid()); }
@@ -52,7 +52,7 @@ class RpcEnvelope : public RpcTest {
   }
 };
 
-TEST_F(RpcEnvelope, ACallerAndARoleHaveNarrowerLimits) {
+TEST_F(RpcEnvelope, ACallerAndARoleHaveOverrides) {
   grpc::Status status = move(move_request(1, "2.5"));
   EXPECT_EQ(reason(status), v1::REASON_OUTSIDE_TRAVEL);
   EXPECT_THAT(status.error_message(), HasSubstr("beyond its travel maximum of 2000um for " + own_name()));
@@ -145,8 +145,8 @@ TEST_F(RpcEnvelope, ADeviceTellsWhichAxesAreHomedFirst) {
   request.set_name("devices/stage");
   v1::GetDeviceResponse response;
   ASSERT_TRUE(devices_->GetDevice(&context, request, &response).ok());
-  EXPECT_FALSE(response.device().axes(0).home_first());
-  EXPECT_TRUE(response.device().axes(2).home_first());
+  EXPECT_FALSE(response.device().axes(0).require_homing());
+  EXPECT_TRUE(response.device().axes(2).require_homing());
 }
 
 }  // namespace

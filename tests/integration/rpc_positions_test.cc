@@ -249,7 +249,7 @@ TEST_F(RpcPositions, AResetEmptiesPlacesAndSaysSo) {
   EXPECT_THAT(gone.error_message(),
               testing::MatchesRegex("\"sample\" is not there any more: the controller holds nothing under number 1 "
                                     "of its positions \\(PIT:\\); the controller came back [0-9]+ s ago, and may have "
-                                    "restarted, which empties its places.*"));
+                                    "restarted, which deletes its saved positions.*"));
   EXPECT_EQ(motion_count(), motions + 1);  // the motion that failed
   expect_reached("park", 1, 100'000);
   EXPECT_FALSE(saved("sample").emptied());

@@ -329,7 +329,7 @@ class WhatIsLookedAt(Tree):
         self.assertEqual(run_tidy(self.root / "empty").returncode, 2)
 
     def test_without_an_argument_it_looks_at_its_own_tree(self):
-        shutil.copytree(HERE, self.root / "tests/tidy", ignore=shutil.ignore_patterns("__pycache__", "words_left.txt"))
+        shutil.copytree(HERE, self.root / "tests/tidy", ignore=shutil.ignore_patterns("__pycache__"))
         self.write("server/a.cc", self.BAD)
         run = subprocess.run([str(self.root / "tests/tidy/tidy")], capture_output=True, text=True, check=False, cwd="/")
         self.assertEqual([line.split(":")[0] for line in run.stdout.splitlines()], ["server/a.cc"])

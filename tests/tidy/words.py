@@ -1,21 +1,10 @@
-#!/usr/bin/env python3
-"""No retired word of GLOSSARY.md where people read: in pages, messages and names.
+"""No retired word of GLOSSARY.md where people read: in pages, messages and names."""
 
-usage: tests/tidy/words.py --count [ROOT]     prints `path count` for each file that has such words: words_left.txt.
-
-A file of that list may have so many and no more. A file with fewer must have its count lowered, so the list only shrinks.
-"""
-
-import functools
 import pathlib
 import re
-import sys
 
-sys.dont_write_bytecode = True
+import cpp
 
-import cpp  # noqa: E402
-
-LEFT = "tests/tidy/words_left.txt"
 GLOSSARY = "GLOSSARY.md"
 PAGES = (".md", ".proto", ".toml")
 JUDGED_CODE = ("device/", "server/", "clients/")
@@ -73,14 +62,13 @@ RETIRED = (
     (r"swallow(?:s|ed|ing)?", "discarded"),
     (r"asked for", "requested"),
     (r"bites?", "detects"),
+    (r"home_first", "require_homing"),
 )
 _SAY = tuple(say for _, say in RETIRED)
 _ANY = re.compile(
     "(?<![a-z])(?:" + "|".join(f"({words.replace(' ', '[ _-]+')})" for words, _ in RETIRED) + ")(?![a-z])",
     re.IGNORECASE,
 )
-# Names of the API and of the configuration stay until they are renamed there.
-_KEPT = re.compile(r"oneof news|NewsCase|news_case")
 
 
 def _blank(text):
@@ -122,66 +110,12 @@ def _text(file):
 
 def found(file):
     """(line, what is said, what to say instead) of each retired word."""
-    text = _KEPT.sub(lambda match: " " * len(match.group()), _text(file))
+    text = _text(file)
     # A line end is a blank, so that words on two lines are found; places stay.
     for match in _ANY.finditer(re.sub(r"\s", " ", text)):
         yield text.count("\n", 0, match.start()) + 1, " ".join(match.group().split()), _SAY[match.lastindex - 1]
 
 
-@functools.lru_cache(maxsize=4)
-def _allowances(content):
-    """{path: count}; raises ValueError for a line that is none."""
-    allowed = {}
-    for line in content.splitlines():
-        path, count = line.rsplit(" ", 1)
-        allowed[path] = int(count)
-    return allowed
-
-
-def _check_list(file, files):
-    paths = {one.path for one in files}
-    for number, line in enumerate(file.lines, start=1):
-        if not re.fullmatch(r"\S+ [1-9][0-9]*", line):
-            yield file.finding(number, "retired-word", f'"{line}" is not `path count`', "generate the list with --count")
-        elif line.split()[0] not in paths:
-            yield file.finding(number, "retired-word", f"there is no {line.split()[0]}", "remove its line")
-
-
-def check(file, files):
-    if file.path == LEFT:
-        yield from _check_list(file, files)
-        return
-    words = list(found(file))
-    left = next((one.content for one in files if one.path == LEFT), "")
-    try:
-        allowed = _allowances(left).get(file.path, 0)
-    except ValueError:
-        return  # the list has a finding of its own
-    if len(words) > allowed:
-        more = f", {len(words)} here and {allowed} allowed" if allowed else ""
-        for line, word, say in words:
-            yield file.finding(line, "retired-word", f'"{word}" is retired{more}', f'say "{say}" (GLOSSARY.md)')
-    elif len(words) < allowed:
-        yield file.finding(1, "retired-word", f"{len(words)} retired words, and {allowed} are allowed",
-                           f"lower the count of {file.path} in words_left.txt to {len(words)}")
-
-
-def main(arguments):
-    from tree import CannotLook, files_under
-
-    if not arguments or arguments[0] != "--count" or len(arguments) > 2:
-        print(__doc__.strip(), file=sys.stderr)
-        return 2
-    try:
-        files = files_under(pathlib.Path(arguments[1] if arguments[1:] else pathlib.Path(__file__).parents[2]).resolve())
-    except CannotLook as why:
-        print(f"words: {why}", file=sys.stderr)
-        return 2
-    for file in files:
-        if count := sum(1 for _ in found(file)):
-            print(file.path, count)
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main(sys.argv[1:]))
+def check(file, _files):
+    for line, word, say in found(file):
+        yield file.finding(line, "retired-word", f'"{word}" is retired', f'say "{say}" (GLOSSARY.md)')

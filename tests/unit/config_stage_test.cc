@@ -132,20 +132,20 @@ TEST_F(ConfigStage, ATravelIsLeft) {
 
 TEST_F(ConfigStage, AmountsAreWholePulses) {
   EXPECT_THAT(errors(kLinear,
-                     "travel_maximum = \"5.0005\"\n[[device.axis.narrower]]\nwhose = \"operator\"\n"
+                     "travel_maximum = \"5.0005\"\n[[device.axis.override]]\nwhose = \"operator\"\n"
                      "maximum_speed = \"1500nm/s\"\n"),
               ElementsAre(StartsWith("lab.toml:7: device.axis.travel_maximum: \"5.0005mm\" is not a whole number of "
                                      "pulses of 1000 nm; the nearest are 5mm and 5.001mm"),
-                          StartsWith("lab.toml:10: device.axis.narrower.maximum_speed: \"1500nm/s\" is not a whole "
+                          StartsWith("lab.toml:10: device.axis.override.maximum_speed: \"1500nm/s\" is not a whole "
                                      "number of pulses of 1000 nm a second; the nearest are 1000nm/s and 2000nm/s")));
   EXPECT_THAT(errors("name = \"x\"\nkind = \"linear\"\npulse = \"3um\"\ntravel_maximum = \"10um\"\n"),
               ElementsAre(StartsWith("stages/x.toml:4: travel_maximum: \"10um\" is not a whole number of pulses of")));
 }
 
-TEST_F(ConfigStage, NarrowerLimitsAreWithinTheStages) {
+TEST_F(ConfigStage, OverridesAreWithinTheStages) {
   EXPECT_THAT(
-      errors(kLinear, "[[device.axis.narrower]]\nwhose = \"operator\"\ntravel_maximum = \"85mm\"\n"),
-      ElementsAre("lab.toml:9: device.axis.narrower.travel_maximum: is beyond the axis's own travel_maximum, so "
+      errors(kLinear, "[[device.axis.override]]\nwhose = \"operator\"\ntravel_maximum = \"85mm\"\n"),
+      ElementsAre("lab.toml:9: device.axis.override.travel_maximum: is beyond the axis's own travel_maximum, so "
                   "it would change nothing"));
 }
 

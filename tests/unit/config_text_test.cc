@@ -92,16 +92,16 @@ number = 2
 unit = "deg"
 travel_minimum = "-5.25deg"
 maximum_speed = "2deg/s"
-home_first = true
+require_homing = true
 
-[[device.axis.narrower]]
+[[device.axis.override]]
 whose = "operator"
 travel_maximum = "3.5deg"
 
-[[device.axis.narrower]]
+[[device.axis.override]]
 whose = "cert \"Ann\" Lee"
 maximum_speed = "500pulse/s"
-home_first = true
+require_homing = true
 )";
   const auto config =
       parse_config("[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n" + axis, "lab.toml", device_kinds());
@@ -126,7 +126,7 @@ kind = "rotary"
 pulse = "0.0025deg"
 modulo = "360deg"
 
-[[device.axis.narrower]]
+[[device.axis.override]]
 whose = "operator"
 travel_maximum = "90deg"
 )";

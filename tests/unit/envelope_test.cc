@@ -28,15 +28,15 @@ class EnvelopeTest : public testing::Test {
     axis.travel_minimum = millimeters(-5);
     axis.travel_maximum = millimeters(5);
     axis.maximum_speed = millimeters(2);
-    narrower("operator").travel_maximum = millimeters(3);
-    NarrowerLimits& student = narrower("token student");
+    overrides_for("operator").travel_maximum = millimeters(3);
+    LimitOverride& student = overrides_for("token student");
     student.travel_minimum = pulses(-100'000);
     student.travel_maximum = micrometers(2000);
     student.maximum_speed = micrometers(500);
   }
 
-  NarrowerLimits& narrower(const std::string& whose) {
-    NarrowerLimits& limits = profile.axes[0].narrower.emplace_back();
+  LimitOverride& overrides_for(const std::string& whose) {
+    LimitOverride& limits = profile.axes[0].overrides.emplace_back();
     limits.whose = whose;
     return limits;
   }
@@ -79,12 +79,12 @@ TEST_F(EnvelopeTest, ACallerHasTheNarrowestOfHisOwnAndHisRoles) {
               EndsWith("beyond its travel maximum of 2mm for token student"));
   EXPECT_THAT(message(student().check_target(1, -100'001)),
               EndsWith("beyond its travel minimum of -1mm for token student"));
-  profile.axes[0].narrower[0].travel_maximum = micrometers(1500);
+  profile.axes[0].overrides[0].travel_maximum = micrometers(1500);
   EXPECT_THAT(message(student().check_target(1, 200'001)), EndsWith("beyond its travel maximum of 1.5mm for operator"));
 }
 
 TEST_F(EnvelopeTest, WiderLimitsForSomeChangeNothing) {
-  narrower("unix alice").travel_maximum = millimeters(9);
+  overrides_for("unix alice").travel_maximum = millimeters(9);
   EXPECT_THAT(message(admin().check_target(1, 500'001)), EndsWith("beyond its travel maximum of 5mm"));
 }
 
@@ -131,7 +131,7 @@ TEST_F(EnvelopeTest, ASpeedThatIsAskedForIsInPulses) {
 
 TEST_F(EnvelopeTest, HomeComesFirst) {
   EXPECT_TRUE(student().check_homed(1)) << "not asked for";
-  profile.axes[0].home_first = true;
+  profile.axes[0].require_homing = true;
   EXPECT_EQ(reason(student().check_homed(1)), Reason::not_homed);
   EXPECT_THAT(message(student().check_homed(1)), HasSubstr("axis 1 has not found its origin"));
   EXPECT_THAT(student().check_homed(1).error().hint, HasSubstr("axisctl home 1"));
@@ -141,7 +141,7 @@ TEST_F(EnvelopeTest, HomeComesFirst) {
 }
 
 TEST_F(EnvelopeTest, HomeComesFirstForSome) {
-  profile.axes[0].narrower[1].home_first = true;
+  profile.axes[0].overrides[1].require_homing = true;
   EXPECT_EQ(reason(student().check_homed(1)), Reason::not_homed);
   EXPECT_TRUE(any_operator().check_homed(1));
   EXPECT_TRUE(admin().check_homed(1));

@@ -284,7 +284,7 @@ TEST_F(LeasesTest, AnothersStopHoldsTheHolderBackUntilRearm) {
   stop_by("bert", kOne);
   now_ += seconds(3);
   EXPECT_EQ(may("anna", token, kOne), Reason::stopped_by);
-  EXPECT_THAT(told_, HasSubstr("bert stopped axis 1 3 s ago"));
+  EXPECT_THAT(told_, HasSubstr("bert stopped axis 1 (3 s ago)"));
   EXPECT_EQ(may("anna", token, kTwo), kAllowed);
   EXPECT_EQ(leases_.rearm(token, "anna", now_), kOne);
   EXPECT_EQ(may("anna", token, kOne), kAllowed);

@@ -123,10 +123,10 @@ TEST(Redactor, CallersWhoseTravelIsNarrowerButNotRoles) {
   Redactor redactor;
   Config config = default_config(device_kinds());
   config.access.roles = {{"unix alice", Role::operator_}};
-  auto& narrower = config.devices[0].profile.axes[1].narrower;
-  for (const char* whose : {"operator", "unix alice", "token night-scan"}) narrower.emplace_back().whose = whose;
+  auto& theirs = config.devices[0].profile.axes[1].overrides;
+  for (const char* whose : {"operator", "unix alice", "token night-scan"}) theirs.emplace_back().whose = whose;
   const Config clean = redactor.redact(config);
-  const auto& hidden = clean.devices[0].profile.axes[1].narrower;
+  const auto& hidden = clean.devices[0].profile.axes[1].overrides;
   EXPECT_EQ(hidden[0].whose, "operator");
   EXPECT_EQ(hidden[1].whose, "unix user-1") << "the same as in [access]";
   EXPECT_EQ(hidden[2].whose, "token user-2");

@@ -292,7 +292,7 @@ TEST_F(ForecastTest, TheAxisOfAHelixMakesItsShareOfTheSpeed) {
 }
 
 TEST_F(ForecastTest, HomeComesFirst) {
-  profile.axes[0].home_first = true;
+  profile.axes[0].require_homing = true;
   for (const std::string line :
        {"M:1+P1", "A:1+P1", "MP:1+P1", "AP:1+P1", "K:A+P1+P1", "KP:B+P1+P1", "E:0A0+P100+P0", "Z:1", "ZRT:1", "ZRT:"}) {
     EXPECT_EQ(refusal({line}), "NOT_HOMED 1") << line;
@@ -388,7 +388,7 @@ TEST_F(ForecastGoToTest, IsWithinTheEnvelope) {
   speeds[3].maximum = 200'001;
   EXPECT_EQ(go_to({0, 0, 0}), "TOO_FAST 3") << "each at its own speed";
   EXPECT_EQ(go_to({0, 0, kUnknown}), "good");
-  profile.axes[1].home_first = true;
+  profile.axes[1].require_homing = true;
   EXPECT_EQ(go_to({0, 0, kUnknown}), "NOT_HOMED 2");
   profile.axes[0].stage = StageProfile{"OSMS20-85", {{1000, 0}, false}, {}};
   EXPECT_EQ(go_to({0, 0, kUnknown}), "IDENTITY_MISMATCH 1");

@@ -1,4 +1,4 @@
-#include "server/rpc/entrances.h"
+#include "server/rpc/endpoints.h"
 
 #include <grpcpp/security/server_credentials.h>
 
@@ -25,10 +25,10 @@ std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> add(grpc::Server
 
 }  // namespace
 
-Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
+Endpoints::Endpoints(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
                      const std::optional<server::NetworkConfig>& network) {
-  const auto nobody_known = [](const grpc::AuthContext&) { return std::optional<std::string>(); };
-  loopback_ = add(builder, local(LOCAL_TCP), gate, nobody_known, {.who = kAnonymous});
+  const auto anonymous = [](const grpc::AuthContext&) { return std::optional<std::string>(); };
+  loopback_ = add(builder, local(LOCAL_TCP), gate, anonymous, {.who = kAnonymous});
   for (std::size_t slot = 0; slot < callers.size(); ++slot) {
     const auto user = [name = &callers.name(slot)](const grpc::AuthContext&) { return std::optional(*name); };
     unix_.push_back(add(builder, local(UDS), gate, user, {}));
@@ -38,12 +38,12 @@ Entrances::Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& ca
                  {.who = "a caller over the network without a certificate", .needs_token = true});
 }
 
-void Entrances::enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot) {
+void Endpoints::enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot) {
   grpc::experimental::ExternalConnectionAcceptor::NewConnectionParameters parameters;
   parameters.fd = connection.release();
   const bool far = origin == server::Acceptor::Origin::network;
-  const Entrance& entrance = far ? network_ : slot ? unix_[*slot] : loopback_;
-  entrance->HandleNewConnection(&parameters);
+  const Endpoint& endpoint = far ? network_ : slot ? unix_[*slot] : loopback_;
+  endpoint->HandleNewConnection(&parameters);
 }
 
 }  // namespace axisgate::rpc

@@ -18,10 +18,10 @@ namespace axisgate::rpc {
 
 // One for loopback, one for each slot of Unix callers, and one for the network, if it is served. Used by the thread
 // that accepts.
-class Entrances {
+class Endpoints {
  public:
   // Adds them to what `builder` builds. `callers` and what `gate` names outlive that server.
-  Entrances(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
+  Endpoints(grpc::ServerBuilder& builder, const server::CallerSlots& callers, const Gate& gate,
             const std::optional<server::NetworkConfig>& network);
 
   // The connection is gRPC's from here on; `slot` is the Unix caller's. Before the server has started, or once it has
@@ -29,11 +29,11 @@ class Entrances {
   void enter(Descriptor connection, server::Acceptor::Origin origin, std::optional<std::size_t> slot);
 
  private:
-  using Entrance = std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>;
+  using Endpoint = std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor>;
 
-  Entrance loopback_;
-  Entrance network_;  // null: not served
-  std::vector<Entrance> unix_;
+  Endpoint loopback_;
+  Endpoint network_;  // null: not served
+  std::vector<Endpoint> unix_;
 };
 
 }  // namespace axisgate::rpc

@@ -1,10 +1,10 @@
-#include "server/rpc/lease_news.h"
+#include "server/rpc/lease_to_proto.h"
 
 #include <utility>
 
 #include "server/events/wall_time.h"
 #include "server/rpc/amounts.h"
-#include "server/rpc/news.h"
+#include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

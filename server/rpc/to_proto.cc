@@ -1,4 +1,4 @@
-#include "server/rpc/news.h"
+#include "server/rpc/to_proto.h"
 
 #include <algorithm>
 #include <chrono>
@@ -64,7 +64,7 @@ void fill_limits(const stage::AxisProfile& profile, v1::Axis& axis) {
   if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
   if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
   if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
-  axis.set_home_first(profile.home_first);
+  axis.set_require_homing(profile.require_homing);
 }
 
 void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisState& state, v1::Axis& axis) {
@@ -120,11 +120,11 @@ struct EventFiller {
     for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
   void operator()(const stage::SwitchesChanged& change) const {
-    v1::SwitchesChanged& told = *event.mutable_switches_changed();
-    told.set_who(change.who);
-    told.set_unknown(change.unknown);
+    v1::SwitchesChanged& switches = *event.mutable_switches_changed();
+    switches.set_who(change.who);
+    switches.set_unknown(change.unknown);
     for (const auto& one : change.changes) {
-      v1::SwitchChange& proto = *told.add_changes();
+      v1::SwitchChange& proto = *switches.add_changes();
       proto.set_item(one.item);
       proto.set_number(one.number);
       proto.set_before(escaped(one.before));
