@@ -36,9 +36,10 @@ std::string speed_text(const v1::Axis& axis) {
 }
 
 std::string axis_text(const v1::Axis& axis) {
-  if (!axis.controllable()) return fmt::format("axis {}  {}  not controllable", axis.number(), label(axis));
-  return fmt::format("axis {}  {}  {}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}{}", axis.number(),
-                     label(axis), position_text(axis), known(axis.has_busy(), axis.busy()),
+  const std::string name = axis.name().empty() ? "" : axis.name() + "  ";
+  if (!axis.controllable()) return fmt::format("axis {}  {}not controllable", axis.number(), name);
+  return fmt::format("axis {}  {}{}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}{}", axis.number(), name,
+                     position_text(axis), known(axis.has_busy(), axis.busy()),
                      known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits(),
                      speed_text(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
 }
@@ -118,7 +119,7 @@ int position(const Session& session) {
     if (session.options.json) {
       print_json(axis);
     } else {
-      print_line(fmt::format("{}  {}", label(axis), position_text(axis)));
+      print_line(fmt::format("{}  {}", axis_label(axis), position_text(axis)));
     }
   }
   return kDone;

@@ -22,7 +22,8 @@ v1::AtLoss at_loss(const std::string& word) {
 v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std::vector<std::string>& axes) {
   v1::LeaseTerms wanted;
   for (const int axis : find_axes(device, axes)) wanted.add_axes(axis);
-  wanted.set_at_loss(at_loss(session.options.at_loss));
+  // A command with --wait ends as it does without: after Ctrl-C its motion runs to its end.
+  wanted.set_at_loss(session.options.verb == Verb::lease_run ? at_loss(session.options.at_loss) : v1::AT_LOSS_FINISH);
   wanted.set_purpose(session.options.purpose);
   return wanted;
 }

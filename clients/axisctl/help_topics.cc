@@ -9,17 +9,27 @@ namespace {
 
 constexpr HelpTopic kTopics[] = {
     {"devices", "", "axisctl devices"},
-    {"status", "`?` means unknown.", "axisctl status\naxisctl --json status"},
+    {"status", "In the output, `?` means that the value is not known, e.g. because it was not read yet.",
+     "axisctl status\naxisctl --json status"},
     {"position", "", "axisctl position"},
     {"commands", "", "axisctl commands M:"},
-    {"home", "", "axisctl home 1,2"},
+    {"home",
+     R"(Each axis runs to its origin sensor. Its coordinate becomes 0 there, and the travel limits count from there. Ctrl-C ends
+axisctl, not the motion: `axisctl stop` stops it.)",
+     "axisctl home 1 2"},
     {"move",
-     R"(An amount is a position, with --relative a displacement. `axisctl help units` explains amounts. With --approach each axis
-reaches its target over this last distance. Its direction is always the same, so backlash does not count.)",
+     R"(Amounts are absolute positions. With --relative they are distances from the present positions. A + sign alone does not
+make a move relative. `axisctl help units` explains amounts.
+
+All axes start together, each at its own speed: two axes do not follow a straight line. `axisctl line` does. With
+--approach each axis makes the last part of its move in the same direction every time, so backlash has no effect. Ctrl-C
+ends axisctl, not the motion: `axisctl stop` stops it.)",
      R"(axisctl move 1=+1mm 2=-200um --relative --speed 2mm/s
 axisctl move 1=0.5mm --wait 60
 axisctl move 1=0.4mm 2=0 --approach 10um)"},
-    {"path", "`axisctl help paths` explains segments.",
+    {"path",
+     "FILE has one segment per line: a straight line or an arc. `axisctl help paths` explains segments. Ctrl-C\n"
+     "ends axisctl, not the motion: `axisctl stop` stops it.",
      R"(printf '1=1mm 2=-500um speed=2mm/s\n1=-1mm 2=500um\n' | axisctl path -
 printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | axisctl path - --speed 1mm/s)"},
     {"line", "A path of one straight line. `axisctl help paths` explains it.",
@@ -28,41 +38,46 @@ printf '1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg\n1=-0.1mm 2=0 rest=0.5s\n' | a
      R"(axisctl arc around 1=0 2=50um ccw 90deg --speed 1mm/s
 axisctl arc through 1=20um 2=30um to 1=50um 2=20um --speed 1mm/s)"},
     {"scan",
-     R"(The controller does not compare positions: it gives a pulse at each interval after the trigger was armed. The distance
-before FROM is a whole number of intervals, so one pulse falls on FROM (not with --scale). See `axisctl help scans`.)",
+     R"(PULSES is the distance between two trigger pulses, 2 to 30000 drive pulses of the axis. `axisctl exec '?:P1'` shows the
+length of one drive pulse of axis 1 in nm. The trigger also gives pulses before FROM and after TO, while the axis speeds
+up and slows down. One pulse falls on FROM (not with --scale). `axisctl help scans` explains more.)",
      "axisctl scan 1 0mm 0.5mm --every 1000\naxisctl scan 1 0.5mm 0.25mm --every 500 --speed 100um/s"},
     {"paths",
-     R"(A path has one segment per line, and all segments have the same axes; # begins a comment. Amounts are displacements
-from the beginning of the segment, with --absolute positions. A segment is a straight line or an arc. An arc goes around
-a center, cw or ccw, by an angle or by whole turns; or it goes through a point to an end. The lower axis points to the
-right, the other one up. In a helix axis 3 also rises. The rise is that of one turn, or of the whole arc if it is less
-than one turn. It is always a displacement.
+     R"(A path has one segment per line, and all segments have the same axes; # begins a comment. Amounts are distances from the
+beginning of the segment, with --absolute positions. A segment is a straight line or an arc. An arc goes around a
+center, cw (clockwise) or ccw, by an angle or by whole turns; or it goes through a point to an end. The lower axis
+points to the right, the other one up. In a helix axis 3 also rises. The rise is that of one turn, or of the whole arc
+if it is less than one turn. It is always a distance.
 
-  1=1mm 2=-500um speed=2mm/s
-  around 1=0 2=1mm ccw 90deg
-  around 1=0 2=1mm cw 2turns rise 3=0.1mm
-  through 1=1mm 2=1mm to 1=2mm 2=0
+  1=1mm 2=-500um speed=2mm/s                # a straight line
+  around 1=0 2=1mm ccw 90deg                # an arc: center, direction, angle
+  around 1=0 2=1mm cw 2turns rise 3=0.1mm   # a helix
+  through 1=1mm 2=1mm to 1=2mm 2=0          # an arc: a point on it, its end
 
-Each segment can have options. speed=2mm/s is the speed along the segment. rest=0.5s: before it the axes stop, and wait
-for this time. inputs=5: before it the axes stop, and wait until the inputs show this number (5: IN1 and IN3 on, the
-others off). inputs= needs wait_for_inputs in the configuration.)",
+Each segment can have options. speed=2mm/s is the speed along the segment. Without it --speed counts. Without both, a
+line of several axes runs at the minimum speed of its lower axis, which may be very slow. rest=0.5s: before the segment
+the axes stop, and wait for this time. inputs=5: before the segment the axes stop, and wait until the inputs show this
+number (5: IN1 and IN3 on, the others off). inputs= needs wait_for_inputs in the configuration.)",
      R"(printf 'around 1=0 2=50um cw 1turn\nthrough 1=20um 2=30um to 1=50um 2=20um rest=0.1s\n' | axisctl path - --speed 1mm/s
 printf 'around 1=0 2=50um cw 2turns rise 3=10um\n' | axisctl path - --speed 1mm/s)"},
     {"scans",
      R"(One axis runs from FROM to TO at constant speed. The trigger output gives a pulse at equal intervals of drive pulses, or
-with --scale of scale pulses.
+with --scale of scale pulses: those of the encoder. `axisctl exec '?:P1'` shows the length of one drive pulse of axis 1
+in nm.
 
-The controller does not compare positions. It gives pulses from the arming of the trigger on, also while the axis speeds
-up and slows down. So the axis starts before FROM, by a whole number of intervals. One pulse then falls on FROM, and the
-others on multiples of the interval after it. With --scale they count from the start of the run. When the axis is
-stationary, the trigger is set back to its previous state.
+The controller counts pulses from the moment when the trigger is armed. It does not compare positions. The axis starts
+before FROM, because it must speed up. This run-up is a whole number of intervals, so one pulse falls on FROM, and the
+others on multiples of the interval after it. The trigger also gives pulses during the run-up, and after TO while the
+axis slows down. With --scale the pulses count from the start of the run-up. When the axis is stationary, the trigger is
+set back to its previous state.
 
 A speed above 56000 pulses/s is refused, because pulses may be missing. There is one trigger, so a scan needs the right
 to all axes. At its end a scan shows where the axis ran, and how many pulses were expected in the range and in all. It
 also shows the number computed from the observed displacement; the controller does not report how many it gave.)",
      R"(axisctl scan 2 0mm 0.1mm --every 500 --speed 200um/s
 axisctl --json scan 2 0.1mm 0mm --every 500)"},
-    {"jog", "", "axisctl jog 1=- --speed 200um/s --seconds 1"},
+    {"jog", "Ctrl-C stops the axes. So does the daemon when axisctl is killed or cut off.",
+     "axisctl jog 1=- --speed 200um/s --seconds 1"},
     {"save",
      R"(A position has the coordinates of all axes. It is a place: it stays the same place when coordinates are set again. A
 restart of the controller clears it. With --coordinates the coordinates are saved instead, and kept over a restart. The
@@ -73,12 +88,22 @@ has stored there is overwritten.)",
     {"go", "Moves all axes together. Nothing moves if the controller now holds another position, or none.",
      "axisctl go sample\naxisctl go park --wait 60"},
     {"forget", "", "axisctl forget sample"},
-    {"stop", "", "axisctl stop"},
-    {"rearm", "", "axisctl rearm"},
-    {"estop", "", "axisctl estop"},
-    {"clear", "After an emergency stop the motors may be off.", "axisctl clear\naxisctl motor 1,2,3 on"},
-    {"exec", "", "axisctl exec 'M:1+P1000' 'G:1'"},
-    {"watch", "", "axisctl watch --from 1   # until Ctrl-C"},
+    {"stop",
+     R"(Anybody may stop all axes, also those that others move. After a stop by somebody else, motions are refused until their
+caller types `axisctl rearm`. With `estop` the axes do not slow down first, and nothing moves until `axisctl clear`.)",
+     "axisctl stop"},
+    {"rearm",
+     R"(A stop by somebody else sets a latch: your motions on these axes are refused until you rearm. This moves nothing, and
+the stopped motion does not continue. If you hold a lease, type it inside the shell or script that `lease run` started.
+After an emergency stop by somebody else, type `axisctl rearm` first, then `axisctl clear`.)",
+     "axisctl rearm"},
+    {"estop", "Not a safety function: keep the wired emergency stop within reach.", "axisctl estop"},
+    {"clear",
+     "Needs the role admin, unless `admin_commands` in the configuration leaves out BEC:. After an emergency stop\n"
+     "the motors may be off. `rearm` ends the latch of a stop by somebody else.",
+     "axisctl clear\naxisctl motor 1,2,3 on"},
+    {"exec", "Each LINE is a command of the manual. `axisctl commands` lists them.", "axisctl exec 'M:1+P1000' 'G:1'"},
+    {"watch", "", "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C"},
     {"whoami", "", "axisctl whoami"},
     {"lease", "`axisctl help leases` explains them.",
      R"(axisctl lease run --axes 1 --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm
@@ -107,18 +132,20 @@ whole number of pulses is refused, and the message names the nearest ones.)",
 axisctl move 1=500um --speed 1mm/s
 axisctl move 1=-100pulse --relative)"},
     {"leases",
-     R"(While a caller has a lease, no other caller can move or set anything on its axes. Anybody may stop them. `lease run`
-acquires a lease, runs a command, and releases the lease. All that the command starts shares it. --wait waits for axes
-under another lease. Speeds, outputs and the trigger that were set under a lease are set back when it has ended. What was
-set without a lease stays. To hand the axes over to a waiting caller: axisctl lease hand-over 'unix bert'.)",
+     R"(A lease is the exclusive right to move axes and to change their settings. Everybody may read, and everybody may stop.
+`lease run` acquires a lease, runs a command, and releases the lease when the command has ended. The lease belongs to
+this command and to all that it starts. Other terminals are outside it, even those of the same user. `lease list` shows
+all leases. --wait waits for axes under another lease. Speeds, outputs and the trigger that were set under a lease are
+set back when it has ended. What was set without a lease stays. To hand the axes over to somebody who waits, type inside
+the lease: axisctl lease hand-over 'unix bert'.)",
      R"(axisctl lease run --axes 1 --wait 60 -- sh -c 'axisctl move 1=1mm && axisctl move 1=0mm'
 axisctl lease run -- sh -c 'axisctl outputs on 1 && axisctl move 1=0.1mm'
 axisctl lease list)"},
     {"settings",
-     R"(Shows all settings, one per line. These verbs change settings: speed, motor, loop, divisions, settle, sleep, wake,
-display, beep, mode, dialect, outputs, trigger. zero, unzero and preset set coordinates. reset restarts the controller. A
-setting stays until it is set again, or until the controller restarts. Speeds, outputs and the trigger end with the lease
-under which they were set.)",
+     R"(Shows all settings, one per line. These commands change settings: speed, motor, loop, divisions, settle, sleep, wake,
+display, beep, mode, dialect, outputs, trigger. zero, unzero and preset set coordinates. reset restarts the controller.
+A setting stays until it is set again, or until the controller restarts. Speeds, outputs and the trigger end with the
+lease under which they were set.)",
      "axisctl settings\naxisctl --json settings"},
     {"speed",
      R"(An axis speeds up from MINIMUM to MAXIMUM within the time of --acceleration. An option that is left out stays as it is.
@@ -128,13 +155,14 @@ axisctl speed 1 --minimum 10um --maximum 1mm --acceleration 50
 axisctl speed 1,2 --maximum 0.5mm/s --origin-return)"},
     {"motor", "Without current an axis can be moved by hand, and its position is uncertain.",
      "axisctl motor 3 off\naxisctl motor 3 on"},
-    {"loop", "In closed loop the scale holds an axis at its position.", "axisctl loop 1 closed\naxisctl loop 1,2 open"},
+    {"loop", "In closed loop the controller holds an axis at its position by its scale, an encoder.",
+     "axisctl loop 1 closed\naxisctl loop 1,2 open"},
     {"divisions", "They change the resolution, and so the meaning of all coordinates in pulses.",
      "axisctl divisions 3 100\naxisctl divisions 3 200"},
-    {"settle", "The time between the end of positioning and READY: 0 to 255 s in steps of 0.1 s.",
+    {"settle", "The wait between the end of positioning and READY: 0 to 255 s in steps of 0.1 s.",
      "axisctl settle 0.1\naxisctl settle 0"},
     {"sleep", "Nothing moves until `axisctl wake`.", "axisctl sleep"},
-    {"wake", "Axes may move: the stage moves back to its position.", "axisctl wake"},
+    {"wake", "CAUTION: axes move. The stage moves back to its position before the sleep.", "axisctl wake"},
     {"display", "", "axisctl display off\naxisctl display on"},
     {"beep", "", "axisctl beep off\naxisctl beep on"},
     {"mode", "In a non-host mode the daemon cannot reach the controller until HOST is chosen at the front panel.",
@@ -165,14 +193,17 @@ axisctl trigger off)"},
      R"(Settings return to the values of the memory switches, and coordinates become 0: home the axes again. Leases end.)",
      "axisctl reset"},
     {"",
-     R"(Amounts have a unit: pulse, nm, um, mm, deg. Without one they are in the unit of the axis. AXIS is a number or the name
-of an axis in the configuration. `axisctl help VERB` has examples of each verb. Other topics are units, paths, scans,
-leases, settings, triggers.)",
+     R"(Amounts have a unit: pulse, nm, um, mm, deg. Without a unit they are in the unit of the axis, which `axisctl position`
+shows. AXIS is a number or the name of an axis in the configuration. `axisctl help COMMAND` has examples of each
+command. Other topics are units, paths, scans, leases, settings, triggers.
+
+Ctrl-C stops a jog. Every other motion continues: `axisctl stop` stops it.)",
      R"(axisctl home
+axisctl move 1=0.5mm 2=0
 axisctl move 1=+1mm 2=-200um --relative
 axisctl jog 1=+ --speed 200um/s   # until Ctrl-C
 axisctl exec 'M:1+P1000' 'G:1'
-axisctl --json watch --from 1   # until Ctrl-C
+axisctl --json watch --from 1   # all events from number 1 on, until Ctrl-C
 axisctl lease run --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm)"},
 };
 

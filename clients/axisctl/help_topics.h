@@ -10,7 +10,7 @@ namespace axisgate::axisctl {
 struct HelpTopic {
   std::string_view name;      // a verb or another topic; empty: axisctl as a whole
   std::string_view text;      // may be empty
-  std::string_view examples;  // lines for a shell; a comment "until Ctrl-C" where they do not end by themselves
+  std::string_view examples;  // lines for a shell; they end with "until Ctrl-C" where they do not end by themselves
 };
 
 // In the order in which the examples can be run, on a stage with at least 2 mm of travel on either side.

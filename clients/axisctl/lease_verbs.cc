@@ -1,6 +1,7 @@
 // lease run, list, hand-over, and rearm: who may move what.
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <string>
 #include <vector>
@@ -20,7 +21,8 @@ std::string axes_text(const Axes& axes) {
 }
 
 std::string latch_text(const v1::Latch& latch) {
-  return fmt::format("stopped by {} at {} on {}: rearm", latch.by(), time_text(latch.time()), axes_text(latch.axes()));
+  return fmt::format("stopped by {} at {} on {}: must rearm", latch.by(), time_text(latch.time()),
+                     axes_text(latch.axes()));
 }
 
 void print_board(const v1::WatchLeasesResponse& board) {
@@ -33,8 +35,8 @@ void print_board(const v1::WatchLeasesResponse& board) {
     print_line(text);
   }
   for (const v1::WaitingLease& waiting : board.waiting()) {
-    std::string text = fmt::format("{}  {}. {} waits since {}", axes_text(waiting.axes()), waiting.place(),
-                                   waiting.holder(), time_text(waiting.since_time()));
+    std::string text = fmt::format("{}  {} waits since {}  place {} in the queue", axes_text(waiting.axes()),
+                                   waiting.holder(), time_text(waiting.since_time()), waiting.place());
     if (!waiting.purpose().empty()) text += fmt::format("  ({})", waiting.purpose());
     if (waiting.has_expected_wait()) text += fmt::format("  expected wait {} s", waiting.expected_wait().seconds());
     print_line(text);
@@ -43,6 +45,34 @@ void print_board(const v1::WatchLeasesResponse& board) {
     print_line(fmt::format("{}  {}", held_back.who(), latch_text(held_back.latch())));
   }
   if (board.leases().empty() && board.waiting().empty() && board.held_back().empty()) print_line("no leases");
+}
+
+v1::WatchLeasesResponse board_now(const Session& session, const std::string& device) {
+  v1::WatchLeasesRequest request;
+  request.set_device(device);
+  grpc::ClientContext context;
+  context.set_deadline(std::chrono::system_clock::now() + kQuestionLimit);
+  const auto stream = session.connection.control->WatchLeases(&context, request);
+  v1::WatchLeasesResponse board;
+  const bool read = stream->Read(&board);
+  context.TryCancel();
+  v1::WatchLeasesResponse later;
+  while (stream->Read(&later)) continue;
+  const grpc::Status status = stream->Finish();
+  if (!read) session.connection.check(status);
+  return board;
+}
+
+// Another lease may have a latch, which this call could not end.
+std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
+  for (const v1::Lease& lease : board.leases()) {
+    if (!lease.has_latch()) continue;
+    return fmt::format(
+        "this terminal has no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` inside "
+        "its `axisctl lease run`",
+        lease.holder(), axes_text(lease.latch().axes()));
+  }
+  return "there is no latch";
 }
 
 }  // namespace
@@ -64,6 +94,11 @@ int lease_run(const Session& session) {
 int lease_list(const Session& session) {
   v1::WatchLeasesRequest request;
   request.set_device(chosen_device(session).name());
+  if (!session.options.follow) {
+    const v1::WatchLeasesResponse board = board_now(session, request.device());
+    session.options.json ? print_json(board) : print_board(board);
+    return kDone;
+  }
   grpc::ClientContext context;
   const auto stream = session.connection.control->WatchLeases(&context, request);
   v1::WatchLeasesResponse board;
@@ -72,11 +107,6 @@ int lease_list(const Session& session) {
     if (any && !session.options.json) print_line("");
     any = true;
     session.options.json ? print_json(board) : print_board(board);
-    if (session.options.follow) continue;
-    context.TryCancel();
-    while (stream->Read(&board)) continue;
-    (void)stream->Finish();
-    return kDone;
   }
   session.connection.check(stream->Finish());
   return kDone;
@@ -104,7 +134,8 @@ int rearm(const Session& session) {
   if (session.options.json) {
     print_json(response);
   } else {
-    print_line(response.axes().empty() ? "there was no latch" : axes_text(response.axes()) + " may move again");
+    print_line(response.axes().empty() ? nothing_rearmed(board_now(session, request.device()))
+                                       : axes_text(response.axes()) + " may move again");
   }
   return kDone;
 }

@@ -7,7 +7,8 @@
 namespace axisgate::axisctl {
 
 void add_mill_verbs(CLI::App& app, Options& options) {
-  CLI::App* mill = app.add_subcommand("mill", "jobs for Roland's mills (RML-1), without a daemon: check, preview");
+  CLI::App* mill =
+      app.add_subcommand("mill", "check and preview RML-1 jobs for Roland milling machines; needs no daemon");
   mill->require_subcommand(1);
   mill->fallthrough();
   mill->footer(help_text("mill"));
@@ -15,8 +16,8 @@ void add_mill_verbs(CLI::App& app, Options& options) {
                              "show what a job would do, its errors, and risks to the workpiece");
   CLI::App* preview = add_verb(*mill, options, Verb::mill_preview, "preview", "draw what a job would do");
   for (CLI::App* verb : {check, preview}) {
-    verb->add_option("FILE", options.mill.file, "the job; - is the standard input")->required()->type_name("");
-    verb->add_option("--profile", options.mill.profile, "the machine: a name as mdx-20, or the file of a profile")
+    verb->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
+    verb->add_option("--profile", options.mill.profile, "the machine: a name, e.g. mdx-20, or the file of a profile")
         ->required()
         ->type_name("PROFILE");
     verb->add_option("--origin", options.mill.origin,

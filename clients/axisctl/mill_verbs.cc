@@ -40,7 +40,7 @@ Point lengths(const std::string& text, const char* option) {
     at = stop + 1;
   }
   if (good) return {values[0], values[1], values[2]};
-  throw usage(fmt::format("\"{}\" is not valid for {}", text, option), "use three lengths in mm, as 10,10,5.5");
+  throw usage(fmt::format("\"{}\" is not valid for {}", text, option), "use three lengths in mm, e.g. 10,10,5.5");
 }
 
 CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
@@ -63,7 +63,7 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
   if (asked.stock) {
     const Point p = lengths(*asked.stock, "--stock");
     if (p.x <= 0 || p.y <= 0 || p.z <= 0)
-      throw usage("--stock has no size", "use its three lengths in mm, as 80,50,10");
+      throw usage("--stock has no size", "use its three lengths in mm, e.g. 80,50,10");
     options.stock = Stock{p.x, p.y, p.z};
   }
   return options;

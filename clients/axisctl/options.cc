@@ -22,123 +22,155 @@ CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name,
 }
 
 void add_wait(CLI::App& verb, Options& options) {
-  verb.add_option("--wait", options.wait_s, "wait at most so long for axes under another lease")
+  verb.add_option("--wait", options.wait_s, "if another lease holds the axes, wait up to S seconds for them")
       ->check(CLI::Range(1, 86'400))
       ->type_name("S");
 }
 
 void add_axes(CLI::App& verb, Options& options) {
-  verb.add_option("AXES", options.axes, "numbers or names; none: all axes")->delimiter(',')->type_name("");
+  verb.add_option("AXES", options.axes, "numbers or names (default: all axes)")->delimiter(',')->type_name("");
 }
 
 namespace {
 
 constexpr const char* kExitCodes = R"(
 
-Exit codes: 0 done; 1 the motion failed, was stopped, or its outcome is unknown; a replay differs; 2 wrong usage;
-3 refused (bad request or the device's state); 4 unavailable (no daemon, or the line is down); 5 deadline passed.
+Exit codes:
+  0    done
+  1    the motion failed, was stopped, or its outcome is unknown; or a replay differs; or a mill job has an error
+  2    wrong usage
+  3    refused: a wrong request, a lease of somebody else, or the state of the controller
+  4    unavailable: no daemon, or the serial connection is down
+  5    not in time: the axes did not become free, or the daemon did not answer
+  130  Ctrl-C while axisctl waited for a motion
 
-Not a safety function: the wired emergency stop remains your responsibility.)";
+axisctl is not a safety function. Keep the wired emergency stop within reach.)";
 
 void add_waiting(CLI::App& verb, Options& options) {
-  verb.add_flag("--no-wait", options.no_wait, "return at the start, not at the outcome");
+  verb.add_flag("--no-wait", options.no_wait, "exit once the motion has started; do not wait for its end");
 }
 
-void add_speed(CLI::App& verb, Options& options) {
-  verb.add_option("--speed", options.speed, "maximum speed, as 2mm/s; of a path: for segments without their own")
-      ->type_name("SPEED");
-  verb.add_option("--acceleration-ms", options.acceleration_ms, "time from minimum to maximum speed")
+void add_speed(CLI::App& verb, Options& options, const char* description) {
+  verb.add_option("--speed", options.speed, description)->type_name("SPEED");
+  verb.add_option("--acceleration-ms", options.acceleration_ms,
+                  "time in ms to speed up from the minimum to the maximum speed, and to slow down")
       ->check(CLI::Range(1, 1000))
       ->type_name("MS");
 }
 
 void add_manner_of_path(CLI::App& verb, Options& options) {
-  verb.add_flag("--absolute", options.absolute, "the amounts are positions, not displacements");
-  add_speed(verb, options);
+  verb.add_flag("--absolute", options.absolute, "the amounts are positions, not distances");
+  add_speed(verb, options, "speed along the path, e.g. 2mm/s, for segments without speed=");
   add_waiting(verb, options);
   add_wait(verb, options);
 }
 
 void add_scan(CLI::App& app, Options& options) {
-  CLI::App* scan = add_verb(app, options, Verb::scan, "scan", "run over a range with pulses at the trigger output");
+  CLI::App* scan =
+      add_verb(app, options, Verb::scan, "scan", "move over a range and give trigger pulses at equal distances");
   scan->add_option("AXIS", options.axis, "number or name")->required()->type_name("");
-  scan->add_option("FROM", options.from, "where the range begins, as 0mm")->required()->type_name("");
-  scan->add_option("TO", options.to, "where it ends, as 1mm")->required()->type_name("");
-  scan->add_option("--every", options.every, "interval of the trigger pulses, 2 to 30000 drive pulses")
+  scan->add_option("FROM", options.from, "position where the range begins, e.g. 0mm")->required()->type_name("");
+  scan->add_option("TO", options.to, "position where it ends, e.g. 1mm")->required()->type_name("");
+  scan->add_option("--every", options.every, "interval of the trigger pulses, in drive pulses (see below)")
       ->required()
       ->check(CLI::Range(2, 30'000))
       ->type_name("PULSES");
-  scan->add_flag("--scale", options.by_scale, "the interval is in scale pulses, not drive pulses");
-  add_speed(*scan, options);
+  scan->add_flag("--scale", options.by_scale,
+                 "count the pulses of the scale (the encoder), not the drive pulses of the motor");
+  add_speed(*scan, options, "speed over the range, e.g. 200um/s (default: the maximum speed of the axis)");
   add_waiting(*scan, options);
   add_wait(*scan, options);
 }
 
 void add_motion_verbs(CLI::App& app, Options& options) {
-  CLI::App* home = add_verb(app, options, Verb::home, "home", "home axes: the mechanical origin return");
+  CLI::App* home =
+      add_verb(app, options, Verb::home, "home", "home axes: find the mechanical origin, which becomes coordinate 0");
   add_axes(*home, options);
-  home->add_flag("--logical", options.logical, "return to the logical origin instead");
+  home->add_flag("--logical", options.logical, "move to the logical origin instead: coordinate 0");
   add_waiting(*home, options);
   add_wait(*home, options);
 
-  CLI::App* move = add_verb(app, options, Verb::move, "move", "move axes to positions, or by displacements");
-  move->add_option("AXIS=AMOUNT", options.places, "as 1=+5mm 2=-200um")->required()->type_name("");
-  move->add_flag("--relative", options.relative, "the amounts are displacements from the present positions");
-  move->add_option("--approach", options.approach, "the last distance of each axis to its target, as 10um: from below")
+  CLI::App* move =
+      add_verb(app, options, Verb::move, "move", "move axes to positions, or with --relative by distances");
+  move->add_option("AXIS=AMOUNT", options.places, "where each axis moves, e.g. 1=5mm 2=-0.2mm")
+      ->required()
+      ->type_name("");
+  move->add_flag("--relative", options.relative, "the amounts are distances from the present positions");
+  move->add_option(
+          "--approach", options.approach,
+          "reach the target over this last distance in + direction, e.g. 10um; in - direction: --approach=-10um")
       ->type_name("AMOUNT");
-  add_speed(*move, options);
+  add_speed(*move, options, "maximum speed of each axis, e.g. 2mm/s (default: see `axisctl speed`)");
   add_waiting(*move, options);
   add_wait(*move, options);
 
-  CLI::App* path = add_verb(app, options, Verb::path, "path", "run segments one after another without a halt");
-  path->add_option("FILE", options.file, "one segment a line; - is the standard input")->required()->type_name("");
+  CLI::App* path =
+      add_verb(app, options, Verb::path, "path", "run a continuous path: lines and arcs without a stop between them");
+  path->add_option("FILE", options.file,
+                   "one segment per line, e.g. 1=1mm 2=-500um speed=2mm/s; - reads the standard input")
+      ->required()
+      ->type_name("");
   add_manner_of_path(*path, options);
-  CLI::App* line = add_verb(app, options, Verb::line, "line", "run a straight line");
-  line->add_option("AXIS=AMOUNT", options.lines, "as 1=1mm 2=-500um")->required()->type_name("");
+  CLI::App* line = add_verb(app, options, Verb::line, "line", "run a straight line: the axes start and end together");
+  line->add_option("AXIS=AMOUNT", options.lines, "distance of each axis, e.g. 1=1mm 2=-500um")
+      ->required()
+      ->type_name("");
   add_manner_of_path(*line, options);
   CLI::App* arc = add_verb(app, options, Verb::arc, "arc", "run a circle, an arc or a helix");
-  arc->add_option("COURSE", options.lines, "as around 1=0 2=1mm ccw 90deg")->required()->type_name("");
+  arc->add_option("COURSE", options.lines, "e.g. around 1=0 2=1mm ccw 90deg (see `axisctl help paths`)")
+      ->required()
+      ->type_name("");
   add_manner_of_path(*arc, options);
   add_scan(app, options);
 
-  CLI::App* jog = add_verb(app, options, Verb::jog, "jog", "run axes until Ctrl-C");
-  jog->add_option("AXIS=DIRECTION", options.places, "as 1=+ 2=-")->required()->type_name("");
-  jog->add_option("--speed", options.speed, "as 1mm/s; none: the minimum speed of the axis")->type_name("SPEED");
-  jog->add_option("--seconds", options.seconds, "end after this time")->check(CLI::Range(1, 1'000'000))->type_name("S");
+  CLI::App* jog = add_verb(app, options, Verb::jog, "jog", "move axes until Ctrl-C, which stops them");
+  jog->add_option("AXIS=DIRECTION", options.places, "direction of each axis, e.g. 1=+ 2=-")->required()->type_name("");
+  jog->add_option("--speed", options.speed, "e.g. 1mm/s (default: the minimum speed of the axis)")->type_name("SPEED");
+  jog->add_option("--seconds", options.seconds, "stop the axes after S seconds")
+      ->check(CLI::Range(1, 1'000'000))
+      ->type_name("S");
   add_wait(*jog, options);
 
-  add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop"), options);
-  add_verb(app, options, Verb::estop, "estop", "emergency stop: stop all axes at once and latch, until `clear`");
-  add_verb(app, options, Verb::rearm, "rearm", "allow your motion again after a stop by another caller");
+  add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop axes, also those that others move"),
+           options);
+  add_verb(app, options, Verb::estop, "estop", "emergency stop: stop all axes at once; no motion until `clear`");
+  add_verb(app, options, Verb::rearm, "rearm",
+           "after a stop by somebody else: allow your motions again; moves nothing");
 }
 
 void add_questions(CLI::App& app, Options& options) {
   add_verb(app, options, Verb::devices, "devices", "show the configured devices");
-  add_verb(app, options, Verb::status, "status", "show line, controller and axes");
-  add_verb(app, options, Verb::position, "position", "show the positions of the axes, read now");
+  add_verb(app, options, Verb::status, "status", "show the serial connection, the controller and the axes");
+  add_verb(app, options, Verb::position, "position", "read and show the present positions of the axes");
 }
 
 void add_other_verbs(CLI::App& app, Options& options) {
-  add_axes(*add_verb(app, options, Verb::clear, "clear", "clear limit, overflow and emergency errors"), options);
-  CLI::App* exec = add_verb(app, options, Verb::exec, "exec", "send the controller's own commands as one transaction");
-  exec->add_option("LINE", options.lines, "as '?:P1'")->required()->type_name("");
-  CLI::App* watch = add_verb(app, options, Verb::watch, "watch", "print every event with its revision");
-  watch->add_option("--from", options.from_revision, "the first revision wanted; none: from now on")
+  add_axes(*add_verb(app, options, Verb::clear, "clear",
+                     "for administrators: clear limit, overflow and emergency-stop errors"),
+           options);
+  CLI::App* exec = add_verb(app, options, Verb::exec, "exec",
+                            "send raw controller commands; no motion of other callers comes between");
+  exec->add_option("LINE", options.lines, "raw controller command, e.g. '?:P1'; `axisctl commands` lists them")
+      ->required()
+      ->type_name("");
+  CLI::App* watch = add_verb(app, options, Verb::watch, "watch",
+                             "print every event (motions, stops, errors), each with its revision: its number");
+  watch->add_option("--from", options.from_revision, "the first event wanted (default: the next one)")
       ->type_name("REVISION");
-  CLI::App* commands =
-      add_verb(app, options, Verb::commands, "commands", "show the table of the controller's commands");
-  commands->add_option("COMMAND", options.command, "show one command with its parameters, as M:")->type_name("");
+  CLI::App* commands = add_verb(app, options, Verb::commands, "commands", "list the raw commands of the controller");
+  commands->add_option("COMMAND", options.command, "show one command with its parameters, e.g. M:")->type_name("");
 }
 
 void add_simulator_verb(CLI::App& app, Options& options) {
-  CLI::App* sim = add_verb(app, options, Verb::sim, "sim", "do what a person can do at a simulated device");
+  CLI::App* sim =
+      add_verb(app, options, Verb::sim, "sim", "simulator only: press buttons, switch inputs, trip limits, unplug");
   sim->add_option("COMMAND", options.lines, "`help` lists them")->required()->type_name("");
 }
 
 void add_recording_verbs(CLI::App& app, Options& options) {
   CLI::App* record = add_verb(app, options, Verb::record, "record",
-                              "print the recording of the line: the last minutes, then until Ctrl-C");
-  record->add_option("--output", options.output, "the file to write; none: the standard output")->type_name("FILE");
+                              "print the serial traffic: the last minutes, then all that follows until Ctrl-C");
+  record->add_option("--output", options.output, "the file to write (default: the standard output)")->type_name("FILE");
   CLI::Option* no_follow = record->add_flag("--no-follow", options.no_follow, "only the last minutes");
   CLI::Option* only_new = record->add_flag("--new", options.only_new, "without the last minutes");
   CLI::Option* seconds = record->add_option("--seconds", options.seconds, "end after this time");
@@ -146,55 +178,58 @@ void add_recording_verbs(CLI::App& app, Options& options) {
   no_follow->excludes(only_new)->excludes(seconds);
 
   CLI::App* replay = add_verb(app, options, Verb::replay, "replay",
-                              "feed a recording to this version, and report what it does differently");
-  replay->add_option("FILE", options.file, "a recording or a support report; - is the standard input")
+                              "for developers: run recorded traffic through this version; moves nothing");
+  replay->add_option("FILE", options.file, "a recording or a support report; - reads the standard input")
       ->required()
       ->type_name("");
 
   CLI::App* support = add_verb(app, options, Verb::support, "support",
                                "write a support report, without serial numbers and names of people");
-  support->add_option("--output", options.output, "none: axisgate-support-TIME.txt; - is the standard output")
+  support
+      ->add_option("--output", options.output,
+                   "the file to write (default: axisgate-support-TIME.txt); - is the standard output")
       ->type_name("FILE");
 }
 
 void add_lease_verbs(CLI::App& app, Options& options) {
-  CLI::App* lease = app.add_subcommand("lease", "leases: run, list, hand-over");
+  CLI::App* lease = app.add_subcommand("lease", "exclusive use of axes: run, list, hand-over");
   lease->require_subcommand(1);
   lease->fallthrough();
   lease->footer(help_text("lease"));
-  CLI::App* run = add_verb(*lease, options, Verb::lease_run, "run",
-                           "run a command, for instance a shell, under a lease over the axes");
-  run->add_option("--axes", options.axes, "numbers or names; none: the whole device")
-      ->delimiter(',')
-      ->type_name("AXES");
+  CLI::App* run =
+      add_verb(*lease, options, Verb::lease_run, "run", "hold axes while a command runs, e.g. a shell or a script");
+  run->add_option("--axes", options.axes, "numbers or names (default: all axes)")->delimiter(',')->type_name("AXES");
   add_wait(*run, options);
-  run->add_flag("--take-over", options.take_over, "stop the axes and end all other leases over them")
+  run->add_flag("--take-over", options.take_over,
+                "for administrators: stop the axes and end all other leases over them")
       ->excludes("--wait");
-  run->add_option("--at-loss", options.at_loss, "what happens to motion when this program is cut off")
+  run->add_option("--at-loss", options.at_loss,
+                  "what happens to a running motion when axisctl is killed or loses its connection")
       ->check(CLI::IsMember({"finish", "stop", "stop-and-release"}))
       ->capture_default_str();
-  run->add_option("--purpose", options.purpose, "shown to other callers")->type_name("TEXT");
+  run->add_option("--purpose", options.purpose, "why you hold the axes; others can read it")->type_name("TEXT");
   run->add_option("COMMAND", options.lines, "the command, after --")->required()->type_name("");
   run->positionals_at_end();
-  CLI::App* list = add_verb(*lease, options, Verb::lease_list, "list", "show leases, waiting callers and latches");
+  CLI::App* list = add_verb(*lease, options, Verb::lease_list, "list",
+                            "show who holds axes, who waits for them, and who must rearm");
   list->add_flag("--follow", options.follow, "show every change, until Ctrl-C");
   CLI::App* hand_over = add_verb(*lease, options, Verb::lease_hand_over, "hand-over",
-                                 "inside `lease run`: give the axes to a waiting caller");
-  hand_over->add_option("HOLDER", options.holder, "the waiting caller, as `lease list` shows it: 'unix bert'")
+                                 "give your axes to somebody who waits; type it in the shell that `lease run` opened");
+  hand_over->add_option("HOLDER", options.holder, "who waits, as `lease list` shows it, e.g. 'unix bert'")
       ->required()
       ->type_name("");
 }
 
 void add_access_verbs(CLI::App& app, Options& options) {
   add_verb(app, options, Verb::who_am_i, "whoami", "show your name and role, as the daemon identifies you");
-  CLI::App* token = app.add_subcommand("token", "for administrators: create, list, revoke");
+  CLI::App* token = app.add_subcommand("token", "for administrators: access tokens: create, list, revoke");
   token->require_subcommand(1);
   token->fallthrough();
   token->footer(help_text("token"));
   CLI::App* create = add_verb(*token, options, Verb::token_create, "create",
-                              "create a token and print it; its caller sets AXISGATE_TOKEN to it");
+                              "create a token and print it; to use it, set AXISGATE_TOKEN to it");
   create->add_option("NAME", options.name, "the name: NAME calls as 'token NAME'")->required()->type_name("");
-  create->add_option("--role", options.role, "what its caller may do")
+  create->add_option("--role", options.role, "what a caller with this token may do")
       ->check(CLI::IsMember({"observer", "operator", "admin"}))
       ->capture_default_str();
   create->add_option("--days", options.days, "days until it expires")
@@ -208,17 +243,19 @@ void add_access_verbs(CLI::App& app, Options& options) {
 }
 
 void add_target(CLI::App& app, Target& target) {
-  app.add_option("--target", target.address, "the daemon: a socket's path or HOST:PORT; none: the local one")
+  app.add_option("--target", target.address,
+                 "address of the daemon: path of a Unix socket, or HOST:PORT (default: the local daemon)")
       ->envname("AXISGATE_TARGET")
       ->type_name("ADDRESS");
-  app.add_flag("--tls", target.tls, "the daemon is on another machine ([network] of its configuration)");
-  app.add_option("--ca", target.ca, "the authority of its certificate; implies --tls; none: those of this machine")
+  app.add_flag("--tls", target.tls, "use TLS, for a daemon on another machine ([network] in its configuration)");
+  app.add_option("--ca", target.ca,
+                 "CA file to verify the daemon's certificate; implies --tls (default: the CAs of this machine)")
       ->envname("AXISGATE_CA")
       ->type_name("FILE");
-  CLI::Option* certificate =
-      app.add_option("--certificate", target.certificate, "your certificate; otherwise set AXISGATE_TOKEN to a token")
-          ->envname("AXISGATE_CERTIFICATE")
-          ->type_name("FILE");
+  CLI::Option* certificate = app.add_option("--certificate", target.certificate,
+                                            "your client certificate for TLS; or set AXISGATE_TOKEN to a token")
+                                 ->envname("AXISGATE_CERTIFICATE")
+                                 ->type_name("FILE");
   CLI::Option* key =
       app.add_option("--key", target.key, "the key of your certificate")->envname("AXISGATE_KEY")->type_name("FILE");
   certificate->needs(key);
@@ -236,6 +273,28 @@ void add_position_verbs(CLI::App& app, Options& options) {
   for (CLI::App* verb : {save, go, forget}) {
     verb->add_option("NAME", options.name, "1 to 40 letters, digits, - and _")->required()->type_name("");
     add_wait(*verb, options);
+  }
+}
+
+// The headings of `axisctl help`.
+void set_groups(CLI::App& app) {
+  struct Group {
+    const char* heading;
+    std::vector<std::string> verbs;
+  };
+  const Group groups[] = {
+      {"Looking", {"devices", "status", "position", "watch", "whoami"}},
+      {"Moving", {"home", "move", "path", "line", "arc", "scan", "jog", "save", "positions", "go", "forget"}},
+      {"Stopping and sharing", {"stop", "estop", "rearm", "clear", "lease", "token"}},
+      {"Settings",
+       {"settings", "speed", "motor", "loop", "divisions", "settle", "sleep", "wake", "display", "beep", "mode",
+        "dialect", "reset", "zero", "unzero", "preset", "outputs", "inputs", "trigger"}},
+      {"Raw commands, simulator and recordings", {"exec", "commands", "sim", "record", "replay", "support"}},
+      {"Mills", {"mill"}},
+      {"Help", {"help"}},
+  };
+  for (const Group& group : groups) {
+    for (const std::string& verb : group.verbs) app.get_subcommand(verb)->group(group.heading);
   }
 }
 
@@ -262,7 +321,7 @@ int show_help(CLI::App& app, const std::string& topic) {
     print_line(text);
     return kDone;
   }
-  print_failure(usage("there is no verb and no topic \"" + topic + '"', "axisctl help lists them"));
+  print_failure(usage("there is no command and no topic \"" + topic + '"', "axisctl help lists them"));
   return kUsage;
 }
 
@@ -270,9 +329,9 @@ int refuse(const CLI::App& app, const CLI::ParseError& error) {
   std::string message = error.what();
   if (app.get_subcommands().empty()) {
     const std::vector<std::string> words = app.remaining();
-    message = words.empty() ? "no verb was given" : '"' + words.front() + "\" is not a verb";
+    message = words.empty() ? "no command was given" : '"' + words.front() + "\" is not a command";
   }
-  print_failure(usage(message, "axisctl help lists the verbs and their options"));
+  print_failure(usage(message, "axisctl help lists the commands"));
   return kUsage;
 }
 
@@ -285,10 +344,11 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   CLI::App app{"Moves stages and watches them through axisgated.", "axisctl"};
   app.require_subcommand(1);
   add_target(app, options.target);
-  app.add_option("--device", options.device, "the device; none: the only one")->type_name("NAME");
+  app.add_option("--device", options.device, "name of the device (default: the only one; needed if there are several)")
+      ->type_name("NAME");
   app.add_flag("--json", options.json, "print one JSON object per line");
-  app.get_formatter()->label("SUBCOMMAND", "VERB");
-  app.get_formatter()->label("Subcommands", "Verbs");
+  app.group("Commands");  // the heading that verbs of verbs inherit
+  app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
   add_questions(app, options);
   add_motion_verbs(app, options);
@@ -300,10 +360,11 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_recording_verbs(app, options);
   add_setting_verbs(app, options);
   add_mill_verbs(app, options);
-  CLI::App* help =
-      app.add_subcommand("help", "show this, one verb, or: units, paths, scans, leases, settings, triggers");
+  CLI::App* help = app.add_subcommand(
+      "help", "show this, or explain a command or a topic: units, paths, scans, leases, settings, triggers");
   help->add_option("TOPIC", help_topic)->type_name("");
   help->add_flag("--list-examples", examples)->group("");
+  set_groups(app);
   app.footer(help_text("") + kExitCodes);  // last, or every verb's help would repeat it
   try {
     app.parse(argument_count, arguments);
@@ -314,7 +375,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   }
   if (help->parsed()) return examples ? list_examples() : show_help(app, help_topic);
   if (options.json && writes_text_only(options.verb)) {
-    print_failure(usage("this verb has no JSON output", "leave out --json"));
+    print_failure(usage("this command has no JSON output", "leave out --json"));
     return kUsage;
   }
   Target& target = options.target;

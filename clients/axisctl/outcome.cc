@@ -18,12 +18,12 @@ std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
   for (const v1::AxisResult& result : motion.results()) {
     if (!result.has_command_pulses()) continue;
     const v1::Axis& axis = find_axis(device, std::to_string(result.axis()));
-    ends.push_back(fmt::format("{} {}", label(axis), position_text(axis, result.command_pulses())));
+    ends.push_back(place_text(axis, result.command_pulses()));
   }
   return fmt::format("{}", fmt::join(ends, ", "));
 }
 
-// "; x ran from ..." of a scan that has set out.
+// "; axis x ran from ..." of a scan that has started.
 std::string scan_of(const Session& session, const v1::Device& device, const v1::Motion& motion) {
   return motion.has_scan() ? "; " + scan_text(find_axis(device, session.options.axis), motion.scan()) : "";
 }
@@ -32,7 +32,7 @@ Failure to_failure(const Session& session, const v1::Device& device, const v1::M
   Failure failure = axisctl::to_failure(motion.problem());
   failure.exit_code = kFailed;
   if (!motion.has_problem()) failure = {kFailed, state_name(motion.state()), "the motion did not succeed", ""};
-  if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now at " + ends;
+  if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now " + ends;
   failure.message += scan_of(session, device, motion);
   return failure;
 }

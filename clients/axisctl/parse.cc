@@ -101,7 +101,7 @@ v1::Distance parse_amount_for(const v1::Axis& axis, std::string_view text) {
 v1::AxisDistance parse_place(const v1::Device& device, std::string_view text) {
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos) {
-    throw usage(fmt::format("\"{}\" is not AXIS=AMOUNT", text), "as 1=+5mm");
+    throw usage(fmt::format("\"{}\" is not AXIS=AMOUNT", text), "e.g. 1=+5mm");
   }
   const v1::Axis& axis = find_axis(device, text.substr(0, equals));
   v1::AxisDistance place;
@@ -114,7 +114,8 @@ v1::AxisJog parse_direction(const v1::Device& device, std::string_view text) {
   const std::size_t equals = text.find('=');
   const std::string_view sign = equals == std::string_view::npos ? "" : text.substr(equals + 1);
   if (sign != "+" && sign != "-") {
-    throw usage(fmt::format("\"{}\" is not AXIS=+ or AXIS=-", text), "as 1=+ 2=-; `axisctl move` moves by a distance");
+    throw usage(fmt::format("\"{}\" is not AXIS=+ or AXIS=-", text),
+                "e.g. 1=+ 2=-; `axisctl move` moves by a distance");
   }
   v1::AxisJog jog;
   jog.set_axis(find_axis(device, text.substr(0, equals)).number());

@@ -94,7 +94,7 @@ v1::ArcAroundCenter::Rotation parse_rotation(std::string_view word) {
   if (word == "cw") return v1::ArcAroundCenter::ROTATION_CLOCKWISE;
   if (word == "ccw") return v1::ArcAroundCenter::ROTATION_COUNTERCLOCKWISE;
   throw usage(word.empty() ? "the arc has no direction" : fmt::format("\"{}\" is not the direction of an arc", word),
-              "write cw or ccw after its center, as around 1=0 2=1mm ccw 90deg");
+              "write cw or ccw after its center, e.g. around 1=0 2=1mm ccw 90deg");
 }
 
 void fill_extent(std::string_view word, v1::ArcAroundCenter& around) {
@@ -110,23 +110,23 @@ void fill_extent(std::string_view word, v1::ArcAroundCenter& around) {
     return;
   }
   throw usage(word.empty() ? "the arc has no angle" : fmt::format("\"{}\" is not the angle of an arc", word),
-              "write degrees or whole turns after cw or ccw, as 90deg, 1turn or 2turns");
+              "write degrees or whole turns after cw or ccw, e.g. 90deg, 1turn or 2turns");
 }
 
 const Places& of_two_axes(const Places& places, std::string_view what) {
   if (places.size() == 2) return places;
   throw usage(fmt::format("{} of an arc has two coordinates, not {}", what, places.size()),
-              "name both axes of the circle, as 1=0 2=1mm; a third axis rises, as rise 3=0.1mm");
+              "name both axes of the circle, e.g. 1=0 2=1mm; a third axis rises, e.g. rise 3=0.1mm");
 }
 
 void fill_rise(Course& course, v1::Arc& arc) {
-  constexpr std::string_view example = "as around 1=0 2=1mm cw 2turns rise 3=0.1mm";
+  constexpr std::string_view example = "e.g. around 1=0 2=1mm cw 2turns rise 3=0.1mm";
   if (course.take(kRise)) {
     const Places places = course.take_places();
     if (places.size() != 1) throw usage("a rise has one axis", std::string(example));
     *arc.mutable_rise() = places.front();
   }
-  course.expect_end(arc.has_around() ? example : "as through 1=1mm 2=1mm to 1=2mm 2=0 rise 3=0.1mm");
+  course.expect_end(arc.has_around() ? example : "e.g. through 1=1mm 2=1mm to 1=2mm 2=0 rise 3=0.1mm");
 }
 
 // The axes of the circle are left in `plane`.
@@ -142,7 +142,7 @@ void fill_through(Course& course, v1::Arc& arc, Places& plane) {
   v1::ArcThroughPoint& through = *arc.mutable_through();
   plane = of_two_axes(course.take_places(), "the point");
   through.mutable_point()->Add(plane.begin(), plane.end());
-  if (!course.take(kTo)) throw usage("the arc has no end point", "as through 1=1mm 2=1mm to 1=2mm 2=0");
+  if (!course.take(kTo)) throw usage("the arc has no end point", "e.g. through 1=1mm 2=1mm to 1=2mm 2=0");
   const Places end = of_two_axes(course.take_places(), "the end");
   through.mutable_end()->Add(end.begin(), end.end());
 }
@@ -152,9 +152,9 @@ void fill_straight(Course& course, v1::Segment& segment, Places& places) {
   if (places.empty()) {
     const std::string word = course.take();
     throw usage(word.empty() ? "no axis is named" : fmt::format("\"{}\" does not begin a segment", word),
-                "write AXIS=AMOUNT, as 1=+5mm, or an arc, as around 1=0 2=1mm ccw 90deg");
+                "write AXIS=AMOUNT, e.g. 1=+5mm, or an arc, e.g. around 1=0 2=1mm ccw 90deg");
   }
-  course.expect_end("a straight line is AXIS=AMOUNT for each axis, as 1=+5mm 2=1mm");
+  course.expect_end("a straight line is AXIS=AMOUNT for each axis, e.g. 1=+5mm 2=1mm");
   if (places.size() == 1) {
     *segment.mutable_single() = places.front();
   } else {
@@ -219,7 +219,7 @@ std::vector<v1::Segment> parse_path(const v1::Device& device, const PathOptions&
   }
   if (input.bad()) throw usage(fmt::format("{}: reading has failed", file_name), "is it a file?");
   if (segments.empty())
-    throw usage(fmt::format("{}: it has no segment", file_name), "write one per line, as 1=1mm 2=1mm");
+    throw usage(fmt::format("{}: it has no segment", file_name), "write one per line, e.g. 1=1mm 2=1mm");
   return segments;
 }
 

@@ -22,7 +22,7 @@ std::string places_text(const v1::Device& device, const v1::Position& position) 
   std::vector<std::string> places;
   for (const v1::PositionCoordinate& coordinate : position.coordinates()) {
     const v1::Axis& axis = find_axis(device, std::to_string(coordinate.axis()));
-    places.push_back(fmt::format("{} {}", label(axis), position_text(axis, coordinate.pulses())));
+    places.push_back(place_text(axis, coordinate.pulses()));
   }
   return fmt::format("{}", fmt::join(places, ", "));
 }

@@ -115,7 +115,9 @@ void print_failure(const Failure& failure) {
 
 void print_note(std::string_view message) { write(stderr, on_one_line(fmt::format("axisctl: {}", message))); }
 
-std::string label(const v1::Axis& axis) { return axis.name().empty() ? std::to_string(axis.number()) : axis.name(); }
+std::string axis_label(const v1::Axis& axis) {
+  return "axis " + (axis.name().empty() ? std::to_string(axis.number()) : axis.name());
+}
 
 Unit core_unit(v1::Unit unit) {
   switch (unit) {
@@ -149,6 +151,10 @@ std::string position_text(const v1::Axis& axis, std::int64_t pulses) {
     if (position) return fmt::format("{} {}", to_string(*position), symbol(unit));
   }
   return fmt::format("{} pulse", pulses);
+}
+
+std::string place_text(const v1::Axis& axis, std::int64_t pulses) {
+  return fmt::format("{} at {}", axis_label(axis), position_text(axis, pulses));
 }
 
 std::string speed_text(const v1::Speed& speed) {
@@ -196,7 +202,7 @@ std::string trigger_text(const v1::Trigger& trigger) {
 }
 
 std::string scan_text(const v1::Axis& axis, const v1::Scan& scan) {
-  std::string text = fmt::format("{} ran from {} to {}", label(axis), position_text(axis, scan.run_from_pulses()),
+  std::string text = fmt::format("{} ran from {} to {}", axis_label(axis), position_text(axis, scan.run_from_pulses()),
                                  position_text(axis, scan.run_to_pulses()));
   if (scan.has_expected_triggers() && scan.has_expected_triggers_in_range()) {
     text += fmt::format("; {} trigger pulses expected in the range, {} in all", scan.expected_triggers_in_range(),
@@ -211,7 +217,7 @@ std::string scan_text(const v1::Axis& axis, const v1::Scan& scan) {
 std::string positions_text(const v1::Device& device) {
   std::vector<std::string> parts;
   for (const v1::Axis& axis : device.axes()) {
-    if (axis.controllable()) parts.push_back(fmt::format("{} {}", label(axis), position_text(axis)));
+    if (axis.controllable()) parts.push_back(fmt::format("{}: {}", axis_label(axis), position_text(axis)));
   }
   return fmt::format("{}", fmt::join(parts, ", "));
 }

@@ -27,8 +27,9 @@ void print_failure(const Failure& failure);
 // "axisctl: message" on the standard error: something that a person wants to know meanwhile.
 void print_note(std::string_view message);
 
-// "x" of "1 x", or "1" of an axis without a name.
-std::string label(const v1::Axis& axis);
+// "axis x", or "axis 1" of an axis without a name. A position is never printed after a bare number: a person reads
+// "1 2500 um" as 12500 um.
+std::string axis_label(const v1::Axis& axis);
 
 Unit core_unit(v1::Unit unit);
 
@@ -36,6 +37,9 @@ Unit core_unit(v1::Unit unit);
 // not.
 std::string position_text(const v1::Axis& axis);
 std::string position_text(const v1::Axis& axis, std::int64_t pulses);
+
+// "axis x at 2.5 mm".
+std::string place_text(const v1::Axis& axis, std::int64_t pulses);
 
 // "50000 pulse/s"; "?" where it is not known.
 std::string speed_text(const v1::Speed& speed);
@@ -46,11 +50,11 @@ std::string pins_text(int bits, std::string_view name);
 // "every 500 drive pulses of axis 2".
 std::string trigger_text(const v1::Trigger& trigger);
 
-// "x ran from -0.1 mm to 1.1 mm; 101 trigger pulses are due in its range, 121 in all; 121 by the way it was seen to
-// go".
+// "axis x ran from -0.1 mm to 1.1 mm; 101 trigger pulses expected in the range, 121 in all; 121 computed from the
+// observed displacement".
 std::string scan_text(const v1::Axis& axis, const v1::Scan& scan);
 
-// "x 2.5 mm, y 0 mm", the controllable axes.
+// "axis x: 2.5 mm, axis y: 0 mm", the controllable axes.
 std::string positions_text(const v1::Device& device);
 
 // "segment 3 sent: OK_D", "axis 1 completed", "motion 5 (move) RUNNING" ...

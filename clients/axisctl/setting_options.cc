@@ -11,7 +11,7 @@ namespace axisgate::axisctl {
 namespace {
 
 void add_several_axes(CLI::App& verb, Options& options) {
-  verb.add_option("AXES", options.axes, "numbers or names, as 1,2")
+  verb.add_option("AXES", options.axes, "numbers or names, e.g. 1,2")
       ->required()
       ->delimiter(',')
       ->allow_extra_args(false)
@@ -36,55 +36,61 @@ CLI::App* add_change(CLI::App& app, Options& options, Verb verb, const char* nam
 void add_axis_settings(CLI::App& app, Options& options) {
   CLI::App* speed = add_verb(app, options, Verb::speed, "speed", "show or set the speeds of axes");
   add_axes(*speed, options);
-  speed->add_option("--minimum", options.minimum, "speed at which a motion begins and ends, as 10um")
+  speed->add_option("--minimum", options.minimum, "speed at which a motion begins and ends, e.g. 10um/s")
       ->type_name("SPEED");
-  speed->add_option("--maximum", options.maximum, "highest speed, as 1mm")->type_name("SPEED");
-  speed->add_option("--acceleration", options.acceleration_ms, "time from minimum to maximum speed")
+  speed->add_option("--maximum", options.maximum, "highest speed, e.g. 1mm/s")->type_name("SPEED");
+  speed
+      ->add_option("--acceleration", options.acceleration_ms,
+                   "time in ms to speed up from the minimum to the maximum speed, and to slow down")
       ->check(CLI::Range(1, 1000))
       ->type_name("MS");
-  speed->add_flag("--origin-return", options.origin_return, "the speeds of the mechanical origin return");
+  speed->add_flag("--origin-return", options.origin_return, "the speeds of `home`: the mechanical origin return");
 
-  CLI::App* motor = add_change(app, options, Verb::motor, "motor", "switch the motors' current");
+  CLI::App* motor = add_change(app, options, Verb::motor, "motor", "switch the current of motors on or off");
   add_several_axes(*motor, options);
   add_value(*motor, options, "SWITCH", {"on", "off"});
-  CLI::App* loop =
-      add_change(app, options, Verb::loop, "loop", "closed or open loop: whether the scale holds the axes");
+  CLI::App* loop = add_change(app, options, Verb::loop, "loop",
+                              "closed loop (position feedback from the scale, the encoder) or open loop");
   add_several_axes(*loop, options);
   add_value(*loop, options, "LOOP", {"closed", "open"});
-  CLI::App* divisions =
-      add_change(app, options, Verb::divisions, "divisions", "of the motor driver; they set the resolution");
+  CLI::App* divisions = add_change(app, options, Verb::divisions, "divisions",
+                                   "set the microstep divisions of a motor driver: the resolution");
   divisions->add_option("AXIS", options.axes)->required()->expected(1)->allow_extra_args(false)->type_name("");
-  divisions->add_option("NUMBER", options.divisions, "1 to 8000, as 200")->required()->type_name("");
+  divisions->add_option("NUMBER", options.divisions, "1 to 8000, e.g. 200")->required()->type_name("");
   add_axes(*add_change(app, options, Verb::zero, "zero", "set the coordinates of axes to 0, without motion"), options);
   add_axes(*add_change(app, options, Verb::unzero, "unzero", "undo `zero`"), options);
   add_change(app, options, Verb::preset, "preset", "set the coordinates of axes, without motion")
-      ->add_option("AXIS=AMOUNT", options.places, "as 1=5mm")
+      ->add_option("AXIS=AMOUNT", options.places, "the new coordinate of each axis, e.g. 1=5mm")
       ->required()
       ->type_name("");
 }
 
 void add_controller_settings(CLI::App& app, Options& options) {
   add_verb(app, options, Verb::settings, "settings", "show all settings");
-  add_change(app, options, Verb::settle, "settle", "set the time between positioning and READY")
+  add_change(app, options, Verb::settle, "settle",
+             "set the settling time: the wait after a motion before the axis is READY")
       ->add_option("SECONDS", options.value, "0 to 255, in steps of 0.1")
       ->required()
       ->type_name("");
-  add_change(app, options, Verb::sleep, "sleep", "switch the motors off until `wake`");
-  add_change(app, options, Verb::wake, "wake", "switch the motors on again; stages move back");
-  add_value(*add_change(app, options, Verb::display, "display", "switch the lights of the display"), options, "SWITCH",
-            {"on", "off"});
-  add_value(*add_change(app, options, Verb::beep, "beep", "switch the controller's beep"), options, "SWITCH",
-            {"on", "off"});
-  add_value(*add_change(app, options, Verb::mode, "mode", "for administrators: change the operation mode"), options,
-            "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
-  add_value(*add_change(app, options, Verb::dialect, "dialect", "for administrators: change the command format"),
+  add_change(app, options, Verb::sleep, "sleep", "put the controller to sleep: all motors off until `wake`");
+  add_change(app, options, Verb::wake, "wake",
+             "end the sleep: motors on. CAUTION: the stage moves back to its position before the sleep");
+  add_value(*add_change(app, options, Verb::display, "display", "switch the light of the display on or off"), options,
+            "SWITCH", {"on", "off"});
+  add_value(*add_change(app, options, Verb::beep, "beep", "switch the beep of the controller on or off"), options,
+            "SWITCH", {"on", "off"});
+  add_value(*add_change(app, options, Verb::mode, "mode",
+                        "for administrators: change the operation mode: HOST, MANUAL, REMOTE, ..."),
+            options, "MODE", {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "LOAD", "TEST"});
+  add_value(*add_change(app, options, Verb::dialect, "dialect",
+                        "for administrators: change the command format: SHOT_FC or HIT"),
             options, "DIALECT", {"SHOT_FC", "HIT"});
   add_verb(app, options, Verb::reset, "reset", "for administrators: restart the controller");
 }
 
 void add_signals(CLI::App& app, Options& options) {
   CLI::App* outputs = add_verb(app, options, Verb::outputs, "outputs", "show or switch OUT1 to OUT6");
-  outputs->add_option("SWITCH", options.value, "on or off; none: all off")
+  outputs->add_option("SWITCH", options.value, "on or off, then OUT; or the word none: all off")
       ->check(CLI::IsMember({"on", "off", "none"}))
       ->type_name("");
   outputs->add_option("OUT", options.outputs, "1 to 6; the others stay as they are")
@@ -92,12 +98,13 @@ void add_signals(CLI::App& app, Options& options) {
       ->check(CLI::Range(1, 6))
       ->type_name("");
   add_verb(app, options, Verb::inputs, "inputs", "show IN1 to IN6");
-  CLI::App* trigger = app.add_subcommand("trigger", "the trigger output: every, off, fire");
+  CLI::App* trigger =
+      app.add_subcommand("trigger", "set the trigger output: pulses at intervals (every), off, one pulse (fire)");
   trigger->require_subcommand(1);
   trigger->fallthrough();
   trigger->footer(help_text("trigger"));
   CLI::App* every = add_verb(*trigger, options, Verb::trigger_every, "every", "give a pulse at equal intervals");
-  every->add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, as 1000; or a time, as 0.2s")
+  every->add_option("INTERVAL", options.interval, "2 to 30000 pulses of --axis, e.g. 1000; or a time, e.g. 0.2s")
       ->required()
       ->type_name("");
   CLI::Option* axis = every->add_option("--axis", options.axis, "the axis whose pulses are counted")->type_name("AXIS");

@@ -19,9 +19,7 @@ namespace {
 
 bool switched_on(const Session& session) { return session.options.value == "on"; }
 
-std::string axis_label(const v1::Device& device, int axis) {
-  return "axis " + label(find_axis(device, std::to_string(axis)));
-}
+std::string label_of(const v1::Device& device, int axis) { return axis_label(find_axis(device, std::to_string(axis))); }
 
 std::string profile_text(const v1::Profile& profile) {
   const std::string time = profile.acceleration_ms() == 0 ? "?" : fmt::format("{} ms", profile.acceleration_ms());
@@ -30,7 +28,7 @@ std::string profile_text(const v1::Profile& profile) {
 }
 
 void print_axis(const v1::Device& device, const v1::AxisSettings& axis) {
-  const auto print = [name = axis_label(device, axis.axis())](std::string_view item, std::string_view value) {
+  const auto print = [name = label_of(device, axis.axis())](std::string_view item, std::string_view value) {
     print_line(fmt::format("{}  {}  {}", name, item, value));
   };
   print("motor", !axis.has_excited() ? "?" : axis.excited() ? "on" : "off");
@@ -75,7 +73,7 @@ int show_speeds(const Session& session, const v1::Device& device) {
       if (session.options.json) {
         print_json(axis);
       } else {
-        print_line(fmt::format("{}  {}", axis_label(device, wanted), profile_text(profile)));
+        print_line(fmt::format("{}  {}", label_of(device, wanted), profile_text(profile)));
       }
     }
   }
@@ -113,7 +111,7 @@ int change_controller(const Session& session, Set set) {
 std::int64_t settling_tenths(const std::string& text) {
   constexpr std::int64_t most = 2550;  // 255 s (manual 56))
   if (const std::optional<std::int64_t> tenths = parse_steps(text, 1, most)) return *tenths;
-  throw usage(fmt::format("\"{}\" is not 0 to 255 s in steps of 0.1 s", text), "as `axisctl settle 0.1`");
+  throw usage(fmt::format("\"{}\" is not 0 to 255 s in steps of 0.1 s", text), "e.g. `axisctl settle 0.1`");
 }
 
 }  // namespace

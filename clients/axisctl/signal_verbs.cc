@@ -27,9 +27,9 @@ int switched(int now, const Options& options) {
 void check_outputs(const Options& options) {
   const bool none = options.value == "none";
   if (none == options.outputs.empty()) return;
-  throw none ? usage("`outputs none` switches all of them off, and takes no numbers", "as `axisctl outputs off 1 3`")
+  throw none ? usage("`outputs none` switches all of them off, and takes no numbers", "e.g. `axisctl outputs off 1 3`")
              : usage(fmt::format("which outputs are to be {}?", options.value),
-                     fmt::format("as `axisctl outputs {} 1 3`", options.value));
+                     fmt::format("e.g. `axisctl outputs {} 1 3`", options.value));
 }
 
 int show_outputs(const Session& session, const v1::Settings& settings) {
@@ -45,7 +45,7 @@ int show_outputs(const Session& session, const v1::Settings& settings) {
 
 Failure no_interval(std::string_view text) {
   return usage(fmt::format("\"{}\" is not an interval", text),
-               "2 to 30000 pulses of an axis, as `1000 --axis 1`, or 0.01s to 100s, as `0.2s`");
+               "2 to 30000 pulses of an axis, e.g. `1000 --axis 1`, or 0.01s to 100s, e.g. `0.2s`");
 }
 
 // "0.2s", not "20pulses".
@@ -72,7 +72,7 @@ std::int64_t pulse_interval(std::string_view text) {
 v1::Trigger timer(const Options& options) {
   if (!options.axis.empty()) {
     throw usage(fmt::format("{} is a time, and the timer has no axis", options.interval),
-                "leave out --axis, or give a number of pulses, as `1000 --axis 1`");
+                "leave out --axis, or give a number of pulses, e.g. `1000 --axis 1`");
   }
   v1::Trigger trigger;
   trigger.set_target(v1::Trigger::TARGET_TIMER);
@@ -86,7 +86,7 @@ v1::Trigger wanted_trigger(const Options& options, const v1::Device& device) {
   trigger.set_interval(pulse_interval(options.interval));
   if (options.axis.empty()) {
     throw usage(fmt::format("an interval of {} pulses needs an axis", trigger.interval()),
-                fmt::format("as `{} --axis 1`; a time has a unit, as `0.2s`", options.interval));
+                fmt::format("e.g. `{} --axis 1`; a time has a unit, e.g. `0.2s`", options.interval));
   }
   trigger.set_axis(find_axis(device, options.axis).number());
   trigger.set_target(options.scale.empty()  ? v1::Trigger::TARGET_DRIVE_PULSES

@@ -11,7 +11,7 @@ namespace {
 
 std::string describe_stop(const v1::Device& device, const v1::AxisStop& stop) {
   const v1::Axis& axis = find_axis(device, std::to_string(stop.axis()));
-  std::string text = fmt::format("{}: ", label(axis));
+  std::string text = axis_label(axis) + ": ";
   if (!stop.named()) {
     text += "no stop sent, its motor is off";
   } else if (stop.wire_reply().empty()) {
@@ -61,7 +61,8 @@ int emergency_stop(const Session& session) {
   const v1::EmergencyStopResponse response =
       session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit);
   const int exit_code = report(session, device, response);
-  if (!session.options.json) print_line("latched: nothing moves until `axisctl clear`; the motors may be off then");
+  if (!session.options.json)
+    print_line("emergency stop: nothing moves until `axisctl clear`; the motors may be off then");
   return exit_code;
 }
 

@@ -59,8 +59,8 @@ int token_create(const Session& session) {
     print_json(made);
     return kDone;
   }
-  print_note(
-      fmt::format("{}; the caller sets AXISGATE_TOKEN to it. It cannot be shown again", token_text(made.token())));
+  print_note(fmt::format("{}. Save the token now: it cannot be shown again. To use it, set AXISGATE_TOKEN to it",
+                         token_text(made.token())));
   print_line(made.secret());
   return kDone;
 }

@@ -97,7 +97,7 @@ class WithDaemon(unittest.TestCase):
 
     def test_what_there_is(self):
         self.assertEqual(self.ok("devices"), "stage  shrc203  UP\n")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
         status = self.ok("status")
         self.assertIn("SHRC-203", status)
         self.assertRegex(status, r"(?m)^axis 1  x  0 mm  busy no  excited yes  homed no")
@@ -115,10 +115,10 @@ class WithDaemon(unittest.TestCase):
 
     def test_moves_are_exact_and_waited_for(self):
         shown = self.ok("move", "x=+0.00001", "2=-200um", "--relative", "--speed", "2mm/s", "--acceleration-ms", "50")
-        self.assertRegex(shown, r"done: x 0\.00001 mm, y -200 um\n\Z")
-        self.assertEqual(self.ok("position"), "x  0.00001 mm\ny  -200 um\n3  0 um\n")
+        self.assertRegex(shown, r"done: axis x at 0\.00001 mm, axis y at -200 um\n\Z")
+        self.assertEqual(self.ok("position"), "axis x  0.00001 mm\naxis y  -200 um\naxis 3  0 um\n")
         self.ok("move", "1=100pulse", "2=70nm")
-        self.assertEqual(self.ok("position"), "x  0.001 mm\ny  0.07 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0.001 mm\naxis y  0.07 um\naxis 3  0 um\n")
 
     def test_home_shows_each_axis(self):
         shown = self.ok("home", "1,2")
@@ -135,7 +135,7 @@ class WithDaemon(unittest.TestCase):
         self.refused(2, "UNKNOWN_UNIT", "move", "x=1inch")
         self.refused(2, "UNKNOWN_UNIT", "move", "x=1e3mm")
         self.refused(2, "INVALID_REQUEST", "move", "x=0.5pulse")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 
     def test_path(self):
         path = os.path.join(self.folder, "square.txt")
@@ -145,7 +145,7 @@ class WithDaemon(unittest.TestCase):
         self.assertIn("segment 2 sent: OK_D\n", shown)
         self.assertIn("segment 4 done\n", shown)
         self.assertRegex(shown, r"axis 1 completed\n")
-        self.assertRegex(shown, r"done: x 0 mm, y 0 um\n\Z")
+        self.assertRegex(shown, r"done: axis x at 0 mm, axis y at 0 um\n\Z")
 
     def test_path_error_names_file_and_line(self):
         answer = self.refused(2, "INVALID_REQUEST", "path", "-", stdin="1=1mm 2=1mm\n\n1=1mm 2\n")
@@ -169,7 +169,7 @@ class WithDaemon(unittest.TestCase):
     def test_stop_in_mid_move(self):
         move = self.daemon.start("move", "x=8mm", "--speed", "1mm/s")
         move.until("RUNNING")
-        self.assertRegex(self.ok("stop"), r"(?m)^x: replied OK, stationary at ")
+        self.assertRegex(self.ok("stop"), r"(?m)^axis x: replied OK, stationary at ")
         self.assertEqual(move.end(), 1)
         self.assertRegex(move.errors, r"\Aaxisctl: STOPPED: [^\n]+\n\Z")
 
@@ -179,7 +179,7 @@ class WithDaemon(unittest.TestCase):
         self.ok("stop", "x")
 
     def test_emergency_stop_latches_until_cleared(self):
-        self.assertIn("latched", self.ok("estop"))
+        self.assertIn("nothing moves until `axisctl clear`", self.ok("estop"))
         self.assertEqual(self.daemon.run("move", "x=1mm").returncode, 3)
         self.ok("clear")
 

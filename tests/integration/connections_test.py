@@ -80,7 +80,7 @@ class WithDaemon(unittest.TestCase):
         """Ends the running `move`, too."""
         answer = self.daemon.run("stop")
         self.assertEqual((answer.returncode, answer.stderr), (0, ""))
-        self.assertRegex(answer.stdout, r"(?m)^1: replied OK, stationary at ")
+        self.assertRegex(answer.stdout, r"(?m)^axis 1: replied OK, stationary at ")
         self.assertEqual(move.end(), 1)
         self.assertRegex(move.errors, r"\Aaxisctl: STOPPED: ")
 

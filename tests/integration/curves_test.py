@@ -65,26 +65,26 @@ class OnAStage(unittest.TestCase):
 
 class Curves(OnAStage):
     def test_a_line_and_arcs(self):
-        self.done("x 0.1 mm, y -50 um", "line", "1=0.1mm", "2=-50um", "--speed", "1mm/s")
-        self.done("x 0.15 mm, y 0 um", "arc", "around", "1=0", "2=50um", "ccw", "90deg", "--speed", "1mm/s")
-        self.done("x 0.2 mm, y 20 um", "arc", "through", "x=20um", "y=30", "to", "x=0.05", "y=20", "speed=1mm/s")
-        self.done("x 0.15 mm, y 0 um", "arc", "through", "1=0.18mm", "2=30um", "to", "1=0.15mm", "2=0", "--absolute",
+        self.done("axis x at 0.1 mm, axis y at -50 um", "line", "1=0.1mm", "2=-50um", "--speed", "1mm/s")
+        self.done("axis x at 0.15 mm, axis y at 0 um", "arc", "around", "1=0", "2=50um", "ccw", "90deg", "--speed", "1mm/s")
+        self.done("axis x at 0.2 mm, axis y at 20 um", "arc", "through", "x=20um", "y=30", "to", "x=0.05", "y=20", "speed=1mm/s")
+        self.done("axis x at 0.15 mm, axis y at 0 um", "arc", "through", "1=0.18mm", "2=30um", "to", "1=0.15mm", "2=0", "--absolute",
                   "--speed", "1mm/s")
         self.assertTrue(any(line.startswith("EP:1A1") for line in self.written()), self.written())
 
     def test_a_helix(self):
-        self.done("x 0 mm, y 0 um, 3 -20 um", "arc", "around", "1=0", "2=50um", "cw", "2turns", "rise", "3=-10um",
+        self.done("axis x at 0 mm, axis y at 0 um, axis 3 at -20 um", "arc", "around", "1=0", "2=50um", "cw", "2turns", "rise", "3=-10um",
                   "--speed", "1mm/s")
 
     def test_a_path_of_both_with_a_rest(self):
         path = "1=0.1mm 2=0\naround 1=0 2=50um ccw 180deg   # to the other side\nrest=0.5s 1=-0.1mm 2=0\n"
         begin = time.monotonic()
-        self.done("x 0 mm, y 100 um", "path", "-", "--speed", "1mm/s", stdin=path)
+        self.done("axis x at 0 mm, axis y at 100 um", "path", "-", "--speed", "1mm/s", stdin=path)
         self.assertGreaterEqual(time.monotonic() - begin, 0.5)
 
     def test_the_whole_curve_stays_within_the_travel(self):
         self.refused(3, "OUTSIDE_TRAVEL", "arc", "around", "1=0.2mm", "2=0", "cw", "1turn")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 
     def test_three_points_on_one_line_are_no_arc(self):
         self.assertIn("lie on one line", self.refused(3, "INVALID_REQUEST", "arc", "through", "1=1um", "2=1um", "to",
@@ -134,7 +134,7 @@ class Typed(OnAStage):
         told = self.refused(3, "NOT_ALLOWED", "path", "-", stdin="1=1um\n1=1um inputs=5\n")
         self.assertIn("segment 2", told)
         self.assertIn("wait_for_inputs", told)
-        self.assertEqual(self.ok("position").splitlines()[0], "x  0 mm")
+        self.assertEqual(self.ok("position").splitlines()[0], "axis x  0 mm")
 
 
 class WithInputs(OnAStage):
@@ -148,18 +148,18 @@ class WithInputs(OnAStage):
             path = self.daemon.start("path", file.name, "--speed", "1mm/s")
             self.addCleanup(path.kill)
             path.until("segment 1 done")
-        self.assertEqual(self.ok("position").splitlines()[0], "x  0.1 mm")
+        self.assertEqual(self.ok("position").splitlines()[0], "axis x  0.1 mm")
         self.assertEqual(self.ok("sim", "inputs", "5"), "OK\n")
-        self.assertEqual(path.until("done: "), "done: x 0.3 mm, y 0 um")
+        self.assertEqual(path.until("done: "), "done: axis x at 0.3 mm, axis y at 0 um")
         self.assertEqual(path.end(), 0)
 
 
 class Approach(OnAStage):
     def test_the_target_is_reached_from_one_side(self):
-        self.done("x 0.1 mm, y -50 um", "move", "1=0.1mm", "2=-50um", "--approach=-10um", "--speed", "1mm/s")
+        self.done("axis x at 0.1 mm, axis y at -50 um", "move", "1=0.1mm", "2=-50um", "--approach=-10um", "--speed", "1mm/s")
         # Beyond the targets first, by 1000 pulses of 10 nm.
         self.assertTrue(any(re.match(r"[AM]P?:A\+P11000-P4000", line) for line in self.written()), self.written())
-        self.done("x 0.05 mm", "move", "1=0.05mm", "--approach", "0.01", "--speed", "1mm/s")
+        self.done("axis x at 0.05 mm", "move", "1=0.05mm", "--approach", "0.01", "--speed", "1mm/s")
 
     def test_it_stays_within_the_travel_and_is_not_0(self):
         self.refused(3, "OUTSIDE_TRAVEL", "move", "1=0.295mm", "--approach=-10um")
@@ -171,7 +171,7 @@ class Scans(OnAStage):
     def test_what_a_scan_came_to_and_the_trigger_afterwards(self):
         self.ok("trigger", "every", "500", "--axis", "2")
         told = self.ok("scan", "x", "0mm", "0.1005mm", "--every", "1000").splitlines()[-1]
-        ran = re.fullmatch(r"done: x (\S+) mm; x ran from (\S+) mm to (\S+) mm; "
+        ran = re.fullmatch(r"done: axis x at (\S+) mm; axis x ran from (\S+) mm to (\S+) mm; "
                            r"11 trigger pulses expected in the range, (\d+) in all; "
                            r"(\d+) computed from the observed displacement", told)
         self.assertTrue(ran, told)
@@ -197,7 +197,7 @@ class Scans(OnAStage):
         self.refused(3, "OUTSIDE_TRAVEL", "scan", "x", "0mm", "0.3mm", "--every", "100")  # it slows down behind it
         self.refused(3, "UNKNOWN_UNIT", "scan", "x", "0deg", "1deg", "--every", "100")
         self.refused(2, "UNKNOWN_AXIS", "scan", "w", "0mm", "1mm", "--every", "100")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 
 
 if __name__ == "__main__":

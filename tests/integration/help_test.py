@@ -21,7 +21,7 @@ name = "stage"
 connection = "simulated"
 """
 
-ENDLESS = "# until Ctrl-C"
+ENDLESS = "until Ctrl-C"
 TOPICS = ("units", "paths", "scans", "leases", "settings", "triggers")
 
 

@@ -152,7 +152,7 @@ class Jogs(unittest.TestCase):
         self.assertLess(earliest - renewals[-1], self.limit_s())
         os.kill(jog.process.pid, signal.SIGCONT)
         self.assertEqual(jog.end(), 1)
-        self.assertRegex(jog.errors, r"\Aaxisctl: STOPPED: [^\n]*silent for 500 ms; now at x [^\n]*\n\Z")
+        self.assertRegex(jog.errors, r"\Aaxisctl: STOPPED: [^\n]*silent for 500 ms; now axis x at [^\n]*\n\Z")
         self.assertEqual(self.place(), int(motion["results"][0]["command_pulses"]))
 
     def test_a_halted_caller_at_9600_baud(self):
@@ -177,7 +177,7 @@ class Jogs(unittest.TestCase):
             with self.subTest(number.name):
                 jog = self.jog(*axes)
                 jog.process.send_signal(number)
-                self.assertRegex(jog.until("done"), "^done: x ")
+                self.assertRegex(jog.until("done"), "^done: .*axis x at ")
                 self.assertEqual((jog.end(), jog.errors), (0, ""))
                 motion = self.outcome()
                 self.assertEqual(motion["state"], "MOTION_STATE_SUCCEEDED", motion)
@@ -222,7 +222,7 @@ class Jogs(unittest.TestCase):
             with self.subTest(word):
                 wrong = self.daemon.run("jog", word)
                 self.assertEqual(wrong.returncode, 2)
-                self.assertEqual(wrong.stderr, f'axisctl: INVALID_REQUEST: "{word}" is not AXIS=+ or AXIS=- (as 1=+ 2=-; '
+                self.assertEqual(wrong.stderr, f'axisctl: INVALID_REQUEST: "{word}" is not AXIS=+ or AXIS=- (e.g. 1=+ 2=-; '
                                                "`axisctl move` moves by a distance)\n")
         self.assertEqual(self.daemon.run("jog", "w=+").returncode, 2)
         self.assertNotRegex(self.recording(), '> "(J|G):')

@@ -69,7 +69,7 @@ class Leases(unittest.TestCase):
         refused = self.daemon.run("move", "1=1mm")
         self.assertEqual(refused.returncode, 3)
         self.assertRegex(refused.stderr, rf"\Aaxisctl: LEASE_HELD: {STRANGER} has held axis 1 for \d+ s "
-                                         r"\(\"scan of sample 12\"\) \(wait for your turn \(--wait\)[^\n]*\n\Z")
+                                         r"\(\"scan of sample 12\"\) \(to wait, add --wait SECONDS[^\n]*\n\Z")
         self.assertEqual(self.daemon.run("move", "2=1mm").returncode, 0)
         self.assertEqual(self.daemon.run("position").returncode, 0)
 
@@ -78,7 +78,7 @@ class Leases(unittest.TestCase):
                  f"{BIN}/axisctl --target {self.daemon.socket} exec 'D:1S100F1000R100'"
         ran = self.run_as_stranger("lease", "run", "--", "sh", "-c", script)
         self.assertEqual((ran.returncode, ran.stderr), (0, ""), ran.stdout)
-        self.assertIn("done: 1 1000 um", ran.stdout)
+        self.assertIn("done: axis 1 at 1000 um", ran.stdout)
 
     def test_the_commands_exit_code(self):
         self.assertEqual(self.run_as_stranger("lease", "run", "--", "sh", "-c", "exit 7").returncode, 7)
@@ -91,9 +91,9 @@ class Leases(unittest.TestCase):
     def test_one_who_waits_gets_it_next(self):
         holder = self.hold("--axes", "1")
         waiting = self.daemon.start("move", "1=1mm", "--wait", "60")
-        self.await_board(r"1\. unix \S+ waits")
+        self.await_board(r"unix \S+ waits since [^\n]*  place 1 in the queue")
         holder.process.terminate()  # passed on to its command
-        waiting.until("done: 1 1000 um")
+        waiting.until("done: axis 1 at 1000 um")
         self.assertEqual(waiting.end(), 0)
         self.assertRegex(waiting.errors, "has held axis 1 .*; waiting")
 
@@ -103,6 +103,17 @@ class Leases(unittest.TestCase):
         self.assertEqual(moved.returncode, 0, moved.stderr)
         self.assertIn("; waiting", moved.stderr)
 
+    def test_ctrl_c_leaves_a_motion_running_also_with_wait(self):
+        moving = self.daemon.start("move", "1=1mm", "--wait", "60")
+        moving.until("RUNNING")
+        moving.process.send_signal(signal.SIGINT)
+        self.assertEqual(moving.end(), 130)
+        self.assertIn("the motion continues", moving.errors)
+        deadline = time.monotonic() + LIMIT_S
+        while "axis 1  1000 um\n" not in self.daemon.run("position").stdout:
+            self.assertLess(time.monotonic(), deadline, "the motion has not continued")
+            time.sleep(0.05)  # between two looks; the deadline above decides
+
     def test_handing_over(self):
         script = f"echo held; until {BIN}/axisctl --target {self.daemon.socket} lease list | grep -q waits; " \
                  f"do sleep 0.05; done; {BIN}/axisctl --target {self.daemon.address()} lease hand-over \"$0\""
@@ -110,7 +121,7 @@ class Leases(unittest.TestCase):
         holder.until("held")
         waiting = self.daemon.start("move", "1=1mm", "--wait", "60")
         holder.until("handed over to unix")
-        waiting.until("done: 1 1000 um")
+        waiting.until("done: axis 1 at 1000 um")
         self.assertEqual(waiting.end(), 0)
         self.assertEqual(holder.end(), 0)
 
@@ -131,7 +142,7 @@ class Leases(unittest.TestCase):
         took = self.daemon.run("lease", "run", "--take-over", "--", BIN / "axisctl", "--target", self.daemon.socket,
                                "move", "1=0mm")
         self.assertEqual(took.returncode, 0, took.stderr)
-        self.assertIn("done: 1 0 um", took.stdout)
+        self.assertIn("done: axis 1 at 0 um", took.stdout)
         moving.end()
         self.assertRegex(moving.errors, "STOPPED: ")
 
@@ -152,7 +163,7 @@ class Leases(unittest.TestCase):
         scan.until("done")
         self.assertEqual(self.daemon.run("stop").returncode, 0)
         scan.end()
-        self.assertRegex(scan.errors, r"STOPPED_BY: unix \S+ stopped axis 1 \d+ s ago: nothing moves there until you rearm"
+        self.assertRegex(scan.errors, r"STOPPED_BY: unix \S+ stopped axis 1 \(\d+ s ago\): your motions there are refused until you rearm"
                                       r"|STOPPED: stopped by unix")
 
     def test_rearm(self):
@@ -161,10 +172,14 @@ class Leases(unittest.TestCase):
         move = ["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("move", "1=1mm")]
         stopped = subprocess.run(move, capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(stopped.returncode, 3)
-        self.assertRegex(stopped.stderr, "STOPPED_BY: unix .* nothing moves there until you rearm")
+        self.assertRegex(stopped.stderr, "STOPPED_BY: unix .* your motions there are refused until you rearm")
+        outside = self.daemon.run("rearm")
+        self.assertRegex(outside.stdout, rf"\Athis terminal has no latch; a lease of {STRANGER} has one on axis 1: to end it, "
+                                         r"run `axisctl rearm` inside its `axisctl lease run`\n\Z")
         rearmed = subprocess.run(["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("rearm")],
                                  capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(rearmed.stdout, "axis 1 may move again\n")
+        self.assertEqual(self.daemon.run("rearm").stdout, "there is no latch\n")
         self.assertEqual(subprocess.run(move, capture_output=True, timeout=LIMIT_S, check=False).returncode, 0)
 
     def test_a_token_that_is_none(self):

@@ -69,15 +69,16 @@ class Positions(unittest.TestCase):
         self.assertEqual(self.ok("positions"), "no saved positions\n")
         self.assertEqual(self.ok("--json", "positions"), "")
         self.ok("move", "x=1.5", "2=200um")
-        self.assertEqual(self.ok("save", "sample"), "sample: x 1.5 mm, 2 200 um, 3 0 um\n")
+        self.assertEqual(self.ok("save", "sample"), "sample: axis x at 1.5 mm, axis 2 at 200 um, axis 3 at 0 um\n")
         self.ok("move", "x=0", "2=0")
         self.assertRegex(self.ok("positions"),
-                         r"\Asample  place 1  x 1\.5 mm, 2 200 um, 3 0 um  saved \d{4}-\d\d-\d\d \d\d:\d\d:\d\d by "
+                         r"\Asample  place 1  axis x at 1\.5 mm, axis 2 at 200 um, axis 3 at 0 um  saved "
+                         r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d by "
                          r"\w+ \S+\n\Z")
         shown = self.ok("go", "sample")
-        self.assertEqual(shown.splitlines()[-1], "done: x 1.5 mm, 2 200 um, 3 0 um")
+        self.assertEqual(shown.splitlines()[-1], "done: axis x at 1.5 mm, axis 2 at 200 um, axis 3 at 0 um")
         self.assertRegex(shown, r"axis 1 completed")
-        self.assertEqual(self.at(), "x  1.5 mm")
+        self.assertEqual(self.at(), "axis x  1.5 mm")
         self.assertEqual(self.ok("forget", "sample"), "OK\n")
         self.refused(3, "NOT_FOUND", "go", "sample")
         self.refused(3, "NOT_FOUND", "forget", "sample")
@@ -108,7 +109,7 @@ class Positions(unittest.TestCase):
         self.ok("save", "sample")
         self.ok("move", "x=0")
         self.ok("go", "sample")
-        self.assertEqual(self.at(), "x  1 mm")
+        self.assertEqual(self.at(), "axis x  1 mm")
         self.refused(3, "INVALID_REQUEST", "save", "a.b")
         self.refused(2, "INVALID_REQUEST", "save")
 
@@ -119,9 +120,9 @@ class Positions(unittest.TestCase):
         self.ok("move", "x=3")
         self.ok("zero", "x")
         self.ok("go", "place")
-        self.assertEqual(self.at(), "x  -2 mm")
+        self.assertEqual(self.at(), "axis x  -2 mm")
         self.ok("go", "numbers")
-        self.assertEqual(self.at(), "x  1 mm")
+        self.assertEqual(self.at(), "axis x  1 mm")
 
     def test_travel_limits_hold(self):
         self.ok("preset", "x=6mm")
@@ -139,9 +140,9 @@ class Positions(unittest.TestCase):
         told = self.refused(3, "EPOCH_PASSED", "go", "place")
         self.assertRegex(told, r'"place" is not there any more: .*PIT:.* came back \d+ s ago.*restarted.*'
                                r'axisctl save place\)')
-        self.assertEqual(self.at(), "x  0 mm")
+        self.assertEqual(self.at(), "axis x  0 mm")
         self.ok("go", "numbers")
-        self.assertEqual(self.at(), "x  1 mm")
+        self.assertEqual(self.at(), "axis x  1 mm")
         self.ok("save", "place")
         self.ok("go", "place")
         self.reset()

@@ -160,14 +160,14 @@ class OfAxes(OnAStage):
         self.ok("move", "x=0.1mm")
         epoch = self.frame_epoch()
         self.done("zero", "x")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
         self.assertGreater(self.frame_epoch(), epoch)
         self.done("unzero", "x")
-        self.assertEqual(self.ok("position"), "x  0.1 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0.1 mm\naxis y  0 um\naxis 3  0 um\n")
         self.done("preset", "1=0.5", "2=-20um")
-        self.assertEqual(self.ok("position"), "x  0.5 mm\ny  -20 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0.5 mm\naxis y  -20 um\naxis 3  0 um\n")
         self.done("zero")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 
     def frame_epoch(self):
         return int(json.loads(self.ok("--json", "status"))["frame_epoch"])
@@ -179,7 +179,7 @@ class OfAxes(OnAStage):
         self.refused(2, "UNKNOWN_UNIT", "preset", "x=1inch")
         self.refused(2, "INVALID_REQUEST", "preset", "x")
         self.refused(2, "UNKNOWN_AXIS", "zero", "w")
-        self.assertEqual(self.ok("position"), "x  0 mm\ny  0 um\n3  0 um\n")
+        self.assertEqual(self.ok("position"), "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n")
 
 
 class OfTheController(OnAStage):
@@ -226,7 +226,7 @@ class OfTheController(OnAStage):
         self.done("speed", "1", "--maximum", "1mm")
         self.done("reset")
         self.until_controller_says("?:D", "S1000F50000R100,S1000F50000R100,S1000F50000R100")
-        self.until(lambda: self.daemon.run("position").stdout == "x  0 mm\ny  0 um\n3  0 um\n", "not at 0")
+        self.until(lambda: self.daemon.run("position").stdout == "axis x  0 mm\naxis y  0 um\naxis 3  0 um\n", "not at 0")
 
 
 class Signals(OnAStage):

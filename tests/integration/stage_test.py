@@ -87,7 +87,7 @@ class Stages(unittest.TestCase):
 
     def test_the_stage_that_is_there_moves_within_its_stroke(self):
         self.serve()
-        self.assertRegex(self.ok("move", "x=-5"), r"done: x -5 mm")
+        self.assertRegex(self.ok("move", "x=-5"), r"done: axis x at -5 mm")
         self.assertIn("beyond its travel minimum of -5mm", self.refused("OUTSIDE_TRAVEL", "move", "x=-5.00001mm"))
         self.assertIn("beyond its travel maximum of 4mm", self.refused("OUTSIDE_TRAVEL", "move", "x=4.00001mm"))
         self.assertIn("5mm/s at most", self.refused("TOO_FAST", "move", "x=0", "--speed", "6mm/s"))
@@ -123,15 +123,15 @@ class Stages(unittest.TestCase):
 
     def test_a_turn_is_shown_and_nothing_is_wrapped(self):
         self.serve()
-        self.assertRegex(self.ok("move", "turn=12.5deg"), r"done: turn 12\.5 deg\n\Z")
-        self.assertIn("turn  12.5 deg (2.5 deg in the turn)\n", self.ok("position"))
+        self.assertRegex(self.ok("move", "turn=12.5deg"), r"done: axis turn at 12\.5 deg\n\Z")
+        self.assertIn("axis turn  12.5 deg (2.5 deg in the turn)\n", self.ok("position"))
         turn = self.axis(2)
         self.assertEqual((turn["position"], turn["position_in_turn"]), ("12.5", "2.5"))
         self.assertEqual(turn["position_pulses"], "1250000")
         self.ok("move", "turn=-0.5")
-        self.assertIn("turn  -0.5 deg (4.5 deg in the turn)\n", self.ok("position"))
+        self.assertIn("axis turn  -0.5 deg (4.5 deg in the turn)\n", self.ok("position"))
         self.ok("move", "turn=2")
-        self.assertIn("turn  2 deg\n", self.ok("position"))
+        self.assertIn("axis turn  2 deg\n", self.ok("position"))
         self.assertRegex(self.refused("NOT_REPRESENTABLE", "move", "turn=0.000015deg"),
                          r"the nearest are 0\.00001deg and 0\.00002deg")
         self.assertRegex(self.refused("NOT_REPRESENTABLE", "speed", "turn", "--maximum", "0.000015deg"),
@@ -151,8 +151,8 @@ class Stages(unittest.TestCase):
         check = subprocess.run([BIN / "axisgated", "--check-config", "--config", config], capture_output=True, text=True,
                                timeout=LIMIT_S, check=False)
         self.assertEqual(check.returncode, 2)
-        self.assertEqual(check.stderr, f"{self.folder}/stages/turns.toml:3: pulse: is in um, and the stage turns; use the "
-                                       "way of one pulse as a text in quotes, \"0.0025deg\"\n")
+        self.assertEqual(check.stderr, f"{self.folder}/stages/turns.toml:3: pulse: is in um, and the stage turns; use the displacement "
+                                       "of one pulse as a text in quotes, \"0.0025deg\"\n")
 
     def test_the_example_of_the_configuration_names_a_profile_that_is_there(self):
         example = (ROOT / "deploy" / "axisgate.toml").read_text(encoding="utf-8")
