@@ -135,7 +135,7 @@ void Strokes::add(const Point& from, const Point& to, bool cuts) {
 int Strokes::shade(const Stroke& stroke) const {
   if (!stroke.cuts) return 0;
   const double deepest = std::min(stroke.from[2], stroke.to[2]);
-  if (deepest >= 0 || lowest_ >= 0) return 1;
+  if (lowest_ >= 0) return 1;  // nothing is below the surface
   return std::clamp(static_cast<int>(std::ceil(deepest / lowest_ * (kShades - 1))), 1, kShades - 1);
 }
 

@@ -287,6 +287,11 @@ TEST(Profile, TellsAllErrorsInTheOrderOfTheLines) {
   EXPECT_THAT(errors(text), ElementsAre("2 step_mm", "4 area.x_mm", "35 line.baud"));
 }
 
+// The range that a wrong end would give is no second error.
+TEST(Profile, AWrongSpeedIsOneError) {
+  EXPECT_THAT(errors(with("speed.cutting_maximum", "0")), ElementsAre("18 speed.cutting_maximum"));
+}
+
 TEST(Profile, TellsWhereTheFileIsNoToml) { EXPECT_THAT(errors(changed(5, "y_mm = = 3")), ElementsAre("5 ")); }
 
 TEST(Profile, TellsOfAFileThatIsNotThere) {

@@ -83,6 +83,25 @@ TEST(Hazard, H04_CompletionsLost) {
   EXPECT_FALSE(world.outcomes()[0].results[0].completion_seen);
 }
 
+// Twenty readings in a row may fail; one that makes sense ends the row.
+TEST(Hazard, H04_OneGoodReadingAmongManyBadOnes) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int readings = 0;
+  bool moves = false;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind == LineKind::command && line.starts_with("G:")) moves = true;
+    if (kind == LineKind::notice) return {.drop = true, .delay = {}, .instead = {}};
+    if (!moves || kind != LineKind::reply || world.wire().commands().back() != "Q:SPC") return {};
+    return {.drop = readings++ % 21 != 20 && readings < 60, .delay = {}, .instead = {}};
+  });
+  stage::MoveRequest slow = move_of(world, {{1, 200'000}}, true);
+  slow.moves[0].profile = stage::SpeedProfile{pulses(500), pulses(1000), 100};
+  world.controller().move(slow, world.now(), [](Result<Motion>) {});
+  EXPECT_EQ(outcome_of(world, 1, std::chrono::minutes(10)).state, MotionState::succeeded) << world.replay();
+  EXPECT_GT(readings, 42) << world.replay();
+}
+
 TEST(Hazard, H05_HomeOfTwoAxesEndsTheSecondFirst) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

@@ -101,6 +101,25 @@ TEST(Hazard, H17_TheMovingAxisIsSwitchedOff) {
   EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::not_excited) << world.replay();
 }
 
+// Why the axis has stopped is asked after a reading that made sense, and after no other.
+TEST(Hazard, H17_AnUnreadablePositionAsksForNoReason) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  move_by(world, {{1, 500000}});
+  world.run_for(seconds(1));
+  const auto asked = [&world] { return written(world, "?:C") - written(world, "?:CMD"); };
+  const int before = asked();
+  int stationary = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::reply || line.find(",R,R,R") == line.npos) return {};
+    return {.drop = ++stationary == 2, .delay = {}, .instead = {}};
+  });
+  world.device().set_excitation(1, false, world.now());
+  EXPECT_EQ(outcome_of(world, 1).state, MotionState::failed) << world.replay();
+  EXPECT_GT(stationary, 2);
+  EXPECT_EQ(asked() - before, 1) << world.replay();
+}
+
 struct Panel {
   const char* mode;
   const char* format;

@@ -59,6 +59,7 @@ TEST(PacedLine, WithoutPacingEverythingIsAtOnce) {
   host.line.receive("!:\r\n", at(1s));
   EXPECT_EQ(host.text(), "R\r\n");
   EXPECT_EQ(host.line.next_deadline(), std::nullopt);
+  EXPECT_EQ(Pacing().speed, 1) << "its time is the shell's";
 }
 
 // Ten bits a byte: at 10000 baud a byte takes a millisecond.

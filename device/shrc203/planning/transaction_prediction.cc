@@ -115,8 +115,7 @@ Result<void> TransactionPrediction::start(int axis) {
     if (one.relative) {
       if (const auto good = check_extent(axis, one.extent, one.amount); !good) return good;
     }
-    at = one.relative ? *at + one.amount : one.amount;
-    if (const auto good = envelope_.check_target(axis, *at); !good) return good;
+    at = one.relative ? *at + one.amount : one.amount;  // an absolute target was checked when it was set
   }
   if (pending.size() > 1 || uncertain_.has(axis)) at.reset();
   return {};

@@ -109,7 +109,7 @@ std::string describe(Moment::What what, const std::string& text) {
     case What::unexpected:
       return "unexpected " + quoted_bytes(text);
     case What::down:
-      return "gave the line up";
+      return "closed the line";
     case What::barrier:
       return "entered a barrier";
     case What::barrier_passed:
