@@ -216,7 +216,7 @@ Reason ask_devices(World& world, RequestKind kind, const Call& call) {
 }
 
 Reason ask_readers(World& world, RequestKind kind, const Call& call) {
-  const DoorReport door{"", [](const server::Device&, const stage::State&) { return std::string("state\n"); }};
+  const DoorReport door{"", [](const server::Stage&, const stage::State&) { return std::string("state\n"); }};
   switch (kind) {
     case RequestKind::record:
       return reason_of(world.api->diagnostics.record(call, kDevice, false, false));

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <filesystem>
@@ -148,7 +149,7 @@ class World {
 
   static Call by(const std::string& who) { return {.credential = {.who = who}}; }
 
-  server::Device& device() { return *gateway->find("turn"); }
+  server::Stage& device() { return *gateway->find_stage("turn"); }
   stage::State state() { return *device().newest_state().get().value; }
 
   // Runs it on the device's strand, and waits for it.
@@ -164,12 +165,13 @@ class World {
 
   // The token of a lease over all axes.
   server::LeaseToken lease_of(const std::string& who) {
-    server::LeaseToken token = 0;
+    // Answered at once, or when somebody else's axes come free: after this function has returned.
+    const auto token = std::make_shared<std::atomic<server::LeaseToken>>(0);
     on_strand([&](stage::StageController&, TimePoint now) {
       device().leases().acquire({.axes = stage::AxisSet::all()}, who, false, now, now,
-                                [&](const Result<server::Lease>& lease) { token = lease ? lease->token : 0; });
+                                [token](const Result<server::Lease>& lease) { *token = lease ? lease->token : 0; });
     });
-    return token;
+    return *token;
   }
 
   // Somebody else stops what `who` moves: nothing moves for `who` until rearm.
