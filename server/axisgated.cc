@@ -97,7 +97,7 @@ int serve(const server::Config& config) {
   }
   spdlog::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
-    spdlog::info("device {}: SHRC-203 on {}", device->name(), device->line_description());
+    spdlog::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
   }
   spdlog::default_logger()->flush();
   gateway.start();

@@ -36,8 +36,10 @@ Gateway::Gateway(const Config& config, std::uint32_t generation)
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, Strand(lines_.get_executor()));
-    devices_.push_back(std::make_unique<Device>(device, std::move(line), Strand(lines_.get_executor()), events_,
-                                                metrics_, posting_to(readers_), lease_tokens_));
+    auto stage = std::make_unique<Stage>(device, std::move(line), Strand(lines_.get_executor()), events_, metrics_,
+                                         posting_to(readers_), lease_tokens_);
+    stages_.push_back(stage.get());
+    devices_.push_back(std::move(stage));
   }
 }
 
@@ -74,17 +76,15 @@ void Gateway::wind_down(std::function<void()> done) {
 }
 
 Duration Gateway::wind_down_limit() const {
-  using stage::StageController;
-  const bool finishes = std::ranges::any_of(
-      devices_, [](const auto& device) { return device->profile().at_exit == stage::AtExit::finish; });
-  return StageController::kStopLimit + kLastExchangeLimit +
-         (finishes ? StageController::kFinishLimit : Duration::zero());
+  Duration longest{};
+  for (const auto& device : devices_) longest = std::max(longest, device->wind_down_limit());
+  return longest + kLastExchangeLimit;
 }
 
-Device* Gateway::find(std::string_view name) const {
+Stage* Gateway::find_stage(std::string_view name) const {
   const auto found =
-      std::find_if(devices_.begin(), devices_.end(), [&](const auto& device) { return device->name() == name; });
-  return found == devices_.end() ? nullptr : found->get();
+      std::ranges::find(stages_, name, [](const Stage* stage) { return std::string_view(stage->name()); });
+  return found == stages_.end() ? nullptr : *found;
 }
 
 void Gateway::after(Duration wait, std::function<void()> task) {

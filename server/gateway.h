@@ -13,6 +13,7 @@
 #include "server/access/leases.h"
 #include "server/config/config.h"
 #include "server/devices/device.h"
+#include "server/devices/stage.h"
 #include "server/events/event_bus.h"
 #include "server/metrics/metrics.h"
 
@@ -45,7 +46,9 @@ class Gateway {
   EventBus& events() { return events_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
-  Device* find(std::string_view name) const;  // null when there is none
+  // Those of them that are stages.
+  const std::vector<Stage*>& stages() const { return stages_; }
+  Stage* find_stage(std::string_view name) const;  // null when there is none
 
   // Calls `task` once on the readers' thread.
   void after(Duration wait, std::function<void()> task);
@@ -63,6 +66,7 @@ class Gateway {
   Metrics metrics_;
   EventBus events_;
   std::vector<std::unique_ptr<Device>> devices_;
+  std::vector<Stage*> stages_;  // of devices_
   std::vector<std::unique_ptr<RecordingFile>> recording_files_;
   std::thread lines_thread_;
   std::thread readers_thread_;

@@ -51,7 +51,7 @@ Problem timed_out(Duration timeout) {
 // One transaction under way.
 class Execution final : public Subscription<ExecuteEvent> {
  public:
-  Execution(server::Gateway& gateway, server::Device& device, stage::ExecuteRequest request, Duration timeout,
+  Execution(server::Gateway& gateway, server::Stage& device, stage::ExecuteRequest request, Duration timeout,
             Streams::Place place)
       : Subscription(std::move(place)),
         gateway_(gateway),
@@ -98,7 +98,7 @@ class Execution final : public Subscription<ExecuteEvent> {
   }
 
   server::Gateway& gateway_;
-  server::Device& device_;
+  server::Stage& device_;
   stage::ExecuteRequest request_;  // on the device's strand
   const Duration timeout_;
   // Bounded by the transaction: a reply for each of its lines and a completion for each axis they move.
@@ -109,7 +109,7 @@ class Execution final : public Subscription<ExecuteEvent> {
 }  // namespace
 
 Result<std::vector<stage::CommandInfo>> Commands::list(const Call& call, std::string_view device) const {
-  const auto admitted = pipeline_.admit({RequestKind::list_commands, call, find_device(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::list_commands, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   return admitted->device->kind().commands();
 }
@@ -124,7 +124,7 @@ Result<void> Commands::check(const Transaction& transaction, const server::Calle
 }
 
 Opened<ExecuteEvent> Commands::execute(const Call& call, std::string_view device, Transaction transaction) const {
-  Result<Admitted> admitted = pipeline_.admit({RequestKind::execute, call, find_device(gateway_, device)});
+  Result<Admitted> admitted = pipeline_.admit({RequestKind::execute, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   if (const auto good = check(transaction, admitted->caller); !good) return tl::unexpected(good.error());
   if (call.validate_only) {

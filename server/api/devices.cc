@@ -13,7 +13,7 @@ namespace {
 // The newest state, no more often than asked.
 class DeviceWatch final : public Subscription<DeviceState> {
  public:
-  DeviceWatch(server::Gateway& gateway, server::Device& device, Duration min_interval, Streams::Place place)
+  DeviceWatch(server::Gateway& gateway, server::Stage& device, Duration min_interval, Streams::Place place)
       : Subscription(std::move(place)), gateway_(gateway), device_(device), min_interval_(min_interval) {}
 
  private:
@@ -47,7 +47,7 @@ class DeviceWatch final : public Subscription<DeviceState> {
   }
 
   server::Gateway& gateway_;
-  server::Device& device_;
+  server::Stage& device_;
   const Duration min_interval_;
   std::optional<std::uint64_t> taken_;  // the version that was taken last
   TimePoint earliest_{};                // for the next one
@@ -60,13 +60,13 @@ Result<std::vector<DeviceState>> Devices::list(const Call& call) const {
   const auto caller = admission_.check_role(RequestKind::list_devices, call.credential);
   if (!caller) return tl::unexpected(caller.error());
   std::vector<DeviceState> all;
-  for (const auto& device : gateway_.devices()) all.push_back({device.get(), device->newest_state().get().value});
+  for (const auto& device : gateway_.stages()) all.push_back({device, device->newest_state().get().value});
   return all;
 }
 
 void Devices::get(const Call& call, std::string_view device, std::optional<Duration> max_age,
                   Answer<StateNow> answer) const {
-  pipeline_.ask({RequestKind::get_device, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::get_device, call, find_stage(gateway_, device)}, std::move(answer),
                 [max_age](const Turn& turn, const Answer<StateNow>& respond) {
                   if (!max_age) return respond(StateNow{&turn.device, &turn.controller.state()});
                   turn.controller.refresh(*max_age, turn.context, turn.now,
@@ -78,7 +78,7 @@ void Devices::get(const Call& call, std::string_view device, std::optional<Durat
 }
 
 Opened<DeviceState> Devices::watch(const Call& call, std::string_view device, Duration min_interval) const {
-  const auto admitted = pipeline_.admit({RequestKind::watch_device, call, find_device(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::watch_device, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::watch_device);
   if (!place) return tl::unexpected(place.error());
@@ -89,7 +89,7 @@ Opened<DeviceState> Devices::watch(const Call& call, std::string_view device, Du
 void Devices::clear_errors(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                            Answer<void> answer) const {
   pipeline_.run(
-      {RequestKind::clear_errors, call, find_device(gateway_, device), fault_of(axes)}, std::move(answer),
+      {RequestKind::clear_errors, call, find_stage(gateway_, device), fault_of(axes)}, std::move(answer),
       [named = axes.value_or(stage::AxisSet())](const Turn& turn) {
         return controllable_axes(named, turn.controller.state());
       },

@@ -19,13 +19,13 @@ namespace axisgate::api {
 
 // Both are never null; the device is valid as long as the gateway.
 struct DeviceState {
-  const server::Device* device = nullptr;
+  const server::Stage* device = nullptr;
   std::shared_ptr<const stage::State> state;
 };
 
 // Not copied: valid during the call that hands it over.
 struct StateNow {
-  const server::Device* device = nullptr;
+  const server::Stage* device = nullptr;
   const stage::State* state = nullptr;
 };
 

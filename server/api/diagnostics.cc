@@ -12,7 +12,7 @@ namespace {
 
 class RecordingReader final : public Subscription<std::string> {
  public:
-  RecordingReader(server::Device& device, bool skip_kept, bool follow, Streams::Place place)
+  RecordingReader(server::Stage& device, bool skip_kept, bool follow, Streams::Place place)
       : Subscription(std::move(place)), device_(device), skip_kept_(skip_kept), follow_(follow) {}
 
  private:
@@ -44,7 +44,7 @@ class RecordingReader final : public Subscription<std::string> {
     return StreamEnd{};
   }
 
-  server::Device& device_;
+  server::Stage& device_;
   const bool skip_kept_, follow_;
   std::optional<server::DeviceRecorder::Reader> reader_;  // nothing: not begun
   server::RecordingRing::Position end_;                   // of what was kept then
@@ -54,7 +54,7 @@ class RecordingReader final : public Subscription<std::string> {
 }  // namespace
 
 Opened<std::string> Diagnostics::record(const Call& call, std::string_view device, bool skip_kept, bool follow) const {
-  const auto admitted = pipeline_.admit({RequestKind::record, call, find_device(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::record, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::record);
   if (!place) return tl::unexpected(place.error());

@@ -18,7 +18,7 @@ namespace axisgate::api {
 struct DoorReport {
   std::string versions;  // "gRPC 1.51\nprotobuf 3.21\n": lines, each with its \n
   // A device's state as the door shows it to callers.
-  std::function<std::string(const server::Device& device, const stage::State& state)> describe;
+  std::function<std::string(const server::Stage& device, const stage::State& state)> describe;
 };
 
 // Thread safe. Both streams are of text: whole lines, each with its \n.

@@ -51,8 +51,7 @@ bool Jog::renew(const Result<JogAxes>& axes) {
 }
 
 Result<void> Jog::post_start(const Call& call, std::string_view device, const Result<JogAxes>& axes) {
-  const auto admitted =
-      pipeline_.admit({RequestKind::jog, call, find_device(gateway_, device), check_directions(axes)});
+  const auto admitted = pipeline_.admit({RequestKind::jog, call, find_stage(gateway_, device), check_directions(axes)});
   if (!admitted) return tl::unexpected(admitted.error());
   {
     const std::lock_guard lock(mutex_);
@@ -65,7 +64,7 @@ Result<void> Jog::post_start(const Call& call, std::string_view device, const Re
   return {};
 }
 
-void Jog::begin_on(server::Device& device, StageController& controller, stage::JogRequest request, TimePoint now) {
+void Jog::begin_on(server::Stage& device, StageController& controller, stage::JogRequest request, TimePoint now) {
   {
     const std::lock_guard lock(mutex_);
     over_ = over_ || broken_off_;
@@ -78,7 +77,7 @@ void Jog::begin_on(server::Device& device, StageController& controller, stage::J
   });
 }
 
-Result<void> Jog::post_renewal(server::Device& device, const Result<JogAxes>& axes) {
+Result<void> Jog::post_renewal(server::Stage& device, const Result<JogAxes>& axes) {
   if (!axes) return tl::unexpected(axes.error());
   device.post([self = self<Jog>(), axes = request_axes(*axes)](StageController& controller, TimePoint now) {
     if (self->motion_ == 0 || self->over_) return;
@@ -106,7 +105,7 @@ bool Jog::refuse(const Problem& problem) {
 }
 
 void Jog::stop(std::optional<Problem> why) {
-  server::Device* const jogged = device();
+  server::Stage* const jogged = device();
   if (jogged == nullptr) {
     return end({.reason = Reason::invalid_request,
                 .message = "the jog names no device and no axis",
@@ -118,7 +117,7 @@ void Jog::stop(std::optional<Problem> why) {
   });
 }
 
-server::Device* Jog::device() {
+server::Stage* Jog::device() {
   const std::lock_guard lock(mutex_);
   return jogged_;
 }

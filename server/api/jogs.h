@@ -43,15 +43,15 @@ class Jog final : public MotionSubscription {
 
  private:
   Result<void> post_start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes);
-  Result<void> post_renewal(server::Device& device, const Result<std::vector<JogAxis>>& axes);
-  void begin_on(server::Device& device, stage::StageController& controller, stage::JogRequest request, TimePoint now);
+  Result<void> post_renewal(server::Stage& device, const Result<std::vector<JogAxis>>& axes);
+  void begin_on(server::Stage& device, stage::StageController& controller, stage::JogRequest request, TimePoint now);
   bool refuse(const Problem& problem);
   void stop(std::optional<Problem> why);
-  server::Device* device();
+  server::Stage* device();
 
   const Pipeline& pipeline_;
-  server::Device* jogged_ = nullptr;  // under mutex_; null: no message yet
-  bool broken_off_ = false;           // under mutex_
+  server::Stage* jogged_ = nullptr;  // under mutex_; null: no message yet
+  bool broken_off_ = false;          // under mutex_
 
   // On the device's strand.
   stage::MotionId motion_ = 0;  // 0: none

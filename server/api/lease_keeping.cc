@@ -7,14 +7,14 @@
 namespace axisgate::api {
 
 void LeaseKeeping::keep(std::string_view device, server::LeaseToken token) {
-  const Result<server::Device*> found = find_device(gateway_, device);
+  const Result<server::Stage*> found = find_stage(gateway_, device);
   if (!found) return end({found.error()});
   (*found)->post([self = self<LeaseKeeping>(), &kept_on = **found, token](stage::StageController&, TimePoint now) {
     self->keep_on(kept_on, token, now);
   });
 }
 
-void LeaseKeeping::keep_on(server::Device& device, server::LeaseToken token, TimePoint now) {
+void LeaseKeeping::keep_on(server::Stage& device, server::LeaseToken token, TimePoint now) {
   const Result<server::Lease> lease = device.leases().keep_alive(token, now);
   if (!lease) return end({lease.error()});
   {
@@ -29,7 +29,7 @@ void LeaseKeeping::keep_on(server::Device& device, server::LeaseToken token, Tim
 void LeaseKeeping::finish() { end({}); }
 
 void LeaseKeeping::break_off() {
-  server::Device* device = nullptr;
+  server::Stage* device = nullptr;
   server::LeaseToken token = 0;
   {
     const std::lock_guard lock(mutex_);

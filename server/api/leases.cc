@@ -63,7 +63,7 @@ Answer<std::optional<Lease>> answering(std::shared_ptr<LeaseSeeker> seeker) {
 }
 
 // A caller who has gone meanwhile does not keep what nobody would give back.
-server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::Device& device) {
+server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::Stage& device) {
   return [seeker = std::move(seeker), &device](const Result<Lease>& lease) {
     if (!lease) return static_cast<void>(seeker->answer(tl::unexpected(lease.error())));
     if (seeker->answer(*lease)) return;
@@ -77,7 +77,7 @@ Result<void> nothing_to_check(const Turn&, const LeaseTerms&) { return {}; }
 
 class LeaseWatch final : public Subscription<Board> {
  public:
-  LeaseWatch(server::Device& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
+  LeaseWatch(server::Stage& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
 
  private:
   void begin() override {
@@ -91,7 +91,7 @@ class LeaseWatch final : public Subscription<Board> {
     return newest.value;
   }
 
-  server::Device& device_;
+  server::Stage& device_;
   std::optional<std::uint64_t> taken_;  // the version that was taken last
 };
 
@@ -102,10 +102,10 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
   const Result<LeaseTerms> terms = checked_terms(wish);
   const Result<Duration> waits = terms ? check_span(wait, kWaitMax, "wait") : tl::unexpected(terms.error());
   pipeline_.run(
-      {RequestKind::acquire_lease, call, find_device(gateway_, device), fault_of(waits)}, answering(seeker),
+      {RequestKind::acquire_lease, call, find_stage(gateway_, device), fault_of(waits)}, answering(seeker),
       [terms](const Turn&) { return terms; }, nothing_to_check,
       [seeker, wait = waits.value_or(Duration())](const Turn& turn, const LeaseTerms& wanted, const auto&) {
-        server::Device& here = turn.device;
+        server::Stage& here = turn.device;
         const std::uint64_t id = here.leases().acquire(wanted, turn.context.who, wait > Duration::zero(),
                                                        turn.now + wait, turn.now, handing_to(seeker, here));
         if (id == 0) return;
@@ -119,7 +119,7 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
                        const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);
   pipeline_.run(
-      {RequestKind::take_over_lease, call, find_device(gateway_, device), fault_of(terms)}, answering(seeker),
+      {RequestKind::take_over_lease, call, find_stage(gateway_, device), fault_of(terms)}, answering(seeker),
       [terms](const Turn&) { return terms; }, nothing_to_check,
       [seeker](const Turn& turn, const LeaseTerms& wanted, const auto&) {
         turn.device.leases().take_over(wanted, turn.context.who, turn.now, handing_to(seeker, turn.device));
@@ -127,21 +127,21 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
 }
 
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {
-  pipeline_.ask({RequestKind::release_lease, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::release_lease, call, find_stage(gateway_, device)}, std::move(answer),
                 [token = call.lease](const Turn& turn, const Answer<void>& respond) {
                   respond(turn.device.leases().release(token, turn.now));
                 });
 }
 
 void Leases::hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const {
-  pipeline_.ask({RequestKind::hand_over_lease, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::hand_over_lease, call, find_stage(gateway_, device)}, std::move(answer),
                 [token = call.lease, to](const Turn& turn, const Answer<void>& respond) {
                   respond(turn.device.leases().hand_over(token, to, turn.now));
                 });
 }
 
 void Leases::rearm(const Call& call, std::string_view device, Answer<stage::AxisSet> answer) const {
-  pipeline_.ask({RequestKind::rearm, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::rearm, call, find_stage(gateway_, device)}, std::move(answer),
                 [token = call.lease](const Turn& turn, const Answer<stage::AxisSet>& respond) {
                   respond(turn.device.leases().rearm(token, turn.context.who, turn.now));
                 });
@@ -156,7 +156,7 @@ Result<std::shared_ptr<LeaseKeeping>> Leases::keep_alive(const Call& call) const
 }
 
 Opened<Board> Leases::watch(const Call& call, std::string_view device) const {
-  const auto admitted = pipeline_.admit({RequestKind::watch_leases, call, find_device(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::watch_leases, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::watch_leases);
   if (!place) return tl::unexpected(place.error());

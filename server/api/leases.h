@@ -13,7 +13,7 @@
 #include "server/api/lease_keeping.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
-#include "server/devices/device.h"
+#include "server/devices/stage.h"
 #include "server/gateway.h"
 
 namespace axisgate::api {

@@ -20,7 +20,7 @@ void MotionSubscription::follow_from_now() {
   reader_.go_to_newest();
 }
 
-void MotionSubscription::show(server::Device& device, const Result<stage::Motion>& motion) {
+void MotionSubscription::show(server::Stage& device, const Result<stage::Motion>& motion) {
   if (!motion) return end(motion.error());
   {
     const std::lock_guard lock(mutex_);
@@ -44,7 +44,7 @@ void MotionSubscription::set_due(CurrentMotion motion) {
   due_ = std::move(motion);
 }
 
-void MotionSubscription::look(server::Device& device, stage::MotionId id) {
+void MotionSubscription::look(server::Stage& device, stage::MotionId id) {
   device.post([self = self<MotionSubscription>(), &device, id](stage::StageController& controller, TimePoint) {
     self->follow_from_now();
     self->show(device, find_motion(controller, id));

@@ -19,10 +19,10 @@ namespace axisgate::api {
 // A motion as it is now.
 struct CurrentMotion {
   // On the device's strand.
-  CurrentMotion(server::Device& its_device, stage::Motion its_motion)
+  CurrentMotion(server::Stage& its_device, stage::Motion its_motion)
       : device(its_device.name()), motion(std::move(its_motion)), revision(its_device.motion_revision(motion.id)) {}
   // As a fact had it.
-  CurrentMotion(server::Device& its_device, stage::Motion its_motion, std::uint64_t of_fact)
+  CurrentMotion(server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact)
       : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact) {}
 
   std::string_view device;  // its name in the configuration; valid as long as the gateway
@@ -47,11 +47,11 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   // On the device's strand: no change from now on is missed.
   void follow_from_now();
   // On the device's strand. Follows it from then on; or ends with what kept it from starting.
-  void show(server::Device& device, const Result<stage::Motion>& motion);
+  void show(server::Stage& device, const Result<stage::Motion>& motion);
   // Ends with that problem, after what is due; the first end counts.
   void end(const Problem& problem);
   // Fetches the motion as it is now.
-  void look(server::Device& device, stage::MotionId id);
+  void look(server::Stage& device, stage::MotionId id);
 
   server::Gateway& gateway_;
 
@@ -60,7 +60,7 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   void set_due(CurrentMotion motion);
 
   FactReader reader_;
-  server::Device* device_ = nullptr;  // null: nothing is followed for now
+  server::Stage* device_ = nullptr;  // null: nothing is followed for now
   stage::MotionId followed_ = 0;
   std::optional<CurrentMotion> due_;
   std::optional<StreamEnd> end_;  // after what is due

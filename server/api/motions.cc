@@ -24,7 +24,7 @@ Result<void> check_home(const Turn& turn, const stage::HomeRequest& home) {
 
 }  // namespace
 
-StageController::OnStarted answering(server::Device& device, Answer<StartedMotion> answer) {
+StageController::OnStarted answering(server::Stage& device, Answer<StartedMotion> answer) {
   return [&device, answer = std::move(answer)](Result<stage::Motion> motion) {
     if (!motion) return answer(tl::unexpected(std::move(motion.error())));
     answer(CurrentMotion(device, *std::move(motion)));
@@ -32,7 +32,7 @@ StageController::OnStarted answering(server::Device& device, Answer<StartedMotio
 }
 
 void Motions::move(const Call& call, std::string_view device, Result<Move> move, Answer<StartedMotion> answer) const {
-  const Asked asked{RequestKind::move, call, find_device(gateway_, device), fault_of(move)};
+  const Asked asked{RequestKind::move, call, find_stage(gateway_, device), fault_of(move)};
   pipeline_.run(
       asked, std::move(answer),
       [move = std::move(move)](const Turn& turn) { return completed(*move, turn.controller.state(), turn.context); },
@@ -55,7 +55,7 @@ void Motions::return_to_origin(const Call& call, std::string_view device, const 
 void Motions::begin_home(RequestKind kind, Start start, const Call& call, std::string_view device,
                          const Result<stage::AxisSet>& axes, Answer<StartedMotion> answer) const {
   pipeline_.run(
-      {kind, call, find_device(gateway_, device), fault_of(axes)}, std::move(answer),
+      {kind, call, find_stage(gateway_, device), fault_of(axes)}, std::move(answer),
       [axes = axes.value_or(stage::AxisSet())](const Turn& turn) -> Result<stage::HomeRequest> {
         return stage::HomeRequest{axes, turn.context};
       },
@@ -67,7 +67,7 @@ void Motions::begin_home(RequestKind kind, Start start, const Call& call, std::s
 
 void Motions::scan(const Call& call, std::string_view device, Result<stage::ScanRequest> scan,
                    Answer<StartedMotion> answer) const {
-  const Asked asked{RequestKind::scan, call, find_device(gateway_, device), fault_of(scan)};
+  const Asked asked{RequestKind::scan, call, find_stage(gateway_, device), fault_of(scan)};
   pipeline_.run(
       asked, std::move(answer),
       [scan = std::move(scan)](const Turn& turn) {
@@ -92,7 +92,7 @@ void Motions::get(const Call& call, std::string_view motion, Answer<CurrentMotio
 }
 
 void Motions::list(const Call& call, std::string_view device, Answer<std::vector<CurrentMotion>> answer) const {
-  pipeline_.ask({RequestKind::list_motions, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::list_motions, call, find_stage(gateway_, device)}, std::move(answer),
                 [](const Turn& turn, const Answer<std::vector<CurrentMotion>>& respond) {
                   std::vector<CurrentMotion> all;
                   for (stage::Motion& motion : turn.controller.motions())

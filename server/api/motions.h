@@ -57,6 +57,6 @@ class Motions {
 };
 
 // Answers with the motion, or with what kept it from starting.
-stage::StageController::OnStarted answering(server::Device& device, Answer<StartedMotion> answer);
+stage::StageController::OnStarted answering(server::Stage& device, Answer<StartedMotion> answer);
 
 }  // namespace axisgate::api

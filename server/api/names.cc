@@ -26,14 +26,14 @@ std::string position_name(std::string_view device_of_config, std::string_view po
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kPositions, position);
 }
 
-Result<server::Device*> find_device(const server::Gateway& gateway, std::string_view name) {
+Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_view name) {
   if (!name.starts_with(kDevices)) {
     return fail(Reason::invalid_request, fmt::format("\"{}\" is not the name of a device", escaped(name)),
                 "write \"devices/\" and its name in the configuration, e.g. \"devices/stage\"");
   }
-  if (server::Device* device = gateway.find(name.substr(kDevices.size()))) return device;
+  if (server::Stage* device = gateway.find_stage(name.substr(kDevices.size()))) return device;
   std::string known;
-  for (const auto& device : gateway.devices()) known += (known.empty() ? "" : ", ") + device_name(device->name());
+  for (const auto& device : gateway.stages()) known += (known.empty() ? "" : ", ") + device_name(device->name());
   return fail(Reason::unknown_device, fmt::format("no device is named \"{}\"", escaped(name)), "there is " + known);
 }
 
@@ -50,7 +50,7 @@ Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_
     return fail(Reason::invalid_request, fmt::format("\"{}\" is not the name of a motion", escaped(name)),
                 "take it from Motion.name, e.g. \"devices/stage/motions/1\"");
   }
-  const Result<server::Device*> device = find_device(gateway, name.substr(0, split));
+  const Result<server::Stage*> device = find_stage(gateway, name.substr(0, split));
   if (!device) return tl::unexpected(device.error());
   found.device = *device;
   return found;
@@ -64,7 +64,7 @@ Result<PositionName> find_position_name(const server::Gateway& gateway, std::str
                 fmt::format("write \"devices/stage/positions/sample\"; a name has 1 to {} letters, digits, '-' and '_'",
                             server::SavedPositions::kNameMax));
   }
-  const Result<server::Device*> device = find_device(gateway, name.substr(0, split));
+  const Result<server::Stage*> device = find_stage(gateway, name.substr(0, split));
   if (!device) return tl::unexpected(device.error());
   return PositionName{*device, std::string(own)};
 }

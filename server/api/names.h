@@ -16,10 +16,10 @@ std::string position_name(std::string_view device_of_config,
                           std::string_view position);  // "devices/{d}/positions/{name}"
 
 // invalid_request where the name is not "devices/{d}", unknown_device where no device has that name.
-Result<server::Device*> find_device(const server::Gateway& gateway, std::string_view name);
+Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_view name);
 
 struct MotionName {
-  server::Device* device = nullptr;  // never null
+  server::Stage* device = nullptr;  // never null
   stage::MotionId id = 0;
 };
 // invalid_request where the name is not "devices/{d}/motions/{id}", unknown_device. Whether there is such a motion is
@@ -27,7 +27,7 @@ struct MotionName {
 Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name);
 
 struct PositionName {
-  server::Device* device = nullptr;  // never null
+  server::Stage* device = nullptr;  // never null
   std::string name;
 };
 // invalid_request where it is not "devices/{d}/positions/{name}", unknown_device. Likewise.
@@ -35,7 +35,7 @@ Result<PositionName> find_position_name(const server::Gateway& gateway, std::str
 
 // The device of a name that was found.
 template <class Name>
-Result<server::Device*> device_of(const Result<Name>& name) {
+Result<server::Stage*> device_of(const Result<Name>& name) {
   if (!name) return tl::unexpected(name.error());
   return name->device;
 }

@@ -86,7 +86,7 @@ bool Path::refuse_part(std::string_view message) {
 // Admitted now, so that nobody sends a long path for nothing; and again by run(), from which it counts.
 Result<void> Path::take_head(const Call& call, std::string_view device) {
   if (call_) return fail(Reason::invalid_request, "a path has one header, and a second one came");
-  const auto admitted = pipeline_.admit({RequestKind::run_path, call, find_device(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::run_path, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   taken_for_ = admitted->device;
   call_ = call;
@@ -129,7 +129,7 @@ void Path::run() {
           StageController& controller, TimePoint now) { self->run_on(device, controller, context, now); });
 }
 
-void Path::run_on(server::Device& device, StageController& controller, stage::RequestContext context, TimePoint now) {
+void Path::run_on(server::Stage& device, StageController& controller, stage::RequestContext context, TimePoint now) {
   if (broken_off()) return;
   path_.context = std::move(context);
   if (call_->validate_only) {
@@ -150,7 +150,7 @@ void Path::run_on(server::Device& device, StageController& controller, stage::Re
   });
 }
 
-void Path::on_started(server::Device& device, const Result<stage::Motion>& motion) {
+void Path::on_started(server::Stage& device, const Result<stage::Motion>& motion) {
   if (!motion) {
     end(motion.error());
     return;

@@ -50,8 +50,8 @@ class Path final : public Subscription<PathStep> {
   Result<void> take_head(const Call& call, std::string_view device);
   Result<void> take_segment(Result<stage::Segment> segment);
   Result<Admitted> admit() const;
-  void run_on(server::Device& device, stage::StageController& controller, stage::RequestContext context, TimePoint now);
-  void on_started(server::Device& device, const Result<stage::Motion>& motion);
+  void run_on(server::Stage& device, stage::StageController& controller, stage::RequestContext context, TimePoint now);
+  void on_started(server::Stage& device, const Result<stage::Motion>& motion);
   bool end(std::optional<Problem> problem);
   bool broken_off();
 
@@ -64,14 +64,14 @@ class Path final : public Subscription<PathStep> {
   const Pipeline& pipeline_;
 
   // While the path comes in.
-  std::optional<Call> call_;             // nothing: no head yet
-  server::Device* taken_for_ = nullptr;  // null: likewise
+  std::optional<Call> call_;            // nothing: no head yet
+  server::Stage* taken_for_ = nullptr;  // null: likewise
   stage::PathRequest path_;
 
   // Under mutex_.
   bool broken_off_ = false;
   FactReader reader_;
-  server::Device* device_ = nullptr;  // null: not started
+  server::Stage* device_ = nullptr;  // null: not started
   stage::MotionId motion_ = 0;
   std::optional<PathStep> due_;
   std::optional<StreamEnd> end_;  // after what is due

@@ -11,20 +11,20 @@
 #include "server/api/admission.h"
 #include "server/api/call.h"
 #include "server/api/request_kinds.h"
-#include "server/devices/device.h"
+#include "server/devices/stage.h"
 
 namespace axisgate::api {
 
 // A request that was let in.
 struct Admitted {
-  server::Device* device = nullptr;  // never null
+  server::Stage* device = nullptr;  // never null
   server::Caller caller;
   stage::RequestContext context;
 };
 
 // Such a request on its device's strand.
 struct Turn {
-  server::Device& device;
+  server::Stage& device;
   stage::StageController& controller;
   const server::Caller& caller;
   const stage::RequestContext& context;
@@ -35,7 +35,7 @@ struct Turn {
 struct Asked {
   RequestKind kind;
   const Call& call;                // copied as far as it is needed
-  Result<server::Device*> device;  // or why there is none
+  Result<server::Stage*> device;   // or why there is none
   std::optional<Problem> fault{};  // of how the rest is written
 };
 
@@ -91,7 +91,7 @@ template <class Outcome, class Begin>
 void Pipeline::ask(const Asked& asked, Answer<Outcome> answer, Begin begin) const {
   Result<Admitted> admitted = admit(asked);
   if (!admitted) return answer(tl::unexpected(std::move(admitted.error())));
-  server::Device& device = *admitted->device;
+  server::Stage& device = *admitted->device;
   device.post([admitted = *std::move(admitted), answer = std::move(answer), begin = std::move(begin)](
                   stage::StageController& controller, TimePoint now) {
     begin(Turn{*admitted.device, controller, admitted.caller, admitted.context, now}, answer);

@@ -56,7 +56,7 @@ void keep(const SavingPtr& saving, const stage::State& state) {
 
 struct RemovalRun {
   Removal removal;
-  server::Device& device;
+  server::Stage& device;
   stage::PositionLines lines;
   stage::RequestContext context;
 

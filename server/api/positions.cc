@@ -71,7 +71,7 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
 }
 
 void Positions::list(const Call& call, std::string_view device, Answer<std::vector<NamedPosition>> answer) const {
-  pipeline_.ask({RequestKind::list_positions, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::list_positions, call, find_stage(gateway_, device)}, std::move(answer),
                 [&positions = positions_](const Turn& turn, const Answer<std::vector<NamedPosition>>& respond) {
                   std::vector<NamedPosition> all;
                   for (SavedPosition& position : positions.list(turn.device.name())) {

@@ -86,7 +86,7 @@ void ask_all(const Turn& turn, const std::shared_ptr<Asking>& asking) {
 }  // namespace
 
 void Settings::get(const Call& call, std::string_view device, Answer<stage::Settings> answer) const {
-  pipeline_.ask({RequestKind::get_settings, call, find_device(gateway_, device)}, std::move(answer),
+  pipeline_.ask({RequestKind::get_settings, call, find_stage(gateway_, device)}, std::move(answer),
                 [](const Turn& turn, const Answer<stage::Settings>& respond) {
                   if (const auto up = check_up(turn.controller.state()); !up) {
                     return respond(tl::unexpected(up.error()));
@@ -124,25 +124,25 @@ void Settings::set(const Asked& asked, Answer<void> answer, ToLines to_lines) co
 
 void Settings::change(const Call& call, std::string_view device, const Result<SettingsChange>& change,
                       Answer<void> answer) const {
-  set({RequestKind::change_settings, call, find_device(gateway_, device), fault_of(change)}, std::move(answer),
+  set({RequestKind::change_settings, call, find_stage(gateway_, device), fault_of(change)}, std::move(answer),
       [change](const stage::Kind& kind, const stage::State& state) { return lines_of(*change, kind, state); });
 }
 
 void Settings::set_coordinates(const Call& call, std::string_view device, const Result<NewCoordinates>& coordinates,
                                Answer<void> answer) const {
-  set({RequestKind::set_coordinates, call, find_device(gateway_, device), fault_of(coordinates)}, std::move(answer),
+  set({RequestKind::set_coordinates, call, find_stage(gateway_, device), fault_of(coordinates)}, std::move(answer),
       [coordinates](const stage::Kind& kind, const stage::State& state) {
         return lines_of(*coordinates, kind, state);
       });
 }
 
 void Settings::fire_trigger(const Call& call, std::string_view device, Answer<void> answer) const {
-  set({RequestKind::fire_trigger, call, find_device(gateway_, device)}, std::move(answer),
+  set({RequestKind::fire_trigger, call, find_stage(gateway_, device)}, std::move(answer),
       [](const stage::Kind& kind, const stage::State& state) { return kind.lines_for(stage::FireTrigger{}, state); });
 }
 
 void Settings::reset(const Call& call, std::string_view device, Answer<void> answer) const {
-  set({RequestKind::reset_device, call, find_device(gateway_, device)}, std::move(answer),
+  set({RequestKind::reset_device, call, find_stage(gateway_, device)}, std::move(answer),
       [](const stage::Kind& kind, const stage::State& state) {
         return kind.lines_for(stage::ResetController{}, state);
       });

@@ -18,7 +18,7 @@ StageController::OnStopped answering(Answer<StopReport> answer) {
 
 void Stops::stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                  Answer<StopReport> answer) const {
-  const Result<server::Device*> found = find_device(gateway_, device);
+  const Result<server::Stage*> found = find_stage(gateway_, device);
   if (!found) return answer(tl::unexpected(found.error()));
   if (!axes) return answer(tl::unexpected(axes.error()));
   (*found)->post(
@@ -27,7 +27,7 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
 }
 
 void Stops::emergency_stop(const Call& call, std::string_view device, Answer<StopReport> answer) const {
-  const Result<server::Device*> found = find_device(gateway_, device);
+  const Result<server::Stage*> found = find_stage(gateway_, device);
   if (!found) return answer(tl::unexpected(found.error()));
   (*found)->post(
       [context = admission_.context_of_stop(call), answer = std::move(answer)](

@@ -46,7 +46,7 @@ SupportReport::SupportReport(server::Gateway& gateway, const DoorReport& door, S
 }
 
 void SupportReport::add_devices(server::Gateway& gateway, const DoorReport& door) {
-  for (const auto& device : gateway.devices()) {
+  for (const auto& device : gateway.stages()) {
     stage::State state = *device->newest_state().get().value;
     state.serial_number = redactor_.hide(Redactor::Kind::serial_number, state.serial_number);
     state.link_problem = redactor_.redact(state.link_problem);
@@ -55,7 +55,7 @@ void SupportReport::add_devices(server::Gateway& gateway, const DoorReport& door
 }
 
 void SupportReport::add_recordings(server::Gateway& gateway) {
-  for (const auto& device : gateway.devices()) {
+  for (const auto& device : gateway.stages()) {
     server::DeviceRecorder& recorder = device->recorder();
     const server::RecordingRing::Beginning oldest = recorder.ring().oldest();
     recordings_.push_back({fmt::format("\n== recording of {} ==\n{}", device->name(), oldest.header),

@@ -17,7 +17,7 @@ void fill_text(Response& response, const std::string& text) {
   response.set_text(text);
 }
 
-std::string describe(const server::Device& device, const stage::State& state) {
+std::string describe(const server::Stage& device, const stage::State& state) {
   return to_proto(device, state).DebugString();
 }
 

@@ -5,7 +5,7 @@
 #include "device/core/problem.h"
 #include "server/access/leases.h"
 #include "server/api/leases.h"
-#include "server/devices/device.h"
+#include "server/devices/stage.h"
 
 namespace axisgate::rpc {
 

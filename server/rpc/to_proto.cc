@@ -163,7 +163,7 @@ google::protobuf::Timestamp to_proto(server::WallTime time) {
   return stamp;
 }
 
-v1::Device to_proto(const server::Device& device, const stage::State& state) {
+v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   v1::Device proto;
   proto.set_name(api::device_name(device.name()));
   proto.set_kind(std::string(device.kind().name()));

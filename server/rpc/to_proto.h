@@ -13,7 +13,7 @@
 #include "axisgate/v1/stage.pb.h"
 #include "device/stage/stage_controller.h"
 #include "server/api/motion_watch.h"
-#include "server/devices/device.h"
+#include "server/devices/stage.h"
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
 
@@ -24,7 +24,7 @@ google::protobuf::Timestamp to_proto(server::WallTime time);
 // With the state's age as of now.
 void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 
-v1::Device to_proto(const server::Device& device, const stage::State& state);
+v1::Device to_proto(const server::Stage& device, const stage::State& state);
 
 // `revision` is that of the newest fact about the motion, 0 when not known.
 v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision);

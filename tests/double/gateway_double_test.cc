@@ -55,7 +55,7 @@ class RunningGateway {
     return comes_true([this] { return state().link == LinkState::up; });
   }
   stage::State state() { return *device().newest_state().get().value; }
-  Device& device() { return *gateway_.find("turn"); }
+  Stage& device() { return *gateway_.find_stage("turn"); }
 
   // What became of the motion that this posts; queued where it has no outcome.
   stage::Motion outcome_of_move(Quantity distance) {

@@ -31,7 +31,7 @@ class Bench {
   Bench& operator=(const Bench&) = delete;
 
   server::Gateway& gateway() { return *gateway_; }
-  server::Device& device(std::size_t number) { return *gateway_->devices()[number]; }
+  server::Stage& device(std::size_t number) { return *gateway_->stages()[number]; }
   void end_gateway() { gateway_.reset(); }
   // The file to which the gateway records the device's line.
   std::string recording(std::size_t device) const;

@@ -61,7 +61,7 @@ void Caller::ask(int requests, std::size_t window) {
 }
 
 void Caller::rearm(std::size_t device) {
-  server::Device& there = bench_.device(device);
+  server::Stage& there = bench_.device(device);
   there.post(
       [&there, who = name()](stage::StageController&, TimePoint now) { (void)there.leases().rearm(0, who, now); });
 }

@@ -24,7 +24,7 @@ DeviceConfig device_named(std::string name) {
 }
 
 stage::State state_of(const Gateway& gateway, std::string_view device) {
-  return *gateway.find(device)->newest_state().get().value;
+  return *gateway.find_stage(device)->newest_state().get().value;
 }
 
 // Waits for a condition that a device's strand brings about.
@@ -41,7 +41,7 @@ bool comes_true(Condition condition) {
 // Questions that follow one another, each sent when its predecessor has been answered.
 class Questions {
  public:
-  Questions(Device& device, int count) : device_(device), left_(count) { ask(); }
+  Questions(Stage& device, int count) : device_(device), left_(count) { ask(); }
 
   bool all_answered() {
     std::unique_lock lock(mutex_);
@@ -61,7 +61,7 @@ class Questions {
     });
   }
 
-  Device& device_;
+  Stage& device_;
   std::mutex mutex_;
   std::condition_variable changed_;
   int left_;
@@ -94,16 +94,16 @@ TEST(Gateway, NoDeviceHoldsAnotherUp) {
   gateway.start();
 
   ASSERT_TRUE(comes_true([&] { return state_of(gateway, "healthy").link == LinkState::up; }));
-  EXPECT_TRUE(Questions(*gateway.find("healthy"), 100).all_answered());
+  EXPECT_TRUE(Questions(*gateway.find_stage("healthy"), 100).all_answered());
   EXPECT_EQ(state_of(gateway, "stuck").link, LinkState::connecting);
   EXPECT_EQ(state_of(gateway, "silent").link_problem, "") << "its first attempt was waited for";
 
   const auto stuck_said = [&] { return state_of(gateway, "stuck").link_problem; };
   EXPECT_TRUE(comes_true([&] { return stuck_said() == "no answer to three probes"; })) << stuck_said();
-  EXPECT_TRUE(Questions(*gateway.find("healthy"), 100).all_answered());
+  EXPECT_TRUE(Questions(*gateway.find_stage("healthy"), 100).all_answered());
   const auto silent_said = [&] { return state_of(gateway, "silent").link_problem; };
   EXPECT_TRUE(comes_true([&] { return silent_said().starts_with("no answer from 127.0.0.1:"); })) << silent_said();
-  EXPECT_TRUE(Questions(*gateway.find("healthy"), 100).all_answered());
+  EXPECT_TRUE(Questions(*gateway.find_stage("healthy"), 100).all_answered());
 }
 
 }  // namespace

@@ -1,0 +1,87 @@
+#include "server/devices/stage.h"
+
+#include <spdlog/spdlog.h>
+
+#include <map>
+#include <utility>
+
+#include "server/explain.h"
+
+namespace axisgate::server {
+namespace {
+
+// "1 STOPPED, 3 FAILED", by outcome.
+std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
+  std::map<stage::MotionState, int> counts;
+  for (const stage::Motion& motion : motions) ++counts[motion.state];
+  std::string text;
+  for (const auto& [state, count] : counts) {
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, stage::name(state));
+  }
+  return text;
+}
+
+}  // namespace
+
+Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
+             const Executor& readers, LeaseTokens& lease_tokens)
+    : Device(config.profile.name, recording_header(config.profile), std::move(line), std::move(strand), metrics,
+             readers, lease_tokens),
+      kind_(*config.kind),
+      profile_(config.profile),
+      newest_state_(readers),
+      events_(profile_.name, bus, this->metrics(), recorder(), [this](DeviceEvents::Due due) { on_due(due); }),
+      controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
+  runner().attach(*controller_);
+}
+
+void Stage::post(Request request) {
+  runner().post([this, request = std::move(request)](TimePoint now) { request(*controller_, now); });
+}
+
+void Stage::wind_down(std::function<void()> done) {
+  post([this, done = std::move(done)](stage::StageController& controller, TimePoint now) {
+    controller.wind_down(now, [this, done](const stage::WindDownReport& report) {
+      on_wound_down(report);
+      done();
+    });
+  });
+}
+
+Duration Stage::wind_down_limit() const {
+  using stage::StageController;
+  const bool finishes = profile_.at_exit == stage::AtExit::finish;
+  return StageController::kStopLimit + (finishes ? StageController::kFinishLimit : Duration::zero());
+}
+
+// Closed from within the answer, so that nothing comes in between.
+void Stage::on_wound_down(const stage::WindDownReport& report) {
+  state_due_ = true;
+  publish_due();
+  shutdown();
+  if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
+  spdlog::info("{}: the line is closed; motions that were running: {}", name(),
+               report.motions.empty() ? "none" : count_by_outcome(report.motions));
+}
+
+// An event must not call back into the controller, and many come at once: what they leave to do is done once, later.
+void Stage::on_due(DeviceEvents::Due due) {
+  state_due_ = state_due_ || due == DeviceEvents::Due::state;
+  if (publishing_) return;
+  publishing_ = true;
+  runner().post([this](TimePoint) { publish_due(); });
+}
+
+void Stage::publish_due() {
+  publishing_ = false;
+  for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
+    metrics().set_queued(static_cast<Lane>(lane), controller_->queued(static_cast<Lane>(lane)));
+  }
+  metrics().set_outstanding_answers(controller_->outstanding_answers());
+  if (!std::exchange(state_due_, false)) return;
+  const stage::State& state = controller_->state();
+  metrics().set_state(state);
+  newest_state_.publish(state);
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,55 @@
+// A stage: a device whose controller moves axes. Its controller, and what others may see of its state.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <string_view>
+
+#include "device/stage/kind.h"
+#include "device/stage/stage_controller.h"
+#include "server/config/config.h"
+#include "server/devices/device.h"
+#include "server/devices/device_events.h"
+#include "server/events/event_bus.h"
+
+namespace axisgate::server {
+
+class Stage final : public Device {
+ public:
+  // `bus`, `metrics` and the strand's io_context outlive this.
+  Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
+        const Executor& readers, LeaseTokens& lease_tokens);
+
+  // From any thread.
+  std::string_view kind_name() const override { return kind_.name(); }
+  const stage::Kind& kind() const { return kind_; }
+  const stage::Profile& profile() const { return profile_; }
+  Newest<stage::State>& newest_state() { return newest_state_; }
+
+  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  using Request = std::function<void(stage::StageController&, TimePoint)>;
+  void post(Request request);
+
+  // On the strand only: from within a posted request or a callback of the controller.
+  std::uint64_t motion_revision(stage::MotionId motion) const { return events_.motion_revision(motion); }
+
+  // `done` comes when every motion has its outcome and the line is closed: StageController::wind_down().
+  void wind_down(std::function<void()> done) override;
+  Duration wind_down_limit() const override;
+
+ private:
+  void on_wound_down(const stage::WindDownReport& report);
+  void on_due(DeviceEvents::Due due);
+  void publish_due();
+
+  const stage::Kind& kind_;
+  const stage::Profile profile_;
+  Newest<stage::State> newest_state_;
+  DeviceEvents events_;
+  std::unique_ptr<stage::StageController> controller_;
+  bool publishing_ = false;  // a posted publish_due() is under way
+  bool state_due_ = false;
+};
+
+}  // namespace axisgate::server
