@@ -93,7 +93,8 @@ TEST(SeedsThatOnceFailed, StayMended) {
 // refusal of a command cut in two came late. 701287: ZRT: of all axes where ZRT:1 had been sent. 805722: two motions
 // looked for left-overs at once. 903823, 1201942: a restart behind a late answer.
 TEST(SeedsThatOnceFailed, StayMendedWithAllFaults) {
-  for (const std::uint64_t seed : {402359u, 500862u, 402608u, 501949u, 600006u, 701287u, 805722u, 903823u, 1201942u}) {
+  for (const std::uint64_t seed :
+       {402359u, 500862u, 402608u, 501949u, 600006u, 701287u, 805722u, 903823u, 1201942u, 20000561u}) {
     if (!HasFatalFailure()) hold({.seed = seed});
   }
 }

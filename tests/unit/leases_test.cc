@@ -91,6 +91,13 @@ TEST_F(LeasesTest, ARefusalSaysWhoHoldsItAndSinceWhen) {
   EXPECT_EQ(told_, "anna has held axis 1 for 5 s (\"overnight scan\")");
 }
 
+TEST_F(LeasesTest, TwoHundredAndFiftySixWait) {
+  held_by("anna", kOne);
+  for (int i = 0; i < 256; ++i) ASSERT_NE(wait_for("bert", kOne), 0u) << i;
+  EXPECT_EQ(wait_for("late", kOne), 0u);
+  EXPECT_THAT(answers_, ElementsAre("late QUEUE_FULL"));
+}
+
 TEST_F(LeasesTest, ALeaseExpiresUnlessItIsKeptAlive) {
   const LeaseToken token = held_by("anna", kOne);
   pass(seconds(9));

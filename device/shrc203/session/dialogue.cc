@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+#include <string>
 #include <utility>
 
 #include "device/shrc203/limits.h"
@@ -32,14 +34,14 @@ ExchangeRequest Dialogue::request_of(const LiveMotion& live, Command command, La
 }
 
 Task<Result<Reply>> Dialogue::ask_twice(LiveMotionPtr live, Command question) {
-  std::string before;
-  for (int telling = 0; telling < kAgreeingAnswerTries; ++telling) {
+  std::optional<std::string> before;
+  for (int attempt = 0; attempt < kAgreeingAnswerTries; ++attempt) {
     auto request = request_of(*live, question, Lane::motion);
     request.not_after = tasks_.now() + kStepWriteLimit;
     auto pending = exchange(std::move(request));
     const auto result = co_await pending;
     if (result.problem) co_return tl::unexpected(*result.problem);
-    if (telling > 0 && before == result.reply->text) co_return *result.reply;
+    if (before == result.reply->text) co_return *result.reply;
     before = result.reply->text;
   }
   co_return fail(Reason::line_fault, fmt::format("{} is answered otherwise every time", question.line),
