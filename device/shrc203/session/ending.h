@@ -7,7 +7,7 @@
 
 namespace axisgate::shrc203 {
 
-// What is told to everybody who comes too late; nothing before the end has begun.
+// What everybody receives who comes too late; nothing before the end has begun.
 using Ending = std::optional<Problem>;
 
 }  // namespace axisgate::shrc203
