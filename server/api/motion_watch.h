@@ -60,7 +60,7 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   void set_due(CurrentMotion motion);
 
   FactReader reader_;
-  server::Stage* device_ = nullptr;  // null: nothing is followed for now
+  server::Stage* device_ = nullptr;  // null: no motion is followed
   stage::MotionId followed_ = 0;
   std::optional<CurrentMotion> due_;
   std::optional<StreamEnd> end_;  // after what is due

@@ -27,7 +27,7 @@ struct StreamEnd {
 template <class Item>
 class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
  public:
-  struct Nothing {};  // for now
+  struct Nothing {};  // before `wake` is called
   using Reading = std::variant<Nothing, Item, StreamEnd>;
 
   virtual ~Subscription() = default;

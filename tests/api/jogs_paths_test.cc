@@ -27,6 +27,7 @@ class JogTest : public ::testing::Test {
   Reader<CurrentMotion> reader_{jog_};
 };
 
+// Renewed for longer than the silence that ends a jog; the gateway runs in real time here.
 TEST_F(JogTest, RunsUntilItsCallerEndsIt) {
   ASSERT_TRUE(start(plus()));
   EXPECT_EQ(reader_.next()->motion.state, MotionState::running);
