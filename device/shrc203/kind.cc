@@ -71,6 +71,8 @@ class Shrc203 final : public stage::Kind {
 
   std::vector<stage::CommandInfo> commands() const override { return list_commands(); }
 
+  std::span<const stage::AdminCommand> admin_commands() const override { return shrc203::admin_commands(); }
+
   Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state) const override {
     return shrc203::lines_for(setting, state);
   }

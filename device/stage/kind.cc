@@ -4,6 +4,8 @@ namespace axisgate::stage {
 
 std::vector<CommandInfo> Kind::commands() const { return {}; }
 
+std::span<const AdminCommand> Kind::admin_commands() const { return {}; }
+
 Result<std::vector<std::string>> Kind::lines_for(const Setting&, const State&) const {
   return fail(Reason::invalid_request, "a controller of this kind cannot be set like that");
 }

@@ -30,6 +30,14 @@ struct KindSetting {
   std::string_view otherwise;               // without the key: one of the words, or "true" or "false"
 };
 
+// What changes a controller for all its callers, and so is for administrators unless the configuration leaves it out.
+struct AdminCommand {
+  enum class Request { none, clear_errors, reset };
+
+  std::string_view name;            // how its lines begin; of a kind without lines, any word
+  Request request = Request::none;  // the one that sends it
+};
+
 // Words by key: those of KindSettings, or the options of a simulation.
 using Words = std::map<std::string, std::string, std::less<>>;
 
@@ -59,6 +67,8 @@ class Kind {
 
   // From here to read_position(): what a kind need not have. Nothing, where it has none of it.
   virtual std::vector<CommandInfo> commands() const;  // in the manual's order
+
+  virtual std::span<const AdminCommand> admin_commands() const;
 
   // The lines of one transaction that set it, in their order; none, where nothing is to change. out_of_range,
   // not_representable; invalid_request, where there is no such setting.

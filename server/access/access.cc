@@ -38,10 +38,15 @@ Result<Caller> Access::by_token(std::string_view token, Calendar now) const {
   return Caller{token_caller(known->name), known->role};
 }
 
-bool Access::only_for_admins(std::string_view command) const {
-  const std::string text = plain(command);
+bool Access::only_for_admins(KeptRequest request) const {
+  if (request == KeptRequest::none) return false;
+  return std::ranges::find(config_.admin_commands, request, &AdminCommand::request) != config_.admin_commands.end();
+}
+
+bool Access::only_for_admins(std::string_view line) const {
+  const std::string text = plain(line);
   return std::ranges::any_of(config_.admin_commands,
-                             [&](const std::string& one) { return text.starts_with(plain(one)); });
+                             [&](const AdminCommand& one) { return text.starts_with(plain(one.name)); });
 }
 
 std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }

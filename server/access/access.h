@@ -13,11 +13,19 @@
 
 namespace axisgate::server {
 
+// What an operator may ask for unless the configuration keeps it for administrators.
+enum class KeptRequest { none, clear_errors, reset_device, take_over };
+
+struct AdminCommand {
+  std::string name;  // how the lines of callers begin that are kept: "BEC:"
+  KeptRequest request = KeptRequest::none;
+};
+
 struct AccessConfig {
-  Role local = Role::operator_;         // of local callers that `roles` does not name; nobody: they need a token
-  Role certificates = Role::operator_;  // of callers with a client certificate that `roles` does not name
-  std::map<std::string, Role> roles;    // by the caller's name, "unix alice", "cert alice"
-  std::vector<std::string> admin_commands = {"BEC:", "RESET:", "FMT:", "MODE:", "MS:", "P:ON", "take-over"};
+  Role local = Role::operator_;            // of local callers that `roles` does not name; nobody: they need a token
+  Role certificates = Role::operator_;     // of callers with a client certificate that `roles` does not name
+  std::map<std::string, Role> roles = {};  // by the caller's name, "unix alice", "cert alice"
+  std::vector<AdminCommand> admin_commands;
 };
 
 struct Caller {
@@ -36,8 +44,9 @@ class Access {
   // unauthenticated.
   Result<Caller> by_token(std::string_view token, Calendar now) const;
 
-  // Whether that command, or `take-over`, is for administrators. `command` is a line as a caller wrote it.
-  bool only_for_admins(std::string_view command) const;
+  bool only_for_admins(KeptRequest request) const;
+  // A line as a caller wrote it.
+  bool only_for_admins(std::string_view line) const;
 
   Tokens& tokens() const { return *tokens_; }
 

@@ -69,8 +69,7 @@ Result<void> Admission::check_least_role(RequestKind kind, const Caller& caller,
                 "put one into AXISGATE_TOKEN; an administrator makes one with `axisctl token create`");
   }
   const Rule& rule = rule_of(kind);
-  const bool kept = !rule.special.empty() && access_.only_for_admins(rule.special);
-  const Role least = kept ? Role::admin : rule.least_role;
+  const Role least = access_.only_for_admins(rule.kept) ? Role::admin : rule.least_role;
   if (caller.role >= least) return {};
   return fail(Reason::not_allowed,
               fmt::format("{} asks for the role {}, and {} is {}", escaped(as_called), name(least), caller.who,

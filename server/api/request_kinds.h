@@ -3,9 +3,8 @@
 #pragma once
 
 #include <cstddef>
-#include <string_view>
 
-#include "server/access/roles.h"
+#include "server/access/access.h"
 
 namespace axisgate::api {
 
@@ -84,7 +83,7 @@ enum class Use {
 struct Rule {
   RequestKind kind;
   server::Role least_role;
-  std::string_view special;  // as `admin_commands` of the configuration may name it; empty: nothing of it
+  server::KeptRequest kept;  // under which `admin_commands` of the configuration may keep it for administrators
   Quota quota;
   Patience patience;
   Use use;

@@ -8,6 +8,48 @@
 #include "server/config/words.h"
 
 namespace axisgate::server {
+namespace {
+
+KeptRequest sent_by(stage::AdminCommand::Request request) {
+  switch (request) {
+    case stage::AdminCommand::Request::none:
+      break;
+    case stage::AdminCommand::Request::clear_errors:
+      return KeptRequest::clear_errors;
+    case stage::AdminCommand::Request::reset:
+      return KeptRequest::reset_device;
+  }
+  return KeptRequest::none;
+}
+
+std::vector<AdminCommand> chosen(ConfigTable& table, const std::vector<std::string>& names,
+                                 const std::vector<AdminCommand>& all) {
+  std::vector<AdminCommand> commands;
+  for (const std::string& name : names) {
+    const auto known = std::ranges::find(all, name, &AdminCommand::name);
+    if (known != all.end()) {
+      commands.push_back(*known);
+      continue;
+    }
+    std::string every;
+    for (const AdminCommand& one : all) every += fmt::format("{}\"{}\"", every.empty() ? "" : ", ", one.name);
+    table.error("admin_commands", fmt::format("\"{}\" is not one of them; use some of {}", name, every));
+  }
+  return commands;
+}
+
+}  // namespace
+
+std::vector<AdminCommand> admin_commands(DeviceKinds kinds) {
+  std::vector<AdminCommand> all;
+  for (const stage::Kind* kind : kinds) {
+    for (const auto& command : kind->admin_commands()) {
+      all.push_back({std::string(command.name), sent_by(command.request)});
+    }
+  }
+  all.push_back({"take-over", KeptRequest::take_over});
+  return all;
+}
 
 void read_access(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
                  AccessConfig& access) {
@@ -15,13 +57,7 @@ void read_access(const toml::table& source, std::string_view file, std::vector<C
   access.local = table.choice<Role>("local", kRoles).value_or(access.local);
   access.certificates = table.choice<Role>("certificates", kRoles).value_or(access.certificates);
   if (const auto commands = table.texts("admin_commands")) {
-    const std::vector<std::string> all = AccessConfig().admin_commands;
-    for (const std::string& command : *commands) {
-      if (std::ranges::find(all, command) != all.end()) continue;
-      table.error("admin_commands",
-                  fmt::format("\"{}\" is not one of them; use some of \"{}\"", command, fmt::join(all, "\", \"")));
-    }
-    access.admin_commands = *commands;
+    access.admin_commands = chosen(table, *commands, access.admin_commands);
   }
   if (const toml::table* roles = table.table("roles")) {
     ConfigTable named(*roles, "access.roles", file, errors);

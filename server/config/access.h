@@ -10,6 +10,10 @@
 
 namespace axisgate::server {
 
+// All that the configuration may keep for administrators: the commands of each kind of device, and taking axes over.
+std::vector<AdminCommand> admin_commands(DeviceKinds kinds);
+
+// `access` comes with the defaults.
 void read_access(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
                  AccessConfig& access);
 

@@ -247,7 +247,7 @@ Config default_config(DeviceKinds kinds) {
                 .socket = default_socket_to_listen(),
                 .metrics = {"127.0.0.1", kMetricsPort},
                 .network = {},
-                .access = {},
+                .access = {.admin_commands = admin_commands(kinds)},
                 .limits = {},
                 .devices = {std::move(device)}};
 }

@@ -63,8 +63,8 @@ void write(TomlWriter& out, const AccessConfig& access) {
   out.key("local", word(kRoles, access.local));
   out.key("certificates", word(kRoles, access.certificates));
   std::string commands, roles;
-  for (const std::string& command : access.admin_commands) {
-    commands += fmt::format("{}{}", commands.empty() ? "" : ", ", in_quotes(command));
+  for (const AdminCommand& command : access.admin_commands) {
+    commands += fmt::format("{}{}", commands.empty() ? "" : ", ", in_quotes(command.name));
   }
   for (const auto& [who, role] : access.roles) {
     roles += fmt::format("{}{} = {}", roles.empty() ? "" : ", ", in_quotes(who), word(kRoles, role));

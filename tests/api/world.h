@@ -21,6 +21,7 @@
 
 #include "device/link/clock.h"
 #include "server/api/api.h"
+#include "server/config/access.h"
 #include "server/events/wall_time.h"
 #include "tests/double/kind.h"
 
@@ -136,6 +137,7 @@ class World {
  public:
   // `configure` sets access_config, limits and device_text.
   explicit World(const std::function<void(World&)>& configure = {}) {
+    access_config.admin_commands = server::admin_commands(kinds());
     access_config.roles = {{"unix olaf", server::Role::observer}};
     if (configure) configure(*this);
     start();
@@ -227,12 +229,15 @@ class World {
   std::unique_ptr<Api> api;
 
  private:
+  static server::DeviceKinds kinds() {
+    static const std::vector<const stage::Kind*> only = {&rotor::kind()};
+    return only;
+  }
   void start() {
-    static const std::vector<const stage::Kind*> kinds = {&rotor::kind()};
     std::filesystem::create_directories(directory);
     const std::string text =
         "[[device]]\nname = \"turn\"\nkind = \"rotor\"\nconnection = \"simulated\"\n" + device_text;
-    auto config = server::parse_config(text, "api.toml", kinds);
+    auto config = server::parse_config(text, "api.toml", kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
     config->limits = limits;
     access = std::make_unique<server::Access>(access_config, kAdmin, *server::Tokens::open(directory + "/tokens"));

@@ -9,6 +9,11 @@ namespace axisgate::rotor {
 namespace {
 
 constexpr std::array<std::string_view, 2> kDirections = {"normal", "reversed"};
+using Request = stage::AdminCommand::Request;
+constexpr std::array<stage::AdminCommand, 2> kAdminCommands = {{
+    {"clear errors", Request::clear_errors},
+    {"reset", Request::reset},
+}};
 constexpr std::array<stage::KindSetting, 1> kSettings = {{{"direction", kDirections, "normal"}}};
 
 class Rotor final : public stage::Kind {
@@ -27,6 +32,8 @@ class Rotor final : public stage::Kind {
   Result<void> check_lines(const std::vector<std::string>&) const override {
     return fail(Reason::not_allowed, "a rotor takes no lines of its callers'", "ask for moves, jogs and stops");
   }
+
+  std::span<const stage::AdminCommand> admin_commands() const override { return kAdminCommands; }
 
   Result<void> check_option(std::string_view name, std::string_view value) const override {
     return SimulatedRotor::Options().set(name, value);

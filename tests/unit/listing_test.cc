@@ -33,5 +33,14 @@ TEST(Listing, SaysWhatParametersMayBe) {
   EXPECT_EQ(listed("L:").lane, Lane::stop);
 }
 
+// A name that begins no row would keep nothing.
+TEST(AdminCommands, EachBeginsACommand) {
+  for (const auto& [name, request] : admin_commands()) {
+    const auto begins = [&](const CommandRow& row) { return row.name.starts_with(name); };
+    EXPECT_TRUE(std::ranges::any_of(command_table(), begins)) << name;
+  }
+  EXPECT_EQ(admin_commands().size(), 6u);
+}
+
 }  // namespace
 }  // namespace axisgate::shrc203::listing_test

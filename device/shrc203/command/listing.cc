@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <string>
 
 #include "device/shrc203/command/command_table.h"
@@ -30,6 +31,16 @@ stage::CommandInfo info_of(const CommandRow& row) {
   return info;
 }
 
+using Request = stage::AdminCommand::Request;
+constexpr std::array<stage::AdminCommand, 6> kAdminCommands = {{
+    {"BEC:", Request::clear_errors},
+    {"RESET:", Request::reset},
+    {"FMT:"},
+    {"MODE:"},
+    {"MS:"},
+    {"P:ON"},
+}};
+
 }  // namespace
 
 std::vector<stage::CommandInfo> list_commands() {
@@ -37,5 +48,7 @@ std::vector<stage::CommandInfo> list_commands() {
   for (const CommandRow& row : command_table()) list.push_back(info_of(row));
   return list;
 }
+
+std::span<const stage::AdminCommand> admin_commands() { return kAdminCommands; }
 
 }  // namespace axisgate::shrc203
