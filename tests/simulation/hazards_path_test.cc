@@ -89,6 +89,23 @@ TEST(Hazard, H56_ALateNumberIsNotTheNextSegmentsEnd) {
   expect_whole(world, milliseconds(1500));
 }
 
+// Once it has come, the numbers behind it are believed again: each that is not costs a question.
+TEST(Hazard, H56_BehindALateNumberTheNextOnesCount) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int numbers = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    const bool second = kind == LineKind::notice && line == "1" && ++numbers == 2;
+    return {.drop = false, .delay = second ? milliseconds(400) : Duration{}, .instead = {}};
+  });
+  world.controller().run_path(line_of(world, kSegments), world.now(), [](Result<Motion>) {});
+  ASSERT_TRUE(world.run_until([&] { return numbers == 3; }, seconds(60))) << world.replay();
+  const auto questions = [&] { return std::ranges::count(world.wire().commands(), "?:KP"); };
+  const auto asked = questions();
+  expect_whole(world, milliseconds(400));
+  EXPECT_EQ(questions() - asked, 1) << world.replay();
+}
+
 // A line of noise reads as the axis number, inside a barrier and long before the segment's end.
 TEST(Hazard, H56_ANumberInABarrierIsChecked) {
   for (int i = 0; i < 40 && !HasFailure(); ++i) {

@@ -287,6 +287,21 @@ TEST_F(LineRefillsTest, WhatEndsBeforeTheRefillMayBegin) {
   script({{"?:V\r\n", "V2.00.000\r\n"}});
 }
 
+// ?:CMD may take 5 + 64 bytes and twice CR LF, and 5 ms: 78 ms, and ?:V after it 76 ms.
+TEST_F(LineRefillsTest, AfterAPauseTheQuestionThatComesFirstCountsToo) {
+  line.keep_free(kPath, now + milliseconds(400), now);
+  pass(400 - 78 - 76);
+  ask("?:V");
+  script({{"?:CMD\r\n", "*IDN?\r\n"}, {"?:V\r\n", "V2.00.000\r\n"}});
+}
+
+TEST_F(LineRefillsTest, WhatEndsTooLateWithThatQuestionWaits) {
+  line.keep_free(kPath, now + milliseconds(400), now);
+  pass(400 - 78 - 75);
+  ask("?:V");
+  EXPECT_EQ(sent(), "");
+}
+
 TEST_F(LineRefillsTest, WhatMayNotEndBeforeWaitsUntilTheRefillIsLate) {
   pass(125);
   const auto question = ask("?:V");
