@@ -76,6 +76,15 @@ def drawn(sources, seed):
             del left[path]
 
 
+def of_kind(sources, kind):
+    """All mutations of that kind."""
+    found = [mutation for path, source in sources.items() for mutation in sites.mutations(path, source)
+             if mutation.kind == kind]
+    if not found:
+        raise CannotRun(f"{kind}: no mutation is of that kind")
+    return found
+
+
 def named(sources, wanted):
     """The mutation with that id."""
     path = wanted.split(":", 1)[0]

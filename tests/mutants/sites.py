@@ -25,6 +25,8 @@ _JOINED = re.compile(r"\s(?:&&|\|\||\?)\s")
 _COMPARED_ONCE = re.compile(r"\s(?:[<>]=?|[!=]=)\s")
 _NOT = re.compile(r"(?<![!\w])!(?=[\w(*:])")
 _RETURNED = re.compile(r"\b(?:co_)?return\s+(true|false)\s*;")
+_TRANSITIONS = re.compile(r"\bto_array<Transition<[^;]*?\(")
+_TRANSITION = re.compile(r"\{[\w:]+, [\w:]+, [\w:]+\},")
 _LOGGED = re.compile(r"^\s*(?:spdlog::|(?:\w+(?:\.|->))*(?:log|logger)_?(?:\.|->|\()).*$", re.MULTILINE)
 _NO_PRODUCT_CODE = re.compile(r"\b(?:static_assert|guarded)\s*\(")
 
@@ -173,6 +175,12 @@ def _returned(code, _source):
         yield _Edit("returned", match.start(1), *match.span(1), "false" if match.group(1) == "true" else "true")
 
 
+def _transitions(code, _source):
+    for table in _TRANSITIONS.finditer(code):
+        for match in _TRANSITION.finditer(code, table.end(), spans.closing(code, table.end() - 1)):
+            yield _Edit("transition-dropped", match.start(), *match.span(), "")
+
+
 _FINDERS = (
     _swapped("comparison", _COMPARISON, _COMPARED),
     _arithmetic,
@@ -181,6 +189,7 @@ _FINDERS = (
     _negated,
     _guards,
     _returned,
+    _transitions,
 )
 
 

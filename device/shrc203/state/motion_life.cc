@@ -8,15 +8,12 @@
 namespace axisgate::shrc203 {
 namespace {
 
+// What it does not name changes nothing.
 constexpr auto kInterrupted = std::to_array<Transition<Interruption, InterruptionEvent>>({
     {Interruption::none, InterruptionEvent::stop_asked, Interruption::stop},
     {Interruption::none, InterruptionEvent::line_lost, Interruption::line_lost},
-    {Interruption::stop, InterruptionEvent::stop_asked, Interruption::stop},
     {Interruption::stop, InterruptionEvent::line_lost, Interruption::stop_and_line_lost},
     {Interruption::line_lost, InterruptionEvent::stop_asked, Interruption::stop_and_line_lost},
-    {Interruption::line_lost, InterruptionEvent::line_lost, Interruption::line_lost},
-    {Interruption::stop_and_line_lost, InterruptionEvent::stop_asked, Interruption::stop_and_line_lost},
-    {Interruption::stop_and_line_lost, InterruptionEvent::line_lost, Interruption::stop_and_line_lost},
 });
 
 constexpr std::array<std::string_view, kInterruptions> kInterruptionNames = {"none", "stop", "line_lost",
