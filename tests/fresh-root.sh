@@ -60,11 +60,11 @@ prove() {
   root="$(mktemp --directory --tmpdir axisgate-fresh-root.XXXXXX)"
   chmod 755 "$root"
   trap 'rm -rf --one-file-system "$root"' EXIT
+  timed "mmdebstrap" make_root
   if [[ -n "$empty_cache" ]]; then
     cache="$root/empty-cache"
     mkdir "$cache"
   fi
-  timed "mmdebstrap" make_root
   timed "clone" clone_head
   timed "deploy/quickstart.sh --once" inside "$repository/deploy/quickstart.sh" --once
   timed "tests/run.sh" inside "$repository/tests/run.sh"
