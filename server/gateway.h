@@ -43,6 +43,7 @@ class Gateway {
   const std::string& run() const { return run_; }
 
   const Config& config() const { return config_; }
+  const LeaseTokens& lease_tokens() const { return lease_tokens_; }
   EventBus& events() { return events_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }

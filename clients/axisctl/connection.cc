@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <optional>
 #include <random>
 #include <string_view>
 #include <utility>
@@ -66,6 +67,20 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
   }
 }
 
+// What lease_text() wrote; nothing where it is something else.
+std::optional<std::string> token_in(std::string_view text) {
+  constexpr std::size_t kTextBytes = 48;
+  if (text.size() != kTextBytes) return std::nullopt;
+  std::string token;
+  for (std::size_t at = 0; at < text.size(); at += 2) {
+    unsigned char byte = 0;
+    const auto [end, error] = std::from_chars(text.data() + at, text.data() + at + 2, byte, 16);
+    if (error != std::errc() || end != text.data() + at + 2) return std::nullopt;
+    token += static_cast<char>(byte);
+  }
+  return token;
+}
+
 }  // namespace
 
 Connection::Connection(const Target& target)
@@ -99,19 +114,23 @@ v1::Problem problem_of(const grpc::Status& status) {
   return v1::Problem();
 }
 
+std::string lease_text(std::string_view token) {
+  std::string text;
+  for (const char byte : token) text += fmt::format("{:02x}", static_cast<unsigned char>(byte));
+  return text;
+}
+
 v1::CallContext new_call_context() {
   std::random_device random;
   v1::CallContext context;
   context.set_request_id(fmt::format("axisctl-{:08x}{:08x}", random(), random()));
   if (const char* lease = std::getenv(kLeaseVariable)) {
-    std::uint64_t token = 0;
-    const std::string_view text(lease);
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), token);
-    if (error != std::errc() || end != text.data() + text.size()) {
-      throw usage(fmt::format("{} is \"{}\", which is not a token", kLeaseVariable, text),
+    const auto token = token_in(lease);
+    if (!token) {
+      throw usage(fmt::format("{} is \"{}\", which is not a token", kLeaseVariable, lease),
                   "unset it, or start again with `axisctl lease run`");
     }
-    context.set_lease_token(token);
+    context.set_lease_token(*token);
   }
   return context;
 }

@@ -73,7 +73,10 @@ v1::Problem problem_of(const grpc::Status& status);
 // The variable that holds the token of the lease under which a command was started by `lease run`.
 inline constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
 
-// A context with a new request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no number.
+// The token as the variable holds it, in hexadecimal.
+std::string lease_text(std::string_view token);
+
+// A context with a new request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no token.
 v1::CallContext new_call_context();
 
 }  // namespace axisgate::axisctl

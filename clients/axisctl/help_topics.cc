@@ -94,7 +94,7 @@ caller types `axisctl rearm`. With `estop` the axes do not slow down first, and 
      "axisctl stop"},
     {"rearm",
      R"(A stop by somebody else sets a latch: your motions on these axes are refused until you rearm. This moves nothing, and
-the stopped motion does not continue. If you hold a lease, type it inside the shell or script that `lease run` started.
+the stopped motion does not continue. Type it in any terminal: it also ends the latches of your leases.
 After an emergency stop by somebody else, type `axisctl rearm` first, then `axisctl clear`.)",
      "axisctl rearm"},
     {"estop", "Not a safety function: keep the wired emergency stop within reach.", "axisctl estop"},

@@ -63,13 +63,21 @@ v1::WatchLeasesResponse board_now(const Session& session, const std::string& dev
   return board;
 }
 
-// Another lease may have a latch, which this call could not end.
+void print_released(const v1::RearmResponse& response) {
+  for (const v1::Latch& latch : response.latches()) {
+    print_line(fmt::format("released: the stop of {} by {} at {}", axes_text(latch.axes()), latch.by(),
+                           time_text(latch.time())));
+  }
+  print_line(fmt::format("{} may move again", axes_text(response.axes())));
+}
+
+// Another's lease may have a latch, which this call could not end.
 std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
   for (const v1::Lease& lease : board.leases()) {
     if (!lease.has_latch()) continue;
     return fmt::format(
-        "this terminal has no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` inside "
-        "its `axisctl lease run`",
+        "you have no latch; a lease of {} has one on {}: to end it, run `axisctl rearm` as its holder, or inside its "
+        "`axisctl lease run`",
         lease.holder(), axes_text(lease.latch().axes()));
   }
   return "there is no latch";
@@ -82,13 +90,13 @@ int with_lease(const Session& session, int (*verb)(const Session&)) {
   std::vector<std::string> axes = session.options.axes;
   for (const std::string& place : session.options.places) axes.push_back(place.substr(0, place.find('=')));
   const HeldLease held(session, chosen_device(session), axes);
-  ::setenv(kLeaseVariable, std::to_string(held.lease().token()).c_str(), 1);
+  ::setenv(kLeaseVariable, lease_text(held.lease().token()).c_str(), 1);
   return verb(session);
 }
 
 int lease_run(const Session& session) {
   const HeldLease held(session, chosen_device(session), session.options.axes);
-  return run_child(session.options.lines, kLeaseVariable, std::to_string(held.lease().token()));
+  return run_child(session.options.lines, kLeaseVariable, lease_text(held.lease().token()));
 }
 
 int lease_list(const Session& session) {
@@ -115,7 +123,7 @@ int lease_list(const Session& session) {
 int lease_hand_over(const Session& session) {
   v1::HandOverLeaseRequest request;
   *request.mutable_context() = new_call_context();
-  if (request.context().lease_token() == 0)
+  if (request.context().lease_token().empty())
     throw usage("this is not inside `axisctl lease run`", "only the holder can hand a lease over");
   request.set_device(chosen_device(session).name());
   request.set_to(session.options.holder);
@@ -133,9 +141,10 @@ int rearm(const Session& session) {
       session.connection.call(session.connection.control, &v1::ControlService::Stub::Rearm, request, kQuestionLimit);
   if (session.options.json) {
     print_json(response);
+  } else if (response.axes().empty()) {
+    print_line(nothing_rearmed(board_now(session, request.device())));
   } else {
-    print_line(response.axes().empty() ? nothing_rearmed(board_now(session, request.device()))
-                                       : axes_text(response.axes()) + " may move again");
+    print_released(response);
   }
   return kDone;
 }

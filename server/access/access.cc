@@ -9,7 +9,7 @@
 namespace axisgate::server {
 namespace {
 
-constexpr std::string_view kCertificate = "cert ";
+constexpr std::string_view kCertificate = "cert ", kAnonymous = "tcp ";
 
 // As the command table reads what people type: blanks and letter case do not count.
 std::string plain(std::string_view line) {
@@ -51,5 +51,8 @@ bool Access::only_for_admins(std::string_view line) const {
 
 std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }
 std::string certificate_caller(std::string_view name) { return fmt::format("{}{}", kCertificate, name); }
+std::string anonymous_caller(std::string_view address) { return fmt::format("{}{}", kAnonymous, address); }
+bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous); }
+bool is_certainly(std::string_view who, std::string_view other) { return who == other && !is_anonymous(who); }
 
 }  // namespace axisgate::server

@@ -29,7 +29,7 @@ struct AccessConfig {
 };
 
 struct Caller {
-  std::string who;  // as in Motion.who: "unix alice", "cert alice", "tcp 127.0.0.1:39482", "token night-scan"
+  std::string who;  // as in Motion.who: "unix alice", "cert alice", "token night-scan", "tcp 127.0.0.1:39482"
   Role role = Role::nobody;
 };
 
@@ -60,5 +60,11 @@ class Access {
 std::string token_caller(std::string_view name);
 // "cert alice"
 std::string certificate_caller(std::string_view name);
+// "tcp 127.0.0.1:39482": over loopback, without any credential. Two calls by one of these names may come from two
+// people, and calls by two names from one.
+std::string anonymous_caller(std::string_view address);
+bool is_anonymous(std::string_view who);
+// Whether the two are one caller: false, where nobody can tell.
+bool is_certainly(std::string_view who, std::string_view other);
 
 }  // namespace axisgate::server

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "server/access/access.h"
 #include "server/access/leases.h"
 #include "server/access/spans.h"
 
@@ -18,7 +19,22 @@ Problem stopped_problem(const Latch& latch, TimePoint now) {
   return {.reason = Reason::stopped_by,
           .message = fmt::format("{} stopped {} ({} ago): your motions there are refused until you rearm", latch.by,
                                  to_string(latch.axes), for_people(now - latch.at)),
-          .hint = "find out why, then type `axisctl rearm` (with a lease: inside its `lease run`)"};
+          .hint = "find out why, then type `axisctl rearm`"};
+}
+
+bool is_same_caller(const std::string& one, const std::string& other) {
+  return one == other || (is_anonymous(one) && is_anonymous(other));
+}
+
+// The holder's own stop does not hide that of another.
+void latch(Lease& lease, const Latch& stop) {
+  const AxisSet axes = stop.axes | (lease.latch ? lease.latch->axes : AxisSet());
+  const bool keeps = lease.latch && is_certainly(lease.holder, stop.by);
+  lease.latch = Latch{axes, keeps ? lease.latch->by : stop.by, keeps ? lease.latch->at : stop.at};
+}
+
+bool holds_back(const Leases::HeldBack& one, const std::string& who) {
+  return is_anonymous(who) ? one.anonymous : one.who == who;
 }
 
 }  // namespace
@@ -27,7 +43,7 @@ Result<void> Leases::authorize(const Use& use, TimePoint now) {
   if (use.axes.empty()) return {};
   expire(now);
   for (const HeldBack& one : held_back_) {
-    const bool concerns = one.who == use.who && one.latch.axes.touches(use.axes);
+    const bool concerns = holds_back(one, use.who) && one.latch.axes.touches(use.axes);
     if (concerns && guarded(Guard::latch_without_lease)) return tl::unexpected(stopped_problem(one.latch, now));
   }
   return use.lease != 0 ? authorize_leased(use, now) : may_borrow(use, now);
@@ -66,8 +82,7 @@ void Leases::stop_asked(const Use& stop, TimePoint now) {
   for (Held& held : held_) {
     const AxisSet hit = held.lease.terms.axes & stop.axes;
     if (hit.empty() || held.lease.token == stop.lease) continue;
-    const AxisSet before = held.lease.latch ? held.lease.latch->axes : AxisSet();
-    held.lease.latch = Latch{before | hit, stop.who, now};
+    latch(held.lease, {hit, stop.who, now});
   }
   std::map<std::string, AxisSet> borrowers;
   for (const auto& [id, running] : running_) {
@@ -79,24 +94,37 @@ void Leases::stop_asked(const Use& stop, TimePoint now) {
     if (now < last.until) borrowers[last.who].add(axis);
   }
   for (const auto& [who, axes] : borrowers) {
-    if (axes.empty() || who == stop.who) continue;
-    if (held_back_.size() == kHeldBackMax) held_back_.erase(held_back_.begin());
-    held_back_.push_back({who, {axes, stop.who, now}});
+    if (!axes.empty() && !is_certainly(who, stop.who)) hold_back(who, {axes, stop.who, now});
   }
   changed(now);
 }
 
-Result<AxisSet> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {
-  AxisSet lifted;
-  if (token != 0) {
-    const auto held = find_held(token, now);
-    if (!held) return tl::unexpected(held.error());
-    if (const auto latch = std::exchange((*held)->lease.latch, {})) lifted = latch->axes;
+// Stops of one caller by one other are one entry, so that nobody fills the list alone.
+void Leases::hold_back(const std::string& who, const Latch& latch) {
+  const auto known = std::ranges::find_if(held_back_, [&](const HeldBack& one) {
+    return is_same_caller(one.who, who) && is_same_caller(one.latch.by, latch.by);
+  });
+  AxisSet axes = latch.axes;
+  if (known != held_back_.end()) {
+    axes = axes | known->latch.axes;
+    held_back_.erase(known);
   }
-  for (const HeldBack& one : held_back_) {
-    if (one.who == who) lifted = lifted | one.latch.axes;
+  if (held_back_.size() == kHeldBackMax) held_back_.erase(held_back_.begin());
+  held_back_.push_back({who, {axes, latch.by, latch.at}});
+}
+
+std::vector<Latch> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {
+  std::vector<Latch> lifted;
+  for (Held& held : held_) {
+    const bool callers = held.lease.token == token || is_certainly(held.lease.holder, who);
+    if (callers && held.lease.latch) lifted.push_back(*std::exchange(held.lease.latch, {}));
   }
-  std::erase_if(held_back_, [&](const HeldBack& one) { return one.who == who; });
+  for (HeldBack& one : held_back_) {
+    if (!holds_back(one, who)) continue;
+    lifted.push_back(one.latch);
+    one.anonymous = false;
+  }
+  std::erase_if(held_back_, [&](const HeldBack& one) { return is_same_caller(one.who, who); });
   changed(now);
   return lifted;
 }

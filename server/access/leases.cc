@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "server/access/access.h"
 #include "server/access/spans.h"
 
 namespace axisgate::server {
@@ -211,6 +212,9 @@ void Leases::end_lease(Held& held, std::string why, bool continues) {
   ended_.push_back({held.lease.token, why});
   if (ended_.size() > kEndedKept) ended_.pop_front();
   held.lease.ending = std::move(why);
+  if (held.lease.latch && !is_certainly(held.lease.holder, held.lease.latch->by)) {
+    hold_back(held.lease.holder, *held.lease.latch);
+  }
   held.continues = continues;
 }
 
@@ -284,7 +288,9 @@ bool Leases::grant(TimePoint now) {
 }
 
 Lease Leases::start(const WaitingLease& waiting, TimePoint now) {
-  held_.push_back({{tokens_.next(), waiting.holder, waiting.terms, now, now + waiting.terms.time_to_live, {}, {}}});
+  const LeaseToken token = tokens_.next();
+  const TimePoint expires = now + waiting.terms.time_to_live;
+  held_.push_back({{token, tokens_.seal(token), waiting.holder, waiting.terms, now, expires, {}, {}}});
   return held_.back().lease;
 }
 

@@ -5,7 +5,6 @@
 //               given up       └── keep_alive      no motion of it is left, settings restored ──────┘
 #pragma once
 
-#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -17,23 +16,12 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/stage/permission.h"
+#include "server/access/lease_tokens.h"
 
 namespace axisgate::server {
 
-using LeaseToken = std::uint64_t;  // 0 is none
 using stage::AxisSet;
 using stage::MotionId;
-
-// Fencing tokens: later ones are greater, over restarts of the daemon too. Thread safe.
-class LeaseTokens {
- public:
-  // `generation` is another, greater one for every start of the daemon.
-  explicit LeaseTokens(std::uint32_t generation) : next_((std::uint64_t{generation} << 32) + 1) {}
-  LeaseToken next() { return next_++; }
-
- private:
-  std::atomic<LeaseToken> next_;
-};
 
 // What becomes of the holder's motion when nobody keeps the lease alive any more.
 enum class AtLoss {
@@ -52,7 +40,7 @@ struct LeaseTerms {
   std::string purpose{};                   // for people; may be empty
 };
 
-// A stop by another than the holder: nothing moves there for the holder until rearm().
+// A stop by another: nothing moves there until rearm() by whoever was stopped.
 struct Latch {
   AxisSet axes;
   std::string by;
@@ -61,6 +49,7 @@ struct Latch {
 
 struct Lease {
   LeaseToken token = 0;
+  std::string sealed_token;  // for the holder alone
   std::string holder;
   LeaseTerms terms;
   TimePoint since{}, expires{};
@@ -103,15 +92,18 @@ class Leases : public stage::Permission {
   // Stops what moves there, whoever moves it, and takes the axes from all others.
   void take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer);
 
-  // Lifts the latches that hold `who` back, and that of the lease, if a token is given. lease_lost. Answers with the
-  // axes that were latched.
-  Result<AxisSet> rearm(LeaseToken token, const std::string& who, TimePoint now);
+  // Lifts the latches that hold `who` back, those of the leases of `who`, and that of the lease with the token, if
+  // there is one. Answers with what was lifted.
+  std::vector<Latch> rearm(LeaseToken token, const std::string& who, TimePoint now);
 
   std::vector<Lease> held() const;  // those that are ending among them; oldest first
   std::vector<WaitingLease> waiting(TimePoint now) const;
-  struct HeldBack {  // somebody whose motion without a lease another stopped
+  // Somebody whose motion without a lease, or whose lease, another stopped. Anonymous callers are held back with
+  // everybody, since each of them may be the one.
+  struct HeldBack {
     std::string who;
     Latch latch;
+    bool anonymous = true;  // until one of the anonymous rearms
   };
   const std::vector<HeldBack>& held_back() const { return held_back_; }
 
@@ -156,6 +148,7 @@ class Leases : public stage::Permission {
   Problem lost_problem(LeaseToken token) const;
   Result<void> authorize_leased(const stage::Use& use, TimePoint now);
   Result<void> may_borrow(const stage::Use& use, TimePoint now);
+  void hold_back(const std::string& who, const Latch& latch);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
   void end_lease(Held& held, std::string why, bool continues);

@@ -104,11 +104,15 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
   if (rule.patience == Patience::stop) return context_of_stop(call);
   RequestContext context{
       .who = caller.who, .not_after = until(rule.patience, call), .role = std::string(name(caller.role))};
+  if (rule.use != Use::nothing) {
+    const auto lease = lease_tokens_.open(call.lease_token);
+    if (!lease) return tl::unexpected(lease.error());
+    context.lease = *lease;
+  }
   if (rule.patience == Patience::question) return context;
   if (const auto good = check_request_id(call.request_id); !good) return tl::unexpected(good.error());
   context.request_id = call.request_id;
-  if (rule.use == Use::nothing) return context;
-  context.lease = call.lease;
+  if (rule.use == Use::nothing || rule.use == Use::lease) return context;
   context.device_epoch = call.device_epoch;
   context.frame_epoch = call.frame_epoch;
   return context;
@@ -118,7 +122,7 @@ RequestContext Admission::context_of_stop(const Call& call) const {
   return {.who = name_of(call.credential),
           .request_id = escaped(call.request_id, kRequestIdMax),
           .not_after = until(Patience::stop, call),
-          .lease = call.lease};
+          .lease = lease_tokens_.open(call.lease_token).value_or(0)};
 }
 
 Result<void> check_line(const server::Access& access, const std::string& line, const Caller& caller) {

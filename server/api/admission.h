@@ -8,6 +8,7 @@
 #include "device/stage/requests.h"
 #include "server/access/access.h"
 #include "server/access/identity_limits.h"
+#include "server/access/lease_tokens.h"
 #include "server/api/call.h"
 #include "server/api/request_kinds.h"
 
@@ -16,8 +17,9 @@ namespace axisgate::api {
 // Thread safe.
 class Admission {
  public:
-  // `access` outlives this.
-  Admission(const server::Access& access, const server::LimitsConfig& limits) : access_(access), limits_(limits) {}
+  // `access` and `lease_tokens` outlive this.
+  Admission(const server::Access& access, const server::LimitsConfig& limits, const server::LeaseTokens& lease_tokens)
+      : access_(access), lease_tokens_(lease_tokens), limits_(limits) {}
 
   // First of all for a door, before anything of the request is read. `as_called` is what the door calls the request,
   // for people. unauthenticated, not_allowed, queue_full.
@@ -33,7 +35,7 @@ class Admission {
   Result<server::Caller> check_role(RequestKind kind, const Credential& credential) const;
 
   // As the kind's patience and use have it. invalid_request for a request_id of more than 128 characters, or others
-  // than printable ASCII.
+  // than printable ASCII; lease_lost for what is no token of a lease.
   Result<stage::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;
 
   // Of a stop, which nothing in its context refuses: not even a token that was revoked since let_in().
@@ -44,6 +46,7 @@ class Admission {
   Result<void> check_least_role(RequestKind kind, const server::Caller& caller, std::string_view as_called) const;
 
   const server::Access& access_;
+  const server::LeaseTokens& lease_tokens_;
   server::IdentityLimits limits_;
 };
 

@@ -28,7 +28,7 @@ class Api {
  public:
   // `gateway` outlives this, and `access` and `saved_positions` the gateway.
   Api(server::Gateway& gateway, const server::Access& access, server::SavedPositions& saved_positions)
-      : admission(access, gateway.config().limits),
+      : admission(access, gateway.config().limits, gateway.lease_tokens()),
         pipeline(admission),
         stops(gateway, admission),
         motions(gateway, pipeline, streams),

@@ -27,7 +27,7 @@ struct Call {
   std::optional<TimePoint> deadline{};   // until when the caller waits; nothing: for as long as it takes
   std::string request_id{};              // the caller's own; may be empty
   std::optional<TimePoint> not_after{};  // nothing: as the request's kind has it
-  std::uint64_t lease = 0;               // a fencing token; 0: none
+  std::string lease_token{};             // as its holder was given it; empty: none
   std::uint64_t device_epoch = 0;        // that the caller has in mind; 0: any
   std::uint64_t frame_epoch = 0;         // likewise
   bool validate_only = false;            // every check, and nothing is sent

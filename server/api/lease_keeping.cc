@@ -6,12 +6,13 @@
 
 namespace axisgate::api {
 
-void LeaseKeeping::keep(std::string_view device, server::LeaseToken token) {
+void LeaseKeeping::keep(std::string_view device, std::string_view lease_token) {
   const Result<server::Stage*> found = find_stage(gateway_, device);
   if (!found) return end({found.error()});
-  (*found)->post([self = self<LeaseKeeping>(), &kept_on = **found, token](stage::StageController&, TimePoint now) {
-    self->keep_on(kept_on, token, now);
-  });
+  const Result<server::LeaseToken> opened = gateway_.lease_tokens().open(lease_token);
+  if (!opened) return end({opened.error()});
+  (*found)->post([self = self<LeaseKeeping>(), &kept_on = **found, token = *opened](
+                     stage::StageController&, TimePoint now) { self->keep_on(kept_on, token, now); });
 }
 
 void LeaseKeeping::keep_on(server::Stage& device, server::LeaseToken token, TimePoint now) {

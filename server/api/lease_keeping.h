@@ -19,7 +19,7 @@ class LeaseKeeping final : public Subscription<server::Lease> {
       : Subscription(std::move(place)), gateway_(gateway) {}
 
   // The lease lives on for another time_to_live. The stream ends with invalid_request, unknown_device or lease_lost.
-  void keep(std::string_view device, server::LeaseToken token);
+  void keep(std::string_view device, std::string_view lease_token);
   // The caller has ended the stream in order: nothing is kept alive any more, and nothing was lost.
   void finish();
   // The caller has gone without a word: what follows is as the lease's terms have it.

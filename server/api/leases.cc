@@ -128,22 +128,22 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
 
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {
   pipeline_.ask({RequestKind::release_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                [token = call.lease](const Turn& turn, const Answer<void>& respond) {
-                  respond(turn.device.leases().release(token, turn.now));
+                [](const Turn& turn, const Answer<void>& respond) {
+                  respond(turn.device.leases().release(turn.context.lease, turn.now));
                 });
 }
 
 void Leases::hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const {
   pipeline_.ask({RequestKind::hand_over_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                [token = call.lease, to](const Turn& turn, const Answer<void>& respond) {
-                  respond(turn.device.leases().hand_over(token, to, turn.now));
+                [to](const Turn& turn, const Answer<void>& respond) {
+                  respond(turn.device.leases().hand_over(turn.context.lease, to, turn.now));
                 });
 }
 
-void Leases::rearm(const Call& call, std::string_view device, Answer<stage::AxisSet> answer) const {
+void Leases::rearm(const Call& call, std::string_view device, Answer<std::vector<server::Latch>> answer) const {
   pipeline_.ask({RequestKind::rearm, call, find_stage(gateway_, device)}, std::move(answer),
-                [token = call.lease](const Turn& turn, const Answer<stage::AxisSet>& respond) {
-                  respond(turn.device.leases().rearm(token, turn.context.who, turn.now));
+                [](const Turn& turn, const Answer<std::vector<server::Latch>>& respond) {
+                  respond(turn.device.leases().rearm(turn.context.lease, turn.context.who, turn.now));
                 });
 }
 

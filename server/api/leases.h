@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "server/access/leases.h"
@@ -56,8 +57,8 @@ class Leases {
   // The lease of these is the call's.
   void release(const Call& call, std::string_view device, Answer<void> answer) const;
   void hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const;
-  // Answers with the axes that were latched.
-  void rearm(const Call& call, std::string_view device, Answer<stage::AxisSet> answer) const;
+  // Answers with what was lifted.
+  void rearm(const Call& call, std::string_view device, Answer<std::vector<server::Latch>> answer) const;
 
   // queue_full.
   Result<std::shared_ptr<LeaseKeeping>> keep_alive(const Call& call) const;

@@ -76,6 +76,7 @@ enum class Patience {
 // What the request does with a device's axes.
 enum class Use {
   nothing,
+  lease,     // the caller's own lease, without the right to the axes
   axes,      // the device asks for the right to them: lease, latch and epochs, as it begins and with each line
   all_axes,  // likewise; the pipeline asks for all axes first, since the device may not be asked at all
 };

@@ -37,7 +37,7 @@ api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext
           .deadline = call_deadline(call),
           .request_id = context.request_id(),
           .not_after = not_after(context),
-          .lease = context.lease_token(),
+          .lease_token = context.lease_token(),
           .device_epoch = context.device_epoch(),
           .frame_epoch = context.frame_epoch(),
           .validate_only = validate_only};

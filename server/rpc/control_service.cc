@@ -90,9 +90,15 @@ grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* con
                                                 v1::RearmResponse* response) {
   const auto call = UnaryCall<v1::RearmResponse>::start(response);
   leases_.rearm(to_call(*context, request->context()), request->device(),
-                answering<stage::AxisSet>(call, [](v1::RearmResponse& answer, stage::AxisSet lifted) {
-                  for (const int axis : lifted.list()) answer.add_axes(axis);
-                }));
+                answering<std::vector<server::Latch>>(
+                    call, [](v1::RearmResponse& answer, const std::vector<server::Latch>& lifted) {
+                      stage::AxisSet axes;
+                      for (const server::Latch& latch : lifted) {
+                        axes = axes | latch.axes;
+                        *answer.add_latches() = to_proto(latch);
+                      }
+                      for (const int axis : axes.list()) answer.add_axes(axis);
+                    }));
   return call.get();
 }
 

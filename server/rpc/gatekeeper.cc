@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "device/core/escape.h"
+#include "server/access/access.h"
 #include "server/rpc/method_kinds.h"
 #include "server/rpc/status.h"
 
@@ -39,7 +40,7 @@ std::optional<std::string> token_in(const std::optional<std::string_view>& autho
 std::string from_where(const grpc::CallbackServerContext& call) {
   const std::string peer = call.peer();
   const std::size_t colon = peer.find(':');
-  return "tcp " + escaped(colon == std::string::npos ? peer : peer.substr(colon + 1));
+  return server::anonymous_caller(escaped(colon == std::string::npos ? peer : peer.substr(colon + 1)));
 }
 
 // Whom the connection named; none: nobody.

@@ -35,14 +35,6 @@ v1::AtLoss to_rule(AtLoss at_loss) {
   return static_cast<v1::AtLoss>(static_cast<int>(at_loss) + 1);
 }
 
-v1::Latch to_latch(const server::Latch& latch) {
-  v1::Latch proto;
-  add_axes(*proto.mutable_axes(), latch.axes);
-  proto.set_by(latch.by);
-  *proto.mutable_time() = to_stamp(latch.at);
-  return proto;
-}
-
 }  // namespace
 
 Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms) {
@@ -56,7 +48,7 @@ Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms) {
 
 v1::Lease to_proto(const server::Lease& lease) {
   v1::Lease proto;
-  proto.set_token(lease.token);
+  proto.set_token(lease.sealed_token);
   add_axes(*proto.mutable_axes(), lease.terms.axes);
   proto.set_holder(lease.holder);
   *proto.mutable_since_time() = to_stamp(lease.since);
@@ -64,8 +56,16 @@ v1::Lease to_proto(const server::Lease& lease) {
   *proto.mutable_time_to_live() = to_proto(lease.terms.time_to_live);
   proto.set_at_loss(to_rule(lease.terms.at_loss));
   proto.set_purpose(lease.terms.purpose);
-  if (lease.latch) *proto.mutable_latch() = to_latch(*lease.latch);
+  if (lease.latch) *proto.mutable_latch() = to_proto(*lease.latch);
   proto.set_ending(lease.ending);
+  return proto;
+}
+
+v1::Latch to_proto(const server::Latch& latch) {
+  v1::Latch proto;
+  add_axes(*proto.mutable_axes(), latch.axes);
+  proto.set_by(latch.by);
+  *proto.mutable_time() = to_stamp(latch.at);
   return proto;
 }
 
@@ -87,7 +87,7 @@ v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board) {
   for (const server::Leases::HeldBack& held_back : board.held_back) {
     v1::HeldBack& one = *proto.add_held_back();
     one.set_who(held_back.who);
-    *one.mutable_latch() = to_latch(held_back.latch);
+    *one.mutable_latch() = to_proto(held_back.latch);
   }
   return proto;
 }

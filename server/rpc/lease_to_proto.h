@@ -15,6 +15,8 @@ Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms);
 // With its token: for its holder.
 v1::Lease to_proto(const server::Lease& lease);
 
+v1::Latch to_proto(const server::Latch& latch);
+
 // Without tokens.
 v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board);
 

@@ -56,7 +56,7 @@ TEST_F(AdmissionTest, TheCallsDeadlineIsTheLimitOfAChangeButNotOfAMotion) {
 }
 
 TEST_F(AdmissionTest, LeaseAndEpochsReachWhatUsesAxes) {
-  call_.lease = 5;
+  call_.lease_token = world_.sealed(5);
   call_.device_epoch = 6;
   call_.frame_epoch = 7;
   call_.request_id = "mine";
@@ -67,8 +67,22 @@ TEST_F(AdmissionTest, LeaseAndEpochsReachWhatUsesAxes) {
   EXPECT_EQ(move->request_id, "mine");
   EXPECT_EQ(move->role, "operator");
   EXPECT_EQ(move->who, kAnna);
-  EXPECT_EQ(context(RequestKind::rearm)->lease, 0u);
+  EXPECT_EQ(context(RequestKind::rearm)->lease, 5u);
+  EXPECT_EQ(context(RequestKind::rearm)->device_epoch, 0u);
+  EXPECT_EQ(context(RequestKind::acquire_lease)->lease, 0u);
   EXPECT_EQ(context(RequestKind::get_device)->request_id, "");
+}
+
+// A guess holds back nobody who needs no lease, and least of all a stop.
+TEST_F(AdmissionTest, AGuessedLeaseTokenIsRefused) {
+  call_.lease_token = world_.sealed(5);
+  call_.lease_token.back() ^= 1;
+  for (const RequestKind kind : {RequestKind::move, RequestKind::release_lease, RequestKind::rearm}) {
+    ASSERT_FALSE(context(kind));
+    EXPECT_EQ(context(kind).error().reason, Reason::lease_lost);
+  }
+  EXPECT_TRUE(context(RequestKind::acquire_lease));
+  EXPECT_EQ(world_.api->admission.context_of_stop(call_).lease, 0u);
 }
 
 TEST_F(AdmissionTest, ARequestIdIsShortAndPrintableUnlessItIsAStops) {

@@ -54,7 +54,7 @@ Reason keep_alive(World& world, const Call& call) {
   const auto keeping = world.api->leases.keep_alive(call);
   if (!keeping) return keeping.error().reason;
   Reader<server::Lease> reader(*keeping);
-  (*keeping)->keep(kDevice, call.lease);
+  (*keeping)->keep(kDevice, call.lease_token);
   if (reader.next()) (*keeping)->finish();
   return reader.reason();
 }
@@ -149,7 +149,7 @@ Reason ask_settings(World& world, RequestKind kind, const Call& call) {
 Reason ask_leases(World& world, RequestKind kind, const Call& call) {
   const Leases& leases = world.api->leases;
   Asking<void> done;
-  Asking<stage::AxisSet> lifted;
+  Asking<std::vector<server::Latch>> lifted;
   switch (kind) {
     case RequestKind::acquire_lease:
       return acquire(world, call);

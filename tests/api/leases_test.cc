@@ -123,7 +123,7 @@ TEST_F(LeasesOfApi, ALeaseWhoseCallerHasGoneIsGivenBack) {
 
 TEST_F(LeasesOfApi, AHandOverGoesToTheOneWhoWaits) {
   Call eve = World::by("unix eve");
-  eve.lease = world_.lease_of("unix eve");
+  eve.lease_token = world_.sealed(world_.lease_of("unix eve"));
   const auto seeker = wait_for_lease();
   Asking<void> done;
   world_.api->leases.hand_over(eve, kDevice, kAnna, done.answer());
@@ -134,11 +134,11 @@ TEST_F(LeasesOfApi, AHandOverGoesToTheOneWhoWaits) {
 TEST_F(LeasesOfApi, AConnectionThatBreaksOffLosesWhatItKeptAlive) {
   World slow([](World& configured) { configured.device_text = "speed = 1\noptions = { speed = \"1000\" }\n"; });
   Call call = World::by(kAnna);
-  call.lease = slow.lease_of(kAnna);
+  call.lease_token = slow.sealed(slow.lease_of(kAnna));
   const auto keeping = *slow.api->leases.keep_alive(call);
   Reader<server::Lease> reader(keeping);
-  keeping->keep(kDevice, call.lease);
-  EXPECT_EQ(reader.next()->token, call.lease);
+  keeping->keep(kDevice, call.lease_token);
+  EXPECT_EQ(reader.next()->sealed_token, call.lease_token);
   ASSERT_TRUE(slow.move(call, 100'000));
   keeping->break_off();
   EXPECT_TRUE(slow.all_ended());
@@ -146,7 +146,7 @@ TEST_F(LeasesOfApi, AConnectionThatBreaksOffLosesWhatItKeptAlive) {
 }
 
 TEST_F(LeasesOfApi, OneThatEndsInOrderLosesNothing) {
-  const server::LeaseToken token = world_.lease_of(kAnna);
+  const std::string token = world_.sealed(world_.lease_of(kAnna));
   const auto keeping = *world_.api->leases.keep_alive(World::by(kAnna));
   Reader<server::Lease> reader(keeping);
   keeping->keep(kDevice, token);

@@ -24,7 +24,6 @@ enum class Asks {
   axes_always,  // likewise, also where it is only checked
   lease,        // is about a lease: needs the caller's own
   free_axes,    // gets a lease where nobody has one
-  rearm,        // a lease that was lost cannot be rearmed
 };
 
 struct Row {
@@ -51,7 +50,7 @@ const std::vector<Row> kRows = {
     {Kind::hand_over_lease, "hand_over_lease", Role::operator_, "request", Asks::lease, Reason::not_found},
     {Kind::take_over_lease, "take_over_lease", Role::operator_, "request", Asks::nothing},
     {Kind::watch_leases, "watch_leases", Role::observer, "stream", Asks::nothing},
-    {Kind::rearm, "rearm", Role::operator_, "request", Asks::rearm},
+    {Kind::rearm, "rearm", Role::operator_, "request", Asks::nothing},
     {Kind::list_devices, "list_devices", Role::observer, "", Asks::nothing},
     {Kind::get_device, "get_device", Role::observer, "request", Asks::nothing},
     {Kind::watch_device, "watch_device", Role::observer, "stream", Asks::nothing},
@@ -240,8 +239,6 @@ Reason expected(const Row& row, const Circumstances& now) {
     case Asks::free_axes:
       return now.validate_only || (now.lease != Lease::own && now.lease != Lease::of_another) ? kDone
                                                                                               : Reason::lease_held;
-    case Asks::rearm:
-      return now.lease == Lease::lost ? Reason::lease_lost : kDone;
   }
   return Reason::internal;
 }
@@ -256,9 +253,9 @@ class Rights {
     Call call = World::by(kAdmin);
     call.validate_only = now.validate_only;
     if (now.late) call.not_after = monotonic_now() - std::chrono::milliseconds(1);
-    if (now.lease == Lease::own) call.lease = world_.lease_of(kAdmin);
+    if (now.lease == Lease::own) call.lease_token = world_.sealed(world_.lease_of(kAdmin));
     if (now.lease == Lease::of_another) (void)world_.lease_of("unix eve");
-    if (now.lease == Lease::lost) call.lease = 7;
+    if (now.lease == Lease::lost) call.lease_token = world_.sealed(7);
     if (now.latched) world_.latch(kAdmin);
     return call;
   }

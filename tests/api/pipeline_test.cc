@@ -145,9 +145,12 @@ TEST_F(SlowWorld, AnothersStopLatches) {
   ASSERT_TRUE(world_.move(World::by(kAnna), 100'000));
   EXPECT_EQ(ask(world_, RequestKind::stop, World::by("unix olaf")), Reason::unspecified);
   EXPECT_EQ(world_.reason_of_move(World::by(kAnna)), Reason::stopped_by);
-  Asking<stage::AxisSet> lifted;
+  Asking<std::vector<server::Latch>> lifted;
   world_.api->leases.rearm(World::by(kAnna), kDevice, lifted.answer());
-  EXPECT_EQ(lifted.get().value_or(stage::AxisSet()), stage::AxisSet::of(1));
+  const auto latches = lifted.get();
+  ASSERT_EQ(latches.value_or(std::vector<server::Latch>()).size(), 1u);
+  EXPECT_EQ(latches->front().axes, stage::AxisSet::of(1));
+  EXPECT_EQ(latches->front().by, "unix olaf");
   EXPECT_EQ(world_.reason_of_move(World::by(kAnna)), Reason::unspecified);
 }
 

@@ -176,6 +176,8 @@ class World {
     return *token;
   }
 
+  std::string sealed(server::LeaseToken token) const { return gateway->lease_tokens().seal(token); }
+
   // Somebody else stops what `who` moves: nothing moves for `who` until rearm.
   void latch(const std::string& who) {
     on_strand([&](stage::StageController&, TimePoint now) {

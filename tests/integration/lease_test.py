@@ -174,11 +174,11 @@ class Leases(unittest.TestCase):
         self.assertEqual(stopped.returncode, 3)
         self.assertRegex(stopped.stderr, "STOPPED_BY: unix .* your motions there are refused until you rearm")
         outside = self.daemon.run("rearm")
-        self.assertRegex(outside.stdout, rf"\Athis terminal has no latch; a lease of {STRANGER} has one on axis 1: to end it, "
-                                         r"run `axisctl rearm` inside its `axisctl lease run`\n\Z")
+        self.assertRegex(outside.stdout, rf"\Ayou have no latch; a lease of {STRANGER} has one on axis 1: to end it, "
+                                         r"run `axisctl rearm` as its holder, or inside its `axisctl lease run`\n\Z")
         rearmed = subprocess.run(["env", f"AXISGATE_LEASE={holder.token}", *self.stranger("rearm")],
                                  capture_output=True, text=True, timeout=LIMIT_S, check=False)
-        self.assertEqual(rearmed.stdout, "axis 1 may move again\n")
+        self.assertRegex(rearmed.stdout, r"\Areleased: the stop of axis 1 by unix \S+ at .*\naxis 1 may move again\n\Z")
         self.assertEqual(self.daemon.run("rearm").stdout, "there is no latch\n")
         self.assertEqual(subprocess.run(move, capture_output=True, timeout=LIMIT_S, check=False).returncode, 0)
 
@@ -187,10 +187,14 @@ class Leases(unittest.TestCase):
                                capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(wrong.returncode, 2)
         self.assertIn('AXISGATE_LEASE is "mine"', wrong.stderr)
-        old = subprocess.run(self.stranger("move", "1=1mm"), env=dict(os.environ, AXISGATE_LEASE="5"),
+        old = subprocess.run(self.stranger("move", "1=1mm"), env=dict(os.environ, AXISGATE_LEASE="00" * 24),
                              capture_output=True, text=True, timeout=LIMIT_S, check=False)
         self.assertEqual(old.returncode, 3)
-        self.assertIn("LEASE_LOST: no lease has this token", old.stderr)
+        self.assertIn("LEASE_LOST: the lease has ended: the daemon has restarted", old.stderr)
+        guess = subprocess.run(self.stranger("move", "1=1mm"), env=dict(os.environ, AXISGATE_LEASE="ff" * 24),
+                               capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        self.assertEqual(guess.returncode, 3)
+        self.assertIn("LEASE_LOST: no lease has this token", guess.stderr)
 
 
 if __name__ == "__main__":

@@ -28,7 +28,7 @@ class ControlTest : public RpcTest {
     if (lease != nullptr) *lease = response.lease();
     return status;
   }
-  grpc::Status release(std::uint64_t token) {
+  grpc::Status release(const std::string& token) {
     grpc::ClientContext context;
     limit(context);
     v1::ReleaseLeaseRequest request;
@@ -52,7 +52,7 @@ class ControlTest : public RpcTest {
     return response;
   }
   using Keeping = grpc::ClientReaderWriter<v1::KeepLeaseAliveRequest, v1::KeepLeaseAliveResponse>;
-  static bool keep(Keeping& stream, std::uint64_t token, v1::KeepLeaseAliveResponse* response) {
+  static bool keep(Keeping& stream, const std::string& token, v1::KeepLeaseAliveResponse* response) {
     v1::KeepLeaseAliveRequest request;
     request.set_device("devices/stage");
     request.set_lease_token(token);
@@ -63,13 +63,14 @@ class ControlTest : public RpcTest {
 TEST_F(ControlTest, ALeaseIsTheHoldersAndItsTokenNobodyElses) {
   v1::Lease lease;
   ASSERT_TRUE(acquire(acquire_request(1), &lease).ok());
-  EXPECT_EQ(lease.token() >> 32, 1u);
+  EXPECT_EQ(lease.token().size(), 24u);
+  EXPECT_EQ(lease.token().substr(0, 8), std::string("\0\0\0\1\0\0\0\1", 8)) << "generation and number";
   EXPECT_THAT(lease.axes(), ElementsAre(1));
   EXPECT_THAT(lease.holder(), HasSubstr("unix"));
   EXPECT_EQ(lease.at_loss(), v1::AT_LOSS_STOP);
   EXPECT_EQ(lease.time_to_live().seconds(), 10);
   const auto shown = board([](const v1::WatchLeasesResponse& response) { return response.leases_size() == 1; });
-  EXPECT_EQ(shown.leases(0).token(), 0u);
+  EXPECT_EQ(shown.leases(0).token(), "");
   v1::MoveRequest request = move_request(1, "1");
   EXPECT_EQ(reason(move(request)), v1::REASON_LEASE_HELD);
   request.mutable_context()->set_lease_token(lease.token());
@@ -92,7 +93,7 @@ TEST_F(ControlTest, WhatCannotBeIsRefused) {
   request.set_validate_only(true);
   v1::Lease lease;
   EXPECT_TRUE(acquire(request, &lease).ok());
-  EXPECT_EQ(lease.token(), 0u);
+  EXPECT_EQ(lease.token(), "");
 }
 
 TEST_F(ControlTest, OneWhoGoesAwayWaitsNoLonger) {
@@ -160,7 +161,7 @@ TEST_F(ControlTest, AnEndedLeaseIsNotKeptAlive) {
   limit(context);
   const auto stream = control_->KeepLeaseAlive(&context);
   v1::KeepLeaseAliveResponse response;
-  EXPECT_FALSE(keep(*stream, 12345, &response));
+  EXPECT_FALSE(keep(*stream, std::string(24, 'x'), &response));
   EXPECT_EQ(reason(stream->Finish()), v1::REASON_LEASE_LOST);
 }
 

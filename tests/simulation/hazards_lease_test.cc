@@ -202,7 +202,7 @@ TEST_F(HazardOfSharing, H53_AScanLoopStaysStopped) {
     EXPECT_EQ(move("anna", token, 1, 100), Reason::stopped_by);
     EXPECT_THAT(told, HasSubstr("bert stopped"));
     loops = false;
-    ASSERT_TRUE(leases.rearm(token, "anna", world.now()));
+    ASSERT_FALSE(leases.rearm(token, "anna", world.now()).empty());
     EXPECT_EQ(move("anna", token, 1, 100), Reason::unspecified);
     world.run_for(seconds(2));
     if (leased) {

@@ -140,16 +140,14 @@ void Users::granted(User& user, const Lease& lease) {
     }
   }
   const TimePoint until = world_.now() + lease.terms.time_to_live;
-  grants_[lease.token] = {user.name,
-                          lease.terms.axes,
-                          lease.terms.time_to_live,
-                          until,
-                          lease.terms.at_loss,
-                          {},
-                          false,
-                          false,
-                          false,
-                          world_.controller().state().device_epoch};
+  Grant grant;
+  grant.who = user.name;
+  grant.axes = lease.terms.axes;
+  grant.time_to_live = lease.terms.time_to_live;
+  grant.valid_until = until;
+  grant.at_loss = lease.terms.at_loss;
+  grant.epoch = world_.controller().state().device_epoch;
+  grants_[lease.token] = grant;
   if (user.token != 0) user.stale.push_back(user.token);
   user.token = lease.token;
 }
@@ -283,7 +281,9 @@ void Users::stop(User& user) {
   const LeaseToken token = random.chance(0.5) ? user.token : 0;
   for (auto& [lease, grant] : grants_) {
     const bool held = owned(grant);
-    if (held && lease != token) grant.latched = grant.latched | (grant.axes & hit);
+    if (!held || lease == token || !grant.axes.touches(hit)) continue;
+    grant.latched = grant.latched | (grant.axes & hit);
+    if (grant.who != user.name || !grant.latched_by_others.empty()) grant.latched_by_others = grant.latched;
   }
   for (const Motion& motion : world_.controller().motions()) {
     const bool runs = motion.state == MotionState::running || motion.state == MotionState::stopping;
@@ -295,9 +295,11 @@ void Users::stop(User& user) {
 }
 
 void Users::rearm(User& user) {
-  if (!leases_.rearm(user.token, user.name, world_.now())) return;
+  leases_.rearm(user.token, user.name, world_.now());
   held_back_.erase(user.name);
-  if (user.token != 0) grants_.at(user.token).latched = {};
+  for (auto& [lease, grant] : grants_) {
+    if (grant.who == user.name) grant.latched = grant.latched_by_others = {};
+  }
 }
 
 // The first epoch ends none: it is the first handshake.

@@ -44,9 +44,10 @@ class Users {
     TimePoint valid_until{};
     server::AtLoss at_loss = server::AtLoss::stop;
     stage::AxisSet latched;
-    bool sped = false;   // it has set speeds of its own
-    bool wired = false;  // ... outputs or a trigger
-    bool over = false;   // released, handed over or taken over
+    stage::AxisSet latched_by_others;  // of these, what outlives the lease
+    bool sped = false;                 // it has set speeds of its own
+    bool wired = false;                // ... outputs or a trigger
+    bool over = false;                 // released, handed over or taken over
     std::uint64_t epoch = 0;
   };
 

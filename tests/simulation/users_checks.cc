@@ -1,6 +1,7 @@
 // What must hold whatever the users do, looked at with every line that goes out.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 
 #include "device/shrc203/command/axes.h"
@@ -35,7 +36,9 @@ void Users::check_bytes(const BytesWritten& written) {
       world_.violation(fmt::format("{} of {} went out for axis {}, which {} owns", written.bytes.substr(0, 6),
                                    written.who, axis, owner->who));
     }
-    const bool latched = owner && owner->latched.has(axis);
+    const bool latched = (owner && owner->latched.has(axis)) || std::ranges::any_of(grants_, [&](const auto& entry) {
+                           return entry.second.who == written.who && entry.second.latched_by_others.has(axis);
+                         });
     const auto held_back = held_back_.find(written.who);
     if (latched || (held_back != held_back_.end() && held_back->second.has(axis))) {
       world_.violation(fmt::format("{} of {} went out for axis {}, which was stopped and not rearmed",

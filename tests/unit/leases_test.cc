@@ -1,71 +1,15 @@
-// Leases: who holds which axes, who waits, whom a stop holds back.
-#include "server/access/leases.h"
-
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <utility>
-#include <vector>
+// Leases: who holds which axes, and who waits.
+#include "tests/unit/lease_fixture.h"
 
 namespace axisgate::server::leases_test {
 namespace {
 
-using stage::Use;
 using std::chrono::seconds;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2), kBoth = kOne | kTwo;
-
-class LeasesTest : public testing::Test {
- protected:
-  Result<Lease> acquire(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
-    Result<Lease> got = fail(Reason::internal, "not answered");
-    leases_.acquire({.axes = axes, .at_loss = at_loss}, holder, false, now_, now_,
-                    [&](const Result<Lease>& lease) { got = lease; });
-    return got;
-  }
-  LeaseToken held_by(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
-    const auto lease = acquire(holder, axes, at_loss);
-    EXPECT_TRUE(lease) << lease.error().message;
-    return lease ? lease->token : 0;
-  }
-  // Waits for a minute; the answers come into answers_.
-  std::uint64_t wait_for(const std::string& holder, AxisSet axes, std::optional<Duration> use = {}) {
-    return leases_.acquire(
-        {.axes = axes, .expected_use = use}, holder, true, now_ + seconds(60), now_,
-        [this, holder](const Result<Lease>& lease) {
-          answers_.push_back(holder + (lease ? " has it" : " " + std::string(name(lease.error().reason))));
-          if (lease) granted_ = lease->token;
-        });
-  }
-  Reason may(const std::string& who, LeaseToken lease, AxisSet axes, MotionId motion = 0) {
-    const auto allowed = leases_.authorize({who, lease, axes, motion}, now_);
-    if (!allowed) told_ = allowed.error().message;
-    return allowed ? Reason::unspecified : allowed.error().reason;
-  }
-  void begin(MotionId motion, const std::string& who, LeaseToken lease, AxisSet axes) {
-    leases_.begin({who, lease, axes, motion}, now_);
-  }
-  void pass(Duration time) {
-    now_ += time;
-    for (const auto& order : leases_.advance(now_).stops) orders_.push_back(order);
-  }
-  void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0) {
-    leases_.stop_asked({who, lease, axes, 0}, now_);
-  }
-
-  TimePoint now_{seconds(1000)};
-  LeaseTokens tokens_{7};
-  Leases leases_{tokens_};
-  std::vector<std::string> answers_;
-  std::vector<stage::StopOrder> orders_;
-  LeaseToken granted_ = 0;
-  std::string told_;
-};
-
-constexpr Reason kAllowed = Reason::unspecified;
+class LeasesTest : public LeaseFixture {};
 
 TEST_F(LeasesTest, TokensBearTheGenerationAndGrow) {
   const LeaseToken first = held_by("anna", kOne), second = held_by("bert", kTwo);
@@ -284,51 +228,6 @@ TEST_F(LeasesTest, ARestartOfTheControllerEndsAllLeases) {
   leases_.device_restarted(now_);
   EXPECT_EQ(may("anna", token, kOne), Reason::lease_lost);
   EXPECT_THAT(told_, HasSubstr("restarted"));
-}
-
-TEST_F(LeasesTest, AnothersStopHoldsTheHolderBackUntilRearm) {
-  const LeaseToken token = held_by("anna", kBoth);
-  stop_by("bert", kOne);
-  now_ += seconds(3);
-  EXPECT_EQ(may("anna", token, kOne), Reason::stopped_by);
-  EXPECT_THAT(told_, HasSubstr("bert stopped axis 1 (3 s ago)"));
-  EXPECT_EQ(may("anna", token, kTwo), kAllowed);
-  EXPECT_EQ(leases_.rearm(token, "anna", now_), kOne);
-  EXPECT_EQ(may("anna", token, kOne), kAllowed);
-}
-
-TEST_F(LeasesTest, TheHoldersOwnStopHoldsNobodyBack) {
-  const LeaseToken token = held_by("anna", kOne);
-  stop_by("anna", kOne, token);
-  EXPECT_EQ(may("anna", token, kOne), kAllowed);
-}
-
-TEST_F(LeasesTest, ALatchEndsWithItsLease) {
-  const LeaseToken token = held_by("anna", kOne);
-  stop_by("bert", kOne);
-  ASSERT_TRUE(leases_.release(token, now_));
-  EXPECT_EQ(may("anna", held_by("anna", kOne), kOne), kAllowed);
-}
-
-TEST_F(LeasesTest, AnothersStopHoldsBackALoopWithoutALease) {
-  begin(1, "anna", 0, kOne);
-  leases_.end(1, now_);
-  now_ += seconds(1);  // between two motions
-  stop_by("bert", AxisSet::all());
-  EXPECT_EQ(may("anna", 0, kOne), Reason::stopped_by);
-  EXPECT_EQ(may("anna", 0, kTwo), kAllowed);
-  EXPECT_EQ(may("bert", 0, kOne), kAllowed);
-  now_ += seconds(3600);
-  EXPECT_EQ(may("anna", 0, kOne), Reason::stopped_by) << "until rearm";
-  EXPECT_EQ(leases_.rearm(0, "anna", now_), kOne);
-  EXPECT_EQ(may("anna", 0, kOne), kAllowed);
-}
-
-TEST_F(LeasesTest, OnesOwnStopDoesNotHoldOneBack) {
-  begin(1, "anna", 0, kOne);
-  stop_by("anna", kOne);
-  leases_.end(1, now_);
-  EXPECT_EQ(may("anna", 0, kOne), kAllowed);
 }
 
 TEST_F(LeasesTest, QuestionsNeedNothing) {

@@ -1,0 +1,69 @@
+// What the tests of leases and of latches share: one device's leases, and what they answer.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "server/access/leases.h"
+
+namespace axisgate::server {
+
+inline constexpr AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2), kBoth = kOne | kTwo;
+inline constexpr Reason kAllowed = Reason::unspecified;
+
+class LeaseFixture : public testing::Test {
+ protected:
+  Result<Lease> acquire(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
+    Result<Lease> got = fail(Reason::internal, "not answered");
+    leases_.acquire({.axes = axes, .at_loss = at_loss}, holder, false, now_, now_,
+                    [&](const Result<Lease>& lease) { got = lease; });
+    return got;
+  }
+  LeaseToken held_by(const std::string& holder, AxisSet axes, AtLoss at_loss = AtLoss::stop) {
+    const auto lease = acquire(holder, axes, at_loss);
+    EXPECT_TRUE(lease) << lease.error().message;
+    return lease ? lease->token : 0;
+  }
+  // Waits for a minute; the answers come into answers_.
+  std::uint64_t wait_for(const std::string& holder, AxisSet axes, std::optional<Duration> use = {}) {
+    return leases_.acquire(
+        {.axes = axes, .expected_use = use}, holder, true, now_ + std::chrono::seconds(60), now_,
+        [this, holder](const Result<Lease>& lease) {
+          answers_.push_back(holder + (lease ? " has it" : " " + std::string(name(lease.error().reason))));
+          if (lease) granted_ = lease->token;
+        });
+  }
+  Reason may(const std::string& who, LeaseToken lease, AxisSet axes, MotionId motion = 0) {
+    const auto allowed = leases_.authorize({who, lease, axes, motion}, now_);
+    if (!allowed) told_ = allowed.error().message;
+    return allowed ? Reason::unspecified : allowed.error().reason;
+  }
+  void begin(MotionId motion, const std::string& who, LeaseToken lease, AxisSet axes) {
+    leases_.begin({who, lease, axes, motion}, now_);
+  }
+  void pass(Duration time) {
+    now_ += time;
+    for (const auto& order : leases_.advance(now_).stops) orders_.push_back(order);
+  }
+  AxisSet rearm(const std::string& who, LeaseToken lease = 0) {
+    AxisSet axes;
+    for (const Latch& latch : leases_.rearm(lease, who, now_)) axes = axes | latch.axes;
+    return axes;
+  }
+  void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0) {
+    leases_.stop_asked({who, lease, axes, 0}, now_);
+  }
+
+  TimePoint now_{std::chrono::seconds(1000)};
+  LeaseTokens tokens_{7};
+  Leases leases_{tokens_};
+  std::vector<std::string> answers_;
+  std::vector<stage::StopOrder> orders_;
+  LeaseToken granted_ = 0;
+  std::string told_;
+};
+
+}  // namespace axisgate::server
