@@ -26,7 +26,7 @@ RUN apt-get update --quiet \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 203 --no-create-home --groups dialout axisgate \
  && install --directory --owner axisgate --group axisgate /run/axisgate /var/lib/axisgate
-COPY --from=build /src/build/bin/axisgated /src/build/bin/axisctl /usr/local/bin/
+COPY --from=build /src/build-release/bin/axisgated /src/build-release/bin/axisctl /usr/local/bin/
 COPY --from=build /src/deploy/mills /usr/local/share/axisgate/mills
 ARG REVISION
 LABEL org.opencontainers.image.title="axisgate" \

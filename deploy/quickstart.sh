@@ -31,8 +31,8 @@ read_arguments() {
 build() {
   # From the root, because presets are looked up there.
   cd "$root"
-  cmake --preset release || fail "the step 'configure' failed"
-  cmake --build --preset release --target axisgated axisctl shrc203-sim || fail "the step 'build' failed"
+  cmake --preset dev || fail "the step 'configure' failed"
+  cmake --build --preset dev --target axisgated axisctl shrc203-sim || fail "the step 'build' failed"
 }
 
 # The socket inode of whoever listens on the TCP port $1; the kernel's tables have ports in hexadecimal, 0A is LISTEN.

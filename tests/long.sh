@@ -17,8 +17,8 @@ main() {
   local first
   first="$(date +%Y%m%d)0000"
   printf '== seeds from %s on\n' "$first"
-  build-dev/bin/axisgate-explore --seed "$first" --seeds "$((hours * 6))" --hours "$hours"
-  build-dev/bin/axisgate-explore --seed "$((first + 5000))" --seeds "$((hours * 2))" --hours "$((hours / 3))" --shapes
+  build/bin/axisgate-explore --seed "$first" --seeds "$((hours * 6))" --hours "$hours"
+  build/bin/axisgate-explore --seed "$((first + 5000))" --seeds "$((hours * 2))" --hours "$((hours / 3))" --shapes
   "$root/tests/paced-path.sh" "$paced_segments"
   "$root/tests/fuzz.sh" "$fuzz_seconds"
 }

@@ -6,5 +6,5 @@ set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 
-AXISGATE_SEGMENTS="${1:?how many segments?}" AXISGATE_BIN="${AXISGATE_BIN:-$root/build-dev/bin}" \
+AXISGATE_SEGMENTS="${1:?how many segments?}" AXISGATE_BIN="${AXISGATE_BIN:-$root/build/bin}" \
   PYTHONDONTWRITEBYTECODE=1 /usr/bin/python3 "$root/tests/integration/paced_path_test.py"

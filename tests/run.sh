@@ -1,13 +1,16 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds with warnings as errors, runs every test. The last line is "N passed, M failed"; the
 # exit code is 0 only if something passed and nothing failed.
-# usage: tests/run.sh [PRESET]     a preset of CMakePresets.json; without one `dev`. Any other (asan, tsan) builds into
-#                                  build-PRESET and runs the C++ tests alone.
+# usage: tests/run.sh [PRESET]     a preset of CMakePresets.json; without one `dev`. For any other (asan, tsan) only the
+#                                  C++ tests run.
 set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 preset="${1:-dev}"
-build="$root/build-$preset"
+case "$preset" in
+  dev) build="$root/build" ;;
+  *) build="$root/build-$preset" ;;
+esac
 passed=0
 failed=0
 

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kSectionsOfTheManual = 136;
 constexpr std::string_view kHowToWrite =
-    "AXISGATE_WRITE_COMMANDS=1 build-dev/bin/conformance_tests --gtest_filter='CommandsPage.*'";
+    "AXISGATE_WRITE_COMMANDS=1 build/bin/conformance_tests --gtest_filter='CommandsPage.*'";
 
 const std::filesystem::path kSource = AXISGATE_SOURCE_DIR;
 

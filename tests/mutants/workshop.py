@@ -43,7 +43,7 @@ class Workshop:
     def __init__(self, root, commit, folder, limit=None):
         self.folder = folder
         self.source = folder / "source"
-        self.bin = self.source / "build-dev" / "bin"
+        self.bin = self.source / "build" / "bin"
         self.limit = limit
         self.seconds = {}  # that each program takes without a mutation
         folder.mkdir(parents=True, exist_ok=True)
@@ -88,7 +88,7 @@ class Workshop:
 
     def prepare(self, programs, say):
         """Builds the programs and runs them as they are, once: none may fail, and how long they take is a measure."""
-        if not (self.source / "build-dev" / "build.ninja").exists():
+        if not (self.source / "build" / "build.ninja").exists():
             self._require(self._run("cmake", "--preset", "dev"), "cmake --preset dev fails")
         for program in programs:
             if program in self.seconds:

@@ -14,7 +14,7 @@ namespace axisgate::refusals {
 namespace {
 
 constexpr std::string_view kHowToWrite =
-    "AXISGATE_WRITE_REFUSALS=1 build-dev/bin/refusals_tests --gtest_filter='RefusalsPage.*'";
+    "AXISGATE_WRITE_REFUSALS=1 build/bin/refusals_tests --gtest_filter='RefusalsPage.*'";
 const std::filesystem::path kSource = AXISGATE_SOURCE_DIR;
 
 std::string content(const std::filesystem::path& path) {

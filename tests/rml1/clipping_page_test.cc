@@ -14,7 +14,7 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr std::string_view kHowToWrite =
-    "AXISGATE_WRITE_CLIPPING=1 build-dev/bin/rml1_tests --gtest_filter='ClippingPage.*'";
+    "AXISGATE_WRITE_CLIPPING=1 build/bin/rml1_tests --gtest_filter='ClippingPage.*'";
 const std::filesystem::path kFolder = std::filesystem::path(AXISGATE_SOURCE_DIR) / "device/rml1";
 constexpr double kCell = 220, kScale = 0.09, kColumns = 4;
 
