@@ -6,8 +6,8 @@
 
 namespace axisgate::server {
 
-// Made by the main thread before any other thread is started, none of which hears these signals then, and gone after
-// the gateway. When it has gone, a signal ends the process as it would any other.
+// Created by the main thread before it starts any other thread, so that none of those receives these signals. Destroyed
+// after the gateway. After that, a signal ends the process as it would any other.
 class EndSignals {
  public:
   EndSignals();

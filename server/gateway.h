@@ -27,7 +27,7 @@ class Gateway {
  public:
   // `generation` is greater for every start of the daemon (access/generation.h).
   Gateway(const Config& config, std::uint32_t generation);
-  // Ends the threads. Whoever posted a request to a device is gone by then: an unanswered one never will be answered.
+  // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
   ~Gateway();
   Gateway(const Gateway&) = delete;
   Gateway& operator=(const Gateway&) = delete;
@@ -39,7 +39,7 @@ class Gateway {
   // By then it is over, unless a line hangs in its driver.
   Duration wind_down_limit() const;
 
-  // Another text for every start of the daemon, when revisions and motions count from 1 anew.
+  // A different text for every start of the daemon, since revisions and motions then count from 1 again.
   const std::string& run() const { return run_; }
 
   const Config& config() const { return config_; }

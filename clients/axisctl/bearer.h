@@ -9,7 +9,7 @@
 
 namespace axisgate::axisctl {
 
-// The variable that holds the token by which the daemon knows the caller; unset: the daemon knows him by his user.
+// The variable that holds the token by which the daemon identifies the caller; unset: by the caller's user.
 inline constexpr const char* kTokenVariable = "AXISGATE_TOKEN";
 
 using Interceptors = std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>>;

@@ -103,7 +103,7 @@ v1::JogRequest make_request(const Options& options, const v1::Device& device) {
   return request;
 }
 
-// To a person, who can press it: elsewhere whoever has started axisctl knows how to end it.
+// Only for a person, who can press it: otherwise the program that has started axisctl knows how to end it.
 void say_how_it_ends(const v1::Device& device, const v1::JogRequest& request) {
   if (::isatty(STDIN_FILENO) != 1) return;
   std::vector<std::string> axes;

@@ -1,4 +1,4 @@
-// What a job is told, for people and for programs.
+// What is reported about a job, for people and for programs.
 #pragma once
 
 #include <string>

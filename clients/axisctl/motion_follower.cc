@@ -67,7 +67,7 @@ void MotionFollower::show_events(const std::string& motion, std::promise<void> a
     if (!concerns(event, motion)) continue;
     if (session_.options.json) {
       print_json(event);
-    } else if (!is_last(event, motion)) {  // the outcome is told by the verb itself
+    } else if (!is_last(event, motion)) {  // the verb itself reports the outcome
       display_.fact(describe(event));
     }
     if (is_last(event, motion)) break;

@@ -13,9 +13,8 @@
 
 namespace axisgate::axisctl {
 
-// Made before the motion is asked for, so that none of its events is missed. It only shows: whether the motion
-// succeeded is for its caller to learn from the daemon's answer, and a follower that loses its streams says nothing of
-// that.
+// Made before the motion is requested, so that none of its events is missed. It only shows events. Its caller learns
+// from the daemon's answer whether the motion succeeded, and a follower that loses its streams says nothing about that.
 class MotionFollower {
  public:
   MotionFollower(const Session& session, const v1::Device& device);

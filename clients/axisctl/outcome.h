@@ -1,4 +1,4 @@
-// What becomes of a motion, told to a person and as an exit code.
+// The outcome of a motion, reported to a person and as an exit code.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@ int report_started(const Session& session, const v1::Motion& motion);
 // Starts it and waits for the outcome, which is reported; with --no-wait, once it has started. Throws Failure.
 int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start);
 
-// From now on Ctrl-C says that the motion goes on, before it ends axisctl with exit code 130.
+// From now on Ctrl-C says that the motion continues, before it ends axisctl with exit code 130.
 void say_on_interrupt_that_motion_continues();
 
 }  // namespace axisgate::axisctl

@@ -10,7 +10,7 @@ namespace axisgate::axisctl {
 // Throws Failure when the file cannot be made or written, and says why.
 class Output {
  public:
-  // "" or "-": the standard output. A file that is there is written anew.
+  // "" or "-": the standard output. An existing file is overwritten.
   explicit Output(std::string path);
   ~Output();
   Output(const Output&) = delete;

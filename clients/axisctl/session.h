@@ -1,4 +1,4 @@
-// One run of axisctl: what was asked for, and the way to the daemon.
+// One run of axisctl: what was requested, and the connection to the daemon.
 #pragma once
 
 #include "axisgate/v1/device.pb.h"

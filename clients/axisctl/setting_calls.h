@@ -10,7 +10,7 @@ namespace axisgate::axisctl {
 // Waking up moves a stage, and a controller that restarts is silent meanwhile.
 inline constexpr std::chrono::seconds kSettingLimit{30};
 
-// Everything that is set, asked for now. Throws Failure.
+// All settings, as requested from the daemon now. Throws Failure.
 v1::Settings settings_of(const Session& session, const v1::Device& device);
 
 // Changes what is given; prints and exits as every verb that does. Throws Failure.

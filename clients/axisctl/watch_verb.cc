@@ -26,8 +26,8 @@ class Watcher {
     if (session.options.from_revision) request_.set_from_revision(*session.options.from_revision);
   }
 
-  // Returns only by a Failure that trying again would not mend. That the daemon is there at all is asked first: one
-  // that goes away later is waited for.
+  // Returns only by a Failure that trying again would not fix. It is first checked that the daemon is there at all. If
+  // the daemon stops later, it waits for it.
   [[noreturn]] void run() {
     session_.connection.call(session_.connection.devices, &v1::DeviceService::Stub::ListDevices,
                              v1::ListDevicesRequest(), kQuestionLimit);
@@ -77,8 +77,8 @@ class Watcher {
     const std::string text = found == problem.metadata().end() ? "" : found->second;
     std::uint64_t resume = 0;
     if (std::from_chars(text.data(), text.data() + text.size(), resume).ec != std::errc()) throw to_failure(problem);
-    // Whoever asked for what is gone decides how to go on; whoever fell behind or outlived a daemon is told and goes
-    // on.
+    // A caller that requested lost events decides how to continue. A watcher that was too slow, or outlived a daemon,
+    // is notified and continues.
     if (!seen_any_) throw Failure{kRefused, "COMPACTED", problem.message(), fmt::format("use --from {}", resume)};
     print_failure({kRefused, "COMPACTED", problem.message(), fmt::format("continuing from revision {}", resume)});
     request_.set_from_revision(resume);

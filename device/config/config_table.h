@@ -1,4 +1,4 @@
-// One TOML table under strict reading: every key is asked for by type and range, what nobody asked for is an error, and
+// One TOML table, read strictly: every key is requested by type and range, a key that nobody requested is an error, and
 // errors name file, line, key, what is wrong and what is allowed. Included by few, since toml++ is slow to compile.
 #pragma once
 

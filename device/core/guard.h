@@ -1,4 +1,4 @@
-// The guards: what keeps answers, outcomes and stops right on a bad line. Each is asked for where it acts,
+// The guards: what keeps answers, outcomes and stops correct on a bad line. Each is queried where it acts,
 //
 //   if (guarded(Guard::x) && ...)
 //

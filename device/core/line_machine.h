@@ -17,7 +17,7 @@ class ByteLink {
   // Queues bytes for the line, in order. Never blocks, never calls back into the machine.
   virtual void write(std::string_view bytes) = 0;
 
-  // Discards what is queued both ways, closes, and opens again after `wait`. The machine hears link_up or link_down.
+  // Discards what is queued both ways, closes, and opens again after `wait`. The machine receives link_up or link_down.
   virtual void reopen(Duration wait) = 0;
 };
 

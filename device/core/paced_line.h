@@ -36,7 +36,7 @@ class PacedLine : public LineMachine {
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
 
-  // What is done to the device beside its line; `act` is told the device's own time.
+  // Acts on the device other than through its line; `act` receives the device's own time.
   void touch(TimePoint now, const std::function<void(TimePoint device_now)>& act);
 
  private:

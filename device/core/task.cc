@@ -8,7 +8,7 @@ void Executor::spawn(Task<void> task) {
 }
 
 void Executor::run() {
-  if (running_) return;  // a task's own callback asked for more: the loop below gets there
+  if (running_) return;  // a task's own callback requested more: the loop below gets there
   running_ = true;
   for (std::size_t next = 0; next < ready_.size(); ++next) {
     const auto handle = ready_[next];

@@ -12,9 +12,9 @@
 
 namespace axisgate {
 
-// Runs `work` on a thread of its own and hands its result to `done` on the strand. Whoever lets the returned pointer go
-// does not wait any more: `done` is not called then, and the thread ends by itself when `work` does. Call it, and let
-// go, on the strand or when no thread runs its io_context; let go before the io_context ends.
+// Runs `work` on a thread of its own and hands its result to `done` on the strand. A caller that releases the returned
+// pointer does not wait any more: `done` is not called then, and the thread ends by itself when `work` does. Call it,
+// and release the pointer, on the strand or when no thread runs its io_context. Release it before the io_context ends.
 template <class Value>
 [[nodiscard]] std::shared_ptr<void> run_blocking_task(const Strand& strand, std::function<Value()> work,
                                                       std::function<void(Value)> done) {

@@ -5,7 +5,7 @@
 
 namespace axisgate {
 
-// Nanoseconds of CLOCK_BOOTTIME: never runs backwards, and goes on while the host sleeps, so that a lease that nobody
+// Nanoseconds of CLOCK_BOOTTIME: never runs backwards, and continues while the host sleeps, so that a lease that nobody
 // could keep alive has expired when it wakes. Thread safe.
 TimePoint monotonic_now();
 

@@ -28,7 +28,7 @@ void MachineHost::arm() {
     deadline_timer_.cancel();
     return;
   }
-  // Asio's clock stands still while the host sleeps, and this one does not.
+  // Asio's clock stops while the host sleeps; monotonic_now() does not.
   deadline_timer_.expires_after(*deadline - monotonic_now());
   deadline_timer_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
     if (error) return;

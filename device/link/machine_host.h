@@ -32,7 +32,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
   // The machine is never called again.
   void detach();
 
-  // The only way into the machine: afterwards what it asked for is done and its deadline is looked at again.
+  // The only way into the machine: afterwards its requests are carried out and its deadline is looked at again.
   template <class Call>
   void call(Call&& call) {
     if (machine_ == nullptr) return;
@@ -41,7 +41,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
     arm();
   }
 
-  // Does what the machine asked for in the call just ended.
+  // Carries out what the machine requested in the call just ended.
   virtual void settle() = 0;
 
  private:

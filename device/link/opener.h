@@ -14,7 +14,7 @@ namespace axisgate {
 using OpenedLine = Result<Descriptor>;
 using OnOpened = std::function<void(OpenedLine)>;
 
-// An attempt under way. Whoever lets it go gives it up: nobody is told, and what still opens is closed.
+// An attempt under way. Releasing it abandons it: nobody is notified, and what still opens is closed.
 using Opening = std::shared_ptr<void>;
 
 // Begins to open a line, and never blocks. The answer comes once, on the strand, after this has returned. Call it, and

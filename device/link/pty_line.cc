@@ -12,7 +12,7 @@
 namespace axisgate {
 namespace {
 
-// Only so does the master hear that its other end's input was emptied: each read begins with a byte that tells.
+// Packet mode: each read begins with a status byte. It reports that the input of the other end was emptied.
 void use_packets(const Pty& pty) {
   const int on = 1;
   ::ioctl(pty.master(), TIOCPKT, &on);
@@ -65,16 +65,15 @@ void PtyLine::reopen(Duration) {
   forget_flush();
 }
 
-// That the machine's own end has emptied the other one's input would be told with the next bytes, and cost them their
-// answers. A packet of one byte takes the news and no bytes.
+// Discards the notice that the machine itself has emptied the other end's input. It would come with the next bytes and
+// cost them their answers. A read of one byte takes the notice and no bytes.
 void PtyLine::forget_flush() {
   char changed = TIOCPKT_DATA;
   [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &changed, 1);
 }
 
-// Where clients followed each other since the last look, the bytes are the last one's if it has written at all. That a
-// client has written is told after its bytes can be read, so bytes of which nothing is told yet are the last one's,
-// too.
+// When clients followed each other since the last look, the bytes belong to the last one if it has written at all. A
+// write is reported after its bytes can be read, so bytes without a report yet belong to the last one, too.
 void PtyLine::look() {
   if (!attached()) return;
   PtyWatch::Visits visits{0, wrote_after_reading_, false};

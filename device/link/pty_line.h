@@ -11,9 +11,9 @@
 
 namespace axisgate {
 
-// Made by std::make_shared. The machine hears link_up when a client opens the terminal and link_down when the last one
-// has closed it. What it writes waits for the client to read it, and holds nothing up; what it writes while nobody is
-// there, or when kBytesUnsentMax wait already, is lost. A client that empties its input empties what waits, too.
+// Made by std::make_shared. The machine receives link_up when a client opens the terminal and link_down when the last
+// one has closed it. What it writes waits for the client to read it, and blocks nothing. What it writes while no client
+// is there, or when kBytesUnsentMax wait already, is lost. A client that empties its input also empties what waits.
 // Threads as for Runner.
 class PtyLine : public MachineHost, public ByteLink {
  public:

@@ -9,9 +9,9 @@
 
 namespace axisgate {
 
-// The master alone tells whether somebody is there, but not that one client left and the next came between two looks;
-// inotify does. Equal events that follow each other are merged by the kernel, so with several clients at once the
-// count is a guess: everybody_left() puts it right.
+// The master alone reports whether a client is there, but not that one client left and the next came between two looks;
+// inotify does. The kernel merges equal events that follow each other, so with several clients at once the count is a
+// guess: everybody_left() corrects it.
 class PtyWatch {
  public:
   struct Visits {
@@ -24,7 +24,7 @@ class PtyWatch {
 
   static Result<PtyWatch> open(const Pty& pty);
 
-  int descriptor() const { return events_.get(); }  // readable when drain() has news
+  int descriptor() const { return events_.get(); }  // readable when drain() has a change
   Visits drain();                                   // since the last call
   void everybody_left() { clients_ = 0; }
 

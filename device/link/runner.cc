@@ -119,7 +119,7 @@ void Runner::Line::lose(std::string_view why) {
 void Runner::Line::write(std::string_view bytes) {
   if (!descriptor_.is_open()) return;
   if (queued_.size() + bytes.size() > kOutputBytesMax) {
-    overflowed_ = true;  // told to the machine when it has returned
+    overflowed_ = true;  // reported to the machine when it has returned
     return;
   }
   queued_ += bytes;

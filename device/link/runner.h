@@ -29,24 +29,24 @@ class Runner : public ByteLink {
   // Before start(), once.
   void attach(LineMachine& machine);
 
-  // Opens the line. The machine hears link_up, or link_down with the reason; then, and after every later loss, it is
-  // for the machine to call reopen() with its own backoff.
+  // Opens the line. The machine receives link_up, or link_down with the reason. Then, and after every later loss, the
+  // machine must call reopen() with its own backoff.
   void start();
 
-  // Closes the line, or gives up opening it, and never calls the machine again. What a socket still has to send goes
-  // out; what a tty's flow control holds back does not. Takes effect at once on the strand, else as soon as the strand
-  // is free.
+  // Closes the line, or abandons opening it, and never calls the machine again. What a socket still has to send is
+  // sent; what a tty's flow control holds back is not. Takes effect at once on the strand, otherwise as soon as the
+  // strand is free.
   void shutdown();
 
-  // Takes over a descriptor in place of the present one. The machine hears link_up.
+  // Takes over a descriptor in place of the present one. The machine receives link_up.
   void adopt(int descriptor);
 
-  // Runs `request` on the strand, never from within post(); what it made the machine write goes out and the machine's
-  // deadline is looked at again afterwards. Dropped after shutdown().
+  // Runs `request` on the strand, never from within post(). Afterwards what it made the machine write is sent, and the
+  // machine's deadline is looked at again. Dropped after shutdown().
   void post(std::function<void(TimePoint now)> request);
 
   void write(std::string_view bytes) override;
-  // While the line is being opened already, that attempt goes on.
+  // While the line is already being opened, that attempt continues.
   void reopen(Duration wait) override;
 
  private:

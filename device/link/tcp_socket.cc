@@ -53,8 +53,8 @@ Lookup look_up(const TcpSettings& settings) {
   return result;
 }
 
-// One question at a time, however many attempts give up waiting for its answer; and an answer that comes too late for
-// its attempt serves the next, or a name that takes longer than an attempt would never be known.
+// One lookup at a time, however many attempts abandon the wait for its answer. An answer that comes too late for its
+// attempt serves the next one; otherwise a name that takes longer than an attempt would never be known.
 class NameServer : public std::enable_shared_from_this<NameServer> {
  public:
   using Answered = std::function<bool(const Lookup&)>;  // whether somebody still waited
@@ -125,8 +125,8 @@ void set(int socket, int level, int option, Value value) {
   ::setsockopt(socket, level, option, &number, sizeof number);
 }
 
-// Every command waits for its answer, so nothing is gained by collecting bytes; and a serial server that was switched
-// off tells nobody.
+// Every command waits for its answer, so nothing is gained by collecting bytes. A serial server that was switched off
+// does not report it.
 void set_options(int socket) {
   set(socket, IPPROTO_TCP, TCP_NODELAY, 1);
   set(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, kUnacknowledgedLimit.count());
@@ -136,7 +136,7 @@ void set_options(int socket) {
   set(socket, IPPROTO_TCP, TCP_KEEPCNT, kKeepAliveProbes);
 }
 
-// From the name to the connection. Its handlers hold it weakly: whoever lets go of it ends it.
+// From the name to the connection. Its handlers hold it weakly: releasing it ends it.
 class Attempt : public std::enable_shared_from_this<Attempt> {
  public:
   Attempt(const Strand& strand, TcpSettings settings, std::shared_ptr<NameServer> names, OnOpened opened)

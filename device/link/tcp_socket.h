@@ -24,8 +24,8 @@ inline constexpr std::chrono::milliseconds kUnacknowledgedLimit{5000};
 inline constexpr std::chrono::seconds kKeepAliveIdle{5}, kKeepAliveInterval{2};
 inline constexpr int kKeepAliveProbes = 3;
 
-// Each attempt connects anew, with the name looked up anew. Failures are link_down, with a message for people:
-// connection refused, the host is not known, no answer, no way there.
+// Each attempt looks up the name again and connects again. Failures are link_down, with a message for people:
+// connection refused, the host is not known, no answer, unreachable.
 Opener tcp_opener(TcpSettings settings);
 
 }  // namespace axisgate

@@ -38,7 +38,7 @@ std::string time_text(const Summary& summary);  // "45 s to 1 min 30 s"
 
 class Check : private MachineListener {
  public:
-  // `moves` hears of each real move, too. Everything referred to outlives this.
+  // `moves` receives each real move, too. Everything referred to outlives this.
   Check(const Profile& profile, CheckOptions options, MoveListener* moves = nullptr);
 
   void feed(std::string_view bytes);
@@ -65,7 +65,7 @@ class Check : private MachineListener {
   Diagnostics diagnostics_;
   JobKind kind_;
   JobKind::Verdict verdict_ = JobKind::Verdict::nothing_yet;
-  std::string held_;  // until the kind is told
+  std::string held_;  // until the kind is known
   Machine machine_;
   Parser parser_;
   Judge judge_;

@@ -1,4 +1,4 @@
-// What a job is told: the guideline's errors, and what a workpiece is saved by.
+// What is reported about a job: the guideline's errors, and what saves a workpiece.
 #pragma once
 
 #include <cstddef>
@@ -29,7 +29,7 @@ class Diagnostics {
  public:
   static constexpr std::size_t kKept = 100, kSame = 10;
 
-  // `text` is called only for what is kept: a job may have millions. Each place in the code that tells something is a
+  // `text` is called only for what is kept: a job may have millions. Each place in the code that reports something is a
   // kind.
   template <class Text>
   void add(int number, Severity severity, const Place& place, std::string_view section, Text&& text) {

@@ -1,4 +1,4 @@
-// Tells a job from G-code by how it begins: a mill that gets G-code hangs until it is switched off.
+// Distinguishes a job from G-code by how it begins: a mill that receives G-code hangs until it is switched off.
 #pragma once
 
 #include <cstddef>
@@ -15,10 +15,10 @@ class JobKind {
  public:
   enum class Verdict : std::uint8_t { nothing_yet, rml, g_code };
 
-  // `c` is the next byte. Once told, the same for ever; told after kLongest bytes at the latest.
+  // `c` is the next byte. Once decided, the verdict never changes; it is decided after kLongest bytes at the latest.
   Verdict take(char c);
 
-  const Place& place() const { return word_; }  // of the G-code that was told
+  const Place& place() const { return word_; }  // of the G-code that was recognised
 
  private:
   enum class In : std::uint8_t { blanks, comment, letter, number };

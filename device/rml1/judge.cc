@@ -99,7 +99,7 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
   }
 }
 
-// Nothing in a job tells its unit; a lift by a whole travel does.
+// A job does not state its unit; a lift by a whole travel shows it.
 void Judge::lifted(double steps, const Instruction& by) {
   const auto travel_of = [steps](double z_mm, double step) { return std::abs(z_mm / step - steps) <= kHalfStep; };
   if (reported_.contains(Cause::lift) || travel_of(profile_.z_mm, profile_.step_mm)) return;

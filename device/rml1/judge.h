@@ -23,7 +23,7 @@ struct KnownMachine {
   double step_mm = 0, z_mm = 0;
 };
 
-// Each warning is told once, at the first command that gives cause.
+// Each warning is given once, at the first command that causes it.
 class Judge {
  public:
   Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, std::vector<KnownMachine> others,

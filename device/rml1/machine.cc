@@ -316,7 +316,7 @@ void Machine::quit() {
   commanded_ = tool();
 }
 
-// Sets where an axis is commanded to, and tells the step that this means.
+// Sets where an axis is commanded to, and returns the step that this means.
 double Machine::aim(double& commanded, double value) const {
   commanded = target(value, commanded);
   return std::round(commanded);

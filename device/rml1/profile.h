@@ -1,4 +1,4 @@
-// A machine, as a TOML file tells it: deploy/mills has the known ones, and says where each figure comes from.
+// A machine, as a TOML file describes it: deploy/mills has the known ones, and says where each figure comes from.
 #pragma once
 
 #include <optional>

@@ -1,4 +1,4 @@
-// What the gateway is told about one SHRC-203: from the configuration, checked before the daemon starts.
+// The configuration of one SHRC-203, checked before the daemon starts.
 #pragma once
 
 #include <string>

@@ -36,7 +36,7 @@ double norm(PlanePoint point) {
   return std::hypot(static_cast<double>(point.first), static_cast<double>(point.second));
 }
 
-// It sets out at a right angle to the center, which lies to its left if it goes counterclockwise.
+// It starts at a right angle to the center, which lies to its left if it turns counterclockwise.
 Arc around(PlanePoint center, double degrees, Rotation rotation) {
   const double sense = rotation == Rotation::clockwise ? -1 : 1;
   const double heading =

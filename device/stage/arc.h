@@ -1,5 +1,5 @@
-// The curves of E: and EP: (manual 71) to 82)): where one ends, how far out it leads, how long it is. The travel limits
-// are held against the whole of it before its line is sent.
+// The curves of E: and EP: (manual 71) to 82)): where one ends, how far out it leads, how long it is. The whole of it
+// is checked against the travel limits before its line is sent.
 #pragma once
 
 #include <cstdint>
@@ -21,11 +21,11 @@ struct PlanePoint {
 // The command's d, 0 and 1, where the first axis points to the right and the second one up.
 enum class Rotation { clockwise, counterclockwise };
 
-// A piece of a circle, or rounds of it. Verdict by its course and not by its center, which is too far away to reckon
-// with where three points lie nearly on one line.
+// A piece of a circle, or several turns of it. Described by its course and not by its center, which is too far off to
+// compute with where three points lie nearly on one line.
 struct Arc {
   double radius = 0;   // pulses
-  double heading = 0;  // radians: where it sets out to, 0 along the first axis, a quarter turn along the second
+  double heading = 0;  // radians: the direction of its start, 0 along the first axis, a quarter turn along the second
   double sweep = 0;    // radians by which it turns, above 0 counterclockwise; not 0
   double rise = 0;     // pulses that the third axis goes meanwhile, evenly; 0 where the curve lies in the plane
 };
@@ -53,8 +53,8 @@ Rotation rotation_of(const Arc& arc);
 // passing point. Of less than one turn. out_of_range as arc_through().
 Result<Arc> other_way(const Arc& arc);
 
-// Pulses from the start, the nearest whole ones. The controller's own reckoning of E:1, E:4 and their EP: may end
-// beside it (manual 72), 75): "an error occurs").
+// Pulses from the start, the nearest whole ones. The end that the controller computes for E:1, E:4 and their EP: may
+// differ (manual 72), 75): "an error occurs").
 struct ArcEnd {
   std::int64_t first = 0;
   std::int64_t second = 0;
@@ -64,7 +64,7 @@ struct ArcEnd {
 };
 ArcEnd end_of(const Arc& arc);
 
-// Whether it does so exactly, as far as can be reckoned.
+// Whether the curve ends on them exactly, as far as can be computed.
 bool ends_on_whole_pulses(const Arc& arc);
 
 // Whole pulses from the start, both inclusive, rounded outwards: the controller's rounding is not known.

@@ -1,4 +1,4 @@
-// What a controller tells: facts, each delivered once and in order, and news of the newest state.
+// What a controller reports: facts, each delivered once and in order, and that there is a newer state.
 #pragma once
 
 #include <cstdint>
@@ -19,7 +19,7 @@ struct MotionChanged {
   Motion motion;
 };
 
-// An axis number came over the line by itself. `motion` is 0 when none of ours was waiting for it.
+// A completion was received. `motion` is 0 when none of ours was waiting for it.
 struct CompletionSeen {
   int axis = 0;
   MotionId motion = 0;
@@ -46,12 +46,12 @@ struct StopRequested {
   std::string who;
 };
 
-// Axes move that the gateway did not set going: the front panel did, or a gateway before this one.
+// Axes move that the gateway did not start: the front panel did, or a gateway before this one.
 struct ForeignMotion {
   AxisSet axes;
 };
 
-// Memory switches say another thing than before the way through their edit mode (manual 117) MS:ON): for good.
+// A visit to their edit mode has changed memory switches for good (manual 117) MS:ON).
 struct SwitchesChanged {
   struct Change {
     int item = 0, number = 0;  // 0 to 8 (manual 119)); from 0
@@ -62,19 +62,19 @@ struct SwitchesChanged {
   bool unknown = false;         // some may be others, too: the line was lost, or the controller did not tell
 };
 
-// The controller's program told something unasked (manual 109) P:C, 110) P:T).
+// The controller's program reported something unasked (manual 109) P:C, 110) P:T).
 struct ProgramNotice {
   enum class Kind { ended, trigger };
   Kind kind = Kind::ended;
-  std::int64_t count = 1;  // how often it was told since the last of these
+  std::int64_t count = 1;  // how often it was reported since the last of these
 };
 
-// A line was written, its CR LF included. For the recorder and metrics, as are the other news of the line itself.
+// A line was written, its CR LF included. For the recorder and metrics, as are the other events of the line itself.
 struct BytesWritten {
   std::string bytes;
   // Counts from 1 with each command sent, and belongs to what closes it, too. 0: a probe that belongs to none.
   std::uint64_t exchange = 0;
-  std::string who;  // who asked for it; empty: the line itself
+  std::string who;  // who requested it; empty: the line itself
   Lane lane = Lane::question;
   AxisSet completes{};  // the axes whose numbers may come from now on
   bool closed = false;  // an !:S follows an answer that could be such a number
@@ -116,8 +116,8 @@ struct LineLearned {
   enum class What {
     barrier_passed,   // also the one after a connect
     same_controller,  // a suspected restart was none
-    ready,            // the axes stand: their numbers may come for a little longer
-    busy,             // they do not
+    ready,            // the axes are stationary: their numbers may come for a little longer
+    busy,             // they are not
   };
   What what = What::barrier_passed;
   AxisSet axes{};  // of ready and busy
@@ -128,8 +128,8 @@ struct UnexpectedLine {
   std::string text;
 };
 
-// A state machine was given an event that its table does not have: an error of the gateway's own. Its line is given up,
-// and everything is stopped.
+// A state machine was given an event that its table does not have: an internal error of the gateway. Its line is
+// disconnected, and everything is stopped.
 struct IllegalTransition {
   std::string_view machine, state, event;
 };

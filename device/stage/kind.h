@@ -44,7 +44,7 @@ using Words = std::map<std::string, std::string, std::less<>>;
 // A device that exists in this process only.
 class Simulation : public LineMachine {
  public:
-  // What a person does at the device, and what he sees; the answer is for people. invalid_request.
+  // What a person does and sees at the device; the answer is for people. invalid_request.
   virtual Result<std::string> operate(std::string_view command, TimePoint now) = 0;
 };
 
@@ -61,7 +61,7 @@ class Kind {
                                                            ByteLink& link, EventSink& events,
                                                            Permission& permission) const = 0;
 
-  // A caller's own lines, as far as nothing but the lines themselves tells: malformed_line, unknown_command,
+  // Checks a caller's own lines, as far as the lines themselves allow it: malformed_line, unknown_command,
   // incomplete_transaction, invalid_request.
   virtual Result<void> check_lines(const std::vector<std::string>& lines) const = 0;
 

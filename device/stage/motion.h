@@ -26,15 +26,15 @@ struct AxisResult {
   int axis = 0;
   std::optional<std::int64_t> target_pulses;   // in the frame of the start; nothing before it is known
   std::optional<std::int64_t> command_pulses;  // the command counter at the end
-  bool completion_seen = false;                // the axis number came over the line
+  bool completion_seen = false;                // the completion was received
 };
 
 // What a scan came to, in drive pulses of the axis.
 struct ScanResult {
-  std::int64_t run_from = 0, run_to = 0;  // where it set out for its run, and where it came to rest
+  std::int64_t run_from = 0, run_to = 0;  // where it started its run, and where it stopped
   // Trigger pulses due in the whole run and in its range; of scale pulses nothing where the scale's are not known.
   std::optional<std::int64_t> expected, expected_in_range;
-  std::optional<std::int64_t> observed;  // by the way that the counter was seen to go; nothing before the end
+  std::optional<std::int64_t> observed;  // by the distance that the counter was seen to travel; nothing before the end
 };
 
 struct Motion {

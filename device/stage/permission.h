@@ -22,14 +22,14 @@ struct Use {
   MotionId motion = 0;  // 0: not yet one
 };
 
-// Axes that are to be stopped, since whoever moves them may do so no longer.
+// Axes that are to be stopped, since their user may not move them any longer.
 struct StopOrder {
   std::uint64_t id = 0;
   AxisSet axes;
   std::string who;  // on whose behalf, for people
 };
 
-// A lease under which nothing moves any more, whose holder had changed what would outlive him.
+// A lease under which nothing moves any more, whose holder had changed settings that would outlast it.
 struct EndedLease {
   std::uint64_t token = 0;
   std::string who;
@@ -52,7 +52,7 @@ class Permission {
   virtual void begin(const Use& use, TimePoint now) = 0;
   virtual void end(MotionId motion, TimePoint now) = 0;
 
-  // Somebody asked for a stop of these axes.
+  // A stop of these axes was requested.
   virtual void stop_asked(const Use& stop, TimePoint now) = 0;
   // The controller may have restarted: what was promised about it before is void.
   virtual void device_restarted(TimePoint now) = 0;

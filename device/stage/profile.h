@@ -1,5 +1,4 @@
-// What the gateway is told about one axis and what it carries: from the configuration, checked before the daemon
-// starts.
+// The configuration of one axis and what it carries, checked before the daemon starts.
 #pragma once
 
 #include <array>
@@ -18,7 +17,7 @@ struct AxisLimits {
   std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame
   std::optional<Quantity> travel_maximum;
   std::optional<Quantity> maximum_speed;  // per second
-  bool require_homing = false;            // no other motion before it has found its origin
+  bool require_homing = false;            // no other motion before it has homed
 };
 
 // For some callers it is less. What is left out, or wider than everybody's, changes nothing.
@@ -45,11 +44,11 @@ struct AxisProfile : AxisLimits {
 // What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
 enum class AtExit { stop, finish };
 
-// What a lease's holder has set for good (manual 89) D:, 96) O:, 97) to 101) T:): what it was before is set again when
-// his lease has ended, or it stays.
+// What a lease's holder has set for good (manual 89) D:, 96) O:, 97) to 101) T:): when the lease has ended, the
+// previous value is restored, or the new one is kept.
 enum class AtLeaseEnd { restored, kept };
 
-// What a stage controller of any kind is told. Its kind's own profile adds to it.
+// The configuration of a stage controller of any kind. Its kind's own profile adds to it.
 struct Profile {
   std::string name = "stage";
   std::string serial_number;  // empty: any unit is accepted, and then stays the one until the daemon ends

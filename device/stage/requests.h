@@ -40,9 +40,9 @@ struct SpeedProfile {
 
 struct AxisMove {
   int axis = 0;
-  Quantity distance;  // a target, or a way when the request is relative
+  Quantity distance;  // a target, or a displacement when the request is relative
   std::optional<SpeedProfile> profile;
-  std::optional<Quantity> approach{};  // the last way to the target, whatever side it is on; not 0
+  std::optional<Quantity> approach{};  // the approach to the target, whatever side it is on; not 0
 };
 
 struct MoveRequest {
@@ -101,8 +101,8 @@ struct ScanRequest {
 struct GoToPositionRequest {
   bool place = true;  // PIT:, else PAV:
   int number = 0;     // 1 to 20
-  // What the controller must tell that it holds, by axis; anything else is refused with epoch_passed. Empty: anything,
-  // but not nothing. For a place whose coordinates may have been set anew since, or recomputed (manual 129)).
+  // What the controller must report that it holds, by axis; anything else is refused with epoch_passed. Empty:
+  // anything, but not nothing. For a place whose coordinates may have changed since, or been recomputed (manual 129)).
   std::map<int, std::int64_t> expected;
   RequestContext context;
 };
@@ -139,7 +139,7 @@ struct StopReport {
 // What became of the motions that there were when the gateway began to end.
 struct WindDownReport {
   std::vector<Motion> motions;     // with their outcomes
-  std::optional<Problem> problem;  // of the stop: not written, or the axes were not seen to stand
+  std::optional<Problem> problem;  // of the stop: not written, or the axes were not confirmed stationary
 };
 
 struct ExecuteRequest {
@@ -147,12 +147,12 @@ struct ExecuteRequest {
   RequestContext context;
 };
 
-// A transaction's news, in order: each line's reply, then each completion it caused, then the end.
+// A transaction's events, in order: each line's reply, then each completion it caused, then the end.
 struct ExecuteEvent {
   enum class Kind { reply, completion, ended };
   Kind kind = Kind::reply;
   std::size_t line = 0;    // index into the request's lines
-  std::string answer;      // the field asked for, OK, NG ...
+  std::string answer;      // the requested field, OK, NG ...
   std::string sent;        // what was really sent
   std::string wire_reply;  // what really came
   int axis = 0;            // a completion's

@@ -83,7 +83,7 @@ using Setting = std::variant<SetClosedLoop, SetExcitation, SetDivisions, SetSpee
                              SetBeep, SetSettling, SetOutputs, SetTrigger, SetSleep, SetMode, SetFormat, SetCoordinates,
                              SetOrigin, UnsetOrigin, FireTrigger, ResetController>;
 
-// What was told; nothing where it was not.
+// What was reported; nothing where it was not.
 struct AxisSettings {
   std::optional<bool> excited{}, closed_loop{};
   std::optional<SpeedSetting> speeds{}, origin_speeds{};

@@ -60,7 +60,7 @@ class StageController : public LineMachine {
   virtual Result<void> check(const ScanRequest& request) const = 0;
   virtual Result<void> check(const GoToPositionRequest& request) const = 0;
 
-  // Answers when the axes stand still or the wait for it has run out. Empty: all controllable axes. Needs no lease.
+  // Answers when the axes are stationary or the wait for it has run out. Empty: all controllable axes. Needs no lease.
   using OnStopped = std::function<void(StopReport)>;
   virtual void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) = 0;
   virtual void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) = 0;

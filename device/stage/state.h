@@ -46,7 +46,7 @@ struct AxisState {
   bool foreign_motion = false;  // it moves, and nobody asked the gateway for that
   std::optional<bool> excited;
   bool homed = false;  // by this gateway since the device epoch began, and no coordinate was set since
-  int homings = 0;     // mechanical origin returns seen to succeed: each sets its coordinates anew
+  int homings = 0;     // mechanical origin returns seen to succeed: each sets its coordinates again
   AxisStatusBits status;
   std::optional<Scale> scale;
   std::optional<std::int64_t> minimum_speed, maximum_speed;  // S and F in pulses per second, as last read or set
@@ -61,7 +61,7 @@ struct State {
   std::string mode, format;
   std::uint64_t device_epoch = 0;  // raised when the controller may have restarted
   TimePoint epoch_began{};         // when that was last seen
-  std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set anew: R: RC: PSET:
+  std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set again: R: RC: PSET:
   std::array<AxisState, kAxisCount> axes;
   std::optional<int> outputs;      // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
   std::optional<Trigger> trigger;  // as last read or set

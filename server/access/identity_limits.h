@@ -1,4 +1,4 @@
-// How much each identity may have open at once, so that one runaway program leaves room for the others.
+// How much each identity may have open at once, so that one program out of control leaves room for the others.
 #pragma once
 
 #include <array>

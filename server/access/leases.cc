@@ -111,7 +111,7 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
   end_lease(**held, "it was handed over to " + to, false);
   Waiting waiting = std::move(*next);
   waiting_.erase(next);
-  waiting.not_after = TimePoint::max();  // it is his, whenever the settings have been restored
+  waiting.not_after = TimePoint::max();  // granted to them, whenever the settings have been restored
   waiting_.push_front(std::move(waiting));
   settle(now);
   return {};

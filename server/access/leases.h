@@ -2,7 +2,7 @@
 //
 //   acquire ──► waiting ──► held ──► (released, expired, taken over, device restarted) ──► ending ──► gone
 //                  │           ▲                                                             │
-//               given up       └── keep_alive      no motion of it is left, settings restored ──────┘
+//               abandoned      └── keep_alive      no motion of it is left, settings restored ──────┘
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ using stage::MotionId;
 
 // What becomes of the holder's motion when nobody keeps the lease alive any more.
 enum class AtLoss {
-  finish,            // it goes on to its end; the axes are free then
+  finish,            // it continues to its end; the axes are free then
   stop,              // it is stopped; the lease lasts until it expires, so that its holder may come back
   stop_and_release,  // it is stopped, and the lease ends with it
 };
@@ -40,7 +40,7 @@ struct LeaseTerms {
   std::string purpose{};                   // for people; may be empty
 };
 
-// A stop by another: nothing moves there until rearm() by whoever was stopped.
+// A stop by another: nothing moves there until the caller who was stopped calls rearm().
 struct Latch {
   AxisSet axes;
   std::string by;
@@ -89,7 +89,7 @@ class Leases : public stage::Permission {
   // To the first of that name who waits for nothing but these axes, past all others. lease_lost, axis_busy while a
   // motion runs under it, not_found when nobody of that name waits.
   Result<void> hand_over(LeaseToken token, const std::string& to, TimePoint now);
-  // Stops what moves there, whoever moves it, and takes the axes from all others.
+  // Stops all motion on these axes, no matter who started it, and takes the axes from all others.
   void take_over(LeaseTerms terms, const std::string& holder, TimePoint now, OnLease answer);
 
   // Lifts the latches that hold `who` back, those of the leases of `who`, and that of the lease with the token, if

@@ -1,5 +1,5 @@
-// Bearer tokens: who may call with which role, and until when. Kept as hashes, so that whoever reads the file calls as
-// nobody.
+// Bearer tokens: who may call with which role, and until when. Kept as hashes, so that reading the file does not let
+// anybody call.
 #pragma once
 
 #include <chrono>

@@ -48,8 +48,8 @@ struct DeviceConfig {
   std::string record;  // the file that the daemon records the line to; empty: none
 };
 
-// Where other machines call: TLS 1.3, and every caller has a token or a certificate. The files are PEM, and read anew
-// when they change.
+// Where other machines call: TLS 1.3, and every caller has a token or a certificate. The files are PEM. They are read
+// again when they change.
 struct NetworkConfig {
   TcpAddress listen;
   std::string certificate;  // of the daemon, with the chain up to, not with, the authority that callers know

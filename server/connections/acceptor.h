@@ -40,7 +40,7 @@ class Acceptor {
   enum class Service { all, stop_only };
   // By which kind of listener somebody came.
   enum class Origin { this_machine, network };
-  // A connection, non-blocking; whoever gets it closes it.
+  // A connection, non-blocking; the receiver closes it.
   using OnConnection = std::function<void(Descriptor connection, Service service, Origin origin)>;
   // As accept(2): a descriptor, or -1 and errno.
   using Accept = std::function<int(int listener)>;

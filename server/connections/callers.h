@@ -13,16 +13,16 @@ namespace axisgate::server {
 // The user who connected; none for a TCP connection.
 std::optional<uid_t> peer_uid(int connection);
 
-// Whose connection that is, as far as limits go: "uid 1000", or the machine's address, "192.168.0.7". Whoever calls
-// over loopback is one, since he may choose among 16 million addresses.
+// The owner of that connection, as far as limits go: "uid 1000", or the machine's address, "192.168.0.7". All callers
+// over loopback count as one owner, since a caller there can choose among 16 million addresses.
 std::string connection_owner(int connection);
 
 // "unix alice", after the machine's own /etc/passwd, or "unix uid 1234". Directories over the network are not asked:
 // a stop would wait for them.
 std::string caller_name(uid_t uid);
 
-// gRPC 1.51 has no name for the client of a Unix socket, and takes one only for a whole entrance. So there is an
-// entrance for each user, made before anybody came: the first to come gets the first. Users beyond them share the last.
+// gRPC 1.51 has no name for the client of a Unix socket, and takes one only for a whole endpoint. So there is an
+// endpoint for each user, made before anybody connects. The first user gets the first; surplus users share the last.
 class CallerSlots {
  public:
   explicit CallerSlots(std::size_t slots);

@@ -40,7 +40,7 @@ Result<File> open(const std::string& path) {
                 "the user as whom the daemon runs must be able to read it");
 }
 
-// Nobody is asked for a passphrase: a daemon that starts at night has nobody to ask.
+// No passphrase is requested: a daemon that starts at night has nobody to ask.
 int no_passphrase(char*, int, int, void*) { return 0; }
 
 Result<std::vector<Certificate>> read_certificates(const std::string& path) {

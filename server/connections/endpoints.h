@@ -1,4 +1,4 @@
-// The sockets that the daemon listens on. What is wrong with an address is said so that a person can mend it.
+// The sockets that the daemon listens on. Errors about an address are worded so that a person can fix it.
 #pragma once
 
 #include <sys/stat.h>

@@ -10,8 +10,8 @@
 
 namespace axisgate::server {
 
-// gRPC closes a connection itself and tells nobody, so each is known by its descriptor and its inode, and looked at
-// when the number matters. Thread safe.
+// gRPC closes a connection itself and reports that to nobody. So each connection is identified by its descriptor and
+// its inode, and is checked when the number matters. Thread safe.
 class OpenConnections {
  public:
   // At most `limit` have room, and of these at most `limit_of_one` of one owner.

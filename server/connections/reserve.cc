@@ -8,7 +8,7 @@
 namespace axisgate::server {
 namespace {
 
-// Both ways closed: whoever serves it has shut it down.
+// Closed in both directions: the server side has shut it down.
 bool ended(const Descriptor& connection) {
   pollfd poll{connection.get(), 0, 0};
   return ::poll(&poll, 1, 0) == 1 && (poll.revents & (POLLHUP | POLLERR)) != 0;
@@ -23,7 +23,7 @@ bool Reserve::open_place() {
   if (spare_.size() < kDescriptorsEach) return false;
   spare_.resize(spare_.size() - kDescriptorsEach);
   if (connections_.size() < places_) return true;
-  // Whoever serves it sees its end as if the client had left, and closes its descriptor.
+  // The server side sees its end as if the client had left, and closes its descriptor.
   ::shutdown(connections_.front().get(), SHUT_RDWR);
   connections_.pop_front();
   ++displaced_;

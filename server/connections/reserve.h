@@ -32,7 +32,7 @@ class Reserve {
   std::uint64_t displaced() const { return displaced_; }  // since the start
 
  private:
-  // Whoever serves a connection holds one descriptor of it, the reserve another.
+  // The server side of a connection holds one descriptor of it, the reserve another.
   static constexpr std::size_t kDescriptorsEach = 2;
 
   void forget_ended();

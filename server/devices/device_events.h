@@ -1,4 +1,4 @@
-// Where one device's news go: the event bus, the metrics, the recorder and the log.
+// Where one device's events go: the event bus, the metrics, the recorder and the log.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ namespace axisgate::server {
 // Called on the device's strand, as EventSink demands.
 class DeviceEvents : public stage::EventSink {
  public:
-  // What the listener owes after an event: `queues` or the whole `state` changed. Called from within on_event().
+  // What to publish after an event: `queues` or the whole `state` changed. Called from within on_event().
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
@@ -59,7 +59,7 @@ class DeviceEvents : public stage::EventSink {
   DeviceRecorder& recorder_;
   const OnDue due_;
   std::map<stage::MotionId, std::uint64_t> revisions_;
-  // A line that stays away is tried again and again: the same news of it is told once.
+  // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.
   TimePoint next_unexpected_line_{};

@@ -22,7 +22,7 @@ namespace axisgate::server {
 // Of which epoch a coordinate is, and in which frame. None of it means anything in another run of the daemon.
 struct Frame {
   std::uint64_t device_epoch = 0, frame_epoch = 0;
-  // An origin return sets coordinates anew without raising the frame epoch.
+  // Homing changes coordinates without raising the frame epoch.
   std::array<int, stage::kAxisCount> homings{};
   std::array<std::optional<Decimal>, stage::kAxisCount> per_pulse;
 

@@ -17,7 +17,7 @@
 
 namespace axisgate::server {
 
-// What is told to everybody, each exactly once and in order. Telemetry is not among it: newest.h.
+// What every watcher receives, each exactly once and in order. Telemetry is not part of it: newest.h.
 using Fact = std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
                           stage::StopRequested, stage::ForeignMotion, stage::SwitchesChanged, stage::ProgramNotice>;
 

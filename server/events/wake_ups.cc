@@ -58,7 +58,7 @@ void WakeUps::wake_all() {
 }
 
 void WakeUps::run(Shared& shared) {
-  // Lowered before the list is read: what becomes new from here on is owed a round of its own.
+  // Cleared before the list is read: whatever becomes new from here on gets another round.
   shared.due = false;
   std::vector<std::shared_ptr<Sleeper>> sleepers;
   {

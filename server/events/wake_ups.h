@@ -1,4 +1,4 @@
-// Tells waiting readers that there is something new, away from the thread that made it.
+// Notifies waiting readers that there is something new, on another thread than the one that made it.
 #pragma once
 
 #include <atomic>

@@ -8,7 +8,7 @@
 
 namespace axisgate::server {
 
-// Looks into the file as the page is asked for, so that a new one shows without a restart.
+// Reads the file whenever the page is requested, so that a new certificate shows without a restart.
 class CertificateMetrics final : public prometheus::Collectable {
  public:
   explicit CertificateMetrics(std::string certificate) : certificate_(std::move(certificate)) {}

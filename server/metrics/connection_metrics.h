@@ -1,4 +1,4 @@
-// The connections on the metrics page: asked for as the page is, since gRPC closes them and tells nobody.
+// The connections on the metrics page. They are counted when the page is requested, since gRPC closes them silently.
 #pragma once
 
 #include <functional>

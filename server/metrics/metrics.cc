@@ -87,7 +87,7 @@ Metrics::Metrics()
 }
 
 Result<int> Metrics::expose(const TcpAddress& address) {
-  // civetweb tells no more than that it failed, and practically only a port in use makes it fail.
+  // civetweb reports only that it failed. In practice only a port in use makes it fail.
   try {
     exposer_ = std::make_unique<prometheus::Exposer>(to_string(address));
   } catch (const std::exception&) {

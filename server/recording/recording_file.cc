@@ -13,7 +13,7 @@
 namespace axisgate::server {
 namespace {
 
-constexpr mode_t kMode = 0640;  // it tells who asked for what
+constexpr mode_t kMode = 0640;  // it shows who requested what
 
 }  // namespace
 

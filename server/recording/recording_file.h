@@ -15,9 +15,9 @@
 
 namespace axisgate::server {
 
-// Appends on a thread of its own, which reads the recording as any reader does: a disk that is slow or full holds up
-// nothing else, and what it cost is told in the file and counted. A file that cannot be written is tried again every
-// few seconds; the log says why.
+// Appends on a thread of its own, which reads the recording as any reader does. A slow or full disk delays nothing
+// else. What was lost is noted in the file and counted. A file that cannot be written is tried again every few seconds;
+// the log says why.
 class RecordingFile {
  public:
   static constexpr Duration kRetryPause = std::chrono::seconds(5);
@@ -41,7 +41,7 @@ class RecordingFile {
   DeviceRecorder::Reader reader_;
   Descriptor file_;
   std::string due_;        // read, and not written yet
-  std::string complaint_;  // what the log was told last; empty: all is well
+  std::string complaint_;  // what was logged last; empty: all is well
   std::mutex mutex_;
   std::condition_variable changed_;
   bool pending_ = true;

@@ -103,7 +103,7 @@ std::string Redactor::stand_in(Kind kind, const std::string& secret) {
 std::string Redactor::redact(std::string_view text) {
   const Received received(text);
   learn_serial_numbers(received.text, "SHRC-203,");  // SIGMAKOKI,SHRC-203,12345678,V1.00: manual 1) *IDN?
-  learn_serial_numbers(text, "SHRC-203 ");           // as people are told
+  learn_serial_numbers(text, "SHRC-203 ");           // as shown to people
   std::string clean(text);
   for (const Secret& secret : secrets_) {
     if (secret.number) replace_number(clean, received, secret.text, secret.stand_in);

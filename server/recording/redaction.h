@@ -1,4 +1,4 @@
-// Takes out of a text for outsiders what tells of people and single machines.
+// Removes from a text for outsiders what identifies people and single machines.
 #pragma once
 
 #include <array>

@@ -15,8 +15,8 @@ namespace axisgate::rpc {
 // From now on gRPC serves TLS 1.3 only. Before it has made any credentials.
 void allow_only_tls_13();
 
-// The daemon's own certificate, and who may sign those of callers; both are read anew within seconds of being replaced,
-// and connections that stand are left alone. A caller without a certificate is let in as far as here.
+// The daemon's own certificate, and who may sign those of callers. Both are read again within seconds of being
+// replaced, and open connections are not affected. A caller without a certificate is admitted at this stage.
 std::shared_ptr<grpc::ServerCredentials> network_credentials(const server::NetworkConfig& network);
 
 // "cert alice", after the common name of the caller's certificate; nothing without one, or where it will not do as a

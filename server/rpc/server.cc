@@ -39,12 +39,12 @@ namespace {
 
 constexpr auto kShutdownWait = std::chrono::milliseconds(500);
 
-// Of users on the Unix socket who are told apart.
+// How many users on the Unix socket are distinguished.
 constexpr std::size_t kCallerSlots = 32;
 
 // A connection on which nobody speaks HTTP/2 does not hold its place for gRPC's two minutes.
 constexpr int kSilentMs = 20'000;
-// In the reserve a client that was refused soon makes room, and finds an ordinary place when it connects anew. A stop
+// In the reserve a client that was refused soon makes room, and finds an ordinary place when it connects again. A stop
 // under way is waited for.
 constexpr int kReserveIdleMs = 1'000;
 constexpr int kReserveAgeMs = 2'000;

@@ -51,7 +51,7 @@ class StopService final : public Partly<v1::StageService::WithCallbackMethod_Sto
   StageService& stage_;
 };
 
-// A stop names its device: whoever does not know it asks here. It is answered from memory.
+// A stop names its device: a caller that does not know the name asks here. It is answered from memory.
 class NamesService final
     : public Partly<v1::DeviceService::WithCallbackMethod_ListDevices<v1::DeviceService::Service>> {
  public:

@@ -189,7 +189,7 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   return proto;
 }
 
-// One moment on both clocks. A fact carries its own, so that everybody who is told of it is told the same times.
+// One moment on both clocks. A fact carries its own, so that every receiver of it gets the same times.
 struct Moment {
   TimePoint monotonic;
   server::WallTime wall;

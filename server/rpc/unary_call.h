@@ -14,7 +14,7 @@
 
 namespace axisgate::rpc {
 
-// Whoever may still answer holds a shared pointer; the first of answer(), refuse() and the caller's cancelling counts.
+// All who may still answer hold a shared pointer; the first of answer(), refuse() and the caller's cancelling counts.
 template <class Response>
 class UnaryCall final : public grpc::ServerUnaryReactor {
  public:
@@ -40,7 +40,7 @@ class UnaryCall final : public grpc::ServerUnaryReactor {
     return true;
   }
 
-  // Calls `leave` once when the caller goes before the answer, at once where he has gone already. Call it once.
+  // Calls `leave` once when the caller cancels before the answer; at once if that has happened already. Call it once.
   void when_cancelled(std::function<void()> leave) {
     {
       const std::lock_guard lock(mutex_);

@@ -7,7 +7,7 @@
 
 namespace axisgate::shrc203::conformance {
 
-// By which typed calls and verbs a row's command is given, or its answer told. All other rows have Execute and exec.
+// The typed calls and verbs that give a row's command or report its answer. All other rows have Execute and exec.
 struct TypedCall {
   std::string_view row;
   std::string_view rpcs;   // "StageService.Move", several separated by ", "

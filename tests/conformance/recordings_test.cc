@@ -61,7 +61,7 @@ ReplayDifference first_difference(const Recording& recording) {
 constexpr std::string_view kNoAnswer = "?!\r\n";
 
 class Recordings : public testing::TestWithParam<File> {};
-// That a replay bites is shown with two of them.
+// Two of them show that a replay detects a difference.
 class DoctoredRecordings : public testing::TestWithParam<File> {};
 
 std::vector<File> to_be_doctored() {

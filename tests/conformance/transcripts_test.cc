@@ -71,7 +71,7 @@ TEST(Transcripts, EveryRowHasATranscript) {
 TEST(Transcripts, SectionsMatchTheTable) {
   for (const auto& example : all_transcripts().examples) {
     const auto row = std::ranges::find(command_table(), example.entry.row, &CommandRow::name);
-    if (row == command_table().end()) continue;  // EveryRowHasATranscript tells
+    if (row == command_table().end()) continue;  // EveryRowHasATranscript reports it
     EXPECT_EQ(example.entry.section, row->section) << example.entry.place;
   }
 }

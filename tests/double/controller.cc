@@ -25,7 +25,7 @@ Controller::Controller(Profile profile, bool reversed, ByteLink& link, EventSink
       permission_(permission),
       wire_(link, *this) {}
 
-// A callback may have asked for more.
+// A callback may have requested more.
 void Controller::settle() {
   if (std::exchange(settling_, true)) return;
   while (wire_.pump(now_) || take_turn() || wind_on()) {

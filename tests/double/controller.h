@@ -166,7 +166,7 @@ class Controller final : public StageController, private Wire::Listener {
   MotionId last_motion_ = 0;
   std::list<StopJobPtr> stops_;
 
-  std::optional<Problem> ending_;  // what is told to everybody who comes too late
+  std::optional<Problem> ending_;  // the answer to all who come too late
   bool last_stop_ = false;         // the end waits for motions no more
   TimePoint ending_limit_{};
   OnWoundDown on_wound_down_;

@@ -191,7 +191,7 @@ void Controller::judge() {
 void Controller::judge_standing(const Live& live) {
   const MotionId id = live.motion.id;
   const bool by_move = live.move && state_.axis(1).position_pulses == live.motion.results[0].target_pulses;
-  // Where the start was not answered, an origin found before tells nothing.
+  // Where the start was not answered, an origin found before proves nothing.
   const bool by_home = live.motion.kind == MotionKind::home && origin_found_ && !(live.in_doubt && live.found_before);
   if (by_home) {
     state_.axis(1).homed = true;
@@ -284,7 +284,7 @@ std::optional<Problem> Controller::must_end(const Live& live) {
                  .axis = 1};
 }
 
-// When at the latest a stop must be asked for, by the newest reading.
+// When at the latest a stop must be requested, by the newest reading.
 std::optional<TimePoint> Controller::stop_before_bound(const Live& live, std::int64_t speed) const {
   const auto position = state_.axis(1).position_pulses;
   const auto bound = envelope(live.context).bound(1, live.jog->direction);

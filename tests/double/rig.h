@@ -18,7 +18,7 @@
 
 namespace axisgate::rotor {
 
-// Says no when told to, and writes down what it is asked and told.
+// Refuses when configured to, and records each request and each call.
 class Porter final : public Permission {
  public:
   Result<void> authorize(const Use& use, TimePoint) override {

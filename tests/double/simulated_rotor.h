@@ -28,7 +28,7 @@ class SimulatedRotor final : public stage::Simulation {
   void link_down(TimePoint now, std::string_view why) override;
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
-  std::optional<TimePoint> next_deadline() const override { return {}; }  // it tells nothing by itself
+  std::optional<TimePoint> next_deadline() const override { return {}; }  // it sends nothing by itself
 
   // "fault silent": it obeys, and answers nothing, until "fault answering"; "position".
   Result<std::string> operate(std::string_view command, TimePoint now) override;

@@ -1,4 +1,4 @@
-// Whatever the bytes and wherever they are cut, the parser tells the same.
+// Whatever the bytes and wherever they are cut, the parser reports the same.
 #include <algorithm>
 #include <array>
 #include <cstdlib>
@@ -36,7 +36,7 @@ class Listener : public ParserListener {
     one.first = instruction.first;
     one.count = instruction.count;
     one.end = instruction.end;
-    // What stands behind them is left over from other commands.
+    // The entries after them are stale values from other commands.
     for (std::size_t index = 0; index < instruction.count; ++index) {
       one.given[index] = instruction.given[index];
       one.values[index] = instruction.values[index];

@@ -119,7 +119,7 @@ class RpcAccess : public RpcTest {
     return made.value_or("");
   }
 
-  // An empty request, cancelled where it is let in and goes on for ever.
+  // An empty request, cancelled where it is let in and never ends.
   static grpc::Status ask(const std::shared_ptr<grpc::Channel>& channel, const std::string& method,
                           const std::string& authorization, bool let_in) {
     grpc::ClientContext context;

@@ -274,7 +274,7 @@ TEST_F(RpcPositions, OfAnEarlierRunOfTheDaemon) {
   moved(1, "0");
   expect_reached("sample", 1, 100'000);
   EXPECT_FALSE(list().front().emptied());
-  // Its coordinates were set anew, or its number was used for another place: nobody knows.
+  // Its coordinates were set again, or its number was used for another place: nobody knows.
   positions_->held_in(position, {});
   EXPECT_EQ(controller("PSET:1+P5"), "OK");
   EXPECT_EQ(reason(go("sample")), v1::REASON_EPOCH_PASSED);

@@ -1,4 +1,4 @@
-// Tries every order for many questions, and tells how many there were.
+// Tries every order for many questions, and reports how many there were.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ class Interleavings : public testing::Test {
   // One, two and three axes.
   static std::vector<Axes> counts() { return {Axes::of(1), Axes::of(1) | Axes::of(2), Axes::all()}; }
 
-  // Every order for one question; the first that goes wrong is told.
+  // Every order for one question; the first failure is reported.
   void try_all(const Question& question) {
     ++questions_;
     Choices choices;

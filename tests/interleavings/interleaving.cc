@@ -19,7 +19,7 @@ using std::chrono::seconds;
 namespace {
 
 constexpr Duration kAnswersAfter = milliseconds(1);
-// A motion is told to be READY no sooner.
+// A motion is reported READY no sooner.
 constexpr Duration kMovesFor = kReadyOutdatedMax + milliseconds(50);
 constexpr Duration kNotLong = milliseconds(250);
 constexpr MotionId kFirstMotion = 1;
@@ -217,7 +217,7 @@ void Interleaving::check() {
 void Interleaving::on_event(const Event& event, TimePoint) {
   if (const auto* entered = std::get_if<BarrierEntered>(&event)) wrong("a barrier: " + entered->why);
   if (const auto* line = std::get_if<UnexpectedLine>(&event)) wrong("unexpected: " + line->text);
-  // What comes back from the memory switches is looked at anew.
+  // The state after leaving the memory switches is checked again.
   const auto* link = std::get_if<LinkChanged>(&event);
   if (link && link->link == LinkState::down && question_.row->needs.mode == Mode::host) {
     wrong("the link went down: " + link->why);

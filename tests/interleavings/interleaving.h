@@ -1,5 +1,5 @@
-// A device of a few lines that does what it is told, so that replies and axis numbers come in every order there is. Of
-// a question it is asked: with what the answer says, and which axes have yet to tell that their motion has ended.
+// A device of a few lines that executes its commands, so that replies and axis numbers come in every order there is. A
+// question has two parts: what the answer says, and which axes have yet to report that their motion has ended.
 #pragma once
 
 #include <deque>
@@ -32,8 +32,8 @@ class Choices {
 
 // What there is before the lines come in some order.
 struct Question {
-  // When it is asked: while the axes move, which end their motion before its time runs out or after, or `after_ready`
-  // later than a reading that told them to stand.
+  // When it is asked: while the axes move, and their motion ends before its time runs out or after; or `after_ready`
+  // later than a reading that reported them stationary.
   enum class Moment { moving, moving_beyond_its_time, standing };
 
   const shrc203::CommandRow* row = nullptr;
@@ -119,7 +119,7 @@ class Interleaving : public ByteLink, public stage::EventSink {
   stage::AxisSet outstanding_;
   std::optional<TimePoint> ready_seen_, asked_at_, written_at_;
   std::optional<stage::Motion> outcome_;
-  std::map<int, int> told_, seen_;  // by axis: numbers that the device has told, and that the gateway has counted
+  std::map<int, int> told_, seen_;  // by axis: numbers that the device has sent, and that the gateway has counted
   struct Caller {
     std::vector<std::string> answers;
     std::optional<Reason> problem;

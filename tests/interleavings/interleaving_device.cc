@@ -33,7 +33,7 @@ const std::map<std::string_view, std::string_view> kWholeAnswers = {
 const std::map<std::string_view, std::string_view> kAnswersOfEachAxis = {
     {"?:P", "10"}, {"?:D", "S1000F10000R100"}, {"?:B", "S1000F10000R100"}, {"?:C", "1"}};
 
-// The same few lines are asked for in every run.
+// The same few lines are requested in every run.
 const CommandRow* row_of(const std::string& line) {
   static std::map<std::string, const CommandRow*> known;
   const auto [entry, news] = known.try_emplace(line, nullptr);
@@ -55,7 +55,7 @@ void Interleaving::write(std::string_view bytes) {
   }
 }
 
-// What comes back from the memory switches is looked at anew.
+// The state after leaving the memory switches is checked again.
 void Interleaving::reopen(Duration) {
   closed_ = true;
   if (question_.row->needs.mode == Mode::host) wrong("the line was given up");

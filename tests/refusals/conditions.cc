@@ -14,7 +14,7 @@ bool in_host(const Sentence& one) {
   return one.where != Where::program && one.where != Where::editing && one.where != Where::switches;
 }
 
-// By somebody at the front panel: that it was a line shall not be seen in ?:CMD, which tells the last one.
+// By somebody at the front panel: ?:CMD must not show that it was a line, and ?:CMD reports the last one.
 void told_by_another(Device& device, TimePoint now, const std::string& line) {
   device.receive(line + "\r\nQ:SPC\r\n", now);
 }
@@ -50,7 +50,7 @@ Condition program_busy() {
           .strikes_early = false};
 }
 
-// It is entered at rest, and nothing that moves is taken there: an axis moves that was started at the front panel.
+// It is entered while stationary, and accepts no motion command: the moving axis was started at the front panel.
 Condition editing_busy() {
   return {.name = "Busy, in program edit mode",
           .manual = "\"In the case of Busy, it will be NG\": 112) to 116). Nothing there shows which axes move (111))",
@@ -82,7 +82,7 @@ Condition error(std::string what, AxisError error, std::string told) {
 std::vector<Case> ordinary(const std::function<bool(const Sentence&)>& concerned) {
   std::vector<Case> cases;
   for (const Sentence& one : sentences()) {
-    // A stop is told by what became of the axes, and JD: belongs to a jog that runs.
+    // A stop is judged by what became of the axes, and JD: belongs to a jog that runs.
     const bool apart = one.command == "L:" || one.command == "L:E" || one.command == "JD:";
     if (!apart && concerned(one)) cases.push_back({&one, one.line, one.whole(), one.way_there(), {}});
   }

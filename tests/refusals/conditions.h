@@ -20,7 +20,7 @@ struct Case {
   const Sentence* sentence = nullptr;
   std::string line;        // the one that is refused
   Lines whole;             // the transaction that it stands in
-  Lines simulator_before;  // what the simulator is told before, each taken
+  Lines simulator_before;  // what is sent to the simulator before, each accepted
   Reason reason = Reason::unspecified;
 };
 

@@ -1,4 +1,4 @@
-// device/shrc203/REFUSALS.md, made from what the trials told.
+// device/shrc203/REFUSALS.md, made from what the trials reported.
 #pragma once
 
 #include <map>

@@ -1,4 +1,4 @@
-// A command under a condition: told straight to the simulated controller, and asked of the gateway over one.
+// A command under a condition: sent directly to the simulated controller, and requested from the gateway over one.
 #pragma once
 
 #include <optional>

@@ -190,7 +190,7 @@ TEST(GCode, IsNotToldWithoutAWordOfItsOwn) {
   }
 }
 
-// What is held until the kind is told has an end.
+// The text that is held until the kind is known has a limit.
 TEST(GCode, IsSoughtIn64KiB) {
   const std::string comment = ";" + std::string(65532, 'a') + "\n";
   EXPECT_TRUE(checked(comment + "G0", test_profile())->is_g_code());

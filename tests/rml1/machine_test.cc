@@ -12,7 +12,7 @@ using testing::IsEmpty;
 
 Played played(const std::string& job) { return play(job, test_profile(), kMidway); }
 
-// Where a three-axis move by 1, 2, -3 goes tells what the command before left in effect.
+// Where a three-axis move by 1, 2, -3 goes shows what the command before left in effect.
 bool leaves_relative(const std::string& job) {
   const Point before = played(job).final;
   const Point after = played(job + "!ZZ1,2,-3;").final;

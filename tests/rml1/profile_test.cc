@@ -1,4 +1,4 @@
-// A machine as its file tells it: each key, and what is wrong with it at which line.
+// A machine as its file describes it: each key, and what is wrong with it at which line.
 #include "device/rml1/profile.h"
 
 #include <fmt/format.h>

@@ -13,7 +13,7 @@ using testing::ElementsAre;
 
 class Approaches : public testing::TestWithParam<std::int64_t> {};
 
-// From below, from above, from so near that it must go away first, and from where it sets out already.
+// From below, from above, from so near that it must first move back, and from where the approach starts.
 TEST_P(Approaches, ComeFromTheSameSide) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

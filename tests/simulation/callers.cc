@@ -222,8 +222,8 @@ void Callers::check_answer(const std::string& question, const std::string& answe
   if (answer != right) world_.violation(fmt::format("{} was answered by {} instead of {}", question, answer, right));
 }
 
-// A command that a fault has turned into another may start what nobody asked for; the gateway cannot know. Each may do
-// so once.
+// A command that a fault has turned into another may start something that nobody requested; the gateway cannot know.
+// Each such command may do so once.
 void Callers::check_starts() {
   for (int axis = 1; axis <= kAxisCount; ++axis) {
     const int allowed = starts_allowed_[static_cast<std::size_t>(axis - 1)] + world_.wire().commands_damaged();

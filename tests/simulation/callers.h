@@ -1,4 +1,4 @@
-// Several people and programs who use the stage at once, at random, and remember what they were told.
+// Several people and programs who use the stage at once, at random, and remember the answers that they received.
 #pragma once
 
 #include <string>

@@ -131,7 +131,7 @@ TEST(CurvesAndTravelByHand, EachSettingKeepsWithinByItself) {
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
 }
 
-// S is what a curve runs at, and may be set anew between the curve and its start.
+// A curve runs at S, which may be set again between the curve and its start.
 TEST(CurvesAndTravelByHand, TheSpeedCountsAtTheStart) {
   auto setup = quiet();
   setup.profile.axes[1].maximum_speed = pulses(1000);
@@ -142,7 +142,7 @@ TEST(CurvesAndTravelByHand, TheSpeedCountsAtTheStart) {
       << world.replay();
 }
 
-// Its end is where it began, so that READY at its target tells nothing.
+// Its end is where it began, so that READY at its target proves nothing.
 TEST(CurvesAndTravelByHand, ACircleThatNeverRanIsUnknown) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up());

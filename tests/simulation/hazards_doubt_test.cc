@@ -66,7 +66,7 @@ TEST(Hazard, H10_ASecondRefusalComesLate) {
   for (int late = 10; late < 900 && !HasFailure(); late += 10) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    moved(world, {{1, 700}});  // a counter other than 0 tells that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
     int refusals = 0;
     world.wire().set_script([&](LineKind kind, const std::string& text) -> Scripted {
       if (kind == LineKind::command && text == "C:11" && refusals == 0) {
@@ -133,7 +133,7 @@ TEST(Hazard, H02_AProbeGivenUpIsRefused) {
   }
 }
 
-// An answer to a probe that was given up comes after the barrier, while another line waits for its own.
+// An answer to an abandoned probe comes after the barrier, while another line waits for its own.
 TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
   for (int late = 40; late < 200 && !HasFailure(); late += 3) {
     World world(quiet());
@@ -153,7 +153,7 @@ TEST(Hazard, H02_AnIdentityAfterTheBarrier) {
   }
 }
 
-// The OK of a stop that is written inside a barrier comes after the identity that was asked for before it, while a
+// The OK of a stop that is written inside a barrier comes after the identity that was requested before it. Meanwhile a
 // motion's setting waits for the barrier to pass.
 TEST(Hazard, H02_AStopInsideABarrier) {
   int inside = 0;
@@ -191,8 +191,8 @@ TEST(Hazard, H02_TheBarrierEndsWithSilence) {
   EXPECT_GE(world.now() - asked, milliseconds(50)) << world.replay();
 }
 
-// Seeds 201536 and 303141: a slow controller still owes the identity that the line before it was lost had asked for. It
-// is taken for the new one, and what answers the stops written before that is to meet nobody.
+// Seeds 201536 and 303141: the line was lost while an identity was requested, and a slow controller still sends it. It
+// is taken for the new one. Answers to stops that were written before that must not match anything.
 void stop_over_a_reopened_line(const std::vector<std::string>& answers) {
   World world(quiet());
   world.device().set_answer_delay(milliseconds(400), world.now());
@@ -276,7 +276,7 @@ TEST(Line, IsReopenedEverMoreSlowly) {
   EXPECT_GE(world.wire().commands().size() - first, 20u) << world.replay();
 }
 
-// Another unit has come in its place without any restart: the barrier's *IDN? tells.
+// Another unit has come in its place without any restart: the *IDN? of the barrier shows it.
 TEST(Hazard, H32_AnotherUnitAnswersInABarrier) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -287,7 +287,7 @@ TEST(Hazard, H32_AnotherUnitAnswersInABarrier) {
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr("2106001002"));
 }
 
-// What cannot be the line before is not what ?:CMD tells: its answer is still to come.
+// A text that cannot be the last line is not the answer to ?:CMD: that answer is still to come.
 TEST(Hazard, H10_GarbageBeforeTheLineBefore) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

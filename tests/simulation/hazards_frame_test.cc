@@ -1,4 +1,4 @@
-// Hazard 27: somebody sets coordinates anew under another's program (manual 45) PSET:, 63) R:, 64) RC:).
+// Hazard 27: somebody sets coordinates again while another's program runs (manual 45) PSET:, 63) R:, 64) RC:).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

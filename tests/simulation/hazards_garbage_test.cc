@@ -35,12 +35,12 @@ Script with_a_nul(std::string prefix) {
   };
 }
 
-// Each probe's answer comes after its time limit: the answers that are still owed are nobody else's.
+// The answer to each probe comes after its time limit: outstanding answers are not taken for those of other commands.
 TEST(Hazard, H02_OwedAnswersOfProbesAreSwallowed) {
   for (const std::string probe : {"?:CMD", "*IDN?"}) {
     World world(quiet());
     ASSERT_TRUE(world.run_until_up()) << world.replay();
-    moved(world, {{1, 700}});  // a counter other than 0 tells that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
     int unexpected = 0;
     world.on_news = [&](const Event& event) { unexpected += std::holds_alternative<UnexpectedLine>(event) ? 1 : 0; };
     bool lost = false, late = false;

@@ -291,7 +291,7 @@ TEST_F(HazardOfJogs, AnothersStopStopsIt) {
   EXPECT_THAT(motion.problem->message, HasSubstr("bert"));
 }
 
-// A stop of one of its axes ends the jog of all: what was asked for together runs together.
+// A stop of one of its axes ends the jog of all: axes that were requested together run together.
 TEST_F(HazardOfJogs, AStopOfOneAxisStopsAll) {
   const MotionId id = jog({{1, -1, {}}, {3, 1, {}}});
   renew_for(id, seconds(1));

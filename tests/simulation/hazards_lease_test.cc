@@ -86,7 +86,7 @@ TEST_F(HazardOfSharing, H35_AnExpiredLeaseStopsItsMotion) {
 }
 
 TEST_F(HazardOfSharing, H35_AMotionWhoseLeaseEndedWhileItWaited) {
-  // For 14 s, and what it leaves in the registers has to be asked for.
+  // It runs for 14 s, and what it leaves in the registers must be read.
   world.controller().execute({{"A:2+P700000", "G:2"}, context("bert", 0)}, world.now(), [](const ExecuteEvent&) {});
   const LeaseToken anna = lease("anna", kOne);
   world.run_for(seconds(1));
@@ -134,7 +134,7 @@ TEST_F(HazardOfSharing, H35_ExpiryBetweenSetAndGo) {
 TEST_F(HazardOfSharing, H36_NoStartAfterTheHostHasSlept) {
   for (const auto& [before, asleep] :
        {std::pair{milliseconds(1000), milliseconds(12'000)}, {milliseconds(9950), milliseconds(100)}}) {
-    moved(world, {{1, 700}});  // a counter other than 0 tells that it has not restarted
+    moved(world, {{1, 700}});  // a counter other than 0 shows that it has not restarted
     const int starts = world.device().starts(1), lines = written(world, "G:"), sets = written(world, "MP:");
     const LeaseToken token = lease("anna", kOne);
     world.run_for(before);
@@ -155,7 +155,7 @@ TEST_F(HazardOfSharing, H21_ARestartEndsLeases) {
   EXPECT_THAT(told, HasSubstr("restarted"));
 }
 
-// A program has computed its targets before the controller restarted, and goes on as if nothing had happened.
+// A program has computed its targets before the controller restarted, and continues as if nothing had happened.
 TEST_F(HazardOfSharing, H21_WhatWasMeantForAnotherEpoch) {
   const std::uint64_t epoch = world.controller().state().device_epoch;
   for (const bool restarted : {false, true}) {
@@ -221,7 +221,7 @@ TEST_F(HazardOfSharing, H53_AStopBetweenTwoMovesHoldsToo) {
   EXPECT_EQ(move("anna", token, 1, 1000), Reason::stopped_by);
 }
 
-// Each who asked for a stop hears its outcome.
+// Each caller who requested a stop receives its outcome.
 TEST_F(HazardOfSharing, H53_JoinedStopsEachGetTheOutcome) {
   EXPECT_EQ(move("anna", 0, 1, 500'000), Reason::unspecified);
   world.run_for(seconds(1));
@@ -246,7 +246,7 @@ TEST_F(HazardOfSharing, H06_AnothersHomeFailsAtOnce) {
   EXPECT_EQ(reason, Reason::lease_held);
 }
 
-// Another cannot overwrite the prebuffer of a running path, whichever way he tries.
+// Another caller cannot overwrite the prebuffer of a running path, by any command.
 TEST_F(HazardOfSharing, H11_NobodyWritesIntoAPathsPrebuffer) {
   const LeaseToken token = lease("anna", AxisSet::of(1) | AxisSet::of(2));
   PathRequest path = line_of(world, 6);

@@ -274,7 +274,7 @@ TEST(Hazard, H09_UnterminatedLineIsNeverACompleteOne) {
   EXPECT_THAT(execute(world, {"?:V"}), ElementsAre("V2.00.000"));
 }
 
-// One flipped bit makes S above F of a speed. What no D: sets is asked for again.
+// One flipped bit makes S of a speed greater than F. A value that no D: can set is read again.
 TEST(Hazard, H08_ASpeedMisreadIsNotPutBack) {
   const std::string misread = "S9000F500R100";  // each within its range, but manual 89) D: has S below F
   World world(quiet());

@@ -127,7 +127,7 @@ TEST(Hazard, H32_AMisreadNumberDoesNotStay) {
   EXPECT_EQ(world.controller().state().serial_number, "2106001001");
 }
 
-// Another program has the line open too and reads the answer to what it sends: only ?:CMD tells of it.
+// Another program has the line open too and reads the answer to what it sends: only ?:CMD shows it.
 TEST(Hazard, H33_ForeignTrafficIsAFault) {
   for (const std::string foreign : {"M:1+P500", "PSET:1+P77", "Q:", "C:20"}) {
     World world(quiet());

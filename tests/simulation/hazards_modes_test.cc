@@ -247,7 +247,7 @@ TEST(Hazard, H25_AStopEndsTheProgram) {
   moved(world, {{1, 100}});
 }
 
-// Whose answer is lost, which the controller has taken all the same: the way back goes by what ?:MODE tells.
+// The controller has accepted the command whose answer is lost: the return to HOST depends on what ?:MODE reports.
 class HazardOfLostAnswers : public testing::TestWithParam<const char*> {};
 
 TEST_P(HazardOfLostAnswers, TheWayBackIsFound) {
@@ -301,7 +301,7 @@ TEST(Hazard, H25_SavingTakesLong) {
   EXPECT_EQ(world.controller().state().device_epoch, epoch) << world.replay();
 }
 
-// It gives a trigger pulse every 1000 pulses of 100000, and tells of each and of its end.
+// It gives a trigger pulse every 1000 pulses of 100000, and reports each of them and its own end.
 const Lines kTellingProgram = {"P:R",         "P:P1",  "P:ON", "P:INIT", "P:SET,1,M,1,0,0,100000,0,0,0,1,0,0,1,1000",
                                "P:SET,2,END", "P:OFF", "P:C1", "P:T1",   "P:S",
                                "P:H"};

@@ -1,5 +1,5 @@
-// Hazards of motions: lost answers and completions, left-over settings, underruns. Numbers as in the table of what can
-// go wrong on a shared line.
+// Hazards of motions: lost answers and completions, stale setpoints, underruns. Numbers as in the table of what can go
+// wrong on a shared line.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -260,8 +260,8 @@ TEST(Hazard, H44_LimitStopIsNoSuccess) {
   EXPECT_EQ(reason_of(motion), Reason::limit_detected);
 }
 
-// A straight line that is set anew for other axes takes the place of the whole one before (manual 2. 2), 24)): the axis
-// that it no longer names stays, and that is where its next way begins.
+// A straight line that is set again for other axes replaces the whole one before (manual 2. 2), 24)). The axis that it
+// no longer names stays, and the next motion of that axis begins there.
 TEST(Motions, ALineSetAnewForOtherAxes) {
   auto setup = quiet();
   setup.profile.axes[1].travel_minimum = pulses(-500'000);

@@ -1,5 +1,5 @@
-// Hazard 43: counters that overflow, numbers of more than nine digits, units that pulses cannot say. Refused before
-// anything is written, and never taken for a position when the device tells them.
+// Hazard 43: counters that overflow, numbers of more than nine digits, units that pulses cannot express. Refused before
+// anything is written, and never taken for a position when the device reports them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -71,7 +71,7 @@ TEST(Hazard, H17_AnAxisSwitchedOffWhereTheOthersStop) {
   EXPECT_FALSE(world.device().busy(1));
 }
 
-// NG from every axis while one moves is told as it is, and not as a stop.
+// NG from every axis while one moves is reported as it is, and not as a stop.
 TEST(Hazard, H17_AStopThatIsRefusedThroughout) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -203,7 +203,7 @@ INSTANTIATE_TEST_SUITE_P(FrontPanel, HazardH19,
                          testing::Values(Panel{"MANUAL", "SHOT_FC"}, Panel{"REMOTE", "SHOT_FC"}, Panel{"HOST", "HIT"},
                                          Panel{"EDIT", "HIT"}));
 
-// What a test hears of them.
+// The foreign motions that a test receives.
 struct ForeignMotions : EventSink {
   void on_event(const Event& event, TimePoint) override {
     if (const auto* motion = std::get_if<ForeignMotion>(&event)) told.push_back(motion->axes);

@@ -78,7 +78,7 @@ void run_misread_path(World& world) {
   world.controller().run_path(path, world.now(), [](Result<Motion>) {});
 }
 
-// A number that had been asked for comes late, in the middle of the next segment.
+// A number that had been requested comes late, in the middle of the next segment.
 TEST(Hazard, H56_ALateNumberIsNotTheNextSegmentsEnd) {
   World world(quiet());
   run_misread_path(world);

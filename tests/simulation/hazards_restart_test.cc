@@ -121,7 +121,7 @@ TEST_P(HazardH21, InTheMiddleOfAPathThatEndsWhereItBegan) {
   }
 }
 
-// A target is a place in the frame of the time when it was asked for.
+// A target is a place in the frame of the time when it was requested.
 TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
   for (int phase = 0; phase < 1000 && !HasFailure(); phase += 90) {
     World world(quiet());
@@ -141,8 +141,8 @@ TEST_P(HazardH21, AMoveAskedForRightAfterIt) {
 
 INSTANTIATE_TEST_SUITE_P(Silences, HazardH21, testing::ValuesIn(kSilences));
 
-// Seeds 903823 and 1201942: it restarts behind an answer that comes late, and what is asked then comes in time after
-// that answer. One to ?:CMD comes when another has been asked for.
+// Seeds 903823 and 1201942: it restarts after an answer that comes late. What is asked then is answered in time, after
+// that answer. The answer to one ?:CMD comes when another has been sent.
 TEST(Hazard, H21_BehindALateAnswer) {
   for (const auto& [question, delay] : {std::pair{"?:V", milliseconds(450)}, {"?:CMD", milliseconds(800)}}) {
     World world(quiet());
@@ -257,7 +257,7 @@ TEST_P(HazardH22, NoMotionBeforeTheHandshakeHasPassed) {
   world.device().set_format("SHOT_FC", world.now());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   EXPECT_FALSE(any_homed(world));
-  world.run_for(seconds(6));  // whoever still waited has been told
+  world.run_for(seconds(6));  // all who still waited have been answered
   moved(world, {{1, 100}});
 }
 

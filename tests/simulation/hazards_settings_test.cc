@@ -43,7 +43,7 @@ class HazardOfSettings : public testing::Test {
     world.controller().execute({{line}, context(who, token)}, world.now(), [](const ExecuteEvent&) {});
     world.run_for(seconds(2));
   }
-  // Of somebody with the whole controller; the answer tells what became of it.
+  // By a caller who holds the whole controller; the answer reports what became of it.
   std::optional<Problem> set(const std::vector<std::string>& lines, const std::string& who, LeaseToken token) {
     std::optional<Problem> problem;
     world.controller().execute({lines, context(who, token)}, world.now(), [&](const ExecuteEvent& event) {
@@ -153,7 +153,7 @@ TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
   EXPECT_EQ(world.device().maximum_speed(1), 7000) << world.replay();
 }
 
-// The line is lost under a motion at a speed of its own: older than what is owed is what was there before the lease.
+// The line is lost during a motion at its own speed: speeds from before the lease are older than those pending restore.
 TEST_F(HazardOfSettings, H28_SpeedsBeforeTheLeaseAreOlderThanThoseOwed) {
   const LeaseToken anna = lease("anna", kOne);
   set_speeds("D:1S500F7000R300", "anna", anna);
@@ -208,7 +208,7 @@ TEST_F(HazardOfSettings, H52_ATriggerEndsWithTheDaemon) {
   EXPECT_EQ(world.device().trigger(), "NS") << world.replay();
 }
 
-// The answer to O: is lost: it was taken all the same, so it is asked for and set back.
+// The answer to O: is lost, although the command was accepted: the outputs are read and set back.
 TEST_F(HazardOfSettings, H52_OutputsWhoseAnswerWasLost) {
   const LeaseToken anna = lease("anna", AxisSet::all());
   bool dropped = false;
@@ -238,7 +238,7 @@ TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
   EXPECT_TRUE(world.device().busy(1)) << world.replay();
 }
 
-// A byte too many in the answer to ?:B makes speeds of it that no B: sets; they are asked for again.
+// One byte too many in the answer to ?:B makes speeds that no B: can set; they are read again.
 TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
@@ -261,7 +261,7 @@ TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
   EXPECT_EQ(written(world, "B:2S5000F500000R100"), 1) << world.replay();
 }
 
-// Outputs go out under the lease with which they were asked for, or not at all.
+// Outputs are sent under the lease with which they were requested, or not at all.
 TEST_F(HazardOfSettings, H35_OutputsOfALeaseThatEndedAreNotSent) {
   const LeaseToken anna = lease("anna", AxisSet::all());
   world.wire().hold_up(true, seconds(1));
@@ -289,7 +289,7 @@ TEST_F(HazardOfSettings, H52_NothingIsSwitchedOnAfterARestart) {
   EXPECT_TRUE(leases.held().empty());
 }
 
-// What somebody sets himself takes the place of what was owed.
+// A setting that a caller makes replaces one that is pending restore.
 TEST_F(HazardOfSettings, H28_ASettingOfOnesOwnIsNotOverwritten) {
   move_slowly(2, "anna", 0);
   world.run_for(seconds(1));

@@ -28,7 +28,7 @@ class HazardH14 : public testing::TestWithParam<const char*> {
  protected:
   bool kept() const { return std::string_view(GetParam()) == "kept"; }
 
-  // After the last L: READY has been seen and every prebuffer asked for, before the caller hears of it.
+  // READY has been seen and every prebuffer read after the last L:, and before the caller receives the outcome.
   static void expect_every_prebuffer_was_asked_for(World& world) {
     const auto& lines = world.wire().commands();
     const auto last_stop =

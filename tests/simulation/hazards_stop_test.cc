@@ -160,7 +160,7 @@ TEST(Hazard, H35_StopBetweenSetAndGo) {
   EXPECT_GT(cut, 5) << "no stop has come between a set and its go";
 }
 
-// Design rule 6: where the mode allows no stop, the caller hears so at once.
+// Design rule 6: where the mode allows no stop, the caller is refused at once.
 TEST(Hazard, H18_StopOffHostIsRefusedAtOnce) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -218,7 +218,7 @@ TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   moved(world, {{2, 1000}});
 }
 
-// BEC: does not clear what lasts as long as its cause: a scale that fails is told until it works again.
+// BEC: does not clear an error that lasts as long as its cause: a scale that fails is reported until it works again.
 TEST(Hazard, H20_WhatClearingDoesNotClear) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -232,7 +232,7 @@ TEST(Hazard, H20_WhatClearingDoesNotClear) {
   EXPECT_EQ(world.device().starts(2), 0);
 }
 
-// What cannot be read back after the clearing is told as a problem.
+// A failure to read back after the clearing is reported as a problem.
 TEST(Hazard, H20_ClearingOnALineThatLosesTheAnswer) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -353,7 +353,7 @@ TEST_F(Refusals, ExecOutsideTheTravelLimitsSetsNothing) {
   EXPECT_EQ(motion_lines(world, 0), 0) << world.replay();
 }
 
-// The speeds that a narrower cap asks for are on the wire when the stop comes, and nothing of the motion waits.
+// The speed setting that a lower cap requires is in flight when the stop comes, and nothing of the motion waits.
 TEST(Hazard, H37_AStopWhileSpeedsAreSetForAReturn) {
   auto setup = quiet();
   setup.profile.axes[0].maximum_speed = pulses(20'000);

@@ -1,4 +1,4 @@
-// Hazard 24: what memory switches are changed to for good is told, with who did it.
+// Hazard 24: permanent changes of memory switches are reported, with who made them.
 #include <gtest/gtest.h>
 
 #include <string>

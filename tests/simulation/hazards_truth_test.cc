@@ -1,4 +1,4 @@
-// Outcomes, stops and left-overs, one rule at a time. Each of these fails without the guard that it is about
+// Outcomes, stops and stale setpoints, one rule at a time. Each of these fails without the guard that it is about
 // (tests/guards/table.cc).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -126,7 +126,7 @@ TEST(Hazard, H35_StopWhileALineWaitsItsTurn) {
   }
 }
 
-// A motion that waits for another one's end need not wait for it to be told that it was stopped.
+// A queued motion waits for the end of another one: when it is stopped, it ends at once.
 TEST(Hazard, H37_AStoppedMotionThatWaitsEndsAtOnce) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -168,7 +168,7 @@ TEST(Hazard, H17_AStopThatWasLostIsWrittenAgain) {
   EXPECT_LT(world.now() - asked, seconds(2)) << world.replay();
 }
 
-// Whether L: clears the prebuffer is an open question: what it keeps is told, and what it starts is stopped.
+// Whether L: clears the prebuffer is an open question: what it keeps is reported, and what it starts is stopped.
 TEST(Hazard, H14_AStopThatKeepsThePrebuffer) {
   for (const char* reading : {"kept", "starts_next"}) {
     World world(with_option("stop_keeps_prebuffer", reading));
@@ -199,7 +199,7 @@ TEST(Hazard, H38_StopsThatComeTogetherAreOne) {
   EXPECT_EQ(written(world, "L:"), 1) << world.replay();
 }
 
-// Left over in the controller by somebody else, by a failure, or by a caller's own lines: it is found before a motion.
+// Left in the controller by somebody else, by a failure, or by a caller's own lines: it is found before a motion.
 class StaleSetpoint : public testing::Test {
  protected:
   StaleSetpoint() : world(quiet()) {
@@ -220,7 +220,7 @@ TEST_F(StaleSetpoint, H12_BySomebodyElseWhileTheLineWasDown) {
   expect_refused();
 }
 
-// Seed 805722: two motions of different axes look for left-overs at once, and one begins to while the other does.
+// Seed 805722: two motions of different axes look for stale setpoints at once, and one begins to while the other does.
 TEST(Hazard, H12_LookedForByTwoAtOnce) {
   for (int apart = 0; apart < 60 && !HasFailure(); apart += 2) {
     auto setup = quiet();
@@ -250,8 +250,8 @@ TEST_F(StaleSetpoint, H12_ByACallersOwnLines) {
   expect_refused();
 }
 
-// Something moves that was not started from here, and nothing but the status tells.
-// Nor an axis number, which may not be that of the axis that moves.
+// An axis moves that was not started from here, and only the status shows it. An axis number does not show it, since it
+// may not be that of the moving axis.
 TEST(Motions, NothingIsSetBeforeTheAxesStand) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

@@ -144,7 +144,7 @@ void Mishaps::unplugged() {
   if (world_.wire().inject("link: unplugged")) world_.wire().cut(world_.now(), lasts_);
 }
 
-// The cable is put into another unit, and back later. Nothing but questions may be told to that one.
+// The cable is put into another unit, and back later. Only questions may be sent to that unit.
 void Mishaps::another_unit() {
   const Duration away = drawn(50, 3000);
   const bool unit_known = world_.controller().state().device_epoch > 0;

@@ -1,5 +1,5 @@
 // What befalls the device and its plug, at random: it restarts, somebody touches its front panel or a limit sensor, its
-// cable is pulled or put into another unit. Whoever caused one also undoes it, as a person would.
+// cable is pulled or put into another unit. Each mishap is also undone later, as a person would do it.
 #pragma once
 
 #include <cstdint>
@@ -17,7 +17,7 @@ class Mishaps {
   // any.
   Mishaps(World& world, std::uint64_t seed, double an_hour);
 
-  // Nothing strikes any more, and what has is put right.
+  // No more mishaps occur, and earlier ones are undone.
   void undo_all();
 
  private:

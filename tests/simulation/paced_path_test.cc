@@ -186,7 +186,7 @@ TEST(PacedPath, UnderrunsWhereTheLineIsNotKeptFree) {
   EXPECT_GT(ended.motion.underruns, run.segments / 100);
 }
 
-// Segments whose ends nobody hears of are late; that holds nobody up for longer than kRefillReservedAfterDue.
+// Segments whose ends are not reported are late; that delays nobody for longer than kRefillReservedAfterDue.
 TEST(PacedPath, QuestionsAreAnsweredThoughNoEndIsHeardOf) {
   Course run{.asks = Pollers::Asks::status, .segments = 100};
   run.faults.drop_notice = 1;

@@ -1,5 +1,5 @@
-// To saved positions: asked for twice, held against what is expected and against the envelope, and watched like any
-// motion (manual 127) to 136)).
+// Motions to saved positions: the position is read twice, checked against what is expected and against the envelope,
+// and watched like any motion (manual 127) to 136)).
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -83,7 +83,7 @@ TEST_F(ToPositions, CoordinatesAreOfTheirOwn) {
   EXPECT_EQ(written(world, "PIT:"), 0);
 }
 
-// Manual 129), 130): the place stays where it is, and its coordinates are reckoned anew.
+// Manual 129), 130): the place stays where it is, and its coordinates are computed again.
 TEST_F(ToPositions, APlaceStaysWhereItIsWhenCoordinatesAreSetAnew) {
   moved(world, {{1, 1000}});
   exec("PIT:SET,1");
@@ -180,7 +180,7 @@ TEST_F(ToPositions, AStartWhoseAnswerIsLost) {
   EXPECT_EQ(world.device().position(1), 2000);
 }
 
-// A stop that comes while the position is asked for.
+// A stop that comes while the position is read.
 TEST_F(ToPositions, AStopBeforeTheStart) {
   exec("PAV:SET,1");
   moved(world, {{1, 2000}});
@@ -224,7 +224,7 @@ TEST_F(ToPositionsWithin, OutsideTheTravelEnvelope) {
   exec("PSET:1+P6000");
   exec("PAV:SET,1");
   exec("PSET:1+P0");
-  // Known before it is asked for, and as the controller tells it.
+  // Refused before the position is read, and as the controller reports it.
   EXPECT_EQ(reason_of(go(to(false, 1, {{1, 6000}, {2, 0}, {3, 0}}))), Reason::outside_travel);
   EXPECT_EQ(written(world, "PAV:GET"), 0);
   EXPECT_EQ(world.controller().check(to(false, 1, {{1, 6000}})).error().reason, Reason::outside_travel);

@@ -127,13 +127,13 @@ TEST_P(Recorded, HoldsEveryByteAndIsDoneAgain) {
   EXPECT_EQ(differences(text), "");
 }
 
-// 7000: a question that waited until no number could come. 7001: an identity told twice, the second right behind the
-// first. 7002, 7003: an exchange asked for just after the line had asked something for itself. 20094, 20114: two stops
-// that waited for the end of one exchange.
+// 7000: a question that waited until no number could come. 7001: an identity reported twice, the second directly after
+// the first. 7002, 7003: an exchange requested just after the line had sent a question of its own. 20094, 20114: two
+// stops that waited for the end of one exchange.
 INSTANTIATE_TEST_SUITE_P(Hostile, Recorded,
                          testing::Values(7000, 7001, 7002, 7003, 7004, 7005, 7006, 7007, 20094, 20114));
 
-// Somebody has his recording begun when the stage has been in use for long.
+// A recording that is begun when the stage has been in use for long.
 TEST(RecordedFromTheMiddle, IsDoneAgain) {
   RecordedWorld recorded(drawn_setup(7100, Faults::none()));
   Callers callers(recorded.world(), 7100);

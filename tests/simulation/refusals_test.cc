@@ -26,7 +26,7 @@ std::function<void(World&)> error(AxisError error) {
   return [error](World& world) { world.device().set_error(1, error, true, world.now()); };
 }
 
-// As by somebody at another cable: what the device says to him does not come here.
+// As by somebody at another cable: the device's answers to that person do not come here.
 void behind_its_back(World& world, const std::string& line) {
   world.wire().set_script([](LineKind kind, const std::string&) -> Scripted {
     return {kind == LineKind::reply, {}, {}};

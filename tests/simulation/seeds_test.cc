@@ -1,8 +1,8 @@
 // Seeds: callers at random on a bad line, each seed under its own combination of the manual's open questions.
 //
-// What holds in every run: no answer is matched to another's question, a success is a place where the device stands, no
-// axis is set in motion more often than it was asked to, nothing starts after a stop that was not asked for after it,
-// every motion has an outcome, and once the line is good again the device answers.
+// What holds in every run: no answer is matched to another's question. A success is a place where the device truly is.
+// No axis is started more often than requested. After a stop only motions that were requested after it start. Every
+// motion has an outcome. Once the line works again, the device answers.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -77,8 +77,8 @@ TEST(ShapedCallers, GetThroughOnAGoodLine) {
 }
 
 // 10085: a command cut in two by the line is refused twice. 10270: the OK of a stop written inside a barrier came after
-// an identity that had been asked for before it. 10875: an owed identity was taken for the answer to ?:CMD. 31352: one
-// flipped bit made an R of a B while an axis settled. 40555: the second half of a doubled OK met a stop.
+// an identity that had been requested before it. 10875: an outstanding identity was taken for the answer to ?:CMD.
+// 31352: one flipped bit made an R of a B while an axis settled. 40555: the second half of a doubled OK met a stop.
 TEST(SeedsThatOnceFailed, StayMended) {
   for (const std::uint64_t seed : {10085u, 10270u, 10875u, 31352u, 40555u}) {
     Trial trial{.seed = seed, .duration = std::chrono::minutes(3)};
@@ -91,7 +91,7 @@ TEST(SeedsThatOnceFailed, StayMended) {
 
 // The same with all faults. 402359, 500862: a flood of axis numbers around I:. 402608, 501949, 600006: the second
 // refusal of a command cut in two came late. 701287: ZRT: of all axes where ZRT:1 had been sent. 805722: two motions
-// looked for left-overs at once. 903823, 1201942: a restart behind a late answer.
+// looked for stale setpoints at once. 903823, 1201942: a restart after a late answer.
 TEST(SeedsThatOnceFailed, StayMendedWithAllFaults) {
   for (const std::uint64_t seed :
        {402359u, 500862u, 402608u, 501949u, 600006u, 701287u, 805722u, 903823u, 1201942u, 20000561u}) {

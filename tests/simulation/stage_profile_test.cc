@@ -95,7 +95,7 @@ TEST_F(StageOfProfile, QuestionsStopsAndTheOtherAxesGoOn) {
   EXPECT_EQ(written(*world, "L:"), 1) << world->replay();
 }
 
-// Manual 55): a pulse is another way afterwards.
+// Manual 55): the resolution has changed afterwards.
 TEST_F(StageOfProfile, DivisionsPutItRightAndWrong) {
   start(with_pulse_of(20));
   const auto ask = [this](Controller::OnStarted told) {

@@ -174,7 +174,7 @@ void Users::disconnect(User& user) {
   const std::string& to = world_.random().pick(users_).name;
   const bool handed = world_.random().chance(0.5);
   Grant& grant = grants_.at(user.token);
-  const TimePoint valid_until = std::exchange(grant.valid_until, TimePoint{});  // before the next owner is told
+  const TimePoint valid_until = std::exchange(grant.valid_until, TimePoint{});  // before the next owner is notified
   const auto done =
       handed ? leases_.hand_over(user.token, to, world_.now()) : leases_.release(user.token, world_.now());
   if (!done) {

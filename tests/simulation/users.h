@@ -83,7 +83,7 @@ class Users {
   std::vector<User> users_;
   std::map<server::LeaseToken, Grant> grants_;
   std::map<std::string, stage::AxisSet> held_back_;
-  std::map<stage::MotionId, server::LeaseToken> leases_of_;  // that they were asked for with
+  std::map<stage::MotionId, server::LeaseToken> leases_of_;  // under which they were requested
   server::LeaseToken asking_ = 0;
   std::map<stage::MotionId, TimePoint> renewed_;  // jogs, when last
   Counts counts_;

@@ -47,8 +47,8 @@ void Users::check_bytes(const BytesWritten& written) {
   }
 }
 
-// Whoever moves at the controller's own speeds finds those that were there before, unless he has set others; a wrong
-// bit of a line may have, or of what was read.
+// A caller who moves at the controller's own speeds finds those that were there before, unless the same caller has set
+// others. A damaged bit of a line may have set others, and so may a damaged value that was read.
 void Users::check_speeds(const BytesWritten& written) {
   if (world_.wire().damaged_since(TimePoint{})) return;
   const bool sets_speed = written.bytes.find("F4000R50") != std::string::npos;
@@ -84,7 +84,7 @@ void Users::check_outputs(const BytesWritten& written) {
                                world_.device().outputs(), world_.device().trigger()));
 }
 
-// Whoever falls silent has been stopped: within the silence, but for the step in which time passes here.
+// The jog of a caller who stops renewing it is stopped within the limit; one time step of the simulation is allowed.
 void Users::check_jogs() {
   for (const Motion& motion : world_.controller().motions()) {
     const auto renewed = renewed_.find(motion.id);

@@ -1,4 +1,4 @@
-// The gateway's end: what was asked for is refused, withdrawn, stopped or finished, and the wire is left clean.
+// The gateway's end: every request is refused, withdrawn, stopped or finished, and the line is left clean.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

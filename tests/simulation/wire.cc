@@ -252,8 +252,8 @@ void Wire::to_gateway(std::string bytes, Origin origin, Duration extra) {
   TimePoint at = std::max(to_gateway_free_, now_) + length + extra;
   to_gateway_free_ = at;
   if (bytes.size() > 4 && strikes(faults_.split, "line: split")) {
-    // Never between the two copies of a doubled line: one that comes after the next command cannot be told from its
-    // answer by anybody.
+    // Never between the two copies of a doubled line: one that comes after the next command cannot be distinguished
+    // from its answer.
     const auto middle = bytes.size() / 2 + 1;
     transit(at, Delivery{false, bytes.substr(0, middle), origin, 0, damaging_});
     at += std::chrono::milliseconds(random_.between(1, 40));

@@ -84,7 +84,7 @@ class Wire {
         byte_time_(std::chrono::nanoseconds(10'000'000'000 / baud)) {}
 
   void set_faults(const Faults& faults) { faults_ = faults; }
-  // Asked for every line, before the faults are drawn.
+  // Called for every line, before the faults are drawn.
   void set_script(Script script) { script_ = std::move(script); }
 
   // The gateway's end and the device's end.

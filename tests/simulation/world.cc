@@ -32,7 +32,7 @@ Setup drawn_setup(std::uint64_t seed, const Faults& faults) {
     }
   };
   draw(false);
-  // The gateway is told what a lab would have found out, and only that; else it assumes the narrower reading.
+  // The gateway knows only what a lab would have found out; else it assumes the stricter interpretation.
   if (setup.options.is("busy_scope", "axis") && random.chance(0.5)) setup.profile.busy_scope = Scope::axis;
   if (setup.options.is("prebuffer_scope", "axis") && random.chance(0.5)) setup.profile.prebuffer_scope = Scope::axis;
   setup.baud = random.pick(std::vector<int>{9600, 38400, 115200});
@@ -71,7 +71,7 @@ std::string World::replay() const {
 }
 
 // Verdict by what was last written, what the device does and what the controller says of its line. A setting or a start
-// under way tells more than another axis that moves.
+// under way counts more than another axis that moves.
 Phase World::phase() const {
   if (controller_->state().link != LinkState::up) return Phase::barrier;
   bool moves = false, runs = false;
@@ -213,13 +213,13 @@ bool World::told_before_restart() const {
   return rebooted_ && wire_.delivering() && wire_.delivering()->command < written_before_reboot_;
 }
 
-// Where the axis stood when the device told it.
+// Where the axis was when the device reported it.
 std::int64_t World::told_position(int axis) const {
   const bool then = restarting() || told_before_restart();
   return then ? before_reboot_[static_cast<std::size_t>(axis - 1)] : device_->position(axis);
 }
 
-// A success is a place where the device truly stands, in the frame of the time when it was asked for.
+// A success is a place where the device truly is, in the frame of the time when it was requested.
 void World::check_outcome(const Motion& motion) {
   if (motion.state != MotionState::succeeded) return;
   // From 0 to 0 the frame is the same.
@@ -228,7 +228,7 @@ void World::check_outcome(const Motion& motion) {
     violation(fmt::format("motion {} succeeded, but the device has restarted since it was asked for", motion.id));
   }
   for (const auto& result : motion.results) {
-    // A jog has no target, but tells where it ended.
+    // A jog has no target, but reports where it ended.
     const auto place = motion.kind == MotionKind::jog ? result.command_pulses : result.target_pulses;
     if (!place) {
       violation(fmt::format("motion {} succeeded without a target for axis {}", motion.id, result.axis));

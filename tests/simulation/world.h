@@ -23,7 +23,7 @@ struct Setup {
   int baud = 38400;
   shrc203::Profile profile;
   shrc203::simulator::Options options;
-  stage::EventSink* listener = nullptr;     // hears every event too
+  stage::EventSink* listener = nullptr;     // receives every event too
   stage::Permission* permission = nullptr;  // none: everybody may
   bool callers_send_bare_go = false;        // else a bare G is taken for a fault of the gateway's own
 };
@@ -50,11 +50,11 @@ class World : public stage::EventSink {
   }
   // The host sleeps: time has passed, and what came meanwhile comes first.
   void sleep_for(Duration duration) { now_ += duration; }
-  // Runs `deed` at that time, in the middle of whatever goes on then, even of a line.
+  // Runs the function at that time, in the middle of whatever happens then, even of a line.
   void at(TimePoint when, std::function<void()> deed) { operations_.emplace(when, std::move(deed)); }
   void power_cycle(Duration silence = std::chrono::seconds(1));  // as long as the device's boot is set to last
-  // The cable is pulled and put into another unit, and back at its return. While it visits, nothing but its identity
-  // may be asked, and nothing but a stop told.
+  // The cable is pulled and put into another unit, and back at its return. While it visits, only its identity may be
+  // asked, and only a stop may be sent.
   void visit_of_another_unit(const std::string& serial_number, Duration unplugged_for);
   void return_of_the_unit(Duration unplugged_for);
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }

@@ -33,7 +33,7 @@ class GatewayStress : public testing::Test {
   GatewayStress() {
     for (unsigned number = 0; number < kCallers; ++number) callers_.push_back(std::make_unique<Caller>(bench_, number));
   }
-  // Callers outlive whoever may answer them.
+  // Callers outlive everything that may answer them.
   ~GatewayStress() override { bench_.end_gateway(); }
 
   template <class Work>

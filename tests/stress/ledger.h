@@ -10,7 +10,7 @@
 
 namespace axisgate::stress {
 
-// One caller's requests. Thread safe; outlives whoever may answer.
+// One caller's requests. Thread safe; outlives everything that may answer.
 class Ledger {
  public:
   // Held by the callback of one request.

@@ -12,8 +12,8 @@
 
 namespace axisgate::stress {
 
-// Its time runs 100 times as fast as ours, its bytes take none. It ends as when its cable is pulled: whoever has the
-// terminal open loses it at once, and the path is gone. Another one may then take the same path.
+// Its time runs 100 times as fast as ours, its bytes take none. It ends as when its cable is pulled: a program that has
+// the terminal open loses it at once, and the path is gone. Another unit may then take the same path.
 class PluggedUnit {
  public:
   PluggedUnit(const std::string& path, shrc203::simulator::Options options);

@@ -50,8 +50,8 @@ class StateReader {
   std::unique_ptr<server::WakeUps::Subscription> subscription_;
 };
 
-// On a thread of its own, until `ended`: lets more pass by than is kept, is told so, and goes on without a gap. Returns
-// how often it was told.
+// On a thread of its own, until `ended`: lets more pass by than is kept, is notified of it, and continues without a
+// gap. Returns the number of notifications.
 int read_slowly(server::EventBus& bus, const std::atomic<bool>& ended);
 
 // Publishes so many facts of nobody's, in portions that `reader` can follow.

@@ -1,4 +1,7 @@
-"""No retired word of GLOSSARY.md where people read: in pages, messages and names."""
+"""No retired word of GLOSSARY.md where people read: in pages, and in the messages, names and comments of C++.
+
+Of tests, only the comments are judged. In a comment, text in backquotes or double quotes is data and is not judged.
+"""
 
 import pathlib
 import re
@@ -8,6 +11,7 @@ import cpp
 GLOSSARY = "GLOSSARY.md"
 PAGES = (".md", ".proto", ".toml")
 JUDGED_CODE = ("device/", "server/", "clients/")
+JUDGED_COMMENTS = (*JUDGED_CODE, "tests/")
 
 # What is retired, and what to say instead. A blank stands for blanks, line ends, `_` and `-`. The first that fits counts.
 # Words with other, ordinary meanings are left to people: way, reading, behind, good, away, pay, narrower, stands, pace.
@@ -93,27 +97,43 @@ def _prose(file):
     return re.sub(r"`[^`]*`", lambda match: _blank(match.group()), "\n".join(lines))
 
 
-def _text(file):
-    """What is judged of a file, each line at its place; nothing of most files."""
+def _code(source):
+    """The code of a C++ file, with its literals, without comments and the paths of includes."""
+    code = cpp.without_includes(cpp.without_comments(source))
+    return re.sub(r'"\s*\n\s*"', lambda match: match.group().replace('"', " "), code)  # one text in several literals
+
+
+def _comments(source):
+    """The comments of a C++ file without what they quote. Code between two of them is NULs: no words across it."""
+    code = cpp.without_comments(source)
+    text = "".join(was if was != left or was.isspace() else "\0" for was, left in zip(source, code))
+    text = re.sub(r"[/*]", " ", text)
+    # A quotation may continue on the next line, but not in another comment.
+    return re.sub(r"([`\"])(?:(?!\1)[^\0\n]|\n(?![ \t]*\n))*\1", lambda match: _blank(match.group()), text)
+
+
+def _texts(file):
+    """What is judged of a file, in pieces that have each line at its place; nothing of most files."""
     suffix = pathlib.PurePosixPath(file.path).suffix
     if file.generated or file.path == GLOSSARY:
-        return ""
+        return
     if suffix == ".md":
-        return _prose(file)
-    if suffix in PAGES:
-        return re.sub(r"(?m)^[ \t]*(?://|#)", " ", file.content)
-    if file.language == "C++" and file.path.startswith(JUDGED_CODE):
-        code = cpp.without_includes(cpp.without_comments(file.content))
-        return re.sub(r'"\s*\n\s*"', lambda match: match.group().replace('"', " "), code)  # one text in several literals
-    return ""
+        yield _prose(file)
+    elif suffix in PAGES:
+        yield re.sub(r"(?m)^[ \t]*(?://|#)", " ", file.content)
+    elif file.language == "C++":
+        if file.path.startswith(JUDGED_CODE):
+            yield _code(file.content)
+        if file.path.startswith(JUDGED_COMMENTS):
+            yield _comments(file.content)
 
 
 def found(file):
     """(line, what is said, what to say instead) of each retired word."""
-    text = _text(file)
-    # A line end is a blank, so that words on two lines are found; places stay.
-    for match in _ANY.finditer(re.sub(r"\s", " ", text)):
-        yield text.count("\n", 0, match.start()) + 1, " ".join(match.group().split()), _SAY[match.lastindex - 1]
+    for text in _texts(file):
+        # A line end is a blank, so that words on two lines are found; places stay.
+        for match in _ANY.finditer(re.sub(r"\s", " ", text)):
+            yield text.count("\n", 0, match.start()) + 1, " ".join(match.group().split()), _SAY[match.lastindex - 1]
 
 
 def check(file, _files):

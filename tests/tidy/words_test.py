@@ -55,8 +55,28 @@ class Words(unittest.TestCase):
     def test_in_an_identifier(self):
         self.assert_found("device/a.h", "int pay_speeds();\nint owed_;\n", (1, "pay_speeds"), (2, "owed"))
 
-    def test_comments_of_code_are_not_judged(self):
-        self.assert_found("device/a.cc", "// It is at rest.\nint a;  /* owed */\n")
+    def test_in_a_comment(self):
+        for folder in ("device", "server", "clients", "tests/unit"):
+            self.assert_found(f"{folder}/a.cc", "// It is at rest.\nint a;  /* owed */\n", (1, "at rest"), (2, "owed"))
+
+    def test_in_a_comment_of_several_lines(self):
+        self.assert_found("tests/a.cc", "// It finds its\n// origin.\n", (1, "finds its origin"))
+        self.assert_found("tests/a.cc", "/* It finds its\n * origin. */\n", (1, "finds its origin"))
+        self.assert_found("tests/a.cc", "  int a;  // it finds its\n          // origin\n", (1, "finds its origin"))
+
+    def test_words_of_two_comments_do_not_belong_together(self):
+        self.assert_found("tests/a.cc", "int a;  // as it is\nint b;  // told\n", (2, "told"))
+        self.assert_found("tests/a.cc", "int a;  // at\nint b;  // rest\n")
+
+    def test_quoted_data_in_a_comment_is_not_judged(self):
+        for mark in "`\"":
+            self.assert_found("device/a.cc", f"// Calls {mark}owed{mark}, then news.\n", (1, "news"))
+            self.assert_found("device/a.cc", f"// Prints {mark}it was\n// owed{mark}.\n")
+            self.assert_found("device/a.cc", f"int a;  // 5{mark}\nint b;  // owed\nint c;  // 5{mark}\n", (2, "owed"))
+            self.assert_found("device/a.cc", f"// 5{mark}\n\n// owed\n\n// 5{mark}\n", (3, "owed"))
+
+    def test_names_and_literals_of_tests_are_not_judged(self):
+        self.assert_found("tests/unit/a.cc", 'int owed_ = f("at rest // news");  // plain\n')
 
     def test_paths_of_includes_are_not_judged(self):
         self.assert_found("device/a.cc", '#include "device/news.h"\n')

@@ -165,7 +165,7 @@ TEST(ArcSeeds, GoesThroughThePassingPointToTheEnd) {
     SCOPED_TRACE(
         fmt::format("seed {} case {}: {} {} to {} {}", kSeed, i, passing.first, passing.second, end.first, end.second));
     const auto arc = arc_through(passing, end);
-    // What is wider has its own test: from a center so far away nothing can be reckoned here.
+    // A wider arc has its own test: from a center so far away nothing can be computed here.
     if (!arc || arc->radius > 1e10) continue;
     ++made;
     const Point center = center_of(*arc);
@@ -234,7 +234,7 @@ TEST(ArcSeeds, HelicesAreTheirCirclesFromAbove) {
   }
 }
 
-// The simulator reckons for itself: each coordinate as a cosine about the center.
+// The simulator computes by itself: each coordinate as a cosine about the center.
 void expect_like(const simulator::Arc& sent, const Arc& arc) {
   const simulator::ArcPath path = simulator::path_of(sent);
   const ArcExtent extent = extent_of(arc);

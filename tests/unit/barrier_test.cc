@@ -113,7 +113,7 @@ TEST_F(BarrierTest, ThreeProbesAndNoMore) {
   EXPECT_EQ(owed.echoes, 3);
 }
 
-// A ?:CMD that is asked again is answered by the ?:CMD before it: that tells nothing of the line in doubt.
+// A repeated ?:CMD is answered by the ?:CMD before it: that says nothing about the line in doubt.
 TEST_F(BarrierTest, RepeatedProbesAreOwedAndSwallowed) {
   auto it = barrier("G:1");
   it.start(at(0));
@@ -137,7 +137,7 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_FALSE(settle_outstanding(owed, kIdentity)) << "no more than is owed";
 }
 
-// The first identity to come was asked for before the stop, whose OK is still on its way.
+// The first identity to come was requested before the stop, whose OK has not come yet.
 TEST_F(BarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   auto it = barrier("");
   it.start(at(0));

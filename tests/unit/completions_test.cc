@@ -27,7 +27,7 @@ TEST(Completions, PossibleFromTheStartOn) {
   EXPECT_EQ(completions.outstanding(), kSecond);
 }
 
-// A chain tells one for each segment, so one that has come does not end it.
+// A chain reports one for each segment, so one that has come does not end it.
 TEST(Completions, StillPossibleAfterOneHasArrived) {
   Completions completions;
   completions.started(kFirst, after(0));

@@ -221,7 +221,7 @@ TEST_F(ConfigStage, UnknownKeysAndLimitsThatContradictOneAnother) {
                           "stages/x.toml:6: maximum_speed: must be above 0"));
 }
 
-// The axis's own keys are not blamed for it, and a profile of two axes is told of once.
+// The axis's own keys are not blamed for it, and a profile of two axes is reported once.
 TEST_F(ConfigStage, OfAProfileThatIsWrongOnlyItselfIsTold) {
   EXPECT_THAT(errors("name = \"x\"\nkind = \"rotary\"\n",
                      "travel_maximum = \"90deg\"\n[[device.axis]]\nnumber = 2\nstage = \"stages/x.toml\"\n"),

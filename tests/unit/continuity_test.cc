@@ -34,10 +34,10 @@ struct Step {
   enum class Kind { connected, begin, sent, taken, refused, told };
   int ms;
   Kind kind;
-  std::string line = {};                // sent, or told by ?:CMD
+  std::string line = {};                // sent, or reported by ?:CMD
   bool due = false;                     // whether ?:CMD was to be asked before it was sent
   Doubt doubt = Doubt::none;            // of which the answer leaves us
-  std::optional<Verdict> verdict = {};  // on what ?:CMD told
+  std::optional<Verdict> verdict = {};  // on what ?:CMD reported
 };
 
 Step connected(int ms) { return {ms, Step::Kind::connected}; }
@@ -102,7 +102,7 @@ const Case kPauses[] = {
     {"AfterALongerPauseTheQuestionComesFirst",
      {begin(0), sent(10, "O:1"), taken(20), sent_though_due(171, "?:CMD"), told(180, "O:1", Verdict::same, Doubt::none),
       sent(330, "?:V"), taken(340)}},
-    // ?:CMD tells this line from now on, so that it can never again tell the one before the pause.
+    // ?:CMD reports this line from now on, so that it can never again report the one before the pause.
     {"AnotherLineAfterThePauseHidesWhatHappenedInIt",
      {begin(0), sent_though_due(151, "?:V"), taken(160, Doubt::open), sent(170, "?:CMD"),
       told(180, "?:V", Verdict::same, Doubt::open)}},
@@ -188,7 +188,7 @@ const Case kVerdicts[] = {
 };
 INSTANTIATE_TEST_SUITE_P(Verdicts, ContinuityTable, testing::ValuesIn(kVerdicts), name_of);
 
-// Whether ?:CMD tells a refused line is an open question (manual 40)), and it may have come in as another.
+// Whether ?:CMD reports a refused line is an open question (manual 40)), and it may have come in as another.
 const Case kRefused[] = {
     {"TheRefusedLineIsTold",
      {begin(0), sent(0, "O:1"), taken(10), sent(20, "G:1"), refused(30), sent_though_due(500, "?:CMD"),
@@ -277,7 +277,7 @@ class ContinuityTells : public testing::Test {
   Continuity continuity;
 };
 
-// A verb and its colon (manual 4.), whoever sent it.
+// A verb and its colon (manual 4.), no matter who sent it.
 TEST_F(ContinuityTells, WhatLooksLikeACommand) {
   const std::vector<std::string> commands = {"?:V", "!:S", "L:E", "WI:W,C", "PSET:1+P0", "JO:1+", "Q:S", "?:CMD"};
   EXPECT_EQ(told_of(commands), commands);

@@ -70,7 +70,7 @@ TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
   EXPECT_EQ(bus_.read(4, 1).facts.at(0)->device, "stage");
 }
 
-// What a device writes cannot clear the screen of whoever reads the log, nor add a line to it.
+// What a device writes cannot clear the screen of a person who reads the log, nor add a line to it.
 TEST_F(DeviceEventsTest, H42_ADevicesTextIsEscapedAndCappedInTheLog) {
   std::ostringstream log;
   const auto usual = spdlog::default_logger();

@@ -1,4 +1,4 @@
 #include "device/core/guard.h"
 
-// What is installed has all its guards: it could not even be told to do without one.
+// The installed program has all its guards: there is not even a setting that removes one.
 static_assert(axisgate::guarded(axisgate::Guard::barrier_after_time_limit));

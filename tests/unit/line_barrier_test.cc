@@ -66,7 +66,7 @@ TEST_F(LineBarrierTest, TheTimeLimitIsThatOfTheLineAndTheLongestAnswer) {
   EXPECT_EQ(sent(), "?:CMD\r\n");
 }
 
-// What it told to the probe that was repeated is the probe before.
+// A repeated probe is answered with the probe before it.
 TEST_F(LineBarrierTest, ARepeatedProbeTellsNothingOfTheLine) {
   const auto late = asked_and_late("G:1");
   script({{"?:CMD\r\n", ""}});
@@ -242,7 +242,7 @@ TEST_F(LineBarrierTest, AStopWhoseOwnAnswerIsGarbageIsInDoubt) {
   EXPECT_THAT(stop->message(), EndsWith("; the controller had received it"));
 }
 
-// An unanswered ?:CMD after a pause tells nothing when it is repeated: a restart may lie before it.
+// An unanswered ?:CMD after a pause proves nothing when it is repeated: a restart may have come before it.
 TEST_F(LineBarrierTest, TheQuestionBehindAPauseIsDoubtedLikeAnyOther) {
   ask("O:1");
   script({{"O:1\r\n", "OK\r\n"}});

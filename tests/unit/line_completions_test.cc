@@ -1,4 +1,4 @@
-// Axis numbers that come by themselves are told from answers, which a bare number may be as well.
+// Axis numbers that come by themselves are distinguished from answers, which may also be a bare number.
 #include "tests/unit/line_fixture.h"
 
 namespace axisgate::shrc203::line_completions_test {
@@ -20,7 +20,7 @@ class LineOfSomeAxesTest : public LineFixture {
     one.completes = completes;
     return one;
   }
-  // HRT: tells the axis number when it has found the origin (manual 60)).
+  // HRT: reports the axis number when it has found the origin (manual 60)).
   void home(int axis) {
     const std::string text = "HRT:" + std::to_string(axis);
     ask(start(text, AxisSet::of(axis)));
@@ -207,7 +207,7 @@ TEST_F(LineOfSomeAxesTest, AQuestionForTheOnlyAxisWaits) {
   EXPECT_FALSE(excitation->ended());
 }
 
-// I: tells 0 to 63 (manual 95)): IN2 alone is a 2.
+// I: reports 0 to 63 (manual 95)): IN2 alone is a 2.
 TEST_F(LineCompletionsTest, AClosedQuestionIsAnsweredByWhateverCameBeforeItsEnd) {
   home(2);
   const auto inputs = ask_closed("I:");
@@ -257,7 +257,7 @@ TEST_F(LineCompletionsTest, WhatEndsAClosedQuestionIsDoubtedLikeAnyAnswer) {
   EXPECT_THAT(inputs->message(), HasSubstr("the controller had received it")) << "the line before was !:S";
 }
 
-// What both parts of it are answered by tells that the controller runs.
+// The answers to both parts of it show that the controller runs.
 TEST_F(LineCompletionsTest, ASlowClosedQuestionIsNoSignOfARestart) {
   home(2);
   pass(100);
@@ -298,7 +298,7 @@ TEST_F(LineCompletionsTest, ANumberInABarrierIsDoubtfulAndDoesNotBreakTheSilence
   EXPECT_THAT(news(), ElementsAre(HasSubstr("barrier: "), "completion 1 doubtful", "completion 1 doubtful", "passed"));
 }
 
-// A program tells COMP and TRIG unasked (manual 109), 110)).
+// A program sends COMP and TRIG by itself (manual 109), 110)).
 TEST_F(LineCompletionsTest, WhatAProgramTellsIsAnAnswerToNothing) {
   const auto question = ask("?:V");
   script({{"?:V\r\n", "COMP\r\nTRIG\r\nV2.00.000\r\n"}});

@@ -1,4 +1,4 @@
-// A Line in virtual time between a link that keeps what is written and a listener that keeps what it is told.
+// A Line in virtual time between a link that keeps what is written and a listener that keeps what it receives.
 #pragma once
 
 #include <gmock/gmock.h>
@@ -29,7 +29,7 @@ class RecordingLink : public ByteLink {
   std::vector<Duration> reopened;
 };
 
-// What the line tells, in words: "connected", "completion 2", "completion 2 doubtful" ...
+// What the line reports, in words: "connected", "completion 2", "completion 2 doubtful" ...
 class RecordingListener : public LineListener {
  public:
   void line_connected(const Identity& identity, TimePoint) override {
@@ -71,7 +71,7 @@ class RecordingListener : public LineListener {
   Problem refusal{Reason::lease_lost, "the lease is another's", {}, {}, {}, {}};
 };
 
-// An exchange that somebody asked for; `result` once it has ended.
+// An exchange that somebody requested; `result` once it has ended.
 struct Asked {
   std::optional<ExchangeResult> result;
 
@@ -174,7 +174,7 @@ class LineFixture : public testing::Test {
     line.open(controllable, now);
     executor.run();
   }
-  // Connected, with all axes seen to stand for so long that none can complete any more.
+  // Connected, with all axes confirmed stationary for so long that none can complete any more.
   void open_and_rest(AxisSet controllable = AxisSet::all()) {
     connect();
     line.ready(AxisSet::all(), now);
@@ -183,7 +183,7 @@ class LineFixture : public testing::Test {
     open(controllable);
     forget();
   }
-  // What has been told and written so far.
+  // What has been reported and written so far.
   void forget() {
     sent();
     news();

@@ -51,7 +51,7 @@ class EventLoop {
   boost::asio::io_context context_{1};
 };
 
-// Answers each byte with itself where `echo` says so, and writes down what it hears.
+// Answers each byte with itself where `echo` says so, and writes down what it receives.
 class RecordingMachine : public LineMachine {
  public:
   explicit RecordingMachine(ByteLink& link) : link_(link) {}

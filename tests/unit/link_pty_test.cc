@@ -187,7 +187,7 @@ TEST_F(PtyLineTest, BytesOfASuccessorAreItsOwn) {
   EXPECT_EQ(machine_.heard, (Heard{"up", "down", "up", "Q:\r\n"}));
 }
 
-// XOFF goes the way of bytes, but nothing tells that it was written: like bytes whose writing is told too late.
+// XOFF is sent like bytes, but nothing reports that it was written: like bytes whose writing is reported too late.
 TEST_F(PtyLineTest, BytesOfWhichNothingIsToldAreASuccessors) {
   Descriptor first = client();
   send_now(first.get(), "for the first\r\n");

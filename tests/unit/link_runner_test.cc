@@ -291,7 +291,7 @@ TEST(LineInsideTheProcess, HostTalksToADeviceAndMayOpenItAgain) {
   EXPECT_EQ(device.heard, (std::vector<std::string>{"up", "first", "down", "up", "second"}));
 }
 
-// Asks, and counts answers; after every hundredth it opens the line anew.
+// Asks, and counts answers; after every hundredth it opens the line again.
 class AskingMachine : public LineMachine {
  public:
   AskingMachine(Runner& runner, std::function<void()> finished) : runner_(runner), finished_(std::move(finished)) {}

@@ -105,7 +105,7 @@ TEST_F(SerialPortOnPtyTest, TakesAnyRate) {
   for (const int baud : {9600, 12345, 31250, 250000, 1500000, 4000000}) {
     settings_.baud = baud;
     const Descriptor port = open();
-    // As the other end sees it: what asks the port alone would believe what it was told.
+    // As the other end sees it: a check of the port alone would only repeat what was set.
     termios2 seen{};
     ASSERT_EQ(::ioctl(pty_->master(), TCGETS2, &seen), 0);
     EXPECT_EQ(seen.c_ospeed, static_cast<speed_t>(baud));

@@ -1,4 +1,4 @@
-// The command table as people are told of it.
+// The command table as it is shown to people.
 #include "device/shrc203/command/listing.h"
 
 #include <gmock/gmock.h>

@@ -1,6 +1,6 @@
 // Segments of paths against closed-form geometry, by what is sent for them: the line is read back by hand, its curve is
-// walked point by point, and held against where the plan says that it ends and against the travel limits. All axis
-// pairs, directions, ways and places; thousands of cases from fixed seeds.
+// walked point by point, and checked against where the plan says that it ends and against the travel limits. All axis
+// pairs, directions, displacements and places; thousands of cases from fixed seeds.
 #include <gtest/gtest.h>
 
 #include <algorithm>

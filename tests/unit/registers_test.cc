@@ -87,7 +87,7 @@ TEST_F(RegistersTest, ClearsTheAxesNamedOnly) {
   EXPECT_EQ(registers.set_in(Register::a), AxisSet::of(2));
 }
 
-// Manual 22) and 24): E tells its axes in the second field, K in the first.
+// Manual 22) and 24): E reports its axes in the second field, K in the first.
 TEST_F(RegistersTest, InterpolationsNameTheirAxes) {
   take("?:KP", "A,1000,200");
   take("?:E", "0,B,0,100,100");

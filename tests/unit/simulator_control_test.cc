@@ -324,7 +324,7 @@ TEST_F(SimulatorControl, LooksAtTheTimeGiven) {
   EXPECT_EQ(control(bench.device, "busy 1", later).value(), "no");
 }
 
-// For whoever offers the same by other means than text.
+// For a caller that offers the same by other means than text.
 TEST_F(SimulatorControl, RefusalsHaveReasons) {
   const auto refused = control(bench.device, "limit 9 cw on", bench.now());
   ASSERT_FALSE(refused);

@@ -165,7 +165,7 @@ TEST(SimulatorJog, LosesNoPulseHoweverOftenItChanges) {
   }
 }
 
-// Asked for the same speed again and again at odd times, in its ramp and behind it.
+// The same speed is requested again and again at odd times, during its ramp and after it.
 TEST(SimulatorJog, IsWhereAnUndisturbedOneIs) {
   Bench disturbed, undisturbed;
   for (Bench* bench : {&disturbed, &undisturbed}) {
@@ -245,7 +245,7 @@ TEST(SimulatorJog, AStopDeceleratesAndCannotBeOverridden) {
   ASSERT_EQ(bench.device.position(1), 175);
   ASSERT_EQ(bench.ask("L:1"), "OK");
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");
-  bench.wait(50ms);  // 6000 down to 1000, and at rest: 175
+  bench.wait(50ms);  // 6000 down to 1000, and stationary: 175
   EXPECT_EQ(bench.device.position(1), 350);
   EXPECT_EQ(bench.ask("!:1S"), "B");
   EXPECT_EQ(bench.ask("JD:1F6000"), "NG");

@@ -48,7 +48,7 @@ TEST_P(SimulatorSavedPositions, TellsEachAxisItsEnd) {
   EXPECT_EQ(bench.device.position(1), 10000);
   EXPECT_EQ(bench.device.position(2), 5000);
   EXPECT_EQ(bench.device.position(3), 100);
-  // All there already: told at once.
+  // All there already: reported at once.
   EXPECT_EQ(bench.ask(with("GRT,5")), "OK 1 2 3");
 }
 

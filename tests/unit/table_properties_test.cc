@@ -109,7 +109,7 @@ Complaint check_pulses(const CommandRow& row, const Sample& sample) {
   return {};
 }
 
-// Each row's trials until the first that fails: one failure a row tells enough.
+// Each row's trials until the first that fails: one failure a row is enough.
 template <class Check>
 void for_every_row(int trials, Check check) {
   for (const CommandRow& row : command_table()) {
@@ -148,7 +148,7 @@ TEST(TableProperties, PulsesBesideTheirRangeAreRefused) {
       kTrials, [](const CommandRow& row, const Sample& sample, SampleGenerator&) { return check_pulses(row, sample); });
 }
 
-// What is told to people as a parameter can be given, and has a range or choices.
+// Each parameter that is shown to people can be given, and has a range or choices.
 TEST(TableProperties, ParametersAreThoseOfTheFormat) {
   for (const CommandRow& row : command_table()) {
     for (const Parameter& parameter : row.parameters) {

@@ -274,7 +274,7 @@ TEST_F(ForecastTest, ALineRunsAtTheLowestSpeedOfItsLowerAxis) {
   ends({"KP:A+P1+P1,S100F1000R200", "G:A"});
 }
 
-// Between the setting and the start S may have been set anew.
+// S may have been set again between the setting and the start.
 TEST_F(ForecastTest, ALineRunsAtTheSpeedOfItsStart) {
   profile.axes[1].maximum_speed = pulses(100'000);
   EXPECT_EQ(refusal({"K:A+P1+P1", "D:1S150000F150000R100", "G:A"}), "TOO_FAST 2");

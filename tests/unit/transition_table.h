@@ -1,4 +1,4 @@
-// A state machine held against its table as device/shrc203/README.md draws it: one row a state, one cell an event.
+// A state machine checked against its table as device/shrc203/README.md draws it: one row a state, one cell an event.
 #pragma once
 
 #include <gtest/gtest.h>

@@ -54,7 +54,7 @@ enum class Question {
 Command ask(Question question);
 std::string_view text(Question question);  // the line
 const CommandRow& row_of(Question question);
-// What tells what the register holds; of none, setpoint_a.
+// The question that reports what the register holds; for none, setpoint_a.
 Question question_of(Register reg);
 
 // The one setter of a register; E: and EP: have one for each CurveForm.

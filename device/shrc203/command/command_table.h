@@ -64,7 +64,7 @@ enum class CurveForm { circle, arc_by_angle, arc_through, helix_of_turns, helix_
 enum class Meaning {
   none,
   inquiry,            // a question of ?: or *IDN?, which is answered out of HOST too
-  line_before,        // likewise, and it tells the line before it
+  line_before,        // likewise, and it reports the line before it
   go,                 // starts what was set
   jog,                // for axes that run until somebody stops them
   clear_setpoints,    // deletes what was set and not started

@@ -38,7 +38,7 @@ std::size_t choice_length(std::string_view choices, std::string_view text) {
   return longest;
 }
 
-// A number where a choice of numbers stands, though it be none of them: it is told then, instead of any other form.
+// A number where a choice of numbers is expected, even if it is none of them. Errors then name it, not another form.
 std::string_view number_chosen(std::string_view choices, std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto first = std::ranges::find_if(choices, is_digit);

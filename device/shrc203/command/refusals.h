@@ -23,7 +23,7 @@ struct AxisCondition {
   std::string_view hint;  // {} is the axis
 };
 
-// In the order in which they are looked for: the first that is shown is told.
+// In the order in which they are looked for: the first that is shown is reported.
 std::span<const AxisCondition> axis_conditions();
 
 // The first axis, and what it shows, that stands against the command.
@@ -39,7 +39,7 @@ std::optional<Problem> error_shown(AxisSet axes, const State& state);
 // Of what somebody has set on these axes and never started, and no command deletes.
 Problem stale_setpoint(AxisSet axes);
 
-// Where nothing tells: what there is to go by. `sent` is the line.
+// For a refusal that nothing explains: the known facts. `sent` is the line.
 Problem unexplained(std::string_view sent, AxisSet axes, const State& state);
 
 }  // namespace axisgate::shrc203

@@ -53,7 +53,7 @@ struct AxisReading {
 // that leaves invalid axes out.
 std::optional<std::vector<AxisReading>> parse_positions(const Reply& reply, AxisSet controllable);
 
-// S100F1000R50. Nothing outside the ranges of manual 89) D:, which only a disturbed line tells.
+// S100F1000R50. Nothing for numbers outside the ranges of manual 89) D:, which only a disturbed line reports.
 std::optional<SpeedSetting> parse_speed_setting(std::string_view field);
 
 std::optional<std::int64_t> parse_integer(std::string_view text);

@@ -52,7 +52,7 @@ constexpr CommandRow third_axis(CommandRow row) {
   return row;
 }
 
-// As setter(): the last character of the name tells the form.
+// As setter(): the last character of the name gives the form.
 constexpr CommandRow curve(std::string_view name, std::string_view format, std::string_view description, int section,
                            std::span<const Parameter> parameters, Register reg, Needs needs) {
   CommandRow row = setter(name, format, description, section, parameters, reg, needs);

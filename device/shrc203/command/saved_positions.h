@@ -13,7 +13,7 @@ namespace axisgate::shrc203 {
 
 PositionLines position_lines(const PositionSlot& slot);
 
-// In pulses, by axis, of the answer to PIT:GET or PAV:GET; nothing where it tells of none.
+// In pulses, by axis, from the answer to PIT:GET or PAV:GET; nothing where it reports none.
 std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer, AxisSet controllable);
 
 }  // namespace axisgate::shrc203

@@ -43,7 +43,7 @@ Result<Lines> only(std::string_view row, const Arguments& arguments = {}) {
   return only_line(encode(command_row(row), arguments));
 }
 
-// By what is asked for; the numbers are the manual's.
+// By the requested setting; the numbers are the manual's.
 struct LinesFor {
   const State& state;
 

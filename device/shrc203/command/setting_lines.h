@@ -15,7 +15,7 @@ namespace axisgate::shrc203 {
 // In the order in which they are sent; none, where nothing is to change. out_of_range, not_representable.
 Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state);
 
-// What is asked for Settings, each by itself: what cannot be told at the time keeps none of the others.
+// The questions for Settings, each asked by itself: one without an answer at the time does not prevent the others.
 std::span<const std::string_view> setting_questions();
 
 // An answer to one of them. What is none of its kind changes nothing.

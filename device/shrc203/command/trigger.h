@@ -1,4 +1,4 @@
-// The trigger output (manual 97) to 101)): one setting per controller, told by ?:T (manual 42)).
+// The trigger output (manual 97) to 101)): one setting per controller, reported by ?:T (manual 42)).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace axisgate::shrc203 {
 // The answer to ?:T: NS, or m,v or m,a,v; nothing where it is none. A sign of v says what m says already.
 std::optional<Trigger> parse_trigger(std::string_view answer);
 
-// The line that sets it: of a trigger that was told, and of one that a caller wants. out_of_range.
+// The line that sets it: of a trigger that was reported, and of one that a caller wants. out_of_range.
 Command trigger_command(const Trigger& trigger);
 Result<std::string> trigger_line(const Trigger& trigger);
 

@@ -1,13 +1,13 @@
-// What follows a reply that did not come or could not be read: nothing else is sent before it is certain again whose
-// answers the line carries.
+// What follows a missing or unreadable reply: nothing else is sent before it is certain again which command an answer
+// belongs to.
 //
 //   ?:CMD    its answer equal to the line in doubt means that the controller received it, not that it accepted it
 //   *IDN?    the configured controller is there, and every answer before this one has been given
 //   silence  completions excepted, for 50 ms, the time of three longest lines, or twice what the identity took: a slow
 //            controller may still have other answers to give
 //
-// A probe without an answer is repeated, three in all. Each unanswered one is owed: its answer may still come, and is
-// swallowed wherever it appears.
+// A probe without an answer is repeated, three in all. The answer to each unanswered probe is outstanding: it may still
+// come, and is discarded wherever it appears.
 #pragma once
 
 #include <functional>
@@ -20,7 +20,7 @@
 
 namespace axisgate::shrc203 {
 
-// Answers to probes that were given up: they may come at any later time.
+// Answers to abandoned probes: they may come at any later time.
 struct OutstandingAnswers {
   int echoes = 0;
   int identities = 0;
@@ -38,7 +38,7 @@ class Barrier {
           std::function<void(std::string_view)> write);
 
   void start(TimePoint now);
-  // A Stop was written in between: begin anew.
+  // A Stop was written in between: begin again.
   void restart(TimePoint now);
 
   // A complete line that is no completion. False: nothing waited for it.
@@ -51,7 +51,7 @@ class Barrier {
   enum class State { probing, passed, failed };
   State state() const { return state_; }
 
-  // Whether the controller had received the line in doubt; nothing while ?:CMD has told nothing.
+  // Whether the controller had received the line in doubt; nothing while ?:CMD has shown neither.
   std::optional<bool> received() const { return received_; }
   // What ?:CMD was answered.
   const std::optional<std::string>& echo() const { return echo_; }
@@ -72,8 +72,8 @@ class Barrier {
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;
-  // Identities asked for before this step began, in an earlier barrier or before a Stop: the controller answers in
-  // order, so theirs come first and tell nothing.
+  // Identities requested before this step began, in an earlier barrier or before a Stop. The controller answers in
+  // order, so their answers come first and prove nothing.
   int older_ = 0;
   TimePoint deadline_{};
   TimePoint probed_{};
@@ -84,7 +84,7 @@ class Barrier {
   std::optional<Identity> identity_;
 };
 
-// Whether `line` may be the answer to an owed probe; if so it is paid.
+// Whether `line` may be the answer to an outstanding probe; if so, that answer is no longer outstanding.
 bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line);
 
 }  // namespace axisgate::shrc203

@@ -7,8 +7,8 @@
 
 namespace axisgate::shrc203 {
 
-// The numbers of one closed exchange are its answer, and completions. Where they are all alike its answer is one of
-// them whatever it is; where they differ it is told by the answers of the others.
+// The numbers of one closed exchange are its answer, and completions. Where they are all alike, the answer is that
+// number. Where they differ, the answers of the other exchanges show which one it is.
 class ClosedAnswers {
  public:
   // What of them are completions for certain.
@@ -17,7 +17,7 @@ class ClosedAnswers {
     if (!alike) unclear_.push_back(numbers);
     return alike ? std::vector<int>(numbers.begin() + 1, numbers.end()) : std::vector<int>();
   }
-  // ... and of those that were not clear, once the answer is known. It may have been another then: that tells nothing.
+  // ... and of those that were not clear, once the answer is known. If it was another then, nothing follows from it.
   std::vector<int> settle(int answer) {
     std::vector<int> completions;
     for (std::vector<int>& numbers : unclear_) {

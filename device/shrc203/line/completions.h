@@ -21,11 +21,11 @@ class Completions {
   // ended, even before its G.
   void chained(AxisSet axes, TimePoint now);
 
-  // An axis number came, one for each start, more in a chain.
+  // A completion was received: one for each start, more in a chain.
   void arrived(int axis);
 
-  // A reading told these axes to be READY, or busy. Those for which it changed anything. An axis that moves may
-  // complete though nothing was started on it: the line may have made another command of one for other axes.
+  // A reading showed these axes as READY, or as busy. Returns those for which it changed anything. An axis that moves
+  // may complete though nothing was started on it: the line may have turned a command for another axis into one for it.
   AxisSet ready(AxisSet axes, TimePoint now);
   AxisSet busy(AxisSet axes);
 

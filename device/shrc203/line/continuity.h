@@ -1,9 +1,9 @@
 // Whether the controller that answers now has been running ever since it answered before.
 //
-// A restart takes a while in which nothing is read, and afterwards ?:CMD no longer tells the line before it (manual
-// 40), 46) RESET:). So where a line is written soon after an answer, nothing can have happened in between; after a
-// longer pause ?:CMD must be the first line, because any other would be what ?:CMD tells from then on. The same answer
-// shows that somebody else has written to the controller.
+// A restart takes a while in which nothing is read, and afterwards ?:CMD no longer reports the line before it (manual
+// 40), 46) RESET:). So when a line is written soon after an answer, nothing can have happened in between. After a
+// longer pause ?:CMD must be the first line, because ?:CMD would report any other line from then on. The same answer
+// shows whether somebody else has written to the controller.
 #pragma once
 
 #include <optional>
@@ -25,17 +25,17 @@ class Continuity {
 
   // Whether ?:CMD is to be asked before anything else is.
   bool due(TimePoint now) const { return now - alive_ > kRestartMin; }
-  // Nothing tells whether the controller has restarted: other facts must.
+  // Nothing shows whether the controller has restarted: other facts must.
   bool open() const { return open_; }
-  // ... but no more speaks for a restart than that an answer came late.
+  // ... but the only sign of a restart is that an answer came late.
   bool only_late() const { return open_ && only_late_; }
 
   // Its bytes and those of the answer take `on_the_wire` at most.
   void wrote(std::string_view line, Duration on_the_wire, TimePoint now);
-  // The newest line was answered. `taken`: by other than NG; whether ?:CMD tells a refused line is an open question.
+  // The newest line was answered. `taken`: not by NG; whether ?:CMD reports a refused line is an open question.
   void answered(bool taken, TimePoint now);
 
-  // Whether this can be what ?:CMD tells. After a restart it may tell what it likes; that too is left to other facts.
+  // Whether this can be what ?:CMD reports. After a restart it may report anything; that too is left to other facts.
   bool could_be(std::string_view line) const;
   enum class Verdict { same, open, foreign };
   // What ?:CMD was answered.

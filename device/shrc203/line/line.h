@@ -1,5 +1,5 @@
-// The controller's line: one exchange in flight, completions told apart from replies, and the barrier after doubt. Its
-// phases and what leads from one to another stand in link.h.
+// The controller's line: one exchange in flight, completions distinguished from replies, and the barrier after doubt.
+// Its phases and their transitions are in link.h.
 #pragma once
 
 #include <functional>
@@ -33,7 +33,7 @@ struct ExchangeRequest {
   std::string caller;
   TimePoint not_after{};    // not written later than this
   MotionId motion = 0;      // the motion it belongs to
-  std::uint64_t lease = 0;  // of one that belongs to none: with which it was asked for,
+  std::uint64_t lease = 0;  // of one that belongs to none: the lease of its request,
   AxisSet uses;             // and the axes that it needs the right to
   bool tidies = false;      // it only undoes what the motion did: no right is needed for that
   AxisSet completes;        // the axes whose numbers may come once it is written
@@ -46,7 +46,7 @@ struct ExchangeResult {
   std::optional<Reply> reply{};      // set when an answer was matched
   std::optional<Problem> problem{};  // why there is no answer that can be believed; also set for NG_I
 
-  // Of a closed exchange whose answer could not be told from completions: every number that came. `reply` is the first.
+  // Of a closed exchange whose answer could not be distinguished from completions: all numbers. `reply` is the first.
   std::vector<int> candidates{};
 
   bool accepted() const { return reply && reply->accepted() && !problem; }
@@ -59,9 +59,9 @@ class LineListener {
  public:
   virtual ~LineListener() = default;
   virtual void line_opened(TimePoint now) = 0;
-  // The identity has been told and the line fell silent: the handshake may run.
+  // The identity was received and the line fell silent: the handshake may run.
   virtual void line_connected(const Identity& identity, TimePoint now) = 0;
-  virtual void line_trusted(TimePoint now) = 0;  // open() was called; what waits goes out next
+  virtual void line_trusted(TimePoint now) = 0;  // open() was called; what waits is sent next
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
   virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
@@ -93,9 +93,9 @@ class Line {
 
   // Nothing but a stop is written from now on: what waits ends unwritten with `problem`, and so does what comes.
   void seal(const Problem& problem);
-  // Something is on the wire, or its answer is held back by the barrier.
+  // An exchange is in flight, or its answer is held back by the barrier.
   bool exchanging() const { return in_flight_ || doubted_waiting_; }
-  // The motion whose start is on the wire; 0 for none.
+  // The motion whose start is in flight; 0 for none.
   MotionId starting() const;
 
   void open(AxisSet controllable, TimePoint now);          // the handshake has passed
@@ -103,12 +103,12 @@ class Line {
   void confirm_no_restart(TimePoint now);                  // the suspected restart was none
   bool restart_only_possible() const { return continuity_.only_late(); }
 
-  // A reading told these axes to stand, or to move.
+  // A reading showed these axes as stationary, or as moving.
   void ready(AxisSet axes, TimePoint now);
   void busy(AxisSet axes, TimePoint now);
 
-  // A path's next refill will be asked for at `due`: until then nothing begins in the lanes below that may not have
-  // ended by then, and from then on nothing until the refill is written or kRefillReservedAfterDue has passed.
+  // A path's next refill will be requested at `due`. Until then nothing begins in the lanes below that may not have
+  // ended by then. From then on nothing begins there until the refill is written or kRefillReservedAfterDue has passed.
   void keep_free(MotionId path, TimePoint due, TimePoint now);
   void release(MotionId path, TimePoint now);
   const LineTiming& timing() const { return timing_; }
@@ -138,7 +138,7 @@ class Line {
   static constexpr auto kLineBefore = commands::Question::previous_command, kSettling = commands::Question::ready;
 
   bool can_send() const { return state_.port_open() && !in_flight_ && !barrier_; }
-  // False, and the line is given up, for an event that the phase does not permit.
+  // False, and the line is disconnected, for an event that the phase does not permit.
   bool change(LinkEvent event, TimePoint now);
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);

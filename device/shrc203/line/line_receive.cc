@@ -75,12 +75,12 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   const auto& row = *in_flight_->waiting->request.command.row;
   const bool refusal = line.text == "NG" || line.text == "NG_I";
   if (outstanding_.identities > 0 && refusal && guarded(Guard::outstanding_refusals)) {
-    // An owed *IDN? may have been received wrongly: this may refuse it, or the command in flight.
+    // An outstanding *IDN? may have been received wrongly: this may refuse it, or the command in flight.
     --outstanding_.identities;
     doubt_answer(line.text, now);
     return;
   }
-  // A stop does not wait until no other answer to the line before can come; behind another stop it waits a little.
+  // A stop does not wait until no other answer to the line before can come; after another stop it waits a little.
   const bool is_stop = in_flight_->waiting->request.lane == Lane::stop;
   const bool maybe_older = is_stop && maybe_in_two_ && !after_refused_stop_;
   if (refusal && maybe_older && guarded(Guard::refusals_before_stops)) return doubt_answer(line.text, now);
@@ -101,7 +101,7 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
   const bool echoed = barrier_->echo().has_value(), identified = barrier_->identity().has_value();
   if (!barrier_->on_line(text, now)) unexpected(text, now);
   if (!echoed && barrier_->echo()) on_last_command(*barrier_->echo(), now);
-  if (!barrier_) return;  // given up
+  if (!barrier_) return;  // disconnected
   if (!identified && barrier_->identity()) continuity_.answered(true, now);
   barrier_moved(now);
 }
@@ -148,7 +148,7 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
     on_number(axis, now);
     return true;
   }
-  // Nothing is on the wire that a possible number could answer (conflicts()).
+  // Nothing is in flight that a possible number could answer (conflicts()).
   if (in_flight_) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;

@@ -12,7 +12,7 @@ bool is_line_before(const ExchangeRequest& request) { return request.command.row
 
 }  // namespace
 
-// The axes whose numbers could not be told from the answer.
+// The axes whose numbers could not be distinguished from the answer.
 AxisSet Line::conflicts(const ExchangeRequest& request) const {
   const CommandRow& row = *request.command.row;
   if (request.closed || !guarded(Guard::number_questions_wait)) return {};
@@ -78,7 +78,7 @@ void Line::pump(TimePoint now) {
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
 }
 
-// Null when nothing may go. What has lost its right while it waited is told so, and never goes.
+// Null when nothing may be sent. A request that has lost its right while it waited is refused, and never sent.
 Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
   while (auto next = queue_.take(may_go)) {
     const ExchangeRequest& request = (*next)->request;
@@ -92,9 +92,9 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
   return nullptr;
 }
 
-// ?:CMD comes before whatever may go now: after a pause, of which it tells whether the controller has restarted in it;
-// and after NG, because the line may have cut the command in two, and its other part's NG, however late, is no answer
-// to that question.
+// ?:CMD is sent before anything else that may be sent now. After a pause it shows whether the controller has restarted
+// meanwhile. After NG the line may have cut the command in two, and the NG of the other part, however late, is no
+// answer to ?:CMD.
 bool Line::asks_first(TimePoint now) const {
   const bool paused =
       state_.trusted() && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
@@ -112,7 +112,7 @@ bool Line::asks_now(const std::function<bool(const WaitingPtr&)>& may_go, bool s
   return any && !(stop && queue_.stops_turn());
 }
 
-// While half a line is in, the next command's answer could not be told from its other half: only a stop does not wait.
+// With half a line in, its other half could be mistaken for the next command's answer: only a stop does not wait.
 bool Line::line_is_coming(TimePoint now) {
   if (!framer_.mid_line()) {
     partial_since_.reset();
@@ -145,7 +145,7 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
 }
 
-// Inside a barrier a Stop is written at once; what answers it then cannot be told from late replies.
+// Inside a barrier a Stop is written at once; its answer cannot then be distinguished from late replies.
 void Line::send_stops_now(TimePoint now) {
   if (!state_.port_open() || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
   if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);

@@ -13,11 +13,11 @@ enum class LinkPhase {
   closed,              // the port is shut; it is opened again after the backoff
   reopening,           // shut, and opened at once: a stop waits
   identifying,         // open; the first barrier asks who is there
-  handshaking,         // the controller has said who it is; nothing but the handshake's questions goes out
+  handshaking,         // the controller has said who it is; nothing but the handshake's questions is sent
   handshake_doubtful,  // a barrier within the handshake
   up,                  // the handshake has passed
-  doubtful,            // a barrier: nothing but a stop goes out
-  restart_suspected,   // nothing but a stop and what tells whether the controller has restarted goes out
+  doubtful,            // a barrier: nothing but a stop is sent
+  restart_suspected,   // nothing but a stop and what shows whether the controller has restarted is sent
   restart_doubtful,    // a barrier meanwhile
 };
 inline constexpr std::size_t kLinkPhases = 9;

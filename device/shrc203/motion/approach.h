@@ -1,6 +1,6 @@
-// Targets that are always come to from the same side, so that the play of a screw does not count (backlash): two moves,
-// of which one axis has the second in its prebuffer (manual 2. About double buffer) while the first runs. Several axes
-// come to rest between: whether each would go on by itself is open (README: chain_step_on).
+// Targets that are always approached from the same side, so that backlash does not count. Each takes two moves. A
+// single axis has the second one in its prebuffer (manual 2. About double buffer) while the first runs. Several axes
+// stop in between: whether each would continue by itself is open (README: chain_step_on).
 #pragma once
 
 #include "device/shrc203/line/line_timing.h"
@@ -19,7 +19,7 @@ class Approaches {
 
   // Whether some axis has an approach.
   static bool has_any(const MoveRequest& request);
-  // Both moves of it, held against the envelope.
+  // Both moves of it, checked against the envelope.
   Result<PathPlan> plan(const MoveRequest& request) const;
   Task<void> run(LiveMotionPtr live, MoveRequest request);
 

@@ -16,7 +16,7 @@ constexpr int kLineBits = 64 * 10;
 
 double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// How far an axis goes on from `speed` until it is stationary: down to S by (F - S) / R (manual 89)).
+// The distance that an axis travels from `speed` until it is stationary: down to S by (F - S) / R (manual 89)).
 double stopping_distance(std::int64_t speed, const AxisState& axis) {
   const auto from = static_cast<double>(speed), minimum = static_cast<double>(axis.minimum_speed.value_or(1));
   const double ramp = static_cast<double>(axis.acceleration_ms.value_or(1000)) / 1000;

@@ -15,11 +15,11 @@ class JogBound {
   // As things are now. All outlive it.
   JogBound(const StateStore& store, const LiveMotion& live, TimePoint now) : store_(store), live_(live), now_(now) {}
 
-  // When at the latest a stop of the axis must be asked for: computed from the last reading at the highest speed since
+  // When at the latest a stop of the axis must be requested: computed from the last reading at the highest speed since
   // then, or at `speed` pulses/s. Nothing where the axis was not read.
   std::optional<TimePoint> stop_at(int axis) const;
   std::optional<TimePoint> stop_at(int axis, std::int64_t speed) const;
-  // What was asked for, or what the distance to the bound still allows; in pulses/s.
+  // The requested speed, or what the distance to the bound still allows; in pulses/s.
   std::int64_t speed_that_fits(int axis) const;
 
  private:

@@ -51,7 +51,7 @@ std::optional<Problem> JogWatchdog::must_end(const LiveMotion& live) {
                                           std::chrono::duration_cast<std::chrono::milliseconds>(kSilence).count()),
                    .hint = "renew it several times in that time, from a connection that holds"};
   }
-  // Under a lease that lets motion finish it would never end: the lease itself is asked for.
+  // Under a lease that lets motion finish it would never end: the lease itself is checked.
   const Use use{live.context.who, live.context.lease, live.uses, 0};
   if (live.context.lease != 0 && guarded(Guard::jog_ends_with_its_right)) {
     if (const auto allowed = rights_.still_authorized(use); !allowed) return allowed.error();
@@ -80,7 +80,7 @@ TimePoint JogWatchdog::next_look(const LiveMotion& live) const {
   const TimePoint now = tasks_.now();
   if (live.jog->must_end()) return now + kJogStopRepeat;
   TimePoint next = live.jog->renewed + kSilence;
-  // Nobody tells of a lease's end.
+  // The end of a lease is not reported.
   if (live.context.lease != 0) next = std::min(next, now + kJogLeasePoll);
   if (live.jog->begun != TimePoint{}) {
     const JogBound bounds(store_, live, now);
@@ -113,7 +113,7 @@ Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
     }
     if (!result.in_doubt()) break;
   }
-  // Also where it was refused: what the caller asks for next is tried anew.
+  // Also where it was refused: it is not repeated, and the caller's next request is tried.
   jog.sent = asked;
   motions_.jog_changed(*live, JogEvent::speed_answered);
   jog.changed.notify();

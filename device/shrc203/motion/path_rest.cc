@@ -58,7 +58,7 @@ std::optional<int> PathRun::last_run() const {
   return matches == 0 || ambiguous ? std::nullopt : std::optional(done);
 }
 
-// The counters at READY say which segment was the last to run; the path goes on with the next.
+// The counters at READY show which segment was the last to run; the path continues with the next.
 Task<void> PathRun::resume_from_ready() {
   release_line();
   auto pause = parts_.tasks.pause(3 * kReadyPoll);

@@ -3,10 +3,10 @@
 //
 //   set 1 ── go ── set 2 (OK_D) ── 1 ends: 2 runs, set 3 (OK_D) ── ... ── n ends, READY: the sum must be exact
 //
-// OK where OK_D was due means that the chain had ended (an underrun): the path goes on from READY. Whatever is in doubt
-// is settled at READY too, where the command counters tell how far the path has come. A segment that waits for
-// something (SegmentPlan::waits()) is set and started at READY as segment 1 is (segment_halt.h). Its phases are those
-// of state/segment_life.h.
+// OK where OK_D was due means that the chain had ended (an underrun): the path continues from READY. Whatever is in
+// doubt is settled at READY too, where the command counters show how far the path has come. A segment that waits for
+// something (SegmentPlan::waits()) is set and started at READY, as segment 1 is (segment_halt.h). The phases of a
+// segment are those of state/segment_life.h.
 //
 // The line is kept free for the refill that follows the end of each segment but the last two (reservations.h).
 #pragma once
@@ -97,7 +97,7 @@ class PathRun {
   SegmentPhase phase_ = SegmentPhase::stationary;
   int running_ = 0;     // the segment that moves, or moved last
   int clock_axis_ = 0;  // the first axis to answer in segment 1; the others' numbers are not counted
-  int missed_ = 0;      // ends that were asked for because their number had not come; it may still
+  int missed_ = 0;      // ends that were polled because their number had not come; it may still come
   TimePoint segment_began_{};
 };
 

@@ -57,7 +57,7 @@ class SavedPositions {
   Tasks& tasks_;
 };
 
-// The coordinates that PIT:GET or PAV:GET tells twice in a row; none where nothing is saved there. line_fault.
+// The coordinates that PIT:GET or PAV:GET reports twice in a row; none where nothing is saved there. line_fault.
 Task<Result<Coordinates>> ask_for_position(Dialogue& dialogue, LiveMotionPtr live, Command question,
                                            AxisSet controllable);
 

@@ -1,5 +1,5 @@
-// Scans: the axis is brought to where it sets out, the trigger is armed while it is stationary (T: is NG while busy,
-// manual 98)), it runs, and at READY the trigger is what it was before.
+// Scans: the axis is moved to where the run starts, the trigger is armed while the axis is stationary (T: is NG while
+// busy, manual 98)), the axis runs, and at READY the trigger is restored.
 #pragma once
 
 #include "device/core/tasks.h"

@@ -94,7 +94,7 @@ Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
   }
   Problem why = result.problem.value_or(Problem{});
   if (result.refused()) {
-    store_.note_trigger({});  // the NG may have been the line's: it is asked for, to be restored
+    store_.note_trigger({});  // the line may have caused the NG: the trigger is read again, to be restored
     why = co_await explainer_.explain(setter, AxisSet::all(), live->context.who);
   }
   motions_.disconnect(*live, why);

@@ -1,6 +1,6 @@
 // What a segment waits for while the axes are stationary: a rest, inputs, a trigger that is armed. The gateway keeps
-// these times itself: whether WT: and WI: answer OK or OK_D behind a running segment, and whether their end tells a
-// number, is open (manual 57), 58)), and a stop must not have to clear them.
+// these times itself, so that a stop need not clear them. Also, whether WT: and WI: answer OK or OK_D after a running
+// segment, and whether a number reports their end, is open (manual 57), 58)).
 #pragma once
 
 #include "device/core/tasks.h"

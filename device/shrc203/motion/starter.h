@@ -26,7 +26,7 @@ class Starter {
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
   // `completes` are the axes whose numbers will come.
   Task<Result<Start>> go(LiveMotionPtr live, AxisSet completes);
-  // A line that starts by itself, and after which each axis tells its end. Nothing: the motion has its outcome.
+  // A line that starts by itself, and after which each axis reports its end. Nothing: the motion has its outcome.
   Task<std::optional<Start>> start(LiveMotionPtr live, Command command);
   // A start that arrived has taken the setpoint out of its register. True only when it is certain that none did.
   Task<bool> start_never_came(LiveMotionPtr live, Command setter);

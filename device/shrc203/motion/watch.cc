@@ -100,7 +100,7 @@ Task<Result<void>> Watch::read_end(LiveMotionPtr live, const Seen& seen) {
   co_return read;
 }
 
-// A jog that was given up would run on.
+// An abandoned jog would run on, so it is ended.
 void Watch::unreadable(LiveMotion& live, const Problem& problem) {
   if (live.jog) {
     motions_.end_jog(live, problem);

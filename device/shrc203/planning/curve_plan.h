@@ -23,14 +23,14 @@ struct PlannedCurve {
   MovePlan move;  // its axes, ascending, and where it leads; relative
 };
 
-// From where the axes are, held against the envelope along the whole curve. invalid_request, out_of_range,
+// From where the axes are, checked against the envelope along the whole curve. invalid_request, out_of_range,
 // outside_travel, position_unknown and what the envelope's conversions refuse.
-// `slack`: by so many pulses the axes may stand beside `from`.
+// `slack`: pulses by which the axes may be off `from`.
 Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, std::int64_t slack,
                                 const Envelope& envelope);
 
-// Pulses by which the controller's own reckoning of its end may differ: that of an angle ("an error occurs", manual
-// 72), 75)), unless the curve ends on whole pulses.
+// Pulses by which the end that the controller computes may differ: for a curve given by an angle ("an error occurs",
+// manual 72), 75)), unless it ends on whole pulses.
 std::int64_t slack_of(const CurvePlan& curve);
 
 // The highest part of the path speed that each axis of the move makes on the way: 1 in the plane of the circle.

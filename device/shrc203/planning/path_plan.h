@@ -20,7 +20,7 @@ struct SegmentPlan {
   MovePlan move;  // of a curve: where it leads; of a line and a curve the speeds are the first axis's
   std::optional<CurvePlan> curve{};
   std::array<std::int64_t, kAxisCount> end{};  // where each axis stands after it
-  std::int64_t slack = 0;                      // pulses by which the controller's own reckoning of its end may differ
+  std::int64_t slack = 0;                      // pulses by which the end that the controller computes may differ
   Duration shortest{};                         // by its speeds; it cannot be over sooner
   Duration longest{};                          // it should be over by then, settling aside
   // What must be before it starts. Any of them: the axes stand, and nothing was put into the prebuffer.

@@ -14,7 +14,7 @@ Result<void> check_acceleration(int axis, int milliseconds) {
 
 namespace {
 
-// The speeds to send: those asked for, or the device's own where they exceed what the caller may run at.
+// The speeds to send: those requested, or the device's own where they exceed what the caller may run at.
 Result<std::optional<SpeedSetting>> plan_speed(const AxisMove& move, const Envelope& envelope) {
   const auto& axis = envelope.state().axis(move.axis);
   if (move.profile) {

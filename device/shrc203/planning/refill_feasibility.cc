@@ -18,7 +18,7 @@ constexpr std::size_t kChainedBytes = 4 + LineTiming::kTerminator;  // OK_D
 
 double milliseconds_of(Duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
-// Upwards, so that a segment of the time told is feasible.
+// Rounded up, so that a segment of the reported time is feasible.
 std::string in_milliseconds(Duration duration) {
   return fmt::format("{} ms", std::ceil(milliseconds_of(duration) * 10) / 10);
 }

@@ -23,7 +23,7 @@ std::int64_t power_of_ten(int exponent) {
   return value;
 }
 
-// Nothing where the scale has no resolution, or one that leads beyond what can be reckoned with.
+// Nothing where the scale has no resolution, or one outside the range of the computation.
 std::optional<Ratio> drive_to_scale(const Decimal& drive_pulse, const std::optional<Decimal>& scale_pulse) {
   constexpr std::int64_t kDigitsMax = 1'000'000'000;
   if (!scale_pulse || scale_pulse->digits <= 0) return {};

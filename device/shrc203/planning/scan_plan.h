@@ -19,7 +19,7 @@ namespace axisgate::shrc203 {
 inline constexpr std::int64_t kTriggeredSpeedMax = 56'000;
 
 struct ScanPlan {
-  PathPlan path;  // to where it sets out, unless it stands there, and the run
+  PathPlan path;  // to where the run starts, unless the axis is there, and the run
   Trigger trigger;
   ScanResult due;
 };

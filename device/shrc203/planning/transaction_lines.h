@@ -53,7 +53,7 @@ AxisSet axes_sped(const std::vector<Command>& commands, SetsSpeeds which, AxisSe
 // The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
 Command as_sent(const Command& command);
 
-// The fields of the answer to as_sent(asked) that were asked for.
+// The requested fields of the answer to as_sent(asked).
 std::string picked(const Command& asked, const Reply& reply, AxisSet controllable);
 
 // What a line of WT: or WI: does; the end of a wait starts what is in the prebuffer (manual 2. 3)).

@@ -108,7 +108,7 @@ Result<void> TransactionPrediction::start(int axis) {
   auto& at = at_[static_cast<std::size_t>(axis - 1)];
   const auto pending = std::exchange(pending_[axis], {});
   for (const auto& one : pending) {
-    // S may have been set anew since.
+    // S may have been set again since.
     const auto paced =
         one.paced_by == 0 ? 0 : std::llround(one.share * static_cast<double>(speeds_[one.paced_by].minimum));
     if (const auto good = envelope_.check_speed(axis, paced); !good) return good;
@@ -237,7 +237,7 @@ Result<void> TransactionPrediction::check_chain(int axis) {
 Result<void> TransactionPrediction::add_pending(int axis, const Pending& one) {
   if (const auto good = one.lasting ? check_chain(axis) : Result<void>(); !good) return good;
   drop(axis, one.reg);
-  // What belongs to several axes goes for all of them when one is set anew.
+  // A setting of several axes is in doubt for all of them when one of these axes is set again.
   for (const auto& before : pending_[axis]) {
     if (before.paced_by != 0) uncertain_ = uncertain_ | axes_of(before.reg);
   }

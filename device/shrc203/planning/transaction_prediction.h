@@ -1,4 +1,4 @@
-// Where a caller's own lines would bring the axes, and how fast, held against his travel envelope before any is sent.
+// Where a caller's own lines would move the axes, and how fast: checked against the caller's envelope before sending.
 #pragma once
 
 #include <map>

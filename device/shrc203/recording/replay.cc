@@ -95,7 +95,7 @@ class Replay : LineListener, ByteLink {
   bool up_ = false, suspected_ = false;
   std::uint64_t last_exchange_ = 0;
   std::deque<Operation> operations_;  // of the core, not yet compared
-  std::set<std::size_t> asked_;       // moments whose exchange has been asked for
+  std::set<std::size_t> asked_;       // moments whose exchange has been requested
   std::set<std::size_t> applied_;     // moments that have been fed ahead of others
   ReplayReport report_;
 };
@@ -231,7 +231,7 @@ void Replay::expect(std::size_t index) {
   if (operations_.empty()) return differ(moment.line, recorded, "nothing");
   const Operation did = std::move(operations_.front());
   operations_.pop_front();
-  // Why is told in words, which may change.
+  // The reason is in words, which may change.
   const bool in_words = moment.what == What::barrier || moment.what == What::down;
   if (did.what == moment.what && (in_words || did.text == moment.text)) return;
   differ(moment.line, recorded, describe(did.what, did.text));
@@ -274,9 +274,9 @@ void Replay::ask_for(std::size_t index) {
   }
   if (asked_.contains(index)) return;
   if (moment.begins->who.empty()) {
-    // The line asks on behalf of somebody who waits. Where he has given up before his turn, nobody knows of him. He
-    // asks again when his turn has come, of which a path may have been the judge, or a restart that was suspected
-    // meanwhile.
+    // The line asks on behalf of a caller who waits. A caller who withdrew before their turn is not in the recording.
+    // The request is made again when its turn has come. A path, or a restart that was suspected meanwhile, may have
+    // decided when that is.
     const std::size_t cause = next_asked_by_somebody(index);
     if (waited_at(cause, moment)) {
       ask(cause);

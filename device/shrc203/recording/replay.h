@@ -29,8 +29,8 @@ struct ReplayReport {
   std::uint64_t bytes_written = 0, bytes_received = 0;
 };
 
-// Deterministic: time is the recording's. Commands are asked for when they were written, in their lane and for whom
-// they were, and bytes come in when they came.
+// Deterministic: time is the recording's. Commands are requested when they were written, in their lane and for their
+// caller, and bytes come in when they came.
 ReplayReport replay(const Recording& recording);
 
 }  // namespace axisgate::shrc203

@@ -50,8 +50,8 @@ What what_of(RecordedRemark::Kind kind) {
   }
 }
 
-// What the line asks for itself, and a stop, depend on what was before them, and so does what ?:CMD tells, whoever
-// asks, and after an exchange that was not accepted.
+// What the line asks for itself, and a stop, depend on what was before them. So do the answer to ?:CMD, for every
+// caller, and an exchange that was not accepted.
 bool depends_on_nothing(const std::vector<Moment>& moments, std::size_t index) {
   const Moment& moment = moments[index];
   if (!moment.begins || moment.begins->who.empty() || moment.begins_in(Lane::stop)) return false;

@@ -30,7 +30,7 @@ Problem asleep_problem() {
 
 }  // namespace
 
-// Each in turn, and the first that tells ends it.
+// Each question in turn; the first answer that explains it ends the search.
 Task<Problem> Explainer::explain(Command command, AxisSet axes, std::string caller) {
   const auto explained = [&](Problem problem) { return refusal_of(command, std::move(problem)); };
   if (non_host_.edits()) {  // no Q: is answered there
@@ -69,7 +69,7 @@ Task<std::optional<Problem>> Explainer::explain_question(Command question, std::
   co_return std::nullopt;
 }
 
-// In the edit modes nobody is told which axes move, and nothing else is left (manual 111), 117)).
+// In the edit modes nothing reports which axes move, and no other cause is left (manual 111), 117)).
 Problem Explainer::values_refused() const {
   if (non_host_.in_switches()) {
     return {.reason = Reason::device_refused,
@@ -186,7 +186,7 @@ Task<bool> Explainer::sleeps(std::string caller) {
   co_return reported.reply && !reported.problem && reported.reply->text == "1";
 }
 
-// What is known to stand against a motion, asked anew: somebody may have seen to it at the device.
+// Reads again what is known to prevent a motion: somebody may have fixed it at the device.
 Task<Result<void>> Explainer::check_excitation(AxisSet axes, std::string caller) {
   const auto off = [&] {
     for (const int axis : axes.list()) {

@@ -1,4 +1,4 @@
-// Why NG: what is asked of the controller then, until something tells; and before a motion, where it is known already.
+// Why NG: asks the controller until an answer explains it. Also refuses a motion where the reason is known already.
 #pragma once
 
 #include <optional>
@@ -26,11 +26,11 @@ class Explainer {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // Why the command was refused, asked for these axes: each question in turn, and the first that tells ends it.
+  // Why the command for these axes was refused: each question in turn; the first that explains it ends the search.
   Task<Problem> explain(Command command, AxisSet axes, std::string caller);
   // Why a question was: the mode is another, or it does not take its values; nothing where neither is so.
   Task<std::optional<Problem>> explain_question(Command question, std::string caller);
-  // not_excited and the like, known to stand against a motion; asked anew, since somebody may have seen to it.
+  // not_excited and the like, known to prevent a motion; read again, since somebody may have fixed it.
   Task<Result<void>> check_excitation(AxisSet axes, std::string caller);
 
  private:

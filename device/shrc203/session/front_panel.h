@@ -15,7 +15,7 @@ class FrontPanel {
   FrontPanel(Dialogue& dialogue, Line& line, StateStore& store, const NonHost& non_host, Tasks& tasks)
       : dialogue_(dialogue), line_(line), store_(store), non_host_(non_host), tasks_(tasks) {}
 
-  // A refused Q: means that somebody has changed the mode or the dialect: the line is given up where it was so.
+  // A refused Q: means that somebody has changed the mode or the dialect: if so, the gateway disconnects.
   void position_refused() { tasks_.spawn(follow_mode()); }
 
  private:

@@ -84,7 +84,7 @@ Task<bool> Handshake::wait_for_host_mode(std::uint64_t connection) {
   co_return false;
 }
 
-// Somebody was cut off there: the handshake takes back what the gateway itself has begun, and ends his program.
+// A visit to a non-host mode was cut off: the handshake takes back what the gateway began, and ends the program.
 Task<void> Handshake::come_back() {
   if (!non_host_.away()) co_return;
   if (store_.state().mode == "HOST,PROGRAM") {

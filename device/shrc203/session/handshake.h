@@ -18,7 +18,7 @@
 
 namespace axisgate::shrc203 {
 
-// What ?:MODE and ?:FMT have told.
+// What ?:MODE and ?:FMT have reported.
 enum class FrontPanelRead { fit, wrong, unreadable, format_unreadable };
 
 class Handshake {

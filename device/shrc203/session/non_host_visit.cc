@@ -33,7 +33,7 @@ std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
 
 }  // namespace
 
-// Before the first line of that transaction: what others have asked for is not sent there.
+// Before the first line of that transaction: what others have requested is not sent in a non-host mode.
 void NonHostVisit::leave_host(MotionId motion) {
   non_host_.began();
   if (!guarded(Guard::non_host_alone)) return;
@@ -61,7 +61,7 @@ Task<void> NonHostVisit::read_switches_left(LiveMotionPtr live, SwitchAudit& aud
   }
 }
 
-// A program runs on the controller's own account, and ?:L tells how far it is (manual 41)): axes are READY between its
+// A program runs independently of the gateway, and ?:L reports how far it is (manual 41)): axes are READY between its
 // lines, too.
 Task<Result<void>> NonHostVisit::wait_for_program(LiveMotionPtr live) {
   Problem problem;
@@ -127,8 +127,8 @@ Task<bool> NonHostVisit::wait_for_host(LiveMotionPtr live) {
   co_return false;
 }
 
-// What is set may be something else now, and with memory switches whatever is read at connecting; a program may have
-// set coordinates anew.
+// What is set may have changed, and with memory switches everything that is read at connecting. A program may have set
+// new coordinates.
 Task<void> NonHostVisit::come_back(LiveMotionPtr live, Course course) {
   const bool program = !live->motion.axes.empty();
   bool known = co_await wait_for_host(live);

@@ -1,5 +1,5 @@
-// Out of HOST by P:R or MS:ON and back (manual 102) to 126)): while a transaction is away, nobody else is answered, and
-// what it has changed is read anew.
+// Out of HOST by P:R or MS:ON and back (manual 102) to 126)): while a transaction is in a non-host mode, nobody else is
+// answered. Afterwards what it has changed is read again.
 #pragma once
 
 #include <string>
@@ -30,7 +30,7 @@ class NonHostVisit {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // Before the first line of that transaction: what others have asked for is not sent there.
+  // Before the first line of that transaction: what others have requested is not sent in a non-host mode.
   void leave_host(MotionId motion);
   // What the item of the line says before any of it is set, and all items before they are left: for the audit.
   Task<Result<void>> read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command);
@@ -61,8 +61,8 @@ class NonHostVisit {
   Tasks& tasks_;
 };
 
-// One step on the way back, by what ?:MODE tells; an answer that was lost may have left it elsewhere than expected.
-// True when it is in HOST.
+// One step back to HOST, by what ?:MODE reports. An answer that was lost may have left the controller in another mode
+// than expected. True when it is in HOST.
 Task<bool> step_to_host(Dialogue& dialogue, StateStore& store, Lane lane, std::string caller, bool in_handshake);
 
 }  // namespace axisgate::shrc203

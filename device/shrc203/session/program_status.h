@@ -9,13 +9,13 @@
 namespace axisgate::shrc203 {
 
 struct ProgramStatus {
-  std::string program, status, line;  // as ?:L tells them
+  std::string program, status, line;  // as ?:L reports them
 
   // It runs, or runs one line. Where it pauses it waits for somebody.
   bool runs() const { return status == "1" || status == "3"; }
 };
 
-// Nothing where the answer is none that tells it.
+// Nothing where the answer does not report it.
 std::optional<ProgramStatus> program_status(const ExchangeResult& result);
 
 }  // namespace axisgate::shrc203

@@ -159,7 +159,7 @@ Task<Result<void>> Reader::read_trigger(std::string caller) {
   co_return Result<void>();
 }
 
-// The speeds of those axes, asked for where they are not known: line_fault.
+// The speeds of those axes, read where they are not known: line_fault.
 Task<Result<void>> Reader::learn_speeds(AxisSet axes, std::string caller) {
   const auto missing = [&] { return store_.speeds(axes).size() < static_cast<std::size_t>(axes.count()); };
   for (int attempt = 0; attempt < kSettingReadTries && missing(); ++attempt) {

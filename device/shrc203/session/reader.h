@@ -13,7 +13,7 @@
 
 namespace axisgate::shrc203 {
 
-// What each of them refuses: the problem of its exchange; device_refused where the answer is none that tells it.
+// What each of them refuses: the problem of its exchange; device_refused where the answer does not report it.
 class Reader {
  public:
   Reader(Dialogue& dialogue, Line& line, FrontPanel& panel, StateStore& store, Registers& registers,

@@ -43,9 +43,9 @@ Task<bool> RestartCheck::read_positions(std::uint64_t connection) {
 }
 
 // After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
-// decided. One damaged byte makes another number of a 0, so a position that was not known before must be read twice.
-// Where all showed 0 before, nothing tells, and what is not known to be the same counts as another. Where only an
-// answer was late, that would be a false alarm on every slow host: from 0 to 0 places are the same, if pulses are.
+// decided. One damaged byte turns a 0 into another number, so a position that was not known before must be read twice.
+// Where all showed 0 before, positions prove nothing, and a controller not known to be the same counts as restarted.
+// Where only an answer was late, that would be a false alarm on every slow host, so an unchanged resolution suffices.
 Task<void> RestartCheck::run(std::uint64_t connection) {
   const Positions before = store_.positions();
   const bool all_at_zero =

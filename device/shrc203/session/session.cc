@@ -79,7 +79,7 @@ void Session::completion_deduced(int axis) {
 
 void Session::line_event(const Event& event, TimePoint) {
   if (std::holds_alternative<IllegalTransition>(event)) {
-    // The stop outlives the line that is about to be given up, and goes first on the next one.
+    // The stop outlives the line that is about to be disconnected, and is sent first on the next one.
     stops_.stop(AxisSet::all(), {.who = kGateway});
   }
   const auto* notice = std::get_if<ProgramNotice>(&event);
@@ -109,7 +109,7 @@ Task<void> Session::tell_notices(ProgramNotice::Kind kind) {
 
 std::optional<Problem> Session::may_write(const ExchangeRequest& request, TimePoint) {
   const auto live = motions_.find_live(request.motion);
-  // What was given up at the gateway's end sends nothing more.
+  // What was abandoned at the gateway's end sends nothing more.
   if (!live && ending_) return ending_;
   const bool alone = request.motion == 0 && !request.uses.empty();
   if ((!live && !alone) || !guarded(Guard::lease_asked_as_bytes_go)) return {};

@@ -1,5 +1,5 @@
-// What the line tells, and what follows from it: the session's beginning and loss, numbers that come by themselves, and
-// whether a line may still be written. Also what follows from an error of the gateway's own.
+// What the line reports, and what follows from it: the session's beginning and loss, completions, and whether a line
+// may still be written. Also what follows from an internal error of the gateway.
 #pragma once
 
 #include <cstdint>

@@ -15,7 +15,7 @@ class SettingsReader {
   SettingsReader(Dialogue& dialogue, Reader& reader, StateStore& store)
       : dialogue_(dialogue), reader_(reader), store_(store) {}
 
-  // False where it was not all told, or another connection came: StateStore::connection().
+  // False where not everything was reported, or another connection came: StateStore::connection().
   Task<bool> read(std::uint64_t connection);
 
  private:

@@ -63,7 +63,7 @@ bool Stops::has_no_use(StopJob& job) const {
   return true;
 }
 
-// Off HOST no stop is taken and no position told (manual 4., last note); the caller hears so at once.
+// In a non-host mode no stop is accepted and no position reported (manual 4., last note); the caller learns it at once.
 Problem Stops::unseen() const {
   const State& state = store_.state();
   if (!state.mode.empty() && state.mode != "HOST" && guarded(Guard::stop_off_host)) {
@@ -221,7 +221,7 @@ Task<bool> Stops::prebuffer_is_empty(StopJobPtr job) {
   for (const Register reg : {Register::mp, Register::ap, Register::kp, Register::ep}) {
     const auto question = commands::question_of(reg);
     const auto answer = co_await dialogue_.ask(question, Lane::motion, job->context.who);
-    if (!answer.reply || answer.problem) co_return true;  // cannot be told; the registers stay unknown
+    if (!answer.reply || answer.problem) co_return true;  // not known; the registers stay unknown
     reading.take(reg, *answer.reply, store_.controllable());
     if (!reading.set().touches(job->stops())) continue;
     job->report.problem = Problem{

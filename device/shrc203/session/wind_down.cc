@@ -43,7 +43,7 @@ Task<void> WindDown::run(StageController::OnWoundDown done) {
   done(*report);
 }
 
-// What is on the wire is answered, and nothing follows it. A last stop that failed has time to leave the driver.
+// What is in flight is answered, and nothing follows it. A last stop that failed has time to leave the driver.
 Task<void> WindDown::finish_line(bool stop_failed) {
   line_.seal(*ending_);
   while (line_.exchanging()) {

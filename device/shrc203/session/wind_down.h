@@ -1,4 +1,4 @@
-// The end: what waits is withdrawn, what runs is stopped or waited for, and what is on the wire is answered.
+// The end: what waits is withdrawn, what runs is stopped or waited for, and what is in flight is answered.
 #pragma once
 
 #include <memory>

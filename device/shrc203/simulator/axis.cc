@@ -164,7 +164,7 @@ void Axis::jog(int direction, TimePoint now) {
             direction * std::max<std::int64_t>(free, 1), speed, now);
 }
 
-// The pulse that is under way now goes on in the new leg: however often the speed changes, none is lost.
+// The pulse that is under way now continues in the new leg: however often the speed changes, none is lost.
 void Axis::change_jog(std::int64_t to_speed, TimePoint now) {
   const Duration elapsed = now - leg_.start;
   const std::int64_t here = place_at(now);

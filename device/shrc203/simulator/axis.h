@@ -16,7 +16,7 @@ namespace axisgate::shrc203::simulator {
 
 class Axis {
  public:
-  // At rest, settling after the last pulse, or waiting (manual 57) WT:, 58) WI:).
+  // Stationary, moving, settling after the last pulse, or waiting (manual 57) WT:, 58) WI:).
   enum class Phase { idle, moving, settling, waiting };
   enum class LegEnd { next_leg, target, limit };
 
@@ -74,14 +74,14 @@ class Axis {
   // Manual 93) JD:, while it jogs; pulses/s.
   void change_jog(std::int64_t to_speed, TimePoint now);
 
-  void decelerate(TimePoint now);  // to S, then at rest; at once when no faster
+  void decelerate(TimePoint now);  // to S, then stationary; at once when no faster
   void halt(TimePoint now);        // no further pulse
   LegEnd end_leg(TimePoint now);   // at next_event() while moving; then settle(), rest() or another leg
   void settle(TimePoint until);
   void rest();
 
   Phase phase() const { return phase_; }
-  Mileage mileage(TimePoint now) const;  // since start_mileage(), which is called at rest
+  Mileage mileage(TimePoint now) const;  // since start_mileage(), which is called when stationary
   void start_mileage() { mileage_ = {}; }
   bool stepped() const { return stepped_; }  // whether the last motion had any path to cover
   std::optional<TimePoint> next_event() const { return event_; }

@@ -1,4 +1,4 @@
-// What a person who stands at the simulated device does and sees, as lines of text: `help` tells them all.
+// What a person at the simulated device does and sees, as lines of text: `help` lists them all.
 #pragma once
 
 #include <cstddef>

@@ -6,12 +6,12 @@
 namespace axisgate::shrc203::simulator {
 
 // Each stops the axis and clears "normal" (manual 5) Q:S: S1, S2, S4, S3, S7, S10). S9 is an error stop as well (manual
-// 4) Q:), of which no bit tells.
+// 4) Q:), but no bit reports it.
 enum class AxisError { scale = 3, disconnection = 4, overflow = 5, hunting = 7, system = 13, overheat = 15, s9 = 26 };
 
 // The others of manual 5), none of which clears "normal". Only the stops by a software limit stop anything.
 enum class AxisFlag {
-  config = 10,           // auto config error; ?:ACS tells it as well (manual 32))
+  config = 10,           // auto config error; ?:ACS reports it as well (manual 32))
   io_overload = 11,      // W1
   power_overload = 12,   // W2: the 24 V terminal block
   heat = 14,             // W3: motor driver

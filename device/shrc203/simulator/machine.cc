@@ -151,7 +151,7 @@ void Machine::respond(const std::string& command, const std::string& as_sent) {
     rig_.command_error = false;
   }
   if (accepted || rig_.options.is("previous_command_counts_refused", "yes")) rig_.previous_line = as_sent;
-  // What a command brings about at once, such as the end of a move of no length, may be told before its reply.
+  // Immediate effects of a command, such as the end of a move of no length, may be reported before its reply.
   run_until(rig_, rig_.now);
   const bool completion_first = rig_.options.is("late_go_order", "completion_first");
   if (completion_first) send_completions();

@@ -58,10 +58,10 @@ struct Block {
   std::vector<Row> rows;
 };
 
-// GENERAL is as manual 122) to 126) list it. Of the others the manual tells the names of those that are used elsewhere
-// in it, and one number: SPEED12 (S) is 4 of SPEED (manual 119)); a public client sets a thing of each axis by the
-// numbers 9, 12 and 15 of ORG. The rest of the order, and the switches of INTERFACE, SENSOR, FEEDBACK and SOFT LIMIT as
-// well as the first three of ORG, are readings (README.md).
+// GENERAL is as listed in manual 122) to 126). Of the others the manual gives only the names that it uses elsewhere,
+// and one number: SPEED12 (S) is 4 of SPEED (manual 119)). A public client sets a value of each axis by the numbers 9,
+// 12 and 15 of ORG. The rest of the order is an interpretation, and so are the switches of INTERFACE, SENSOR, FEEDBACK
+// and SOFT LIMIT and the first three of ORG (README.md).
 std::vector<Block> blocks() {
   using A = AxisSetup;
   return {

@@ -52,7 +52,7 @@ class MemorySwitches {
   const Values& edited() const { return edited_; }
   void edit(std::size_t place, std::int64_t value) { edited_[place] = value; }
 
-  static const Values& initial();  // what MS:DEF sets and MS:DEFR tells
+  static const Values& initial();  // what MS:DEF sets and MS:DEFR reports
 
  private:
   Values built_;

@@ -8,7 +8,7 @@ namespace {
 
 double to_seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// Up to a whole nanosecond, but not for what only the arithmetic of doubles has left over.
+// Up to a whole nanosecond, but not for the rounding errors of double arithmetic.
 Duration round_up(double seconds) { return Duration(static_cast<std::int64_t>(std::ceil(seconds * 1e9 - 1e-3))); }
 
 double slope(const Speed& speed) {

@@ -21,7 +21,7 @@ class MotionProfile {
   // From S up to F within R, on at F, and down to S within R; a short path turns round below F.
   static MotionProfile trapezoid(double distance, const Speed& speed);
   static MotionProfile constant(double distance, double speed);
-  // From `from_speed` down to S as steeply as R says, and then at rest. Nothing is left of it at or below S.
+  // From `from_speed` down to S as steeply as R says, and then stationary. Empty at or below S.
   static MotionProfile slowing(double from_speed, const Speed& speed);
   // From `from_speed` up or down to `to_speed` as steeply as R says, and on at that; it may end before.
   static MotionProfile changing(double distance, double from_speed, double to_speed, const Speed& speed);

@@ -62,7 +62,7 @@ Answer stop_program(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// Manual 108): 0 pauses, 1 goes on.
+// Manual 108): 0 pauses, 1 continues.
 Answer pause(Rig& rig, Reader reader) {
   const auto value = reader.take_digit(1);
   const bool paused = rig.program.run.status == Status::paused;

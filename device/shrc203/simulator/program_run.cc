@@ -11,7 +11,7 @@ namespace {
 using Status = ProgramRun::Status;
 using Step = ProgramRun::Step;
 
-// No program, however many loops it has, goes on for ever in no time.
+// Each line takes this long, so that no program loops for ever in no time.
 constexpr Duration kLineTime = std::chrono::milliseconds(1);
 // How often the trigger output is looked at: TRIG comes no more often.
 constexpr Duration kTriggerTick = std::chrono::milliseconds(1);
@@ -103,7 +103,7 @@ void wait_after(Rig& rig, const Instruction& line) {
 
 // --- lines that move -------------------------------------------------------------------------------------------------
 
-// What forbids to begin or to go on with these axes, as ?:L tells it (manual 41)).
+// What prevents these axes from beginning or continuing, as ?:L reports it (manual 41)).
 std::optional<Status> obstacle(const Rig& rig, const Axes& axes) {
   if (!axes.within(rig.controllable)) return Status::other_axes;
   for (const int number : axes.list()) {
@@ -272,7 +272,7 @@ bool any_emergency(const Rig& rig) {
   return std::any_of(list.begin(), list.end(), [&](int number) { return rig.axis(number).emergency; });
 }
 
-// Goes on with the program where nothing keeps it waiting any longer. What moves while it pauses goes on.
+// Continues the program where nothing keeps it waiting any longer. What moves when it pauses continues to move.
 void progress(Rig& rig) {
   ProgramRun& run = rig.program.run;
   if (!run.active()) return;

@@ -11,7 +11,7 @@ class Simulator::Device : public Machine {
  public:
   using Machine::Machine;
 
-  // Something happened beside the line: what follows from it at once is told now.
+  // Something happened other than through the line: its immediate effects are reported now.
   void settle_consequences() {
     run_until(rig(), rig().now);
     send_completions();

@@ -37,10 +37,10 @@ class Simulator : public LineMachine {
   std::int64_t maximum_speed(int axis) const;  // F, pulses/s, as D: or a prebuffer setting has left it
   bool busy(int axis) const;
   int outputs() const;          // OUT1..OUT6, 0..63
-  std::string trigger() const;  // as ?:T tells
+  std::string trigger() const;  // as ?:T reports
   void set_excitation(int axis, bool on, TimePoint now);
   void press_emergency(TimePoint now);
-  void set_mode(std::string_view mode, TimePoint now);      // "HOST", "MANUAL", ...; what moves goes on
+  void set_mode(std::string_view mode, TimePoint now);      // "HOST", "MANUAL", ...; what moves continues
   void set_format(std::string_view format, TimePoint now);  // "SHOT_FC" or "HIT"; in HIT only !: and Q: tell anything
   bool set_sleep(bool asleep, TimePoint now);               // false: something moves, and nothing was changed
   void set_inputs(int pattern);                             // IN1..IN6, 0..63
@@ -55,7 +55,7 @@ class Simulator : public LineMachine {
   // was. Stuck: for `time`, lines are read and nothing is written; then all of it comes, in order.
   void set_answer_delay(Duration delay, TimePoint now);
   void be_stuck(Duration time, TimePoint now);
-  // The cable: for `time`, what is sent either way is lost. It goes on, and notices nothing.
+  // The cable: for `time`, what is sent either way is lost. The device continues, and notices nothing.
   void be_unplugged(Duration time, TimePoint now);
   // Another unit stands in its place: what *IDN? and ?:SN say. Its settings are another matter: power_cycle().
   void set_serial_number(std::string number);

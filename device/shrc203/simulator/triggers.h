@@ -21,7 +21,7 @@ class Triggers {
   // From `now` on: every so many pulses of the axis, or hundredths of a second (and then the axis means nothing).
   void arm(Target target, int axis, std::int64_t interval, TimePoint now);
   void disarm(TimePoint now) { arm(Target::none, 1, 1, now); }
-  void fire() { ++emitted_; }  // manual 100) T:M: one pulse, and what is armed goes on
+  void fire() { ++emitted_; }  // manual 100) T:M: one pulse, and what is armed stays armed
 
   std::string describe() const;               // as ?:T answers
   std::int64_t emitted(TimePoint now) const;  // since construction

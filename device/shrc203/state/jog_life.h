@@ -48,9 +48,9 @@ struct Jog {
   Signal changed;                        // a renewal, a new speed, its start, its end
   TimePoint renewed{};
   TimePoint begun{};                    // when its G: may have been written; of one that is preparing nothing
-  std::uint64_t epoch = 0;              // of the device, when it was asked for
+  std::uint64_t epoch = 0;              // of the device, when the jog was requested
   std::map<int, int> directions;        // by axis
-  std::map<int, std::int64_t> speeds;   // asked for, by axis; in pulses/s
+  std::map<int, std::int64_t> speeds;   // requested, by axis; in pulses/s
   std::map<int, std::int64_t> sent;     // the last that JD: was accepted with
   std::map<int, std::int64_t> fastest;  // that the axis may run at by now
   std::optional<Problem> why;           // it must end; nothing: its caller wants it

@@ -62,7 +62,7 @@ struct LiveMotion {
   std::deque<Completion> completions;  // not yet looked at by the procedure
   AxisSet completed;                   // axes whose number has come at least once
   std::function<void(int axis)> on_completion;
-  std::function<void()> on_success;  // before the outcome is told
+  std::function<void()> on_success;  // before the outcome is reported
   std::optional<Jog> jog;
   std::optional<Scan> scan;
 };

@@ -1,5 +1,5 @@
 // The motions: those without an outcome, their turns on the axes, and the newest of those that have ended. What changes
-// a motion's life, and what tells of it.
+// a motion's life, and what reports it.
 #pragma once
 
 #include <deque>
@@ -44,7 +44,7 @@ class Motions {
   void end(LiveMotion& live, MotionState outcome, std::optional<Problem> problem);
   // Before anything of it was sent: stopped where that is the problem, else failed.
   void refuse(LiveMotion& live, const Problem& problem);
-  // A step of it did not succeed: stopped where a stop was asked for, else failed.
+  // A step of it did not succeed: stopped where a stop was requested, otherwise failed.
   void disconnect(LiveMotion& live, const Problem& problem);
   // Of one that restores something: all of that is over.
   void leave(LiveMotion& live);
@@ -68,7 +68,7 @@ class Motions {
   AxisSet inside() const;
   bool anything_moves() const;  // also somebody else's
   bool others_inside(const LiveMotion& live) const { return gate_.others_inside(live.motion.id); }
-  // In a chain axis numbers follow one another, so that nothing can be told apart before its end.
+  // In a chain the completions follow one another, so that they cannot be distinguished before its end.
   bool any_chain() const;
 
   MotionGate& gate() { return gate_; }

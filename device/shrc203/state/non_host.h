@@ -27,7 +27,7 @@ enum class NonHostEvent {
   entered_switches,
   entered_program,
   entered_edit,
-  returned,  // ?:MODE has told HOST
+  returned,  // ?:MODE has reported HOST
 };
 inline constexpr std::size_t kNonHostEvents = 6;
 

@@ -109,7 +109,7 @@ std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet cont
 
 namespace {
 
-// ?:J tells the sign of each axis (manual 31)).
+// ?:J reports the sign of each axis (manual 31)).
 Held held_jog(const Reply& reply, const Command& setter, AxisSet controllable) {
   std::vector<std::string> wanted;
   for (const auto& [letter, value] : setter.arguments.values()) {
@@ -131,7 +131,7 @@ bool same_amount(std::string_view reported, std::string_view set) {
   return one && other ? *one == *other : reported == set;
 }
 
-// ?:EP tells its kind, axes and rotation, and then all amounts in the order in which they were set (manual 23)).
+// ?:EP reports its kind, axes and rotation, and then all amounts in the order in which they were set (manual 23)).
 Held held_curve(const Reply& reply, const Command& setter) {
   if (reply.text == "NS") return Held::nothing;
   std::vector<std::string> wanted = {std::to_string(static_cast<int>(*setter.row->curve))};

@@ -1,4 +1,4 @@
-// The settings that a G may start (manual 85)): what is left over in them would run on somebody else's G.
+// The settings that a G may start (manual 85)): a stale setpoint in them would run on somebody else's G.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ namespace axisgate::shrc203 {
 
 class Registers {
  public:
-  // In the order in which they are asked for.
+  // In the order of their questions.
   static std::span<const Register> all();
 
   // After a connect, foreign traffic, a set or a go in doubt, a stop: nobody knows.
   void forget();
   bool known() const { return known_; }
 
-  // One's own answers to the questions of all(). Several may read at once, and what one has heard is not another's.
+  // The answers of one reader to the questions of all(). Several may read at once, each with its own answers.
   class Reading {
    public:
     void take(Register reg, const Reply& reply, AxisSet controllable);
-    // The axes on which anything that was asked for is set.
+    // The axes on which any register that was read is set.
     AxisSet set() const;
 
    private:
@@ -43,9 +43,9 @@ class Registers {
   AxisSet set_in(Register reg) const;
   bool any() const;
 
-  // Left over in what GC: deletes (manual 87)): M, A, E and K.
+  // The axes with a stale setpoint that GC: deletes (manual 87)): in M, A, E or K.
   AxisSet clearable() const;
-  // Left over in what no command is documented to clear: the prebuffers, WT:, WI: and J:.
+  // The axes with one that no command is documented to clear: in the prebuffers, WT:, WI: or J:.
   AxisSet lasting() const;
   void cleared(AxisSet axes);
 
@@ -55,7 +55,7 @@ class Registers {
   std::map<Register, AxisSet> set_;
 };
 
-// The amounts that an axis question (?:MP ...) tells, by axis; nothing for NS.
+// The amount that an axis question (?:MP ...) reports for the axis; nothing for NS.
 std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet controllable);
 
 // Whether a register holds what `setter` wrote, or nothing, or something else, by the answer to the register's

@@ -1,4 +1,4 @@
-// Whether a caller may use axes: the epochs that he means, and what the keeper of leases says
+// Whether a caller may use axes: the epochs that the request names, and what the keeper of leases says
 // (device/stage/permission.h).
 #pragma once
 

@@ -25,8 +25,8 @@ enum class SegmentEvent {
   refill_accepted,    // OK_D
   refill_doubted,     // OK, when the chain has ended (an underrun); no answer; NG
   ended,              // and the one in the prebuffer runs
-  became_stationary,  // ended, with nothing behind it
-  found,              // the counters have told which one was the last to run
+  became_stationary,  // ended, with nothing after it
+  found,              // the counters have shown which one was the last to run
 };
 inline constexpr std::size_t kSegmentEvents = 9;
 

@@ -1,5 +1,5 @@
-// What is known of the controller: one State, and what is known beside it. Whoever learns something tells it here, so
-// that each fact is written in one place; who reads sees State.
+// What is known of the controller: one State, and what is known beside it. Everything that is learned is noted here, so
+// that each fact is written in one place. Readers see State.
 #pragma once
 
 #include <cstdint>
@@ -37,13 +37,13 @@ class StateStore {
   void publish() { emit(StateChanged{}); }
   void emit(const Event& event) { events_.on_event(event, tasks_.now()); }
 
-  // The link. The trouble is told with it in not_up().
+  // The link. not_up() reports it together with the trouble.
   void show_link(LinkPhase phase) { state_.link = shown(phase); }  // what writes State::link
   bool line_works() const { return state_.link == LinkState::up || state_.link == LinkState::doubtful; }
   void note_trouble(LinkTrouble trouble, std::string words);
   void note_trouble(LinkTrouble trouble) { trouble_ = trouble; }
   LinkTrouble trouble() const { return trouble_; }
-  // Whether somebody must put it right at the front panel before the link can be up.
+  // Whether somebody must correct it at the front panel before the link can be up.
   bool panel_is_wrong() const { return trouble_ == LinkTrouble::mode || trouble_ == LinkTrouble::format; }
   void note_wrong_panel();
   Problem not_up() const;  // link_down, wrong_mode
@@ -79,7 +79,7 @@ class StateStore {
   void note_outputs(std::optional<int> outputs) { state_.outputs = outputs; }
   void note_trigger(std::optional<Trigger> trigger) { state_.trigger = std::move(trigger); }
   void note_armed(AxisSet axes, bool armed);
-  // `told`: what ?:P was answered.
+  // `reported`: what ?:P was answered.
   void note_scale(int axis, const Scale& scale) { state_.axis(axis).scale = scale; }
   void note_reported_scales(std::string reported) { reported_scales_ = std::move(reported); }
   const std::string& reported_scales() const { return reported_scales_; }

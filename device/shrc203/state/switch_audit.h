@@ -1,5 +1,5 @@
-// Which memory switches a way through their edit mode changes for good (manual 117) to 126)): what they said before the
-// first line that sets any of their item, held against what they say when it is left.
+// Which memory switches a visit to their edit mode changes for good (manual 117) to 126)): their values before the
+// first line that sets any of their item, compared with those at the end of the visit.
 #pragma once
 
 #include <map>
@@ -27,7 +27,7 @@ class SwitchAudit {
   void after(int item, std::optional<Values> values);
   std::vector<int> items() const;  // that have a before
 
-  // What is to be told; nothing where nothing is another than before.
+  // What is to be reported; nothing where nothing has changed.
   std::optional<SwitchesChanged> result(const std::string& who) const;
 
  private:

@@ -28,7 +28,7 @@ class TransactionEnd {
         motions_(motions),
         tasks_(tasks) {}
 
-  // `sent_all`: otherwise the caller has been told its end already.
+  // `sent_all`: otherwise the caller has already received its end.
   Task<void> end(Transaction& transaction, bool sent_all);
 
  private:

@@ -42,7 +42,7 @@ ExchangeRequest TransactionLines::request_for(const Transaction& transaction, co
     request.lease = transaction.request.context.lease;
     request.uses = axes_used({command}, store_.controllable());
   }
-  const bool waits = command.row->reg != Register::none;  // its end tells no number of its own that is documented
+  const bool waits = command.row->reg != Register::none;  // no number of its own is documented for its end
   if (command.row->moves() && !waits && completes(transaction.commands)) request.completes = live->motion.axes;
   return request;
 }

@@ -1,4 +1,4 @@
-// A transaction's lines, one after the other: each is written, its answer is told, and what it has changed is noted.
+// A transaction's lines, one after the other: each is written, its answer is reported, and its changes are noted.
 #pragma once
 
 #include <cstddef>
@@ -34,7 +34,7 @@ class TransactionLines {
         motions_(motions),
         tasks_(tasks) {}
 
-  // False: a line was not accepted, or a stop came; the caller has been told.
+  // False: a line was not accepted, or a stop came. The caller has received the reason.
   Task<bool> send_all(Transaction& transaction);
 
  private:

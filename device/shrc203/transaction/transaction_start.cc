@@ -66,7 +66,7 @@ Task<Result<void>> TransactionStart::learn_speeds(Transaction& transaction) {
   if (!moves) co_await restorer_.restore_speeds(sped, transaction.who());
   if (sped.empty()) co_return Result<void>();
   const auto learned = co_await reader_.learn_speeds(sped, transaction.who());
-  // D: by itself is how impossible ones are mended.
+  // A D: by itself can correct impossible speeds.
   if (!learned && moves) co_return learned;
   co_return Result<void>();
 }

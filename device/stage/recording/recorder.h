@@ -13,7 +13,7 @@ namespace axisgate::stage {
 // Not thread safe: lives on the controller's strand, between it and its other listeners.
 //
 // A line is finished when the next one begins, so the newest stays here until then; flush() fetches it. An exchange
-// that is interrupted, or has very many pieces, goes on in a further line with its number.
+// that is interrupted, or has very many pieces, continues in a further line with its number.
 class Recorder : public EventSink {
  public:
   // Takes a finished line without its newline, in order. Must not call back.

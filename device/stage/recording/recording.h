@@ -19,7 +19,7 @@
 
 namespace axisgate::stage {
 
-// All times of a recording are told in microseconds, cut off.
+// All times of a recording are in microseconds, truncated.
 struct RecordingHeader {
   std::string device{};         // its name in the configuration
   std::string serial_number{};  // the configured one; may be empty
@@ -39,7 +39,7 @@ struct RecordedItem {
     received,  // bytes; what came within 16 ms, up to the end of a line, is one piece, at the time of its last byte, of
                // a line its CR
     ended,     // the exchange; text: the outcome's name
-    completion,  // an axis number came by itself; text: the number
+    completion,  // a completion was received; text: the number
     unexpected,  // a line that nothing waited for
   };
   Duration after{};  // since RecordedExchange::at
@@ -53,7 +53,7 @@ struct RecordedItem {
 struct RecordedExchange {
   Duration at{};               // since the recording's beginning
   std::uint64_t exchange = 0;  // 0: a probe of a barrier, or bytes that came by themselves
-  // Set with the bytes that begin an exchange; not where it goes on behind another line of the recording.
+  // Set with the bytes that begin an exchange; not where it continues after another line of the recording.
   std::optional<Lane> lane;
   std::string who;      // empty: the line itself
   Duration waited{};    // from the asking to the write

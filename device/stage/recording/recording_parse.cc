@@ -134,7 +134,7 @@ RecordedItem parse_item(Cursor& line, Duration after) {
   return item;
 }
 
-// Whose exchange it is; left out where it goes on.
+// Whose exchange it is; omitted where it continues.
 void parse_cause(Cursor& line, RecordedExchange& exchange) {
   const auto lane =
       std::ranges::find_if(kLaneNames, [&](std::string_view one) { return line.take(fmt::format("{} ", one)); });

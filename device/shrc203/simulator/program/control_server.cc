@@ -44,15 +44,15 @@ class ControlServer::Connection : public std::enable_shared_from_this<Connection
 
   ControlServer& server_;  // closes this before it ends
   Stream socket_;
-  std::string line_;               // so far, and no more of it than tells that it is too long
+  std::string line_;               // so far, and no more of it than shows that it is too long
   std::deque<std::string> lines_;  // whole ones of one read
   std::string replies_;            // not yet taken
   bool carrying_out_ = false;
   bool ended_ = false;  // the client sends no more
 };
 
-// Everything that can be done without waiting, but one read at most: whoever never stops sending must let others have
-// their turn.
+// Everything that can be done without waiting, but one read at most: a client that never stops sending must let others
+// have their turn.
 void ControlServer::Connection::look() {
   if (closed() || carrying_out_) return;
   if (!write_replies()) return;

@@ -1,4 +1,4 @@
-// Lines in, one reply line each out, for whoever connects to the control socket.
+// Lines in, one reply line each out, for each client of the control socket.
 #pragma once
 
 #include <functional>
@@ -40,7 +40,7 @@ class ControlServer : public std::enable_shared_from_this<ControlServer> {
   boost::asio::posix::stream_descriptor listener_;
   boost::asio::steady_timer pause_;
   CarryOut carry_out_;
-  std::vector<std::shared_ptr<Connection>> open_;  // whoever spoke last is last
+  std::vector<std::shared_ptr<Connection>> open_;  // the client that spoke last is last
 };
 
 }  // namespace axisgate::shrc203::simulator

@@ -144,7 +144,7 @@ class Device {
 
 int run(const Arguments& arguments, const simulator::Options& options) {
   boost::asio::io_context context(1);
-  // Before the link exists, so that whoever sees it can end this program in good order.
+  // Before the link exists, so that anybody who sees it can end this program cleanly.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
   // Before the link is made: it may be that of a program that still runs.
   auto control = open_control(arguments.control);
