@@ -25,6 +25,26 @@ constexpr const char* kStart = "@-100,300;Z10,20,30;";
 
 TEST(Coordinates, AreAbsoluteAtFirst) { EXPECT_FALSE(leaves_relative("!ZM-10;")); }
 
+// With Z at its top, 5000 above Z0 there.
+TEST(Coordinates, CountFromTheWorkOriginAtFirst) {
+  EXPECT_THAT(ends(played("PR;!ZZ7,5,-3;")), ElementsAre("7 5 4997"));
+}
+
+// Cutting is below the surface, which a move may cross.
+TEST(Moves, CutWithThePartBelowTheSurface) {
+  const auto part = [](double from_z, double to_z) {
+    Move move;
+    move.from = {0, 0, from_z};
+    move.to = {1000, 0, to_z};
+    return move.cutting_part();
+  };
+  EXPECT_EQ(part(-100, -100), 1);
+  EXPECT_EQ(part(-100, 0), 1);
+  EXPECT_EQ(part(300, -100), 0.25);
+  EXPECT_EQ(part(-100, 300), 0.25);
+  EXPECT_EQ(part(300, 0), 0);
+}
+
 class LeavesAbsolute : public testing::TestWithParam<const char*> {};
 TEST_P(LeavesAbsolute, WhateverWasBefore) {
   EXPECT_FALSE(leaves_relative(std::string(kStart) + "PR;" + GetParam() + ";"));

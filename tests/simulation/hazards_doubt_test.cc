@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <memory>
+#include <utility>
 
 #include "tests/simulation/scenario.h"
 
@@ -44,6 +45,28 @@ std::vector<std::string> ask_at_once(World& world, const std::vector<std::string
   }
   EXPECT_TRUE(world.run_until([open] { return *open == 0; }, seconds(60))) << world.replay();
   return *heard;
+}
+
+// The answer to a setting was lost, and what is read back is another: it is not set once more.
+TEST(Hazard, H11_WhatIsReadBackAsAnotherStartsNothing) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  bool lost = false;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind != LineKind::reply) return {};
+    const std::string& command = world.wire().commands().back();
+    const auto place = line.find("1000");
+    if (command == "?:MP" && place != std::string::npos) {
+      return {.drop = false, .delay = {}, .instead = std::string(line).replace(place, 4, "9000") + "\r\n"};
+    }
+    return {.drop = command == "MP:1+P1000" && !std::exchange(lost, true), .delay = {}, .instead = {}};
+  });
+  move_by(world, {{1, 1000}});
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::failed) << world.replay();
+  EXPECT_EQ(reason_of(motion), Reason::line_fault) << world.replay();
+  EXPECT_EQ(written(world, "MP:1"), 1) << world.replay();
+  EXPECT_EQ(world.device().position(1), 0);
 }
 
 // Noise cuts a command in two, and both parts are answered: the second answer meets nobody.

@@ -79,6 +79,20 @@ TEST(Hazard, H32_TheConfiguredUnitAndNoOther) {
 }
 
 // Without a configured number the first unit stays the one until the daemon ends (profile.h).
+// Each question of the handshake is asked three times before the connection counts as none.
+TEST(Hazard, H31_AnAnswerOfTheHandshakeMayBeLostTwice) {
+  for (const int lost : {2, 3}) {
+    World world(quiet());
+    int answers = 0;
+    world.wire().set_script([&](LineKind kind, const std::string&) -> Scripted {
+      const bool asked = kind == LineKind::reply && world.wire().commands().back() == "?:D";
+      return {.drop = asked && ++answers <= lost, .delay = {}, .instead = {}};
+    });
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    EXPECT_EQ(written(world, "?:FMT"), lost == 2 ? 1 : 2) << world.replay();
+  }
+}
+
 TEST(Hazard, H32_TheFirstUnitStaysTheOne) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

@@ -38,6 +38,23 @@ TEST(Hazard, H24_TheDifferenceIsTold) {
   EXPECT_EQ(std::tuple(speed.item, speed.number, speed.after), std::tuple(5, 4, "778"));
 }
 
+// What the switches are is asked until two answers agree, four times at most; without that nothing is changed.
+TEST(Hazard, H24_ADamagedAnswerIsAskedForAgain) {
+  for (const int damaged : {2, 3}) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    int answers = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      const bool asked = kind == LineKind::reply && world.wire().commands().back() == "MS:GETK,5";
+      if (!asked || ++answers > damaged) return {};
+      return {.drop = false, .delay = {}, .instead = std::to_string(answers) + line + "\r\n"};
+    });
+    const auto told = switches_told(world, {"MS:ON", "MS:SET,5,4,777", "MS:OFF"});
+    EXPECT_EQ(told.size(), damaged == 2 ? 1U : 0U) << world.replay();
+    EXPECT_EQ(written(world, "MS:SET"), damaged == 2 ? 1 : 0) << world.replay();
+  }
+}
+
 TEST(Hazard, H24_WhatIsSetAsItWasIsNoDifference) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();

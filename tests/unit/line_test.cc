@@ -12,6 +12,15 @@ using testing::IsEmpty;
 
 class LineTest : public LineFixture {};
 
+// Nothing from outside can cause one; if the gateway itself does, it is reported, and the line is not trusted further.
+TEST_F(LineTest, AnIllegalTransitionIsReportedAndDisconnects) {
+  open_and_rest();
+  news();
+  line.link_up(now);
+  EXPECT_THAT(news(),
+              ElementsAre("illegal up, port_opened", "lost: internal error: port_opened while the link was up"));
+}
+
 TEST_F(LineTest, AConnectAsksWhoIsThereAndThenWaitsForSilence) {
   link_up();
   script({{"*IDN?\r\n", "SIGMAKOKI,SHRC-203,2106001001,V2.00.000\r\n"}});

@@ -308,6 +308,7 @@ TEST(WithinTurn, IsExactOnBothSidesOfTheOrigin) {
   EXPECT_EQ(in_turn(-144'000, turn, half_step), "0");
   EXPECT_EQ(in_turn(999'999'999, turn, half_step), "159.9975");
   EXPECT_EQ(in_turn(4, {225, 1}, {{7, 0}, true}), "0.000028");
+  EXPECT_EQ(in_turn(9'001, {225, 1}, half_step), "0.0025");
 }
 
 // No whole number of pulses makes a turn: nothing is rounded, however many there were.

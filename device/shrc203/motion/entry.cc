@@ -42,10 +42,7 @@ Task<Result<void>> Entry::prepare(LiveMotionPtr live, Register reg) {
   if (const auto problem = error_shown(axes, store_.state())) co_return tl::unexpected(*problem);
   ready = co_await explainer_.check_excitation(live->excited, live->context.who);
   if (ready) ready = co_await reader_.learn_speeds(axes, live->context.who);
-  if (!ready) co_return ready;
-  const bool stopped = live->life.stop_asked() && guarded(Guard::stop_before_preparing);
-  if (stopped) co_return tl::unexpected(stopped_by(*live));
-  co_return Result<void>();
+  co_return ready;
 }
 
 // The axes are stationary, and no late axis number can come.

@@ -14,11 +14,6 @@ namespace {
 
 using JogAxes = std::vector<JogRequest::Axis>;
 
-std::int64_t start_speed(const AxisState& axis, const std::optional<std::int64_t>& cap) {
-  const std::int64_t own = axis.minimum_speed.value_or(1);
-  return cap ? std::min(own, *cap) : own;
-}
-
 tl::unexpected<Problem> near_bound(const Envelope& envelope, int axis, std::int64_t bound) {
   return fail_on(axis, Reason::outside_travel,
                  fmt::format("{} is too near to its travel limit of {} to jog on towards it", envelope.label(axis),
@@ -111,9 +106,8 @@ Result<MovePlan> Jogs::plan(LiveMotion& live, const JogRequest& request) const {
     if (!cap) return tl::unexpected(cap.error());
     const auto bound = limits.bound(axis, live.jog->directions.at(axis));
     if (!bound) return tl::unexpected(bound.error());
-    const AxisState& state = store_.state().axis(axis);
     const SpeedSetting own = store_.speeds(AxisSet::of(axis)).at(axis);
-    const std::int64_t start = start_speed(state, *cap);
+    const std::int64_t start = std::min(own.minimum, cap->value_or(own.minimum));
     if (start < own.minimum) {
       slower.axes.push_back({axis, 0, {}, SpeedSetting{start, own.maximum, own.acceleration_ms}});
     }

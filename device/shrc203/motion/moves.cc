@@ -16,15 +16,9 @@ bool any_speed(const MovePlan& plan) {
 }
 
 // MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
-Command prebuffer_setter(const MovePlan& plan, const State& state) {
+Command prebuffer_setter(const MovePlan& plan, commands::Speeds known) {
   auto speeds = speeds_of(plan);
-  if (!speeds.empty()) {
-    for (const auto& axis : plan.axes) {
-      const auto& known = state.axis(axis.axis);
-      speeds.try_emplace(axis.axis, SpeedSetting{known.minimum_speed.value_or(1), known.maximum_speed.value_or(1),
-                                                 known.acceleration_ms.value_or(1)});
-    }
-  }
+  if (!speeds.empty()) speeds.merge(known);
   return commands::set_setpoint(plan.relative ? Register::mp : Register::ap, amounts_of(plan), speeds);
 }
 
@@ -102,7 +96,7 @@ Task<void> Moves::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuf
       co_return;
     }
   }
-  const auto setter = by_prebuffer ? prebuffer_setter(plan, store_.state()) : execution_setter(plan);
+  const auto setter = by_prebuffer ? prebuffer_setter(plan, store_.speeds(live->motion.axes)) : execution_setter(plan);
   const auto set = co_await starter_.set_and_confirm(live, setter, Lane::motion);
   if (!set) {
     motions_.disconnect(*live, set.error());

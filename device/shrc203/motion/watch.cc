@@ -76,7 +76,6 @@ Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
       judge(*live, seen);
       failures = 0;
     } else if (++failures > kMotionReadFailuresMax) {
-      failures = 0;
       unreadable(*live, read.error());
     }
     // A completion may precede READY by the settling (open question completion_before_settle).

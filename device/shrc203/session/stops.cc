@@ -132,7 +132,7 @@ Task<void> Stops::write(StopJobPtr job) {
   }
   job->report.problem = result.problem;
   if (!result.written && result.problem) {
-    job->report.problem->message.insert(0, "the stop could not be written: ");
+    job->report.problem->message = "the stop could not be written: " + result.problem->message;
     job->report.problem->hint = "use the wired emergency stop if the axes move";
   }
   for (auto& axis : job->report.axes) {

@@ -1,0 +1,20 @@
+// What part of a path's speed an axis has on a curve.
+#include "device/shrc203/planning/curve_plan.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+namespace axisgate::shrc203::curve_plan_test {
+namespace {
+
+// Half a circle of 100 pulses while the third axis goes 50: the speed is that along the helix.
+TEST(ShareOfSpeed, IsAllInThePlaneAndThePitchBesideIt) {
+  const stage::Arc arc{.radius = 100, .heading = 0, .sweep = std::numbers::pi, .rise = -50};
+  EXPECT_EQ(share_of_speed(arc, false), 1);
+  EXPECT_DOUBLE_EQ(share_of_speed(arc, true), 50 / std::hypot(100 * std::numbers::pi, 50));
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203::curve_plan_test
