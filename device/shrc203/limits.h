@@ -38,8 +38,8 @@ inline constexpr Duration kRestartMin = std::chrono::milliseconds(150);
 
 // How long after READY was seen a completion may still arrive.
 inline constexpr Duration kCompletionAfterReadyMax = std::chrono::milliseconds(200);
-// Who waits until none can come waits so much longer, to be past that moment.
-inline constexpr Duration kCompletionAfterReadyMargin = std::chrono::milliseconds(10);
+// None can arrive any more: 10 ms past that moment.
+inline constexpr Duration kNoCompletionAfterReady = std::chrono::milliseconds(210);
 // How soon after a start READY may still describe the time before it: the manual does not say.
 inline constexpr Duration kReadyOutdatedMax = std::chrono::milliseconds(150);
 

@@ -299,5 +299,16 @@ TEST(Hazard, H28_SpeedsOfAMotionWhoseLineWasLost) {
   EXPECT_EQ(world.device().maximum_speed(1), 50'000) << world.replay();
 }
 
+// No number is documented for a motion out of the execution buffer (manual 67) M:), so nobody waits for one.
+TEST(Hazard, H01_ACallersOwnMoveLeavesNoNumberOutstanding) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  execute(world, {"M:1+P1000", "G:1"});
+  ASSERT_EQ(outcome_of(world, 1).state, MotionState::succeeded) << world.replay();
+  const TimePoint asked = world.now();
+  execute(world, {"?:AXIS"});
+  EXPECT_LT(world.now() - asked, milliseconds(50)) << world.replay();
+}
+
 }  // namespace
 }  // namespace axisgate::simulation

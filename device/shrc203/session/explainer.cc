@@ -172,7 +172,7 @@ Task<std::optional<Problem>> Explainer::wrong_mode(std::string caller) {
 // motion to end.
 Task<bool> Explainer::sleeps(std::string caller) {
   if (!line_.completions().possible().empty()) {
-    auto quiet = tasks_.pause(kCompletionAfterReadyMax + kCompletionAfterReadyMargin);
+    auto quiet = tasks_.pause(kNoCompletionAfterReady);
     co_await quiet;
     (void)co_await reader_.read_positions(Lane::motion, caller);
   }

@@ -108,7 +108,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     if (!busy) {
       orphaned_jogs_.all_stationary();
       line_.ready(AxisSet::all(), tasks_.now());
-      auto quiet = tasks_.pause(kCompletionAfterReadyMax + kCompletionAfterReadyMargin);
+      auto quiet = tasks_.pause(kNoCompletionAfterReady);
       co_await quiet;
       co_return connection == store_.connection();
     }
