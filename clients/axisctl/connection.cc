@@ -120,17 +120,21 @@ std::string lease_text(std::string_view token) {
   return text;
 }
 
-v1::CallContext new_call_context() {
+v1::CallContext new_stop_context() {
   std::random_device random;
   v1::CallContext context;
   context.set_request_id(fmt::format("axisctl-{:08x}{:08x}", random(), random()));
-  if (const char* lease = std::getenv(kLeaseVariable)) {
-    const auto token = token_in(lease);
-    if (!token) {
-      throw usage(fmt::format("{} is \"{}\", which is not a token", kLeaseVariable, lease),
-                  "unset it, or start again with `axisctl lease run`");
-    }
-    context.set_lease_token(*token);
+  const char* const lease = std::getenv(kLeaseVariable);
+  if (const auto token = token_in(lease ? lease : "")) context.set_lease_token(*token);
+  return context;
+}
+
+v1::CallContext new_call_context() {
+  v1::CallContext context = new_stop_context();
+  const char* const lease = std::getenv(kLeaseVariable);
+  if (lease && context.lease_token().empty()) {
+    throw usage(fmt::format("{} is not the token of a lease", kLeaseVariable),
+                "unset it, or start again with `axisctl lease run`");
   }
   return context;
 }

@@ -76,6 +76,9 @@ inline constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
 // The token as the variable holds it, in hexadecimal.
 std::string lease_text(std::string_view token);
 
+// A context with a new request id, and with the token in AXISGATE_LEASE if that is one: nothing holds a stop up.
+v1::CallContext new_stop_context();
+
 // A context with a new request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no token.
 v1::CallContext new_call_context();
 

@@ -80,6 +80,9 @@ std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
         "`axisctl lease run`",
         lease.holder(), axes_text(lease.latch().axes()));
   }
+  for (const v1::HeldBack& one : board.held_back()) {
+    return fmt::format("you have no latch; {} has one on {}, and must rearm", one.who(), axes_text(one.latch().axes()));
+  }
   return "there is no latch";
 }
 

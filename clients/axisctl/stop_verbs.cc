@@ -46,7 +46,7 @@ int report(const Session& session, const v1::Device& device, const Response& res
 int stop(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::StopRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = new_stop_context();
   request.set_device(device.name());
   for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
   return report(session, device,
@@ -56,7 +56,7 @@ int stop(const Session& session) {
 int emergency_stop(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::EmergencyStopRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = new_stop_context();
   request.set_device(device.name());
   const v1::EmergencyStopResponse response =
       session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit);

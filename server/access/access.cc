@@ -52,7 +52,7 @@ bool Access::only_for_admins(std::string_view line) const {
 std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }
 std::string certificate_caller(std::string_view name) { return fmt::format("{}{}", kCertificate, name); }
 std::string anonymous_caller(std::string_view address) { return fmt::format("{}{}", kAnonymous, address); }
-bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous); }
+bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous) || who == kSharedUnixName; }
 bool is_certainly(std::string_view who, std::string_view other) { return who == other && !is_anonymous(who); }
 
 }  // namespace axisgate::server

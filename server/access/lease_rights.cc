@@ -84,19 +84,28 @@ void Leases::stop_asked(const Use& stop, TimePoint now) {
     if (hit.empty() || held.lease.token == stop.lease) continue;
     latch(held.lease, {hit, stop.who, now});
   }
-  std::map<std::string, AxisSet> borrowers;
-  for (const auto& [id, running] : running_) {
-    if (running.use.lease == 0)
-      borrowers[running.use.who] = borrowers[running.use.who] | (running.use.axes & stop.axes);
+  std::map<std::string, AxisSet> moved;
+  const auto add = [&](const Use& use) {
+    const bool by_holder = use.lease != 0 && use.lease == stop.lease;
+    if (!by_holder && !is_certainly(use.who, stop.who)) moved[use.who] = moved[use.who] | (use.axes & stop.axes);
+  };
+  for (const auto& [id, running] : running_) add(running.use);
+  for (const Mover& mover : movers_) {
+    if (now < mover.until) add(mover.use);
   }
-  for (const int axis : stop.axes.list()) {
-    const Borrowed& last = borrowed_[static_cast<std::size_t>(axis - 1)];
-    if (now < last.until) borrowers[last.who].add(axis);
-  }
-  for (const auto& [who, axes] : borrowers) {
-    if (!axes.empty() && !is_certainly(who, stop.who)) hold_back(who, {axes, stop.who, now});
+  for (const auto& [who, axes] : moved) {
+    if (!axes.empty()) hold_back(who, {axes, stop.who, now});
   }
   changed(now);
+}
+
+// The newest of each caller and lease on the same axes.
+void Leases::note_mover(Use use, TimePoint now) {
+  std::erase_if(movers_, [&](const Mover& one) {
+    const bool same = is_same_caller(one.use.who, use.who) && one.use.lease == use.lease && one.use.axes == use.axes;
+    return same || now >= one.until;
+  });
+  movers_.push_back({std::move(use), now + kMovedLately});
 }
 
 // Stops of one caller by one other are one entry, so that nobody fills the list alone.

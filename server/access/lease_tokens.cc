@@ -41,8 +41,9 @@ LeaseTokens::LeaseTokens(std::uint32_t generation)
 LeaseTokens::Seal LeaseTokens::seal_of(std::string_view number) const {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned int length = 0;
-  HMAC(EVP_sha256(), key_.data(), static_cast<int>(key_.size()), reinterpret_cast<const unsigned char*>(number.data()),
-       number.size(), digest.data(), &length);
+  const auto* made = HMAC(EVP_sha256(), key_.data(), static_cast<int>(key_.size()),
+                          reinterpret_cast<const unsigned char*>(number.data()), number.size(), digest.data(), &length);
+  if (made == nullptr || length < kSealBytes) throw std::runtime_error("no HMAC-SHA-256");
   Seal seal{};
   std::copy_n(digest.begin(), seal.size(), seal.begin());
   return seal;
@@ -60,7 +61,8 @@ Result<LeaseToken> LeaseTokens::open(std::string_view sealed) const {
   const std::string_view number = sealed.substr(0, sizeof(LeaseToken)), seal = sealed.substr(sizeof(LeaseToken));
   if (CRYPTO_memcmp(seal_of(number).data(), seal.data(), kSealBytes) == 0) return to_number(number);
   const bool earlier = to_number(number) >> kGenerationBits < generation_;
-  return refused(earlier ? "the lease has ended: the daemon has restarted" : "no lease has this token");
+  return refused(earlier ? "no lease has this token; those of before the daemon's start have ended"
+                         : "no lease has this token");
 }
 
 }  // namespace axisgate::server

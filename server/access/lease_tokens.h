@@ -19,6 +19,9 @@ class LeaseTokens {
   // The number, most significant byte first, and the seal.
   static constexpr std::size_t kSealBytes = 16, kSealedBytes = sizeof(LeaseToken) + kSealBytes;
 
+  // No lease ever has this one.
+  static constexpr LeaseToken kUnknown = ~LeaseToken{0};
+
   // `generation` is another, greater one for every start of the daemon.
   explicit LeaseTokens(std::uint32_t generation);
 

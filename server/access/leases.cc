@@ -132,7 +132,10 @@ void Leases::take_over(LeaseTerms terms, const std::string& holder, TimePoint no
 
 std::vector<Lease> Leases::held() const {
   std::vector<Lease> all;
-  for (const Held& held : held_) all.push_back(held.lease);
+  for (const Held& held : held_) {
+    all.push_back(held.lease);
+    all.back().sealed_token.clear();  // everybody may see these
+  }
   return all;
 }
 
@@ -191,13 +194,8 @@ void Leases::begin(const Use& use, TimePoint) { running_[use.motion] = {use, fal
 void Leases::end(MotionId motion, TimePoint now) {
   const auto found = running_.find(motion);
   if (found == running_.end()) return;
-  const Use use = std::move(found->second.use);
+  note_mover(std::move(found->second.use), now);
   running_.erase(found);
-  if (use.lease == 0) {
-    for (const int axis : use.axes.list()) {
-      borrowed_[static_cast<std::size_t>(axis - 1)] = {use.who, now + kBorrowedLately};
-    }
-  }
   settle(now);
 }
 

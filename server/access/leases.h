@@ -98,7 +98,7 @@ class Leases : public stage::Permission {
 
   std::vector<Lease> held() const;  // those that are ending among them; oldest first
   std::vector<WaitingLease> waiting(TimePoint now) const;
-  // Somebody whose motion without a lease, or whose lease, another stopped. Anonymous callers are held back with
+  // Somebody whose motion, or whose lease, another stopped. Anonymous callers are held back with
   // everybody, since each of them may be the one.
   struct HeldBack {
     std::string who;
@@ -138,8 +138,8 @@ class Leases : public stage::Permission {
     stage::Use use;
     bool revoked = false;  // taken over: not a byte more
   };
-  struct Borrowed {  // the last time that an axis was moved without a lease
-    std::string who;
+  struct Mover {  // moved something a moment ago
+    stage::Use use;
     TimePoint until{};
   };
 
@@ -148,6 +148,7 @@ class Leases : public stage::Permission {
   Problem lost_problem(LeaseToken token) const;
   Result<void> authorize_leased(const stage::Use& use, TimePoint now);
   Result<void> may_borrow(const stage::Use& use, TimePoint now);
+  void note_mover(stage::Use use, TimePoint now);
   void hold_back(const std::string& who, const Latch& latch);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
@@ -165,15 +166,15 @@ class Leases : public stage::Permission {
     if (on_change) on_change(now);
   }
 
-  static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 256;
-  // A loop that moves without a lease is between two motions for so long at most.
-  static constexpr Duration kBorrowedLately = std::chrono::seconds(10);
+  static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 4096;
+  // A loop is between two motions for so long at most.
+  static constexpr Duration kMovedLately = std::chrono::seconds(10);
 
   LeaseTokens& tokens_;
   std::vector<Held> held_;
   std::deque<Waiting> waiting_;
   std::map<MotionId, Running> running_;
-  std::array<Borrowed, stage::kAxisCount> borrowed_;
+  std::vector<Mover> movers_;
   std::vector<HeldBack> held_back_;
   struct Ended {
     LeaseToken token = 0;

@@ -11,6 +11,7 @@
 #include <memory>
 
 #include "device/core/escape.h"
+#include "server/access/access.h"
 
 namespace axisgate::server {
 namespace {
@@ -59,7 +60,7 @@ std::string caller_name(uid_t uid) {
   return login ? "unix " + escaped(*login) : fmt::format("unix uid {}", uid);
 }
 
-CallerSlots::CallerSlots(std::size_t slots) : names_(slots, "unix") {}
+CallerSlots::CallerSlots(std::size_t slots) : names_(slots, std::string(kSharedUnixName)) {}
 
 std::size_t CallerSlots::slot_of(uid_t uid) {
   const auto found = std::find(users_.begin(), users_.end(), uid);

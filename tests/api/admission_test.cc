@@ -82,6 +82,7 @@ TEST_F(AdmissionTest, AGuessedLeaseTokenIsRefused) {
     EXPECT_EQ(context(kind).error().reason, Reason::lease_lost);
   }
   EXPECT_TRUE(context(RequestKind::acquire_lease));
+  EXPECT_EQ(context(RequestKind::execute)->lease, server::LeaseTokens::kUnknown) << "its line may be a stop";
   EXPECT_EQ(world_.api->admission.context_of_stop(call_).lease, 0u);
 }
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """Whom a stop holds back: each pair of callers over the Unix socket, loopback and TLS, with a name and without."""
 
+import itertools
 import os
 import re
 import subprocess
@@ -19,11 +20,9 @@ listen = "127.0.0.1:0"
 certificate = "FOLDER/gateway.crt"
 key = "FOLDER/gateway.key"
 client_ca = "FOLDER/lab.crt"
-
-[[device]]
-name = "stage"
-connection = "simulated"
 """
+# One for each pair: a stop also holds back all who moved the axis in the last 10 s.
+DEVICES = [f"stage{number}" for number in range(25)]
 ANONYMOUS = "anonymous over loopback"
 REFUSED = 3
 
@@ -34,7 +33,8 @@ class Latches(unittest.TestCase):
         self.addCleanup(folder.cleanup)
         subprocess.run([BIN / "axisgate-certificates", folder.name, "lab", "gateway", "anna"], check=True,
                        timeout=LIMIT_S)
-        self.daemon = Daemon(folder.name, CONFIG.replace("FOLDER", folder.name))
+        self.daemon = Daemon(folder.name, CONFIG.replace("FOLDER", folder.name) + "".join(
+            f'[[device]]\nname = "{name}"\nconnection = "simulated"\n' for name in DEVICES))
         self.addCleanup(self.daemon.stop)
         network = re.search(r"gRPC with TLS on (\S+)", self.daemon.log())[1]
         tls = ["--target", network, "--ca", f"{folder.name}/lab.crt"]
@@ -59,31 +59,31 @@ class Latches(unittest.TestCase):
         return subprocess.run([BIN / "axisctl", *arguments, *words], env=environment, capture_output=True, text=True,
                               timeout=LIMIT_S, check=False)
 
-    def moves(self, caller):
-        moved = self.run_as(caller, "move", "1=+1um", "--relative")
+    def moves(self, caller, device):
+        moved = self.run_as(caller, "--device", device, "move", "1=+1um", "--relative")
         if moved.returncode == REFUSED:
             self.assertIn("STOPPED_BY: ", moved.stderr)
             return False
         self.assertEqual(moved.returncode, 0, moved.stderr)
         return True
 
-    def held_back(self, stopper, mover):
+    def held_back(self, stopper, mover, device):
         """Who of the mover, the anonymous and a third may not move any more; rearms them all."""
-        self.assertTrue(self.moves(mover), f"{mover} is held back already")
-        self.assertEqual(self.run_as(stopper, "stop", "1").returncode, 0)
+        self.assertTrue(self.moves(mover, device), f"{mover} is held back already")
+        self.assertEqual(self.run_as(stopper, "--device", device, "stop", "1").returncode, 0)
         third = next(caller for caller in self.callers if caller not in (stopper, mover, ANONYMOUS))
-        refused = {caller for caller in (mover, ANONYMOUS, third) if not self.moves(caller)}
-        for caller in refused:
-            rearmed = self.run_as(caller, "rearm")
+        refused = {caller for caller in (mover, ANONYMOUS, third) if not self.moves(caller, device)}
+        for caller in sorted(refused, key=lambda one: one != ANONYMOUS):  # who is named rearms for the anonymous, too
+            rearmed = self.run_as(caller, "--device", device, "rearm")
             self.assertRegex(rearmed.stdout, r"\Areleased: the stop of axis 1 by .*\naxis 1 may move again\n\Z")
         return refused
 
     def test_each_pair(self):
-        for stopper in self.callers:
-            for mover in self.callers:
-                with self.subTest(stopped=stopper, moved=mover):
-                    own = stopper == mover and mover != ANONYMOUS
-                    self.assertEqual(self.held_back(stopper, mover), set() if own else {mover, ANONYMOUS})
+        pairs = itertools.product(self.callers, repeat=2)
+        for device, (stopper, mover) in zip(DEVICES, pairs):
+            with self.subTest(stopped=stopper, moved=mover):
+                own = stopper == mover and mover != ANONYMOUS
+                self.assertEqual(self.held_back(stopper, mover, device), set() if own else {mover, ANONYMOUS})
 
 
 if __name__ == "__main__":

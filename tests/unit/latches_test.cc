@@ -141,5 +141,59 @@ TEST_F(LatchesTest, OnesOwnStopDoesNotHoldOneBack) {
   EXPECT_EQ(may("anna", 0, kOne), kAllowed);
 }
 
+// Its holder has gone, and what runs may finish.
+TEST_F(LatchesTest, AStopWhileALeaseEndsHoldsItsHolderBack) {
+  const LeaseToken token = held_by("unix anna", kOne, AtLoss::finish);
+  begin(1, "unix anna", token, kOne);
+  ASSERT_TRUE(leases_.release(token, now_));
+  stop_by("unix bert", kOne);
+  leases_.end(1, now_);
+  EXPECT_EQ(may("unix anna", 0, kOne), Reason::stopped_by);
+}
+
+// `axisctl move --wait` takes a lease for each move.
+TEST_F(LatchesTest, AStopBetweenTwoShortLeasesHoldsALoopBack) {
+  const LeaseToken token = held_by("unix anna", kOne);
+  begin(1, "unix anna", token, kOne);
+  leases_.end(1, now_);
+  ASSERT_TRUE(leases_.release(token, now_));
+  now_ += seconds(1);
+  stop_by("unix bert", kOne);
+  EXPECT_EQ(may("unix anna", held_by("unix anna", kOne), kOne), Reason::stopped_by);
+}
+
+TEST_F(LatchesTest, AStopHoldsAllBackWhoMovedTheAxis) {
+  for (const char* who : {"unix anna", "unix carl"}) {
+    begin(1, who, 0, kOne);
+    leases_.end(1, now_);
+  }
+  stop_by("unix bert", kOne);
+  EXPECT_EQ(may("unix anna", 0, kOne), Reason::stopped_by);
+  EXPECT_EQ(may("unix carl", 0, kOne), Reason::stopped_by);
+}
+
+// A lease that was handed to another program.
+TEST_F(LatchesTest, AStopHoldsBackWhoMovedUnderAnothersLease) {
+  const LeaseToken token = held_by("unix anna", kOne);
+  begin(1, "token scan", token, kOne);
+  stop_by("unix bert", kOne);
+  leases_.end(1, now_);
+  ASSERT_TRUE(leases_.release(token, now_));
+  EXPECT_EQ(may("token scan", 0, kOne), Reason::stopped_by);
+}
+
+// Users of the Unix socket who have no name of their own any more.
+TEST_F(LatchesTest, UsersWhoShareANameAreAnonymous) {
+  begin(1, "unix", 0, kOne);
+  stop_by("unix", kOne);
+  leases_.end(1, now_);
+  EXPECT_EQ(may("unix", 0, kOne), Reason::stopped_by);
+}
+
+TEST_F(LatchesTest, WhatEverybodySeesHasNoToken) {
+  held_by("unix anna", kOne);
+  EXPECT_EQ(leases_.held().at(0).sealed_token, "");
+}
+
 }  // namespace
 }  // namespace axisgate::server::latches_test

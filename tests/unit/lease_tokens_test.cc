@@ -28,7 +28,8 @@ TEST(LeaseTokensTest, ATokenOfAnEarlierRunIsNoMore) {
   LeaseTokens before(7), same(7);
   const LeaseTokens after(8);
   const std::string sealed = before.seal(before.next());
-  EXPECT_EQ(after.open(sealed).error().message, "the lease has ended: the daemon has restarted");
+  EXPECT_EQ(after.open(sealed).error().message,
+            "no lease has this token; those of before the daemon's start have ended");
   EXPECT_EQ(same.open(sealed).error().message, "no lease has this token") << "two runs share no key";
 }
 
