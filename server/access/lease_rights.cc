@@ -124,13 +124,20 @@ void Leases::hold_back(const std::string& who, const Latch& latch) {
 
 std::vector<Latch> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {
   std::vector<Latch> lifted;
+  // One stop may latch the lease and the caller that moved under it.
+  const auto lift = [&](const Latch& latch) {
+    const auto same = [&](const Latch& one) { return one.by == latch.by && one.at == latch.at; };
+    const auto known = std::ranges::find_if(lifted, same);
+    if (known == lifted.end()) return lifted.push_back(latch);
+    known->axes = known->axes | latch.axes;
+  };
   for (Held& held : held_) {
     const bool callers = held.lease.token == token || is_certainly(held.lease.holder, who);
-    if (callers && held.lease.latch) lifted.push_back(*std::exchange(held.lease.latch, {}));
+    if (callers && held.lease.latch) lift(*std::exchange(held.lease.latch, {}));
   }
   for (HeldBack& one : held_back_) {
     if (!holds_back(one, who)) continue;
-    lifted.push_back(one.latch);
+    lift(one.latch);
     one.anonymous = false;
   }
   std::erase_if(held_back_, [&](const HeldBack& one) { return is_same_caller(one.who, who); });

@@ -195,5 +195,14 @@ TEST_F(LatchesTest, WhatEverybodySeesHasNoToken) {
   EXPECT_EQ(leases_.held().at(0).sealed_token, "");
 }
 
+TEST_F(LatchesTest, RearmNamesAStopOnceThatLatchedLeaseAndMover) {
+  const LeaseToken token = held_by("unix anna", kBoth);
+  begin(1, "unix anna", token, kOne);
+  stop_by("unix bert", kBoth);
+  const auto lifted = leases_.rearm(0, "unix anna", now_);
+  ASSERT_EQ(lifted.size(), 1u);
+  EXPECT_EQ(lifted[0].axes, kBoth);
+}
+
 }  // namespace
 }  // namespace axisgate::server::latches_test
