@@ -109,6 +109,7 @@ enum class Guard {
   registers_unknown_after_failure,
   registers_unknown_after_transaction,
   stale_setpoints_deleted,
+  others_setpoints_stay,
   stale_setpoints_refused,
   no_bare_go,
   no_set_without_go,

@@ -179,6 +179,8 @@ constexpr Row kTable[] = {
              "... after a caller's own lines", "StaleSetpoint.H12_ByACallersOwnLines"),
     by_tests(Guard::stale_setpoints_deleted, "stale-setpoints-deleted", "stale M: A: K: E: are deleted first",
              "Hazard.H12_StaleSetpointExecutionSettingIsClearedFirst"),
+    by_tests(Guard::others_setpoints_stay, "others-setpoints-stay", "... but not what another motion has just set",
+             "Hazard.H12_ClearedBesideOthersThatSet"),
     by_tests(Guard::stale_setpoints_refused, "stale-setpoints-refused", "stale prebuffers and J: refuse motion",
              "Settings/HazardH12.StaleSetpointThatCannotBeClearedRefusesMotion/*"),
     by_tests(Guard::no_bare_go, "no-bare-go", "a G without a setting is refused", "Refusals.ExecOfHalfATransaction"),

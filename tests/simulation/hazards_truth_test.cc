@@ -238,6 +238,31 @@ TEST(Hazard, H12_LookedForByTwoAtOnce) {
   }
 }
 
+// Who clears what is stale leaves alone what another has set on its axes a moment ago, and not yet started.
+TEST(Hazard, H12_ClearedBesideOthersThatSet) {
+  for (int apart = 0; apart < 120 && !HasFailure(); ++apart) {
+    auto setup = quiet();
+    setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
+    for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
+    World world(setup);
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    foreign_traffic(world, {"M:3+P1", "A:1+P1"});
+    std::vector<std::string> answers;
+    world.controller().execute({{"M:3+P100", "G:3"}, world.context("anna")}, world.now(),
+                               [&](const ExecuteEvent& event) {
+                                 if (event.kind == ExecuteEvent::Kind::reply) answers.push_back(event.answer);
+                               });
+    move_by(world, {{1, 100}});
+    world.run_for(milliseconds(apart));
+    move_by(world, {{2, 100}});
+    for (const int number : {1, 2, 3}) {
+      EXPECT_EQ(outcome_of(world, number).state, MotionState::succeeded) << apart << "\n" << world.replay();
+    }
+    EXPECT_THAT(answers, ElementsAre("OK", "OK")) << apart << "\n" << world.replay();
+    for (const int axis : {1, 2, 3}) EXPECT_EQ(world.device().position(axis), 100) << apart;
+  }
+}
+
 TEST_F(StaleSetpoint, H12_ByAMotionWhoseStartWasLost) {
   world.wire().set_script(drop_first(world, LineKind::command, "G:"));
   move_by(world, {{2, 500}});

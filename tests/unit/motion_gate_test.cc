@@ -57,6 +57,16 @@ TEST_F(MotionGateTest, DifferentAxesTogetherWhereEachIsBusyForItself) {
   EXPECT_THAT(heard(), ElementsAre("3 in"));
 }
 
+TEST_F(MotionGateTest, AMotionHasItsAxesToItself) {
+  MotionGate each(executor_, Scope::axis), whole(executor_, Scope::controller);
+  enter(each, 1, kLower);
+  enter(each, 2, kUpper);
+  enter(whole, 1, kLower);
+  EXPECT_EQ(each.axes_of(1), kLower);
+  EXPECT_EQ(whole.axes_of(1), AxisSet::all());
+  EXPECT_EQ(whole.axes_of(2), AxisSet());
+}
+
 TEST_F(MotionGateTest, CallersTakeTurns) {
   MotionGate gate(executor_, Scope::controller);
   enter(gate, 1, kLower, "busy");

@@ -87,6 +87,15 @@ TEST_F(RegistersTest, ClearsTheAxesNamedOnly) {
   EXPECT_EQ(registers.set_in(Register::a), AxisSet::of(2));
 }
 
+// Nothing tells what becomes of a line or curve when GC: names some of its axes.
+TEST_F(RegistersTest, ALineIsClearedWithAllItsAxes) {
+  take("?:K", "A,1000,200");
+  registers.cleared(AxisSet::of(1));
+  EXPECT_EQ(registers.clearable(), AxisSet::of(1) | AxisSet::of(2));
+  registers.cleared(AxisSet::of(1) | AxisSet::of(2));
+  EXPECT_EQ(registers.clearable(), AxisSet());
+}
+
 // Manual 22) and 24): E reports its axes in the second field, K in the first.
 TEST_F(RegistersTest, InterpolationsNameTheirAxes) {
   take("?:KP", "A,1000,200");

@@ -85,7 +85,9 @@ Task<Result<void>> Entry::restore_pending(LiveMotionPtr live) {
 Task<Result<void>> Entry::clear_stale_setpoints(LiveMotionPtr live, Register reg) {
   const auto read = co_await reader_.read_registers(live->context.who);
   if (!read) co_return read;
-  const AxisSet deletable = registers_.clearable() | registers_.set_in(Register::j);
+  AxisSet deletable = registers_.clearable() | registers_.set_in(Register::j);
+  // What another motion has set on its axes a moment ago is not stale.
+  if (guarded(Guard::others_setpoints_stay)) deletable = deletable & motions_.axes_to_itself(*live);
   if (guarded(Guard::stale_setpoints_deleted) && !deletable.empty()) {
     const auto deleted = co_await delete_setpoints(live, deletable);
     if (!deleted) co_return deleted;
@@ -97,6 +99,18 @@ Task<Result<void>> Entry::clear_stale_setpoints(LiveMotionPtr live, Register reg
   co_return Result<void>();
 }
 
+namespace {
+
+Problem not_deleted() {
+  return {.reason = Reason::stale_setpoint,
+          .message =
+              "a motion that somebody set and never started is still in the controller, and GC: did not "
+              "delete it",
+          .hint = "see that all motors are excited and nothing moves, then try again"};
+}
+
+}  // namespace
+
 Task<Result<void>> Entry::delete_setpoints(LiveMotionPtr live, AxisSet axes) {
   ExchangeRequest request;
   request.command = commands::clear_setpoints(axes & store_.controllable());
@@ -106,16 +120,13 @@ Task<Result<void>> Entry::delete_setpoints(LiveMotionPtr live, AxisSet axes) {
   request.motion = live->motion.id;
   auto pending = dialogue_.exchange(std::move(request));
   const auto cleared = co_await pending;
-  if (!cleared.accepted()) {
-    co_return fail(Reason::stale_setpoint,
-                   "a motion that somebody set and never started is still in the controller, and GC: did not "
-                   "delete it",
-                   "see that all motors are excited and nothing moves, then try again");
-  }
-  registers_.cleared(AxisSet::all());
-  if (registers_.set_in(Register::j).empty()) co_return Result<void>();
-  // 87) does not name J: among what it deletes.
+  if (!cleared.accepted()) co_return tl::unexpected(not_deleted());
+  registers_.cleared(axes);
+  const AxisSet doubtful = (registers_.set_in(Register::j) | registers_.clearable()) & axes;
+  if (doubtful.empty()) co_return Result<void>();
+  // 87) does not name J: among what it deletes, and not what becomes of a line or curve for some of its axes.
   const auto left = co_await reader_.read_registers(live->context.who);
+  if (left && registers_.clearable().touches(axes)) co_return tl::unexpected(not_deleted());
   co_return left;
 }
 

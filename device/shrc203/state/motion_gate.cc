@@ -23,6 +23,11 @@ void MotionGate::leave(MotionId id) {
   admit();
 }
 
+AxisSet MotionGate::axes_of(MotionId id) const {
+  const auto found = inside_.find(id);
+  return found == inside_.end() ? AxisSet() : found->second;
+}
+
 void MotionGate::hold(AxisSet axes) {
   if (guarded(Guard::stops_hold_motions)) held_.push_back(axes);
 }

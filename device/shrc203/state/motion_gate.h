@@ -24,6 +24,8 @@ class MotionGate {
   // out: queue_full, deadline_passed, or what withdraw() was given. Callers take turns.
   OneShot<Result<void>> enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after);
   void leave(MotionId id);
+  // What no other motion may set meanwhile: the axes of one inside, or all where one at a time goes through.
+  AxisSet axes_of(MotionId id) const;
   bool others_inside(MotionId id) const { return inside_.size() > inside_.count(id); }
 
   // Until a stop of these axes is over nothing new is set on them: it would be taken for what the stop left behind, and

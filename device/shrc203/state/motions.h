@@ -68,6 +68,7 @@ class Motions {
   AxisSet inside() const;
   bool anything_moves() const;  // also somebody else's
   bool others_inside(const LiveMotion& live) const { return gate_.others_inside(live.motion.id); }
+  AxisSet axes_to_itself(const LiveMotion& live) const { return gate_.axes_of(live.motion.id); }
   // In a chain the completions follow one another, so that they cannot be distinguished before its end.
   bool any_chain() const;
 

@@ -16,6 +16,11 @@ constexpr Register kCleared[] = {Register::m, Register::a, Register::k, Register
 constexpr Register kLasting[] = {Register::j,  Register::mp, Register::ap, Register::kp,
                                  Register::ep, Register::wt, Register::wi};
 
+// Holds one line or curve of several axes.
+bool is_shared(Register reg) {
+  return reg == Register::k || reg == Register::e || reg == Register::kp || reg == Register::ep;
+}
+
 // The place of an axis among a reply's fields: all three, or the controllable ones only.
 std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet controllable) {
   std::size_t place = 0;
@@ -52,8 +57,7 @@ void Registers::end_reading(Reading reading) {
 }
 
 void Registers::Reading::take(Register reg, const Reply& reply, AxisSet controllable) {
-  const bool shared = reg == Register::k || reg == Register::e || reg == Register::kp || reg == Register::ep;
-  if (shared) {
+  if (is_shared(reg)) {
     if (reply.text != "NS") set_[reg] = interpolation_axes(reply, reg);
     return;
   }
@@ -92,7 +96,8 @@ AxisSet Registers::lasting() const {
 
 void Registers::cleared(AxisSet axes) {
   for (const Register reg : kCleared) {
-    const AxisSet rest = set_in(reg) - axes;
+    const bool whole = axes.contains(set_in(reg));
+    const AxisSet rest = whole ? AxisSet() : is_shared(reg) ? set_in(reg) : set_in(reg) - axes;
     if (rest.empty()) {
       set_.erase(reg);
     } else {
