@@ -87,7 +87,7 @@ TEST_F(RegistersTest, ClearsTheAxesNamedOnly) {
   EXPECT_EQ(registers.set_in(Register::a), AxisSet::of(2));
 }
 
-// Nothing tells what becomes of a line or curve when GC: names some of its axes.
+// Nobody knows what becomes of a line or curve when GC: names some of its axes.
 TEST_F(RegistersTest, ALineIsClearedWithAllItsAxes) {
   take("?:K", "A,1000,200");
   registers.cleared(AxisSet::of(1));

@@ -47,7 +47,7 @@ class Registers {
   AxisSet clearable() const;
   // The axes with one that no command is documented to clear: in the prebuffers, WT:, WI: or J:.
   AxisSet lasting() const;
-  // GC: for these axes was accepted. A line or curve is gone only if they hold all of its axes: nothing tells what
+  // GC: for these axes was accepted. A line or curve is gone only if they hold all of its axes: nobody knows what
   // becomes of it otherwise (manual 87)).
   void cleared(AxisSet axes);
 
