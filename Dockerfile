@@ -21,8 +21,8 @@ FROM debian:bookworm-slim
 # is fixed, so that a mounted folder or a tmpfs for the socket can be given to it.
 RUN apt-get update --quiet \
  && apt-get install --quiet --yes --no-install-recommends \
-      libcairo2 libfmt9 libgrpc++1.51 libprometheus-cpp-core1.0 libprometheus-cpp-pull1.0 \
-      libprotobuf32 libspdlog1.10 libtomlplusplus3 \
+      libcairo2 libfmt9 libgrpc++1.51 libnghttp2-14 libprometheus-cpp-core1.0 \
+      libprometheus-cpp-pull1.0 libprotobuf32 libspdlog1.10 libssl3 libtomlplusplus3 zlib1g \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 203 --no-create-home --groups dialout axisgate \
  && install --directory --owner axisgate --group axisgate /run/axisgate /var/lib/axisgate

@@ -89,6 +89,7 @@ main() {
   stage "C++ tests" check_all /usr/bin/python3 tests/run_cases.py "$build"
   if [[ "$preset" == dev ]]; then
     stage "integration" check_all /usr/bin/python3 tests/run_python.py tests/integration
+    stage "attacks, for a moment" check_all /usr/bin/python3 tests/run_python.py tests/attack
     stage "fuzzers, for a moment" check "$root/tests/fuzz.sh"
   fi
   printf '\n'

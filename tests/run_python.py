@@ -19,7 +19,7 @@ AT_ONCE = os.cpu_count() + 1
 FILE_SECONDS_MAX = 900
 SHOWN = 5
 # These judge times as a person would notice them: nothing else runs meanwhile.
-ALONE = {"paced_path_test.py"}
+ALONE = {"paced_path_test.py", "attack_test.py"}
 
 
 def number(text, kind):

@@ -54,6 +54,13 @@ void Acceptor::listen(Descriptor listener, Origin origin) {
   wait(added);
 }
 
+void Acceptor::close() {
+  boost::system::error_code ignored;
+  for (Listener& listener : listeners_) listener.socket.close(ignored);
+  paused_.clear();
+  timer_.cancel();
+}
+
 ConnectionCounts Acceptor::counts() {
   return {open_.count(), in_reserve_, accepted_, reserved_, displaced_, out_of_descriptors_};
 }

@@ -50,6 +50,9 @@ class Acceptor {
   // Accepts there, too; a non-blocking listening socket.
   void listen(Descriptor listener, Origin origin = Origin::this_machine);
 
+  // Accepts nowhere any more.
+  void close();
+
   ConnectionCounts counts();  // from any thread
 
   static int accept_connection(int listener);

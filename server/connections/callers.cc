@@ -5,7 +5,6 @@
 #include <pwd.h>
 #include <sys/socket.h>
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <memory>
@@ -29,6 +28,28 @@ std::optional<std::string> login_name(uid_t uid) {
   return std::nullopt;
 }
 
+constexpr const char* kGone = "nobody";
+
+struct Address {
+  std::string host;
+  std::string port;
+};
+
+// In numbers; nothing once the connection has gone.
+std::optional<Address> address_of_peer(int connection) {
+  sockaddr_storage address{};
+  socklen_t size = sizeof(address);
+  std::array<char, NI_MAXHOST> host{};
+  std::array<char, NI_MAXSERV> port{};
+  auto* generic = reinterpret_cast<sockaddr*>(&address);
+  if (::getpeername(connection, generic, &size) != 0) return std::nullopt;
+  const int numeric = NI_NUMERICHOST | NI_NUMERICSERV;
+  if (::getnameinfo(generic, size, host.data(), host.size(), port.data(), port.size(), numeric) != 0) {
+    return std::nullopt;
+  }
+  return Address{host.data(), port.data()};
+}
+
 }  // namespace
 
 std::optional<uid_t> peer_uid(int connection) {
@@ -43,32 +64,21 @@ std::optional<uid_t> peer_uid(int connection) {
 
 std::string connection_owner(int connection) {
   if (const std::optional<uid_t> user = peer_uid(connection)) return fmt::format("uid {}", *user);
-  sockaddr_storage address{};
-  socklen_t size = sizeof(address);
-  std::array<char, NI_MAXHOST> host{};
-  const auto* generic = reinterpret_cast<const sockaddr*>(&address);
-  if (::getpeername(connection, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
-      ::getnameinfo(generic, size, host.data(), host.size(), nullptr, 0, NI_NUMERICHOST) != 0) {
-    return "nobody";  // who has gone again already
-  }
-  const std::string text = host.data();
-  return text.starts_with("127.") ? "127.0.0.1" : text;
+  const std::optional<Address> address = address_of_peer(connection);
+  if (!address) return kGone;
+  return address->host.starts_with("127.") ? "127.0.0.1" : address->host;
+}
+
+std::string peer_address(int connection) {
+  const std::optional<Address> address = address_of_peer(connection);
+  if (!address) return kGone;
+  const bool v6 = address->host.find(':') != std::string::npos;
+  return fmt::format(fmt::runtime(v6 ? "[{}]:{}" : "{}:{}"), address->host, address->port);
 }
 
 std::string caller_name(uid_t uid) {
   const std::optional<std::string> login = login_name(uid);
   return login ? "unix " + escaped(*login) : fmt::format("unix uid {}", uid);
-}
-
-CallerSlots::CallerSlots(std::size_t slots) : names_(slots, std::string(kSharedUnixName)) {}
-
-std::size_t CallerSlots::slot_of(uid_t uid) {
-  const auto found = std::find(users_.begin(), users_.end(), uid);
-  const auto slot = static_cast<std::size_t>(found - users_.begin());
-  if (found != users_.end() || slot + 1 == names_.size()) return slot;
-  users_.push_back(uid);
-  names_[slot] = caller_name(uid);
-  return slot;
 }
 
 }  // namespace axisgate::server

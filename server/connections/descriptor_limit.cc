@@ -11,17 +11,19 @@ namespace {
 constexpr std::size_t kConnectionsMax = 4096;
 // An idle daemon with one device has about 40 open, the reserve's among them.
 constexpr std::size_t kSetAside = 192;
+// The client's, and both ends of its way to gRPC.
+constexpr std::size_t kDescriptorsEach = 3;
 
 }  // namespace
 
 std::size_t connections_within(std::size_t descriptors) {
   // Where hardly any are allowed, half of them serves better than none; the reserve remains when they run out.
   const std::size_t left = descriptors > 2 * kSetAside ? descriptors - kSetAside : descriptors / 2;
-  return std::min(left, kConnectionsMax);
+  return std::min(left / kDescriptorsEach, kConnectionsMax);
 }
 
 std::size_t raise_descriptor_limit() {
-  constexpr rlim_t kUseful = kConnectionsMax + kSetAside;
+  constexpr rlim_t kUseful = kConnectionsMax * kDescriptorsEach + kSetAside;
   rlimit limit{};
   ::getrlimit(RLIMIT_NOFILE, &limit);
   if (limit.rlim_cur < kUseful && limit.rlim_cur < limit.rlim_max) {

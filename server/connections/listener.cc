@@ -23,17 +23,23 @@ Result<std::unique_ptr<Listener>> Listener::open(TcpAddress address, const std::
   return listener;
 }
 
-Listener::~Listener() {
+Listener::~Listener() { stop(); }
+
+void Listener::stop() {
   context_.stop();
   if (thread_.joinable()) thread_.join();
 }
 
 void Listener::start(ConnectionLimits limits, Acceptor::OnConnection on_connection) {
-  acceptor_ = std::make_unique<Acceptor>(Strand(context_.get_executor()), limits, std::move(on_connection));
+  acceptor_ = std::make_unique<Acceptor>(strand_, limits, std::move(on_connection));
   acceptor_->listen(std::move(tcp_));
   acceptor_->listen(unix_.take_socket());
   if (network_) acceptor_->listen(std::move(network_socket_), Acceptor::Origin::network);
   thread_ = std::thread([this] { context_.run(); });
+}
+
+void Listener::stop_accepting() {
+  boost::asio::post(strand_, [this] { acceptor_->close(); });
 }
 
 }  // namespace axisgate::server

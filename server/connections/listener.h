@@ -21,11 +21,18 @@ class Listener {
   // and a socket whose directory cannot be trusted.
   static Result<std::unique_ptr<Listener>> open(TcpAddress address, const std::string& socket,
                                                 std::optional<TcpAddress> network);
-  // No connection is handed over any more; the socket's file is gone.
+  // stop(), and the socket's file is gone.
   ~Listener();
 
   // Hands connections over, on its thread. Call it once.
   void start(ConnectionLimits limits, Acceptor::OnConnection on_connection);
+  // From now on nobody is accepted; what is on strand() continues.
+  void stop_accepting();
+  // Nothing runs on strand() any more.
+  void stop();
+
+  // Of its thread.
+  Strand strand() const { return strand_; }
 
   const TcpAddress& address() const { return address_; }  // with the port really taken
   const std::string& socket() const { return unix_.path(); }
@@ -41,6 +48,7 @@ class Listener {
   Descriptor network_socket_;  // invalid without network_
   UnixListener unix_;
   boost::asio::io_context context_{1};
+  const Strand strand_{context_.get_executor()};
   std::unique_ptr<Acceptor> acceptor_;
   std::thread thread_;
 };

@@ -5,12 +5,21 @@
 #include <optional>
 
 #include "server/events/wall_time.h"
-#include "server/rpc/gatekeeper.h"
+#include "server/front/desk.h"
+#include "server/rpc/bearer.h"
 
 namespace axisgate::rpc {
 namespace {
 
 using server::WallTime;
+
+constexpr const char* kAuthorization = "authorization";
+
+std::optional<std::string_view> find(const grpc::CallbackServerContext& call, grpc::string_ref name) {
+  const auto found = call.client_metadata().find(name);
+  if (found == call.client_metadata().end()) return std::nullopt;
+  return std::string_view(found->second.data(), found->second.size());
+}
 
 std::optional<TimePoint> call_deadline(const grpc::CallbackServerContext& call) {
   if (call.deadline() == WallTime::max()) return std::nullopt;
@@ -28,19 +37,29 @@ std::optional<TimePoint> not_after(const v1::CallContext& context) {
 
 }  // namespace
 
+api::Credential credential_of(const grpc::CallbackServerContext& call) {
+  if (auto token = token_in(find(call, kAuthorization))) return {.token = std::move(token)};
+  return {.who = std::string(find(call, front::kCallerHeader).value_or(""))};
+}
+
 api::Call to_call(const grpc::CallbackServerContext& call) {
   return {.credential = credential_of(call), .deadline = call_deadline(call)};
 }
 
-api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext& context, bool validate_only) {
-  return {.credential = credential_of(call),
-          .deadline = call_deadline(call),
+api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline, const v1::CallContext& context) {
+  return {.credential = std::move(credential),
+          .deadline = deadline,
           .request_id = context.request_id(),
           .not_after = not_after(context),
           .lease_token = context.lease_token(),
           .device_epoch = context.device_epoch(),
-          .frame_epoch = context.frame_epoch(),
-          .validate_only = validate_only};
+          .frame_epoch = context.frame_epoch()};
+}
+
+api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext& context, bool validate_only) {
+  api::Call made = to_call(credential_of(call), call_deadline(call), context);
+  made.validate_only = validate_only;
+  return made;
 }
 
 }  // namespace axisgate::rpc

@@ -3,10 +3,18 @@
 
 #include <grpcpp/server_context.h>
 
+#include <optional>
+
 #include "axisgate/v1/common.pb.h"
 #include "server/api/call.h"
 
 namespace axisgate::rpc {
+
+// Of a call that was let in: its token, or whom the front knows by the connection.
+api::Credential credential_of(const grpc::CallbackServerContext& call);
+
+// What `context` says, by this caller.
+api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline, const v1::CallContext& context);
 
 // Of a question, which has no context of its own.
 api::Call to_call(const grpc::CallbackServerContext& call);

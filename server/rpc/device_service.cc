@@ -25,14 +25,6 @@ Duration to_span(const google::protobuf::Duration& duration) {
 
 }  // namespace
 
-grpc::ServerUnaryReactor* DeviceService::ListDevices(grpc::CallbackServerContext* context,
-                                                     const v1::ListDevicesRequest*, v1::ListDevicesResponse* response) {
-  return answer_at_once(response, devices_.list(to_call(*context)),
-                        [](v1::ListDevicesResponse& answer, const std::vector<api::DeviceState>& devices) {
-                          for (const auto& one : devices) *answer.add_devices() = to_proto(*one.device, *one.state);
-                        });
-}
-
 grpc::ServerUnaryReactor* DeviceService::GetDevice(grpc::CallbackServerContext* context,
                                                    const v1::GetDeviceRequest* request,
                                                    v1::GetDeviceResponse* response) {

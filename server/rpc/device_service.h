@@ -11,8 +11,6 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   // It outlives this.
   explicit DeviceService(const api::Devices& devices) : devices_(devices) {}
 
-  grpc::ServerUnaryReactor* ListDevices(grpc::CallbackServerContext* context, const v1::ListDevicesRequest* request,
-                                        v1::ListDevicesResponse* response) override;
   grpc::ServerUnaryReactor* GetDevice(grpc::CallbackServerContext* context, const v1::GetDeviceRequest* request,
                                       v1::GetDeviceResponse* response) override;
   grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,

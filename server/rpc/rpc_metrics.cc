@@ -23,6 +23,9 @@ prometheus::Labels labels(const std::string& method, grpc::StatusCode code) {
   return {{"method", method}, {"code", std::string(kCodes.at(static_cast<std::size_t>(code)))}};
 }
 
+// Of "/axisgate.v1.StageService/Move", or whatever a caller wrote.
+std::string without_slash(std::string_view path) { return std::string(path.substr(path.empty() ? 0 : 1)); }
+
 }  // namespace
 
 // One call, from its arrival until its status goes out.
@@ -57,8 +60,7 @@ class RpcMetrics::Factory final : public intercepting::ServerInterceptorFactoryI
 
   // gRPC owns it; null: the call is not intercepted.
   intercepting::Interceptor* CreateServerInterceptor(intercepting::ServerRpcInfo* call) override {
-    const std::string_view path = call->method();  // "/axisgate.v1.StageService/Move", or whatever a caller wrote
-    const auto found = metrics_.methods_.find(std::string(path.substr(path.empty() ? 0 : 1)));
+    const auto found = metrics_.methods_.find(without_slash(call->method()));
     return found == metrics_.methods_.end() ? nullptr : new CallCount(metrics_, *found);
   }
 
@@ -92,6 +94,11 @@ RpcMetrics::RpcMetrics(prometheus::Registry& registry)
 
 std::unique_ptr<intercepting::ServerInterceptorFactoryInterface> RpcMetrics::interceptor() {
   return std::make_unique<Factory>(*this);
+}
+
+void RpcMetrics::count(std::string_view path, grpc::StatusCode code) {
+  const auto found = methods_.find(without_slash(path));
+  if (found != methods_.end()) calls_.Add(labels(found->first, code)).Increment();
 }
 
 void RpcMetrics::count_refusal(grpc::StatusCode code) {

@@ -11,6 +11,7 @@
 
 #include <memory>
 #include <string>
+#include <string_view>
 #include <unordered_map>
 
 namespace axisgate::rpc {
@@ -24,7 +25,9 @@ class RpcMetrics {
   // For a grpc::ServerBuilder. This outlives the server that it builds.
   std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor();
 
-  // A gatekeeper's: UNAUTHENTICATED, PERMISSION_DENIED or RESOURCE_EXHAUSTED. No handler and no interceptor sees them.
+  // What the front answered by itself, which no interceptor sees: a call of "/axisgate.v1.StageService/Stop" that
+  // ended, and one that was not let in (UNAUTHENTICATED, PERMISSION_DENIED or RESOURCE_EXHAUSTED).
+  void count(std::string_view path, grpc::StatusCode code);
   void count_refusal(grpc::StatusCode code);
 
  private:

@@ -18,7 +18,7 @@ namespace axisgate::rpc {
 class Server {
  public:
   // Serves at once where the gateway's configuration says. Refuses an address that somebody else serves, and a socket
-  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only (stop_only.h). `gateway` and
+  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only. `gateway` and
   // `access` outlive the server, and `positions` the gateway.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
                                                server::SavedPositions& positions,

@@ -21,12 +21,6 @@ api::Answer<api::StartedMotion> answering_with_motion(std::shared_ptr<UnaryCall<
   });
 }
 
-template <class Response>
-api::Answer<stage::StopReport> answering_with_report(std::shared_ptr<UnaryCall<Response>> call) {
-  return answering<stage::StopReport>(
-      std::move(call), [](Response& response, const stage::StopReport& report) { fill(response, report); });
-}
-
 }  // namespace
 
 grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
@@ -71,22 +65,6 @@ grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* StageService::Jog(grpc
   auto jog = jogs_.open();
   if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
   return JogRun::start(*std::move(jog), *context, half_close_);
-}
-
-grpc::ServerUnaryReactor* StageService::Stop(grpc::CallbackServerContext* context, const v1::StopRequest* request,
-                                             v1::StopResponse* response) {
-  const auto call = UnaryCall<v1::StopResponse>::start(response);
-  stops_.stop(to_call(*context, request->context()), request->device(), to_axes(request->axes()),
-              answering_with_report(call));
-  return call.get();
-}
-
-grpc::ServerUnaryReactor* StageService::EmergencyStop(grpc::CallbackServerContext* context,
-                                                      const v1::EmergencyStopRequest* request,
-                                                      v1::EmergencyStopResponse* response) {
-  const auto call = UnaryCall<v1::EmergencyStopResponse>::start(response);
-  stops_.emergency_stop(to_call(*context, request->context()), request->device(), answering_with_report(call));
-  return call.get();
 }
 
 grpc::ServerUnaryReactor* StageService::GetMotion(grpc::CallbackServerContext* context,

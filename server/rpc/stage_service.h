@@ -1,11 +1,10 @@
-// StageService: motion, and stopping it.
+// StageService: motion. Stops are answered in front of gRPC (desk.h).
 #pragma once
 
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "server/api/jogs.h"
 #include "server/api/motions.h"
 #include "server/api/paths.h"
-#include "server/api/stops.h"
 #include "server/rpc/half_close.h"
 
 namespace axisgate::rpc {
@@ -13,9 +12,8 @@ namespace axisgate::rpc {
 class StageService final : public v1::StageService::CallbackService {
  public:
   // All outlive this.
-  StageService(const api::Stops& stops, const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs,
-               const HalfClose& half_close)
-      : stops_(stops), motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
+  StageService(const api::Motions& motions, const api::Paths& paths, const api::Jogs& jogs, const HalfClose& half_close)
+      : motions_(motions), paths_(paths), jogs_(jogs), half_close_(half_close) {}
 
   grpc::ServerUnaryReactor* Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
                                  v1::MoveResponse* response) override;
@@ -29,10 +27,6 @@ class StageService final : public v1::StageService::CallbackService {
   grpc::ServerUnaryReactor* Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
                                  v1::ScanResponse* response) override;
   grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* Jog(grpc::CallbackServerContext* context) override;
-  grpc::ServerUnaryReactor* Stop(grpc::CallbackServerContext* context, const v1::StopRequest* request,
-                                 v1::StopResponse* response) override;
-  grpc::ServerUnaryReactor* EmergencyStop(grpc::CallbackServerContext* context, const v1::EmergencyStopRequest* request,
-                                          v1::EmergencyStopResponse* response) override;
   grpc::ServerUnaryReactor* GetMotion(grpc::CallbackServerContext* context, const v1::GetMotionRequest* request,
                                       v1::GetMotionResponse* response) override;
   grpc::ServerUnaryReactor* ListMotions(grpc::CallbackServerContext* context, const v1::ListMotionsRequest* request,
@@ -43,7 +37,6 @@ class StageService final : public v1::StageService::CallbackService {
                                          v1::CancelMotionResponse* response) override;
 
  private:
-  const api::Stops& stops_;
   const api::Motions& motions_;
   const api::Paths& paths_;
   const api::Jogs& jogs_;

@@ -270,7 +270,7 @@ v1::Event to_proto(const server::FactRecord& record, const std::string& run) {
 }
 
 template <class Response>
-void fill(Response& response, const stage::StopReport& report) {
+void fill_report(Response& response, const stage::StopReport& report) {
   for (const stage::StopReport::Axis& axis : report.axes) {
     v1::AxisStop& one = *response.add_axes();
     one.set_axis(axis.axis);
@@ -282,7 +282,7 @@ void fill(Response& response, const stage::StopReport& report) {
   if (report.problem) *response.mutable_problem() = to_proto(*report.problem);
 }
 
-template void fill(v1::StopResponse&, const stage::StopReport&);
-template void fill(v1::EmergencyStopResponse&, const stage::StopReport&);
+template void fill_report(v1::StopResponse&, const stage::StopReport&);
+template void fill_report(v1::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

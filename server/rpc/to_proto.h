@@ -36,9 +36,9 @@ v1::Event to_proto(const server::FactRecord& record, const std::string& run);
 
 // StopResponse and EmergencyStopResponse alike.
 template <class Response>
-void fill(Response& response, const stage::StopReport& report);
+void fill_report(Response& response, const stage::StopReport& report);
 
-extern template void fill(v1::StopResponse&, const stage::StopReport&);
-extern template void fill(v1::EmergencyStopResponse&, const stage::StopReport&);
+extern template void fill_report(v1::StopResponse&, const stage::StopReport&);
+extern template void fill_report(v1::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

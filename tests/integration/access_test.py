@@ -66,7 +66,7 @@ class Access(unittest.TestCase):
         self.assertIn("token night-scan", self.over_tcp("--json", "move", "1=1mm", token=token).stdout)
         self.assertRegex(self.daemon.run("token", "list").stdout, r"\Anight-scan  operator  expires 20\d\d-")
         self.assertEqual(self.daemon.run("token", "revoke", "night-scan").stdout, "night-scan is revoked\n")
-        self.refused(self.over_tcp("status", token=token), r"UNAUTHENTICATED: the token \"night-scan\" was revoked; ")
+        self.refused(self.over_tcp("status", token=token), r"UNAUTHENTICATED: the token \"night-scan\" was revoked \(")
         self.assertRegex(self.daemon.run("token", "list").stdout, r"\Anight-scan  operator  revoked 20\d\d-")
 
     def test_a_token_outlives_the_daemon(self):
@@ -85,7 +85,7 @@ class Access(unittest.TestCase):
             self.assertEqual(self.over_tcp(*arguments, token=token).returncode, 0, arguments)
         for arguments in (["move", "1=1mm"], ["home"], ["exec", "C:11"], ["rearm"], ["lease", "run", "--", "true"]):
             self.refused(self.over_tcp(*arguments, token=token),
-                         r"NOT_ALLOWED: \S+ asks for the role operator, and token guest is observer; ")
+                         r"NOT_ALLOWED: \S+ asks for the role operator, and token guest is observer \(")
 
     def test_only_administrators_make_tokens(self):
         self.start()
@@ -95,7 +95,7 @@ class Access(unittest.TestCase):
 
     def test_locals_may_need_a_token(self):
         self.start(local="nobody")
-        self.refused(self.over_tcp("status"), r"UNAUTHENTICATED: a caller over TCP needs a token here; ")
+        self.refused(self.over_tcp("status"), r"UNAUTHENTICATED: a caller over TCP needs a token here \(")
         self.refused(self.over_tcp("stop"), r"UNAUTHENTICATED: ")
         token = self.make("colleague")
         self.assertEqual(self.over_tcp("status", token=token).returncode, 0)

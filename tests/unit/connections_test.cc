@@ -116,24 +116,12 @@ TEST(Callers, ANameIsTheLoginOrTheNumber) {
   EXPECT_EQ(caller_name(3'000'000'000), "unix uid 3000000000");
 }
 
-TEST(Callers, EachUserHasASlotAndThoseBeyondShareTheLast) {
-  CallerSlots slots(3);
-  EXPECT_EQ(slots.slot_of(3'000'000'000), 0u);
-  EXPECT_EQ(slots.slot_of(0), 1u);
-  EXPECT_EQ(slots.slot_of(3'000'000'000), 0u);
-  EXPECT_EQ(slots.slot_of(3'000'000'001), 2u);
-  EXPECT_EQ(slots.slot_of(3'000'000'002), 2u);
-  EXPECT_EQ(slots.slot_of(0), 1u);
-  EXPECT_EQ(slots.name(0), "unix uid 3000000000");
-  EXPECT_EQ(slots.name(1), "unix root");
-  EXPECT_EQ(slots.name(2), "unix");
-}
-
 TEST(DescriptorLimit, LeavesRoomForTheRest) {
-  EXPECT_EQ(connections_within(64), 32u);
-  EXPECT_EQ(connections_within(384), 192u);
-  EXPECT_EQ(connections_within(1024), 832u);
-  EXPECT_EQ(connections_within(4288), 4096u);
+  EXPECT_EQ(connections_within(64), 10u);
+  EXPECT_EQ(connections_within(384), 64u);
+  EXPECT_EQ(connections_within(1024), 277u);
+  EXPECT_EQ(connections_within(4288), 1365u);
+  EXPECT_EQ(connections_within(12'480), 4096u);
   EXPECT_EQ(connections_within(1'000'000), 4096u);
 }
 
@@ -146,7 +134,7 @@ TEST(DescriptorLimit, IsRaisedAsFarAsAllowed) {
   const std::size_t connections = raise_descriptor_limit();
   rlimit raised{};
   ::getrlimit(RLIMIT_NOFILE, &raised);
-  EXPECT_EQ(raised.rlim_cur, std::min<rlim_t>(4288, before.rlim_max));
+  EXPECT_EQ(raised.rlim_cur, std::min<rlim_t>(12'480, before.rlim_max));
   EXPECT_EQ(connections, connections_within(raised.rlim_cur));
   ::setrlimit(RLIMIT_NOFILE, &before);
 }

@@ -1,0 +1,167 @@
+#include "server/front/connection.h"
+
+#include <fmt/format.h>
+
+#include <chrono>
+#include <utility>
+
+namespace axisgate::front {
+namespace {
+
+namespace asio = boost::asio;
+
+// A client that does not take what it is sent does not get its farewell either.
+constexpr Duration kFarewell = std::chrono::seconds(1);
+
+}  // namespace
+
+Connection::Connection(const Surroundings& around, Peer peer, std::shared_ptr<Budget> source, bool stops_only)
+    : around_(around),
+      peer_(std::move(peer)),
+      source_(std::move(source)),
+      stops_only_(stops_only),
+      grpc_(around.strand),
+      budget_timer_(around.strand) {}
+
+void Connection::start(std::unique_ptr<Wire> wire) {
+  wire_ = std::move(wire);
+  begin();
+}
+
+void Connection::handshake_over(std::optional<std::string> certificate) {
+  if (certificate) {
+    peer_.who = *std::move(certificate);
+    peer_.needs_token = false;
+  }
+  begin();
+}
+
+void Connection::begin() {
+  // The reply may come from any thread, and after the connection has gone.
+  auto on_reply = [self = weak_from_this(), mailbox = around_.mailbox](std::uint32_t stream, Reply reply) {
+    mailbox->post([self, stream, reply = std::move(reply)] {
+      const auto connection = self.lock();
+      if (!connection || connection->closed_) return;
+      connection->conversation_->reply(stream, reply);
+      connection->move_on();
+    });
+  };
+  conversation_.emplace(around_.desk, around_.limits, peer_, source_, stops_only_, std::move(on_reply),
+                        monotonic_now());
+  move_on();
+}
+
+// Starts whatever can be started now.
+void Connection::move_on() {
+  if (closed_) return;
+  if (conversation_->upstream() == Conversation::Upstream::open && !grpc_.is_open()) connect_to_grpc();
+  write_client();
+  write_grpc();
+  const bool said_all = !writes_client_ && !conversation_->has_for_client();
+  if (conversation_->fault()) {
+    if (said_all) return close(conversation_->fault()->why);
+    if (!fault_since_) fault_since_ = monotonic_now();
+    return;
+  }
+  read_client();
+  read_grpc();
+}
+
+void Connection::read_client() {
+  if (reads_client_ || closed_ || conversation_->full()) return;
+  const TimePoint now = monotonic_now();
+  if (conversation_->not_before() > now) return wait_for_budget(now);
+  reads_client_ = true;
+  wire_->read_some(asio::buffer(from_client_), [this, self = shared_from_this()](const Error& error, std::size_t size) {
+    reads_client_ = false;
+    if (error) return close("");
+    active_ = monotonic_now();
+    conversation_->from_client({from_client_.data(), size}, active_);
+    if (!conversation_->in_frame()) {
+      frame_since_.reset();
+    } else if (!frame_since_) {
+      frame_since_ = active_;
+    }
+    move_on();
+  });
+}
+
+void Connection::wait_for_budget(TimePoint now) {
+  reads_client_ = true;
+  budget_timer_.expires_after(conversation_->not_before() - now);
+  budget_timer_.async_wait([this, self = shared_from_this()](const Error&) {
+    reads_client_ = false;
+    if (!closed_) move_on();
+  });
+}
+
+void Connection::write_client() {
+  if (writes_client_ || !conversation_->has_for_client()) return;
+  writes_client_ = true;
+  to_client_ = conversation_->take_to_client();
+  wire_->write(asio::buffer(to_client_), [this, self = shared_from_this()](const Error& error) {
+    writes_client_ = false;
+    if (error) return close("");
+    move_on();
+  });
+}
+
+void Connection::connect_to_grpc() {
+  Error error;
+  asio::local::stream_protocol::socket theirs(around_.strand);
+  asio::local::connect_pair(grpc_, theirs, error);
+  if (error) {
+    grpc_.close(error);
+    return conversation_->upstream_failed();
+  }
+  theirs.non_blocking(true, error);
+  const int descriptor = theirs.release(error);
+  around_.to_grpc(Descriptor(descriptor));
+}
+
+void Connection::read_grpc() {
+  if (reads_grpc_ || closed_ || !grpc_.is_open() || conversation_->full()) return;
+  reads_grpc_ = true;
+  grpc_.async_read_some(asio::buffer(from_grpc_),
+                        [this, self = shared_from_this()](const Error& error, std::size_t size) {
+                          reads_grpc_ = false;
+                          if (closed_) return;
+                          // gRPC has ended the connection: what it said before has been written.
+                          if (error) return close("");
+                          conversation_->from_server({from_grpc_.data(), size});
+                          move_on();
+                        });
+}
+
+void Connection::write_grpc() {
+  if (writes_grpc_ || closed_ || !conversation_->has_for_server()) return;
+  writes_grpc_ = true;
+  to_grpc_ = conversation_->take_to_server();
+  asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
+    writes_grpc_ = false;
+    if (error) return close("");
+    move_on();
+  });
+}
+
+void Connection::check(TimePoint now) {
+  const FrontLimits& limits = around_.limits;
+  if (fault_since_ && now - *fault_since_ > kFarewell) return close(conversation_->fault()->why);
+  const bool admitted = conversation_ && conversation_->admitted();
+  if (!admitted && now - begun_ > limits.silence) return close("no call came in time");
+  if (frame_since_ && now - *frame_since_ > limits.frame_time) return close("a frame was not finished in time");
+  if (!conversation_ || !conversation_->stops_only() || conversation_->calls() > 0) return;
+  if (now - active_ > limits.reserve_idle || now - begun_ > limits.reserve_age) close("");
+}
+
+void Connection::close(const std::string& why) {
+  if (std::exchange(closed_, true)) return;
+  const auto self = shared_from_this();
+  Error ignored;
+  wire_->close();
+  grpc_.close(ignored);
+  budget_timer_.cancel();
+  around_.ended(*this, why);
+}
+
+}  // namespace axisgate::front

@@ -1,0 +1,78 @@
+// The I/O of one client's connection: its bytes through a Conversation, and to gRPC where they belong there.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "device/link/asio.h"
+#include "device/link/clock.h"
+#include "device/link/descriptor.h"
+#include "server/front/conversation.h"
+#include "server/front/mailbox.h"
+#include "server/front/wire.h"
+
+namespace axisgate::front {
+
+// On the front's strand. It lives as long as an operation of it is under way, or the front holds it.
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  // What it needs of the front.
+  struct Surroundings {
+    Strand strand;
+    std::shared_ptr<Mailbox> mailbox;  // to that strand
+    Desk& desk;
+    const FrontLimits& limits;
+    std::function<void(Descriptor)> to_grpc;                           // a connection of its own, not blocking
+    std::function<void(const Connection&, const std::string&)> ended;  // once: it is closed; with why, if we ended it
+  };
+
+  // `around` outlives it.
+  Connection(const Surroundings& around, Peer peer, std::shared_ptr<Budget> source, bool stops_only);
+
+  void start(std::unique_ptr<Wire> wire);
+  // A wire whose handshake is still to come; start() when it is over.
+  void hold(std::unique_ptr<Wire> wire) { wire_ = std::move(wire); }
+  void handshake_over(std::optional<std::string> certificate);
+
+  // Now and then: what has taken too long is ended.
+  void check(TimePoint now);
+  void close(const std::string& why);
+
+  const Peer& peer() const { return peer_; }
+
+ private:
+  using Error = Wire::Error;
+
+  void begin();
+  void move_on();
+  void read_client();
+  void write_client();
+  void connect_to_grpc();
+  void read_grpc();
+  void write_grpc();
+  void wait_for_budget(TimePoint now);
+
+  const Surroundings& around_;
+  Peer peer_;
+  const std::shared_ptr<Budget> source_;
+  const bool stops_only_;
+  const TimePoint begun_ = monotonic_now();
+  TimePoint active_ = begun_;
+  std::optional<TimePoint> frame_since_;  // of one that is not whole yet
+  std::optional<TimePoint> fault_since_;
+  std::unique_ptr<Wire> wire_;
+  std::optional<Conversation> conversation_;  // none during a handshake
+  boost::asio::local::stream_protocol::socket grpc_;
+  boost::asio::steady_timer budget_timer_;
+  std::array<char, 16 * 1024> from_client_{};
+  std::array<char, 16 * 1024> from_grpc_{};
+  std::string to_client_, to_grpc_;  // being written
+  // An operation of each kind is under way.
+  bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;
+  bool closed_ = false;
+};
+
+}  // namespace axisgate::front

@@ -1,0 +1,149 @@
+// One client's HTTP/2, from its first byte: passes on to gRPC what may pass, answers the rest, and says when the
+// connection has cost too much. No I/O, no threads: bytes in, bytes out.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "device/core/time.h"
+#include "server/front/budget.h"
+#include "server/front/desk.h"
+#include "server/front/frames.h"
+#include "server/front/header_codec.h"
+#include "server/front/limits.h"
+
+namespace axisgate::front {
+
+class Conversation {
+ public:
+  // gRPC's side, which is opened with the first call that is its.
+  enum class Upstream { none, open };
+  // Why it ended, where this side ended it.
+  struct Fault {
+    ErrorCode code = ErrorCode::no_error;
+    std::string why;
+  };
+  // Called with a call's stream and its reply, where the desk gives one: hand it to reply().
+  using OnReply = std::function<void(std::uint32_t stream, Reply reply)>;
+
+  // `desk` and `limits` outlive it.
+  Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Budget> source, bool stops_only,
+               OnReply on_reply, TimePoint now);
+
+  void from_client(std::string_view bytes, TimePoint now);
+  void from_server(std::string_view bytes);
+  // Nothing, if the call has gone.
+  void reply(std::uint32_t stream, const Reply& reply);
+
+  // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
+  void upstream_failed();
+
+  // What is to be written. Each is taken once.
+  std::string take_to_client() { return std::exchange(to_client_, {}); }
+  std::string take_to_server() { return std::exchange(to_server_, {}); }
+  bool has_for_client() const { return !to_client_.empty(); }
+  bool has_for_server() const { return !to_server_.empty(); }
+  // As much of it as a side may leave untaken: nothing more is read from the other.
+  bool full() const { return to_client_.size() > kUntaken || to_server_.size() > kUntaken; }
+
+  Upstream upstream() const { return upstream_; }
+  const std::optional<Fault>& fault() const { return fault_; }
+  // Nothing more is to be read from the client before then.
+  TimePoint not_before() const { return not_before_; }
+  bool stops_only() const { return stops_only_; }
+  bool admitted() const { return admitted_; }  // a call was let in
+  bool in_frame() const { return reader_.in_frame() || !preface_.empty() || block_; }
+  std::size_t calls() const { return open_.size() + asked_.size(); }
+
+ private:
+  static constexpr std::size_t kUntaken = 64 << 10;
+
+  // Headers that are not whole yet.
+  struct Block {
+    std::uint32_t stream = 0;
+    bool ends_stream = false;
+    std::size_t frames = 0;
+    std::string bytes;
+  };
+  // A call that the front answers itself.
+  struct Asked {
+    Headers headers;
+    std::string data;
+    bool whole = false;
+  };
+
+  void end(ErrorCode code, std::string why);
+  bool spend(Cost cost, double tokens);
+  bool take_preface(std::string_view& bytes);
+
+  bool take_frame(const Frame& frame);
+  void take_headers(const Frame& frame);
+  void take_continuation(const Frame& frame);
+  void take_block(Block block);
+  void take_data(const Frame& frame);
+  void take_settings(const Frame& frame);
+  void take_window_update(const Frame& frame);
+  void take_reset(const Frame& frame);
+  void take_ping(const Frame& frame);
+
+  void begin_call(std::uint32_t stream, Headers headers, bool whole);
+  void forward_headers(std::uint32_t stream, Headers headers, bool ends_stream);
+  void refuse(std::uint32_t stream, const Reply& refusal, bool whole);
+  void ask_desk(std::uint32_t stream);
+  void open_upstream();
+  void give_back(std::size_t bytes);
+  void send_replies();
+  void send(const std::string& bytes);
+
+  bool take_server_frame(const Frame& frame);
+
+  Desk& desk_;
+  const FrontLimits& limits_;
+  const Peer peer_;
+  const std::shared_ptr<Budget> source_;
+  bool stops_only_;
+  const OnReply on_reply_;
+  Budget own_;
+  Budget stranger_;  // as long as nobody was let in
+  TimePoint now_;
+  TimePoint not_before_{};
+  bool admitted_ = false;
+  std::optional<Fault> fault_;
+  Upstream upstream_ = Upstream::none;
+
+  std::string preface_{kPreface};  // what of it has not come yet
+  FrameReader reader_, server_reader_;
+  HeaderDecoder decoder_;
+  HeaderEncoder encoder_;
+  std::optional<Block> block_;
+  std::uint32_t last_stream_ = 0;
+  std::map<std::uint32_t, std::shared_ptr<void>> open_;  // gRPC's calls and their places
+  std::map<std::uint32_t, Asked> asked_;                 // the front's own
+
+  // RFC 9113, 6.5: each SETTINGS is acknowledged once. The front sends and takes the first ones itself.
+  std::map<std::uint16_t, std::uint32_t> client_settings_;
+  int acks_for_front_ = 1;  // outstanding, of the client
+  int acks_from_server_ = 0;
+
+  // What the client lets the daemon send on the whole connection, and how much of that the front used without gRPC's
+  // knowledge.
+  std::int64_t window_ = kFirstWindow;
+  std::int64_t window_used_ = 0;
+  struct Waiting {
+    std::string bytes;
+    std::size_t data_bytes = 0;
+  };
+  std::deque<Waiting> waiting_;  // for a window, or for the end of gRPC's headers
+  bool in_server_block_ = false;
+
+  std::string to_client_, to_server_;
+};
+
+}  // namespace axisgate::front

@@ -1,0 +1,61 @@
+// Who decides about a call by its headers, and answers those that gRPC shall not see. The front itself knows no method
+// and no caller.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "server/front/header_codec.h"
+
+namespace axisgate::front {
+
+// The header that names the caller to gRPC. A client's own is dropped.
+inline constexpr const char* kCallerHeader = "axisgate-caller";
+
+// Who is at the other end of a connection, as far as that is known without a token.
+struct Peer {
+  std::string who{};         // "unix alice", "cert alice", "tcp 127.0.0.1:39482"
+  std::string source{};      // by whose budget it counts: "uid 1000", an address, a certificate
+  bool needs_token = false;  // without a token nobody may call so
+};
+
+// How a call with one answer ends.
+struct Reply {
+  int code = 0;           // gRPC's; 0 is OK
+  std::string message{};  // for people, where it is not OK
+  std::string details{};  // of grpc-status-details-bin; empty: none
+  std::string body{};     // the message, where it is OK
+};
+
+struct Verdict {
+  enum class What {
+    forward,  // gRPC's
+    answer,   // Desk::answer()
+    refuse,
+  };
+  What what = What::refuse;
+  Reply refusal{};
+  // Without the right, or of no method that there is. Such calls have a budget of their own, and do not count as the
+  // caller's admission.
+  bool unwanted = false;
+  std::shared_ptr<void> place{};  // given back when the call has ended
+};
+
+// Called on the front's thread.
+class Desk {
+ public:
+  virtual ~Desk() = default;
+
+  // `stops_only`: the connection is one of the reserve.
+  virtual Verdict judge(const Headers& headers, const Peer& peer, bool stops_only) = 0;
+
+  // For a call that gRPC cannot be reached for, because no descriptors are free.
+  virtual Reply no_room() = 0;
+
+  // `message` is the whole request. `reply` is called once, from any thread, or never.
+  virtual void answer(const Headers& headers, const Peer& peer, const std::string& message,
+                      std::function<void(Reply)> reply) = 0;
+};
+
+}  // namespace axisgate::front

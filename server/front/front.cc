@@ -1,0 +1,106 @@
+#include "server/front/front.h"
+
+#include <netinet/in.h>
+#include <spdlog/spdlog.h>
+#include <sys/socket.h>
+
+#include <chrono>
+#include <utility>
+#include <vector>
+
+#include "server/access/access.h"
+#include "server/connections/callers.h"
+
+namespace axisgate::front {
+namespace {
+
+constexpr auto kCheck = std::chrono::milliseconds(250);
+
+Socket socket_of(const Strand& strand, Descriptor connection) {
+  int family = 0;
+  socklen_t size = sizeof(family);
+  ::getsockopt(connection.get(), SOL_SOCKET, SO_DOMAIN, &family, &size);
+  const int protocol = family == AF_UNIX ? 0 : static_cast<int>(IPPROTO_TCP);
+  Socket socket(strand);
+  socket.assign(boost::asio::generic::stream_protocol(family, protocol), connection.get());
+  (void)connection.release();
+  return socket;
+}
+
+}  // namespace
+
+Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
+             std::function<void(Descriptor)> to_grpc, const FrontLimits& limits)
+    : limits_(limits),
+      sources_(limits.source),
+      around_{strand,
+              std::make_shared<Mailbox>(strand),
+              desk,
+              limits_,
+              std::move(to_grpc),
+              [this](const Connection& connection, const std::string& why) { ended(connection, why); }},
+      timer_(strand) {
+  if (network) tls_.emplace(*network);
+}
+
+Peer Front::peer_of(int connection, server::Acceptor::Origin origin) {
+  Peer peer{.who = {}, .source = server::connection_owner(connection)};
+  if (origin == server::Acceptor::Origin::network) {
+    peer.who = "a caller over the network without a certificate";
+    peer.needs_token = true;
+  } else if (const auto user = server::peer_uid(connection)) {
+    std::string& name = users_[*user];
+    if (name.empty()) name = server::caller_name(*user);
+    peer.who = name;
+  } else {
+    peer.who = server::anonymous_caller(server::peer_address(connection));
+  }
+  return peer;
+}
+
+void Front::enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin) {
+  Peer peer = peer_of(connection.get(), origin);
+  const bool stops_only = service == server::Acceptor::Service::stop_only;
+  auto budget = sources_.of(peer.source, monotonic_now());
+  const auto made = std::make_shared<Connection>(around_, std::move(peer), std::move(budget), stops_only);
+  connections_.emplace(made.get(), made);
+  check_later();
+  Socket socket = socket_of(around_.strand, std::move(connection));
+  if (origin == server::Acceptor::Origin::network) return begin_tls(made, std::move(socket));
+  made->start(plain_wire(std::move(socket)));
+}
+
+void Front::begin_tls(const std::shared_ptr<Connection>& connection, Socket socket) {
+  auto wire = tls_->begin(std::move(socket), [connection](const Wire::Error& error, std::optional<std::string> name) {
+    if (error) return connection->close("the TLS handshake failed: " + error.message());
+    connection->handshake_over(std::move(name));
+  });
+  if (!wire) return ended(*connection, "");
+  connection->hold(std::move(wire));
+}
+
+void Front::ended(const Connection& connection, const std::string& why) {
+  if (!why.empty()) spdlog::warn("closed a connection of {}: {}", connection.peer().who, why);
+  connections_.erase(&connection);
+}
+
+void Front::check_later() {
+  if (std::exchange(timer_runs_, true)) return;
+  timer_.expires_after(kCheck);
+  timer_.async_wait([this](const boost::system::error_code& error) {
+    if (!error) check();
+  });
+}
+
+void Front::check() {
+  timer_runs_ = false;
+  const TimePoint now = monotonic_now();
+  std::vector<std::shared_ptr<Connection>> held;
+  for (const auto& [address, connection] : connections_) held.push_back(connection);
+  for (const auto& connection : held) connection->check(now);
+  held.clear();
+  sources_.forget_idle(now);
+  if (!connections_.empty() || sources_.size() > 0) check_later();
+}
+
+}  // namespace axisgate::front

@@ -1,0 +1,53 @@
+// What stands before gRPC: takes every connection, ends TLS, keeps each source within its budget, lets calls in or
+// refuses them, and answers stops by itself.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "device/link/asio.h"
+#include "device/link/descriptor.h"
+#include "server/config/config.h"
+#include "server/connections/acceptor.h"
+#include "server/front/budget.h"
+#include "server/front/connection.h"
+#include "server/front/desk.h"
+#include "server/front/limits.h"
+#include "server/front/tls.h"
+
+namespace axisgate::front {
+
+// On one strand, where nothing runs any more when it is destroyed.
+class Front {
+ public:
+  // `desk` outlives it. `to_grpc` takes a connected socket for each client that has a call for gRPC.
+  Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
+        std::function<void(Descriptor)> to_grpc, const FrontLimits& limits = {});
+
+  ~Front() { around_.mailbox->close(); }
+
+  void enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin);
+
+ private:
+  using Held = std::map<const Connection*, std::shared_ptr<Connection>>;
+
+  Peer peer_of(int connection, server::Acceptor::Origin origin);
+  void begin_tls(const std::shared_ptr<Connection>& connection, Socket socket);
+  void ended(const Connection& connection, const std::string& why);
+  void check_later();
+  void check();
+
+  const FrontLimits limits_;
+  SourceBudgets sources_;
+  std::optional<TlsFiles> tls_;
+  std::map<uid_t, std::string> users_;  // their names, each looked up once
+  Connection::Surroundings around_;
+  Held connections_;
+  boost::asio::steady_timer timer_;
+  bool timer_runs_ = false;
+};
+
+}  // namespace axisgate::front

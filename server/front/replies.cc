@@ -1,0 +1,108 @@
+#include "server/front/replies.h"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+#include <zlib.h>
+
+#include <algorithm>
+
+#include "server/front/frames.h"
+
+namespace axisgate::front {
+namespace {
+
+constexpr std::size_t kPrefixBytes = 5;  // of a message: whether it is packed, and its length
+constexpr auto kEnd =
+    static_cast<std::uint8_t>(static_cast<int>(FrameFlag::end_headers) | static_cast<int>(FrameFlag::end_stream));
+
+// As gRPC's protocol wants grpc-message: what is not printable ASCII, and the percent sign, by its code.
+std::string percent_encoded(std::string_view text) {
+  std::string encoded;
+  for (const char c : text) {
+    const bool plain = c >= ' ' && c <= '~' && c != '%';
+    if (plain) {
+      encoded.push_back(c);
+    } else {
+      encoded += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+  }
+  return encoded;
+}
+
+// Without padding, as gRPC wants headers whose names end with -bin.
+std::string base64(std::string_view bytes) {
+  std::string text(4 * ((bytes.size() + 2) / 3) + 1, '\0');  // and a zero that EVP adds
+  const int size =
+      ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()),
+                        reinterpret_cast<const unsigned char*>(bytes.data()), static_cast<int>(bytes.size()));
+  text.resize(static_cast<std::size_t>(size));
+  while (text.ends_with('=')) text.pop_back();
+  return text;
+}
+
+Headers trailers(const Reply& reply) {
+  Headers headers = {{"grpc-status", std::to_string(reply.code)}};
+  if (reply.code == 0) return headers;
+  headers.push_back({"grpc-message", percent_encoded(reply.message)});
+  if (!reply.details.empty()) headers.push_back({"grpc-status-details-bin", base64(reply.details)});
+  return headers;
+}
+
+std::string with_prefix(std::string_view message) {
+  std::string data(1, '\0');
+  for (int shift = 24; shift >= 0; shift -= 8) data.push_back(static_cast<char>(message.size() >> shift & 0xff));
+  data.append(message);
+  return data;
+}
+
+// A frame for each piece that fits.
+std::string data_frames(std::uint32_t stream, std::string_view data) {
+  std::string frames;
+  for (; !data.empty(); data.remove_prefix(std::min(data.size(), kFramePayloadMax))) {
+    frames += frame(FrameType::data, 0, stream, data.substr(0, kFramePayloadMax));
+  }
+  return frames;
+}
+
+std::optional<std::string> unpacked(std::string_view packed, std::size_t bytes_max) {
+  z_stream stream{};
+  constexpr int kGzipOrDeflate = 15 + 32;
+  if (::inflateInit2(&stream, kGzipOrDeflate) != Z_OK) return std::nullopt;
+  std::string text(bytes_max, '\0');
+  stream.next_in = reinterpret_cast<Bytef*>(const_cast<char*>(packed.data()));  // zlib's pointer is not const
+  stream.avail_in = static_cast<uInt>(packed.size());
+  stream.next_out = reinterpret_cast<Bytef*>(text.data());
+  stream.avail_out = static_cast<uInt>(text.size());
+  const int end = ::inflate(&stream, Z_FINISH);
+  text.resize(stream.total_out);
+  ::inflateEnd(&stream);
+  if (end != Z_STREAM_END) return std::nullopt;
+  return text;
+}
+
+}  // namespace
+
+ReplyFrames reply_frames(std::uint32_t stream, const Reply& reply) {
+  Headers head = {{":status", "200"}, {"content-type", "application/grpc"}};
+  ReplyFrames frames;
+  if (reply.code == 0) {
+    const std::string data = with_prefix(reply.body);
+    frames.bytes = frame(FrameType::headers, static_cast<std::uint8_t>(FrameFlag::end_headers), stream,
+                         encode_without_table(head));
+    frames.bytes += data_frames(stream, data);
+    frames.data_bytes = data.size();
+    head.clear();
+  }
+  for (Header& header : trailers(reply)) head.push_back(std::move(header));
+  frames.bytes += frame(FrameType::headers, kEnd, stream, encode_without_table(head));
+  return frames;
+}
+
+std::optional<std::string> message_in(std::string_view data, std::size_t bytes_max) {
+  if (data.size() < kPrefixBytes || data.size() - kPrefixBytes != number_at(data, 1)) return std::nullopt;
+  const std::string_view message = data.substr(kPrefixBytes);
+  if (message.size() > bytes_max) return std::nullopt;
+  return data[0] == 0 ? std::string(message) : unpacked(message, bytes_max);
+}
+
+}  // namespace axisgate::front

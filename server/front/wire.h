@@ -1,0 +1,29 @@
+// The bytes of one client's connection, plain or through TLS.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "device/link/asio.h"
+
+namespace axisgate::front {
+
+// On one strand. A handler that has not been called when the wire is closed is called with an error.
+class Wire {
+ public:
+  using Error = boost::system::error_code;
+
+  virtual ~Wire() = default;
+
+  virtual void read_some(boost::asio::mutable_buffer buffer, std::function<void(Error, std::size_t)> handler) = 0;
+  // All of it; the bytes outlive the call of the handler.
+  virtual void write(boost::asio::const_buffer bytes, std::function<void(Error)> handler) = 0;
+  virtual void close() = 0;
+};
+
+using Socket = boost::asio::generic::stream_protocol::socket;
+
+std::unique_ptr<Wire> plain_wire(Socket socket);
+
+}  // namespace axisgate::front

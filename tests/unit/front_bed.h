@@ -1,0 +1,101 @@
+// One client's conversation, with a desk that a test decides for.
+#pragma once
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "server/front/conversation.h"
+#include "server/front/frames.h"
+#include "server/front/header_codec.h"
+
+namespace axisgate::front {
+
+inline constexpr std::uint8_t kAck = 1, kEndStream = 1, kEndHeaders = 4;
+inline constexpr FrontLimits kLimits{};
+
+// By the method: /forward, /stop, anything else is refused; /unwanted without a right.
+class TestDesk final : public Desk {
+ public:
+  Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
+    const std::string path(find(headers, ":path").value_or(""));
+    judged.push_back(path);
+    if (path == "/stop") return {.what = Verdict::What::answer};
+    if (path == "/forward" && !stops_only) return {.what = Verdict::What::forward, .place = place};
+    return {
+        .what = Verdict::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .unwanted = path == "/unwanted"};
+  }
+  Reply no_room() override { return {.code = 8, .message = "no room"}; }
+  void answer(const Headers&, const Peer&, const std::string& message, std::function<void(Reply)> reply) override {
+    asked.emplace_back(message, std::move(reply));
+  }
+
+  std::shared_ptr<int> place = std::make_shared<int>();
+  std::vector<std::string> judged;
+  std::vector<std::pair<std::string, std::function<void(Reply)>>> asked;
+};
+
+struct Seen {
+  FrameType type;
+  std::uint8_t flags;
+  std::uint32_t stream;
+  std::string payload;
+};
+
+inline std::vector<Seen> frames_in(FrameReader& reader, const std::string& bytes) {
+  std::vector<Seen> seen;
+  reader.feed(bytes, [&](const Frame& frame) {
+    seen.push_back({frame.type, frame.flags, frame.stream, std::string(frame.payload)});
+    return true;
+  });
+  return seen;
+}
+
+class ConversationTest : public testing::Test {
+ protected:
+  void open(bool stops_only = false) {
+    conversation.emplace(
+        desk, kLimits, Peer{.who = "unix anna", .source = "uid 1"}, source, stops_only,
+        [this](std::uint32_t stream, Reply reply) { conversation->reply(stream, reply); }, now);
+    say(std::string(kPreface) + settings_frame({}) + settings_ack());
+    EXPECT_THAT(heard(), testing::SizeIs(2));  // SETTINGS, and the acknowledgement
+  }
+  void say(const std::string& bytes) { conversation->from_client(bytes, now); }
+
+  std::string call(std::uint32_t stream, const std::string& path, bool whole = false, Headers more = {}) {
+    Headers headers = {{":method", "POST"}, {":scheme", "http"}, {":path", path}, {":authority", "x"}};
+    for (Header& header : more) headers.push_back(std::move(header));
+    const auto flags = static_cast<std::uint8_t>(kEndHeaders | (whole ? kEndStream : 0));
+    return frame(FrameType::headers, flags, stream, encoder.encode(headers));
+  }
+  static std::string message(std::uint32_t stream, const std::string& text, bool last = true) {
+    std::string data = std::string(4, 0) + static_cast<char>(text.size()) + text;
+    return frame(FrameType::data, last ? kEndStream : 0, stream, data);
+  }
+  std::vector<Seen> heard() { return frames_in(client_reader, conversation->take_to_client()); }
+  std::vector<Seen> passed_on() {
+    std::string bytes = conversation->take_to_server();
+    if (bytes.starts_with(kPreface)) bytes.erase(0, kPreface.size());
+    return frames_in(server_reader, bytes);
+  }
+  Headers headers_of(const Seen& seen) { return *decoder.decode(seen.payload, 1 << 16); }
+  std::string fault() const { return conversation->fault() ? conversation->fault()->why : ""; }
+
+  TimePoint now{std::chrono::seconds(1)};
+  TestDesk desk;
+  std::shared_ptr<Budget> source = std::make_shared<Budget>(kLimits.source, now);
+  std::optional<Conversation> conversation;
+  HeaderEncoder encoder;
+  HeaderDecoder decoder;
+  FrameReader client_reader, server_reader;
+};
+
+}  // namespace axisgate::front

@@ -1,0 +1,124 @@
+// What a connection may cost before it waits or ends.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <ostream>
+#include <string>
+
+#include "tests/unit/front_bed.h"
+
+namespace axisgate::front::floods_test {
+namespace {
+
+using namespace std::string_literals;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// Each flood, and what its connection has cost by then.
+struct Flood {
+  const char* name;
+  std::size_t bound;  // frames at most
+  std::string (*frames)(int number);
+};
+void PrintTo(const Flood& flood, std::ostream* out) { *out << flood.name; }
+
+class FloodTest : public ConversationTest, public testing::WithParamInterface<Flood> {};
+
+TEST_P(FloodTest, EndsItsConnectionSoon) {
+  open();
+  int sent = 0;
+  std::size_t written = 0;
+  while (!conversation->fault() && sent < 100'000) {
+    now = std::max(now, conversation->not_before());
+    say(GetParam().frames(sent++));
+    written += conversation->take_to_client().size();
+    passed_on();
+  }
+  EXPECT_LE(static_cast<std::size_t>(sent), GetParam().bound);
+  EXPECT_LT(written, 1u << 20);
+  EXPECT_EQ(conversation->fault()->code, ErrorCode::enhance_your_calm) << fault();
+}
+
+std::string unwanted_call(int number) {
+  const auto stream = static_cast<std::uint32_t>(2 * number + 1);
+  const Headers headers = {{":method", "POST"}, {":path", "/unwanted"}};
+  return frame(FrameType::headers, kEndHeaders | kEndStream, stream, encode_without_table(headers));
+}
+// As many as come in one reading.
+std::string unwanted_burst(int number) {
+  std::string burst;
+  for (int i = 0; i < 100; ++i) burst += unwanted_call(100 * number + i);
+  return burst;
+}
+std::string begun_and_reset(int number) {
+  const auto stream = static_cast<std::uint32_t>(2 * number + 1);
+  const Headers headers = {{":method", "POST"}, {":path", "/forward"}};
+  return frame(FrameType::headers, kEndHeaders, stream, encode_without_table(headers)) +
+         rst_stream(stream, ErrorCode::no_error);
+}
+std::string continued(int number) {
+  return number == 0 ? frame(FrameType::headers, 0, 1, "") : frame(FrameType::continuation, 0, 1, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Front, FloodTest,
+    testing::Values(Flood{"ping", 500, [](int) { return frame(FrameType::ping, 0, 0, "12345678"); }},
+                    Flood{"settings", 20, [](int) { return settings_frame({}); }},
+                    Flood{"window_update", 500, [](int) { return window_update(7, 1); }},
+                    Flood{"priority", 500, [](int) { return frame(FrameType::priority, 0, 3, "\0\0\0\0\0"s); }},
+                    Flood{"unknown", 500, [](int) { return frame(static_cast<FrameType>(99), 0, 0, "x"); }},
+                    Flood{"empty_data", 500, [](int) { return frame(FrameType::data, 0, 1, ""); }},
+                    Flood{"unwanted_calls", 400, unwanted_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
+                    Flood{"continuation", 10, continued}));
+
+TEST_F(ConversationTest, HeadersThatAreTooLongEndTheConnection) {
+  open();
+  Headers headers = {{":path", "/forward"}, {"x", std::string(17'000, 'a')}};
+  const std::string block = encode_without_table(headers);
+  say(frame(FrameType::headers, 0, 1, block.substr(0, 16'000)) +
+      frame(FrameType::continuation, kEndHeaders, 1, block.substr(16'000)));
+  EXPECT_TRUE(conversation->fault());
+  EXPECT_THAT(desk.judged, IsEmpty());
+}
+
+TEST_F(ConversationTest, CallsBeyondTheBudgetWaitAndAreNotRefused) {
+  open();
+  say(call(1, "/forward"));
+  std::uint32_t stream = 3;
+  while (conversation->not_before() <= now && stream < 50'000) {
+    say(call(stream, "/forward", true));
+    conversation->from_server(frame(FrameType::headers, kEndHeaders | kEndStream, stream, "x"));
+    stream += 2;
+    passed_on();
+    heard();
+  }
+  EXPECT_GT(stream, 2u * 8'000);
+  EXPECT_LT(conversation->not_before() - now, milliseconds(2));
+  EXPECT_FALSE(conversation->fault());
+}
+
+TEST_F(ConversationTest, RefusedCallsOneAfterTheOtherAreSlowedDown) {
+  open();
+  for (std::uint32_t stream = 1; stream < 1000; stream += 2) {
+    now = std::max(now, conversation->not_before());
+    say(call(stream, "/unwanted", true));
+  }
+  EXPECT_EQ(fault(), "");
+  EXPECT_THAT(desk.judged, SizeIs(500));
+  EXPECT_GT(now, TimePoint(seconds(5)));
+}
+
+TEST_F(ConversationTest, ConnectionsOfOneSourceShareItsBudget) {
+  open();
+  while (source->take(Cost::settings, 1, now) <= Duration::zero()) continue;
+  say(settings_frame({}));
+  EXPECT_THAT(fault(), HasSubstr("more frames a second"));
+}
+
+}  // namespace
+}  // namespace axisgate::front::floods_test
