@@ -11,7 +11,7 @@ namespace axisgate::server {
 
 class ConnectionMetrics {
  public:
-  // `ask` is called from the page's threads, as long as this lives.
+  // `ask` is called from the page's thread, as long as this lives.
   ConnectionMetrics(Metrics& metrics, std::function<ConnectionCounts()> ask);
   // Waits for a page that is being made.
   ~ConnectionMetrics();

@@ -1,12 +1,17 @@
 #include "server/metrics/metrics.h"
 
 #include <fmt/format.h>
+#include <prometheus/metric_family.h>
+#include <prometheus/text_serializer.h>
 
+#include <algorithm>
 #include <chrono>
-#include <exception>
+#include <iterator>
 #include <limits>
 #include <utility>
 #include <variant>
+
+#include "server/metrics/metrics_page.h"
 
 namespace axisgate::server {
 namespace {
@@ -86,22 +91,35 @@ Metrics::Metrics()
       .Set(1);
 }
 
-Result<int> Metrics::expose(const TcpAddress& address) {
-  // civetweb reports only that it failed. In practice only a port in use makes it fail.
-  try {
-    exposer_ = std::make_unique<prometheus::Exposer>(to_string(address));
-  } catch (const std::exception&) {
+Metrics::~Metrics() = default;
+
+Result<int> Metrics::expose(const TcpAddress& address, const PageLimits& limits) {
+  auto page = MetricsPage::open(
+      address, [this] { return text(); }, limits);
+  if (!page) {
+    // Its own problem names the key of another address.
     return fail(Reason::internal,
                 fmt::format("cannot serve metrics on {}: the port is in use or not permitted", to_string(address)),
                 "stop the program that holds it, or set another address with the key `metrics` in the configuration");
   }
-  for (const auto& part : parts_) exposer_->RegisterCollectable(part);
-  return exposer_->GetListeningPorts().front();
+  page_ = *std::move(page);
+  return page_->address().port;
 }
 
 void Metrics::add(std::shared_ptr<prometheus::Collectable> part) {
-  if (exposer_) exposer_->RegisterCollectable(part);
+  const std::lock_guard lock(parts_mutex_);
   parts_.push_back(std::move(part));
+}
+
+std::string Metrics::text() {
+  // A part may take its time; nobody who adds another waits for it.
+  const auto parts = [this] {
+    const std::lock_guard lock(parts_mutex_);
+    return parts_;
+  }();
+  std::vector<prometheus::MetricFamily> families;
+  for (const auto& part : parts) std::ranges::move(part->Collect(), std::back_inserter(families));
+  return prometheus::TextSerializer().Serialize(families);
 }
 
 DeviceMetrics::DeviceMetrics(Metrics& metrics, std::string device)

@@ -3,7 +3,6 @@
 
 #include <prometheus/collectable.h>
 #include <prometheus/counter.h>
-#include <prometheus/exposer.h>
 #include <prometheus/family.h>
 #include <prometheus/gauge.h>
 #include <prometheus/histogram.h>
@@ -12,6 +11,7 @@
 #include <array>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -21,19 +21,25 @@
 #include "device/core/problem.h"
 #include "device/stage/event.h"
 #include "server/config/config.h"
+#include "server/metrics/page_limits.h"
 
 namespace axisgate::server {
+
+class MetricsPage;
 
 // The families, one for the daemon. Thread safe once constructed, but for expose() and add(), which are one thread's.
 class Metrics {
  public:
   Metrics();
+  ~Metrics();
+  Metrics(const Metrics&) = delete;
+  Metrics& operator=(const Metrics&) = delete;
 
   // Serves /metrics at the address and returns the port taken, or says why not (a port in use). Call it once.
-  Result<int> expose(const TcpAddress& address);
+  Result<int> expose(const TcpAddress& address, const PageLimits& limits = {});
 
-  // Stands on the page, too: for what is not counted but asked when the page is. Kept as long as the page, so that none
-  // of the page's threads is the last to hold it.
+  // Stands on the page, too: for what is not counted but asked when the page is. Kept as long as the page, so that
+  // the page's thread is not the last to hold it.
   void add(std::shared_ptr<prometheus::Collectable> part);
 
   const std::shared_ptr<prometheus::Registry>& registry() const { return registry_; }
@@ -42,6 +48,8 @@ class Metrics {
 
  private:
   friend class DeviceMetrics;
+
+  std::string text();
 
   std::shared_ptr<prometheus::Registry> registry_;
   prometheus::Family<prometheus::Counter>& exchanges_;
@@ -62,8 +70,9 @@ class Metrics {
   prometheus::Family<prometheus::Counter>& unexpected_lines_;
   prometheus::Family<prometheus::Counter>& recorder_drops_;
   prometheus::Counter& slow_readers_;
+  std::mutex parts_mutex_;
   std::vector<std::shared_ptr<prometheus::Collectable>> parts_;
-  std::unique_ptr<prometheus::Exposer> exposer_;
+  std::unique_ptr<MetricsPage> page_;  // last: its thread uses the others
 };
 
 // One device's time series, their handles kept. Called on the device's strand; `metrics` outlives it.

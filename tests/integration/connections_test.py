@@ -154,9 +154,9 @@ class Hazard55DescriptorsRunOutAndComeBack(WithDaemon):
         self.start(preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_NOFILE, (400, 400)))
         before = self.idle_descriptors()
         move = self.start_move()
-        with self.connections((400 - 192) // 3):
-            self.wait_until(lambda: "as many connections are open as are allowed: 69" in self.log(), "the limit")
-            self.assertEqual(self.metric('axisgate_connections{kind="open"}'), 69)
+        with self.connections(400 // 2 // 3):
+            self.wait_until(lambda: "as many connections are open as are allowed: 66" in self.log(), "the limit")
+            self.assertEqual(self.metric('axisgate_connections{kind="open"}'), 66)
             self.assert_refused()
             self.assert_stop_gets_through(move)
         self.wait_until(self.is_served, "served again")

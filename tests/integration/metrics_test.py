@@ -1,9 +1,15 @@
 #!/usr/bin/env python3
-"""The metrics page of a daemon at work: what promtool says about it, and that server/README.md lists it as it is."""
+"""The metrics page of a daemon at work: what promtool says about it, that server/README.md lists it as it is, and that
+nobody can keep Prometheus from it."""
 
+import contextlib
+import http.client
 import re
+import socket
 import subprocess
 import tempfile
+import threading
+import time
 import unittest
 
 from programs import BIN, LIMIT_S, ROOT, Daemon
@@ -46,21 +52,26 @@ def families(page):
 def documented():
     """The same from the table in server/README.md."""
     text = (ROOT / "server" / "README.md").read_text(encoding="utf-8")
-    rows = re.findall(r"(?m)^\| `((?:axisgate|exposer)_\w+)` \| (\w+) \|(.*?)\| .+ \|$", text)
+    rows = re.findall(r"(?m)^\| `(axisgate_\w+)` \| (\w+) \|(.*?)\| .+ \|$", text)
     return {name: (kind, {tuple(sorted(re.findall(r"`(\w+)`", labels)))}) for name, kind, labels in rows}
+
+
+def daemon_of(case):
+    """One for all tests of the class."""
+    folder = tempfile.TemporaryDirectory(prefix="axisgate-metrics-")
+    case.addClassCleanup(folder.cleanup)
+    subprocess.run([BIN / "axisgate-certificates", folder.name, "lab", "gateway"], check=True, timeout=LIMIT_S)
+    daemon = Daemon(folder.name, CONFIG.replace("{{folder}}", folder.name))
+    case.addClassCleanup(daemon.stop)
+    return daemon
 
 
 class AtWork(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
-        folder = tempfile.TemporaryDirectory(prefix="axisgate-metrics-")
-        cls.addClassCleanup(folder.cleanup)
-        subprocess.run([BIN / "axisgate-certificates", folder.name, "lab", "gateway"], check=True, timeout=LIMIT_S)
-        daemon = Daemon(folder.name, CONFIG.replace("{{folder}}", folder.name))
-        cls.addClassCleanup(daemon.stop)
+        daemon = daemon_of(cls)
         for arguments in (["home"], ["move", "1=+10um", "--relative"], ["move", "1=+1m"], ["exec", "?:P1"], ["stop"]):
             daemon.run(*arguments)
-        daemon.metrics_page()  # what the page says of itself begins with the second
         cls.page = daemon.metrics_page()
 
     def test_promtool_finds_nothing(self):
@@ -81,6 +92,98 @@ class AtWork(unittest.TestCase):
                 '# TYPE c gauge\nc 1\nc{z="1"} Nan\n')
         self.assertEqual(families(page), {"a": ("counter", {("x", "y")}), "b": ("histogram", {("x",)}),
                                           "c": ("gauge", {(), ("z",)})})
+
+
+REQUEST = b"GET /metrics HTTP/1.1\r\nHost: localhost\r\n\r\n"
+SCRAPE_LIMIT_S = 1
+
+
+class UnderSiege(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        host, port = daemon_of(cls).metrics_address().rsplit(":", 1)
+        cls.address = host, int(port)
+
+    def connections(self, stack, count, sent):
+        """Those that read do it slowly: little fits into their buffers."""
+        made = []
+        for _ in range(count):
+            made.append(stack.enter_context(socket.socket()))
+            made[-1].setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 1024)
+            made[-1].settimeout(LIMIT_S)
+            made[-1].connect(self.address)
+            made[-1].sendall(sent)
+        return made
+
+    def scrape_ten_times(self, connection):
+        """One each 0.2 s, as Prometheus does: on one connection, which is made again when the page has closed it."""
+        longest = 0
+        for _ in range(10):
+            begin = time.monotonic()
+            self.assertIn(b"axisgate_link_up{", self.scrape(connection))
+            took = time.monotonic() - begin
+            longest = max(longest, took)
+            time.sleep(max(0, 0.2 - took))  # the pace of the scrapes; nothing is waited for
+        self.assertLess(longest, SCRAPE_LIMIT_S)
+
+    def scrape(self, connection):
+        fresh = connection.sock is None
+        try:
+            connection.request("GET", "/metrics")
+            return connection.getresponse().read()
+        except (http.client.RemoteDisconnected, ConnectionError):
+            connection.close()
+            if fresh:
+                raise
+        return self.scrape(connection)
+
+    def prometheus(self):
+        return contextlib.closing(http.client.HTTPConnection(*self.address, timeout=SCRAPE_LIMIT_S))
+
+    def test_two_hundred_slow_readers(self):
+        with contextlib.ExitStack() as stack:
+            readers = self.connections(stack, 200, REQUEST)
+            ended = threading.Event()
+
+            def read_slowly():
+                while not ended.is_set():
+                    for reader in readers:
+                        reader.recv(1)
+                    ended.wait(0.01)
+
+            thread = threading.Thread(target=read_slowly)
+            thread.start()
+            try:
+                with self.prometheus() as connection:
+                    self.scrape_ten_times(connection)
+            finally:
+                ended.set()
+                thread.join()
+
+    def test_requests_that_are_never_sent_whole(self):
+        with contextlib.ExitStack() as stack, self.prometheus() as connection:
+            self.scrape(connection)
+            self.connections(stack, 300, REQUEST[:-2])
+            self.scrape_ten_times(connection)
+
+    def test_all_of_them_and_always_more(self):
+        with contextlib.ExitStack() as stack, self.prometheus() as connection:
+            self.connections(stack, 100, REQUEST)
+            self.connections(stack, 100, REQUEST[:-2])
+            ended = threading.Event()
+
+            def come_and_stay():
+                while not ended.is_set():
+                    with contextlib.ExitStack() as more:
+                        self.connections(more, 300, REQUEST[:-2])
+
+            thread = threading.Thread(target=come_and_stay)
+            thread.start()
+            try:
+                self.scrape_ten_times(connection)
+            finally:
+                ended.set()
+                thread.join()
 
 
 if __name__ == "__main__":

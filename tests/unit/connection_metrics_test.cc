@@ -18,7 +18,7 @@ using ::testing::Not;
 
 TEST(ConnectionMetrics, AreAskedForAsThePageIsAndOnlyWhileTheyLive) {
   Metrics metrics;
-  const Result<int> port = metrics.expose({"127.0.0.1", 0});
+  const Result<int> port = metrics.expose({"127.0.0.1", 0}, {.text_age = {}});
   ASSERT_TRUE(port) << port.error().message;
   ConnectionCounts counts;
   std::optional<ConnectionMetrics> connections;
