@@ -14,6 +14,7 @@
 
 #include "server/access/access.h"
 #include "server/access/generation.h"
+#include "server/access/state_directory.h"
 #include "server/config/config.h"
 #include "server/connections/callers.h"
 #include "server/connections/descriptor_limit.h"
@@ -57,17 +58,20 @@ int complain(const std::vector<ConfigError>& errors) {
   return kExitUsage;
 }
 
-std::uint32_t start_generation() {
+Result<std::uint32_t> start_generation(const server::StateDirectory& state) {
   const auto now = static_cast<std::uint32_t>(std::time(nullptr));
-  const Result<std::uint32_t> generation = server::next_generation(server::default_state_directory(), now);
-  if (generation) return *generation;
-  spdlog::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
-               server::explain(generation.error()));
-  return now;
+  const Result<server::NewGeneration> generation = server::next_generation(state.path(), now);
+  if (!generation) return tl::unexpected(generation.error());
+  if (!generation->kept) {
+    spdlog::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
+                 server::explain(generation->kept.error()));
+  }
+  return generation->number;
 }
 
-Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& config) {
-  auto tokens = server::Tokens::open(server::default_state_directory() + "/tokens");
+Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& config,
+                                                    const server::StateDirectory& state) {
+  auto tokens = server::Tokens::open(state.file("tokens"));
   if (!tokens) return tl::unexpected(tokens.error());
   return std::make_unique<server::Access>(config, server::caller_name(::geteuid()), *std::move(tokens));
 }
@@ -77,11 +81,16 @@ int serve(const server::Config& config) {
   // A reader that has gone is an error where it is written to, not the end of the daemon.
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
-  const auto access = open_access(config.access);
+  // Held until all that writes there has ended.
+  const auto state = server::StateDirectory::hold(server::default_state_directory());
+  if (!state) return complain(kExitFailed, server::explain(state.error()));
+  const auto access = open_access(config.access, *state);
   if (!access) return complain(kExitFailed, server::explain(access.error()));
-  const auto positions = server::SavedPositions::open(server::default_state_directory() + "/positions");
+  const auto positions = server::SavedPositions::open(state->file("positions"));
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
-  server::Gateway gateway(config, start_generation());
+  const auto generation = start_generation(*state);
+  if (!generation) return complain(kExitFailed, server::explain(generation.error()));
+  server::Gateway gateway(config, *generation);
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),

@@ -2,28 +2,63 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstdio>
-#include <cstring>
 #include <filesystem>
+#include <string_view>
 #include <system_error>
+#include <utility>
+
+#include "server/access/writers.h"
 
 namespace axisgate::server {
 namespace {
 
-tl::unexpected<Problem> failed(const std::string& path) {
-  return fail(Reason::internal, fmt::format("cannot write {}: {}", path, std::strerror(errno)),
-              "let the daemon's user write there");
+constexpr mode_t kMode = 0600;
+
+tl::unexpected<Problem> failed(std::string_view what, const std::string& path, int error, std::string hint) {
+  return fail(Reason::internal, fmt::format("cannot {} {}: {}", what, path, std::generic_category().message(error)),
+              std::move(hint));
+}
+
+tl::unexpected<Problem> cannot_write(const std::string& path) {
+  return failed("write", path, errno, "let the daemon's user write there");
+}
+
+std::string_view kind_of(mode_t mode) {
+  if (S_ISLNK(mode)) return "a symbolic link";
+  if (S_ISDIR(mode)) return "a directory";
+  return S_ISFIFO(mode) ? "a FIFO" : "a device or a socket";
+}
+
+tl::unexpected<Problem> no_regular_file(const std::string& path, mode_t mode) {
+  return fail(Reason::internal, fmt::format("{} is {}, not a regular file", path, kind_of(mode)),
+              "move it away: the daemon makes this file itself");
+}
+
+// open() has one error for several kinds of file, and several for one.
+Result<Descriptor> explain_failed_open(const std::string& path, int error) {
+  struct stat status {};
+  if (::lstat(path.c_str(), &status) == 0) {
+    if (!S_ISREG(status.st_mode)) return no_regular_file(path, status.st_mode);
+  } else if (errno == ENOENT) {
+    return Descriptor();
+  }
+  return failed("open", path, error, "let the daemon's user read and write it");
 }
 
 bool write_synced(const std::string& path, const std::string& text) {
-  const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
-  if (file < 0) return false;
-  const bool written = ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const bool synced = written && ::fsync(file) == 0;
-  return ::close(file) == 0 && synced;
+  // What an earlier run, or somebody else, has left there is replaced, never written to.
+  ::unlink(path.c_str());
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
+  if (!file.valid()) return false;
+  const bool written = ::write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  const bool synced = written && ::fsync(file.get()) == 0;
+  return ::close(file.release()) == 0 && synced;
 }
 
 bool sync_directory(const std::string& path) {
@@ -35,13 +70,50 @@ bool sync_directory(const std::string& path) {
 
 }  // namespace
 
+void make_state_directory(const std::string& path) {
+  std::filesystem::path directory = path;
+  if (!directory.has_filename()) directory = directory.parent_path();  // "state/"
+  std::error_code ignored;
+  std::filesystem::create_directories(directory.parent_path(), ignored);
+  ::mkdir(directory.c_str(), 0700);
+}
+
+Result<Descriptor> open_state_file(const std::string& path, int flags) {
+  // O_NONBLOCK: opening a FIFO would wait for somebody at its other end.
+  Descriptor file(::open(path.c_str(), flags | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC, kMode));
+  if (!file.valid()) return explain_failed_open(path, errno);
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) return failed("look at", path, errno, "check the disk");
+  if (!S_ISREG(status.st_mode)) return no_regular_file(path, status.st_mode);
+  if (const Result<void> checked = check_writers(path, status); !checked) {
+    return fail(Reason::internal, fmt::format("{} {}", path, checked.error().message), checked.error().hint);
+  }
+  return file;
+}
+
+Result<std::string> read_state_file(const std::string& path) {
+  const Result<Descriptor> file = open_state_file(path, O_RDONLY);
+  if (!file) return tl::unexpected(file.error());
+  std::string text;
+  if (!file->valid()) return text;
+  std::array<char, 4096> piece{};
+  while (true) {
+    const ssize_t count = ::read(file->get(), piece.data(), piece.size());
+    if (count == 0) return text;
+    if (count > 0) {
+      text.append(piece.data(), static_cast<std::size_t>(count));
+    } else if (errno != EINTR) {
+      return failed("read", path, errno, "check the disk: the file is left as it is");
+    }
+  }
+}
+
 Result<void> replace_synced(const std::string& path, const std::string& text) {
   const std::string directory = std::filesystem::path(path).parent_path().string(), fresh = path + ".new";
-  std::error_code error;
-  std::filesystem::create_directories(directory, error);
-  if (!write_synced(fresh, text)) return failed(fresh);
-  if (::rename(fresh.c_str(), path.c_str()) != 0) return failed(path);
-  if (!sync_directory(directory)) return failed(directory);
+  make_state_directory(directory);
+  if (!write_synced(fresh, text)) return cannot_write(fresh);
+  if (::rename(fresh.c_str(), path.c_str()) != 0) return cannot_write(path);
+  if (!sync_directory(directory)) return cannot_write(directory);
   return {};
 }
 

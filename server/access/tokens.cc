@@ -6,10 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cerrno>
-#include <cstring>
-#include <filesystem>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
@@ -79,13 +75,9 @@ Result<std::unique_ptr<Tokens>> Tokens::open(std::string path) {
 }
 
 Result<void> Tokens::read() {
-  errno = 0;
-  std::ifstream file(path_);
-  if (!file && errno == ENOENT) return {};
-  if (!file) {
-    return fail(Reason::internal, fmt::format("cannot read the tokens in {}: {}", path_, std::strerror(errno)),
-                "let the daemon's user read it");
-  }
+  const Result<std::string> text = read_state_file(path_);
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream file(*text);
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     if (line.empty() || line.front() == '#') continue;
@@ -157,7 +149,17 @@ Result<void> Tokens::revoke(const std::string& name, Calendar now) {
     return fail(Reason::not_found, "no good token has that name", "`axisctl token list` shows those there are");
   }
   token->revoked = now;
-  return write();
+  const Result<void> written = write();
+  unwritten_ = unwritten_ || !written;
+  return written;
+}
+
+Result<bool> Tokens::write_again() {
+  const std::lock_guard lock(mutex_);
+  if (!unwritten_) return false;
+  if (const Result<void> written = write(); !written) return tl::unexpected(written.error());
+  unwritten_ = false;
+  return true;
 }
 
 Result<Token> Tokens::check(std::string_view token, Calendar now) const {

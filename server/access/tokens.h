@@ -46,9 +46,12 @@ class Tokens {
   // cannot be written: there is no such token then.
   Result<std::string> create(const std::string& name, Role role, Calendar expires, Calendar now);
 
-  // not_found, where no good one has that name. internal, where it cannot be written: it is revoked until the daemon
-  // ends all the same.
+  // not_found, where no good one has that name. internal, where it cannot be written: it is revoked all the same, until
+  // the daemon ends or, once write_again() has succeeded, for good.
   Result<void> revoke(const std::string& name, Calendar now);
+
+  // Writes what revoke() could not; false, where there is no such thing. internal, where it still cannot be written.
+  Result<bool> write_again();
 
   // unauthenticated, where it is none of ours, has expired, or was revoked.
   Result<Token> check(std::string_view token, Calendar now) const;
@@ -65,6 +68,7 @@ class Tokens {
   const std::string path_;
   mutable std::mutex mutex_;
   std::vector<Token> tokens_;
+  bool unwritten_ = false;  // whether revoke() has failed to write since write_again() last succeeded
 };
 
 // The NAME of `axisgate.NAME.SECRET`; empty where it is no such text.

@@ -42,7 +42,7 @@ class Api {
         events(gateway, admission, streams),
         diagnostics(gateway, admission, pipeline, streams),
         simulators(gateway, pipeline),
-        tokens(access, admission) {}
+        tokens(gateway, access, admission) {}
 
   Admission admission;
   Streams streams;

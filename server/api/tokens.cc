@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <utility>
 
 #include "server/api/audit.h"
 #include "server/events/wall_time.h"
@@ -20,7 +22,23 @@ std::chrono::seconds life_of(const NewToken& wanted) {
   return std::clamp(wanted.life.value_or(kLife), std::chrono::seconds(0), longest);
 }
 
+// An error, although the token is refused from now on: a restart of the daemon would accept it again.
+Result<void> not_written(const std::string& token, const Problem& why) {
+  return fail(
+      Reason::internal,
+      fmt::format("the token {} is revoked, but not on disk, so a restart would make it valid again: {}", token,
+                  why.message),
+      fmt::format("{}; the daemon tries again every few seconds, and its log says when it succeeded", why.hint));
+}
+
 }  // namespace
+
+Tokens::Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission)
+    : access_(access),
+      admission_(admission),
+      retry_(TokenRetry::make(access.tokens(), [&gateway](Duration wait, std::function<void()> task) {
+        gateway.after(wait, std::move(task));
+      })) {}
 
 Result<server::Caller> Tokens::caller(const Call& call) const {
   return admission_.check_role(RequestKind::get_caller, call.credential);
@@ -53,8 +71,11 @@ Result<void> Tokens::revoke(const Call& call, const std::string& name) const {
   const auto caller = admission_.check_role(RequestKind::revoke_token, call.credential);
   if (!caller) return tl::unexpected(caller.error());
   const Result<void> revoked = access_.tokens().revoke(name, server::calendar_now());
-  if (revoked) audit(RequestKind::revoke_token, caller->who, fmt::format("revoked the token {}", name));
-  return revoked;
+  const bool unwritten = !revoked && revoked.error().reason == Reason::internal;
+  if (revoked || unwritten) audit(RequestKind::revoke_token, caller->who, fmt::format("revoked the token {}", name));
+  if (!unwritten) return revoked;
+  retry_->start(revoked.error());
+  return not_written(name, revoked.error());
 }
 
 }  // namespace axisgate::api

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,8 @@
 #include "server/access/access.h"
 #include "server/api/admission.h"
 #include "server/api/call.h"
+#include "server/api/token_retry.h"
+#include "server/gateway.h"
 
 namespace axisgate::api {
 
@@ -28,20 +31,21 @@ struct CreatedToken {
 // Thread safe.
 class Tokens {
  public:
-  // Both outlive this.
-  Tokens(const server::Access& access, const Admission& admission) : access_(access), admission_(admission) {}
+  // All outlive this, and `access` the gateway.
+  Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission);
 
   Result<server::Caller> caller(const Call& call) const;
   // Nothing: it was to be checked only. As server::Tokens::create().
   Result<std::optional<CreatedToken>> create(const Call& call, const Result<NewToken>& wanted) const;
   // Oldest first.
   Result<std::vector<server::Token>> list(const Call& call) const;
-  // As server::Tokens::revoke().
+  // As server::Tokens::revoke(); after internal, the revocation holds and is written as soon as possible.
   Result<void> revoke(const Call& call, const std::string& name) const;
 
  private:
   const server::Access& access_;
   const Admission& admission_;
+  const std::shared_ptr<TokenRetry> retry_;
 };
 
 }  // namespace axisgate::api

@@ -10,6 +10,7 @@
 
 #include "device/config/config_file.h"
 #include "device/config/config_table.h"
+#include "server/access/writers.h"
 #include "server/config/access.h"
 #include "server/config/axis.h"
 #include "server/config/default_socket.h"
@@ -274,6 +275,9 @@ Configured<Config> parse_config(std::string_view text, const std::string& file, 
 }
 
 Configured<Config> load_config(const std::string& path, DeviceKinds kinds) {
+  if (const Result<void> checked = check_writers(path); !checked) {
+    return tl::unexpected(std::vector<ConfigError>{{path, 0, "", explain(checked.error())}});
+  }
   const auto text = read_config_file(path);
   if (!text) return tl::unexpected(std::vector<ConfigError>{{path, 0, "", text.error()}});
   return parse_config(*text, path, kinds);

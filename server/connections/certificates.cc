@@ -14,6 +14,8 @@
 #include <utility>
 #include <vector>
 
+#include "server/access/writers.h"
+
 namespace axisgate::server {
 namespace {
 
@@ -77,6 +79,9 @@ Result<void> check_key(const std::string& path, const std::string& certificate) 
   if (::fstat(::fileno(file->get()), &status) == 0 && (status.st_mode & (S_IROTH | S_IWOTH)) != 0) {
     return refuse(fmt::format("{} may be read or written by everybody on this machine", path),
                   fmt::format("chmod o= {}", path));
+  }
+  if (const Result<void> checked = check_writers(path); !checked) {
+    return refuse(fmt::format("{} {}", path, checked.error().message), checked.error().hint);
   }
   const auto certificates = certificate.empty() ? Result<std::vector<Certificate>>() : read_certificates(certificate);
   if (!certificates || certificates->empty() || X509_check_private_key(certificates->front().get(), key.get()) == 1) {

@@ -11,8 +11,9 @@ namespace axisgate::server {
 // Whether the PEM file holds certificates and nothing broken. invalid_request with what is wrong.
 Result<void> check_certificate(const std::string& path);
 
-// Whether the PEM file holds a private key without a passphrase, which only this user and group may read, and which
-// belongs to the first of `certificate`, if that is not empty. invalid_request with what is wrong.
+// Whether the PEM file holds a private key without a passphrase, which only this user and group may read, which others
+// may not change, and which belongs to the first of `certificate`, if that is not empty. invalid_request with what is
+// wrong.
 Result<void> check_key(const std::string& path, const std::string& certificate);
 
 // When the first certificate of the file expires. invalid_request as above.

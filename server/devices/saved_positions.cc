@@ -3,10 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <charconv>
-#include <cstring>
-#include <fstream>
 #include <sstream>
 #include <utility>
 
@@ -101,13 +98,9 @@ Result<std::unique_ptr<SavedPositions>> SavedPositions::open(std::string path) {
 }
 
 Result<void> SavedPositions::read() {
-  errno = 0;
-  std::ifstream file(path_);
-  if (!file && errno == ENOENT) return {};
-  if (!file) {
-    return fail(Reason::internal, fmt::format("cannot read the saved positions in {}: {}", path_, std::strerror(errno)),
-                "let the daemon's user read it");
-  }
+  const Result<std::string> text = read_state_file(path_);
+  if (!text) return tl::unexpected(text.error());
+  std::istringstream file(*text);
   std::string line;
   for (int number = 1; std::getline(file, line); ++number) {
     if (line.empty() || line.front() == '#') continue;
@@ -119,10 +112,6 @@ Result<void> SavedPositions::read() {
                               position ? "its name or its number is used above already" : "is no saved position"),
                   "correct or remove the line: the controller keeps the position, and the gateway only its name");
     }
-  }
-  if (file.bad()) {
-    return fail(Reason::internal, fmt::format("cannot read all of the saved positions in {}", path_),
-                "check the disk: the file is left as it is");
   }
   return {};
 }

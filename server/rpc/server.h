@@ -18,8 +18,8 @@ namespace axisgate::rpc {
 class Server {
  public:
   // Serves at once where the gateway's configuration says. Refuses an address that somebody else serves, and a socket
-  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only. `gateway` and
-  // `access` outlive the server, and `positions` the gateway.
+  // whose directory cannot be trusted. Connections beyond `limits` are served a stop only. `gateway` outlives the
+  // server, and `access` and `positions` the gateway.
   static Result<std::unique_ptr<Server>> start(server::Gateway& gateway, server::Access& access,
                                                server::SavedPositions& positions,
                                                const server::ConnectionLimits& limits);

@@ -1,35 +1,16 @@
 // Commands, settings, saved positions, tokens, and what stands in the log.
 #include <gtest/gtest.h>
-#include <spdlog/sinks/ostream_sink.h>
-#include <spdlog/spdlog.h>
-
-#include <sstream>
 
 #include "server/api/audit.h"
 #include "server/api/position_checks.h"
 #include "server/api/setting_lines.h"
 #include "tests/api/ask.h"
+#include "tests/api/log.h"
 
 namespace axisgate::api {
 namespace {
 
 using std::chrono::minutes;
-
-// What the log says while it lives.
-class Log {
- public:
-  Log() : before_(spdlog::default_logger()) {
-    auto sink = std::make_shared<spdlog::sinks::ostream_sink_mt>(text_);
-    sink->set_pattern("%v");
-    spdlog::set_default_logger(std::make_shared<spdlog::logger>("test", std::move(sink)));
-  }
-  ~Log() { spdlog::set_default_logger(before_); }
-  std::string text() const { return text_.str(); }
-
- private:
-  std::ostringstream text_;
-  std::shared_ptr<spdlog::logger> before_;
-};
 
 TEST(Audit, WhoMadeAndRevokedATokenIsInTheLog) {
   World world;

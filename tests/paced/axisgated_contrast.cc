@@ -73,8 +73,8 @@ int serve(const char* config_path) {
   std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
   const auto positions = *server::SavedPositions::open("");
-  server::Gateway gateway(*config, 1);
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
+  server::Gateway gateway(*config, 1);
   const auto server = rpc::Server::start(gateway, access, *positions, {server::raise_descriptor_limit()});
   if (!server) {
     fmt::print(stderr, "axisgated-contrast: {}\n", server.error().message);

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
@@ -90,6 +91,23 @@ TEST_F(ConfigNetwork, FilesAreCheckedBeforeAnybodyIsServed) {
                                std::filesystem::perm_options::add);
   EXPECT_THAT(errors_of(keys("gateway.crt", "gateway.key")),
               ElementsAre(AllOf(HasSubstr("may be read or written by everybody"), HasSubstr("chmod o= "))));
+}
+
+TEST_F(ConfigNetwork, AKeyThatAnotherGroupMayWriteIsRefused) {
+  const std::string key = path("gateway.key");
+  if (::chown(key.c_str(), static_cast<uid_t>(-1), ::getegid() + 7) != 0) GTEST_SKIP() << "only root gives files away";
+  ASSERT_EQ(::chmod(key.c_str(), 0640), 0);
+  EXPECT_THAT(errors_of(keys("gateway.crt", "gateway.key")), ElementsAre());
+  ASSERT_EQ(::chmod(key.c_str(), 0660), 0);
+  EXPECT_THAT(errors_of(keys("gateway.crt", "gateway.key")),
+              ElementsAre(AllOf(HasSubstr(key + " may be written by the members of the group"),
+                                HasSubstr("chmod go-w " + key))));
+}
+
+TEST_F(ConfigNetwork, AKeyOfAnotherUserIsRefused) {
+  const std::string key = path("gateway.key");
+  if (::chown(key.c_str(), ::geteuid() + 7, static_cast<gid_t>(-1)) != 0) GTEST_SKIP() << "only root gives files away";
+  EXPECT_THAT(errors_of(keys("gateway.crt", "gateway.key")), ElementsAre(HasSubstr(key + " belongs to the user ")));
 }
 
 TEST_F(ConfigNetwork, ExpiryIsThatOfTheFirstCertificate) {

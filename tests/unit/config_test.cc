@@ -1,6 +1,7 @@
 #include "server/config/config.h"
 
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <cstdio>
@@ -9,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "device/config/config_file.h"
 #include "server/kinds.h"
 
 namespace axisgate::server::config_test {
@@ -267,7 +269,11 @@ TEST(Config, AFileThatIsNotThereSaysSo) {
 }
 
 TEST(Config, TheExampleThatIsInstalledIsRight) {
-  const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/axisgate.toml", device_kinds());
+  // Read here, because load_config() also judges the owner, who may be anybody for a source tree.
+  const std::string path = AXISGATE_SOURCE_DIR "/deploy/axisgate.toml";
+  const auto text = read_config_file(path);
+  ASSERT_TRUE(text) << text.error();
+  const auto config = parse_config(*text, path, device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.size(), 1u);
 }
@@ -279,6 +285,18 @@ TEST(Config, ReadsAFile) {
   std::remove(path.c_str());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.at(0).profile.name, "stage");
+}
+
+TEST(Config, AFileThatOthersMayWriteIsRefused) {
+  const std::string path = ::testing::TempDir() + "axisgate_config_test_open.toml";
+  std::ofstream(path) << kStage;
+  ASSERT_EQ(::chmod(path.c_str(), 0666), 0);
+  const auto config = load_config(path, device_kinds());
+  std::remove(path.c_str());
+  ASSERT_FALSE(config);
+  EXPECT_EQ(to_string(config.error().at(0)),
+            path + ": may be written by everybody on this machine, who could change what the daemon does; chmod go-w " +
+                path);
 }
 
 }  // namespace

@@ -25,18 +25,19 @@ class Generation : public testing::Test {
 TEST_F(Generation, GrowsWithEveryStart) {
   const auto first = next_generation(folder_, kNow), second = next_generation(folder_, kNow);
   ASSERT_TRUE(first && second);
-  EXPECT_EQ(*first, kNow);
-  EXPECT_EQ(*second, kNow + 1);
+  EXPECT_TRUE(first->kept && second->kept);
+  EXPECT_EQ(first->number, kNow);
+  EXPECT_EQ(second->number, kNow + 1);
 }
 
 TEST_F(Generation, AClockThatWasSetBackDoesNotMatter) {
   ASSERT_TRUE(next_generation(folder_, kNow));
-  EXPECT_EQ(next_generation(folder_, 5).value(), kNow + 1);
+  EXPECT_EQ(next_generation(folder_, 5).value().number, kNow + 1);
 }
 
 TEST_F(Generation, IsGreaterThanThatOfAStartThatCouldNotKeepIt) {
   ASSERT_TRUE(next_generation(folder_, kNow));
-  EXPECT_EQ(next_generation(folder_, kNow + 100).value(), kNow + 100);
+  EXPECT_EQ(next_generation(folder_, kNow + 100).value().number, kNow + 100);
 }
 
 TEST_F(Generation, ADirectoryThatCannotBeIsSaid) {
@@ -44,6 +45,16 @@ TEST_F(Generation, ADirectoryThatCannotBeIsSaid) {
   const auto refused = next_generation(folder_, kNow);
   ASSERT_FALSE(refused);
   EXPECT_NE(refused.error().message.find(folder_ + "/generation"), std::string::npos) << refused.error().message;
+}
+
+TEST_F(Generation, WhatCannotBeKeptIsGreaterAllTheSame) {
+  ASSERT_TRUE(next_generation(folder_, kNow));
+  std::filesystem::create_directory(folder_ + "/generation.new");
+  const auto second = next_generation(folder_, 5);
+  ASSERT_TRUE(second);
+  EXPECT_EQ(second->number, kNow + 1);
+  ASSERT_FALSE(second->kept);
+  EXPECT_EQ(second->kept.error().message, "cannot write " + folder_ + "/generation.new: File exists");
 }
 
 }  // namespace

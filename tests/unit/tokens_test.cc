@@ -124,6 +124,22 @@ TEST_F(TokensTest, NothingIsMadeThatCannotBeKept) {
   EXPECT_TRUE((*nowhere)->list().empty());
 }
 
+TEST_F(TokensTest, ARevocationThatCouldNotBeWrittenHoldsAndIsWrittenLater) {
+  const std::string token = make("scan");
+  EXPECT_EQ(tokens_->write_again(), false);
+  // Also root cannot write this.
+  const std::string obstacle = path_ + ".new";
+  ASSERT_EQ(::mkdir(obstacle.c_str(), 0700), 0);
+  EXPECT_EQ(tokens_->revoke("scan", kNow).error().reason, Reason::internal);
+  EXPECT_THAT(why(token), HasSubstr("revoked"));
+  EXPECT_FALSE(tokens_->write_again());
+  ASSERT_EQ(::rmdir(obstacle.c_str()), 0);
+  EXPECT_EQ(tokens_->write_again(), true);
+  EXPECT_EQ(tokens_->write_again(), false);
+  open();
+  EXPECT_THAT(why(token), HasSubstr("revoked"));
+}
+
 TEST(TokenNames, StandInTheToken) {
   EXPECT_EQ(name_in("axisgate.scan.00ff"), "scan");
   EXPECT_EQ(name_in("axisgate.a b.00ff"), "");
