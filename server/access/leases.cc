@@ -86,6 +86,18 @@ void Leases::lost(LeaseToken token, TimePoint now) {
   settle(now);
 }
 
+void Leases::cut_off(const std::string& holder, const std::string& why, TimePoint now) {
+  for (Held& held : held_) {
+    if (held.lease.holder == holder && held.lease.ending.empty()) end_unkept(held, why);
+  }
+  std::vector<std::uint64_t> waits;
+  for (const Waiting& waiting : waiting_) {
+    if (waiting.lease.holder == holder) waits.push_back(waiting.lease.id);
+  }
+  for (const std::uint64_t id : waits) withdraw(id, now);
+  settle(now);
+}
+
 Result<void> Leases::release(LeaseToken token, TimePoint now) {
   const auto held = find_held(token, now);
   if (!held) return tl::unexpected(held.error());
@@ -216,15 +228,21 @@ void Leases::end_lease(Held& held, std::string why, bool continues) {
   held.continues = continues;
 }
 
+// As its AtLoss says, without a way back.
+void Leases::end_unkept(Held& held, std::string why) {
+  const Lease& lease = held.lease;
+  const bool finishes = lease.terms.at_loss == AtLoss::finish;
+  if (!finishes && runs(lease.token)) order_stop(lease.terms.axes, lease.holder);
+  end_lease(held, std::move(why), finishes);
+}
+
 void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.push_back({++last_order_, axes, who}); }
 
 void Leases::expire(TimePoint now) {
   for (Held& held : held_) {
     const Lease& lease = held.lease;
     if (!lease.ending.empty() || now < lease.expires || !guarded(Guard::leases_expire)) continue;
-    const bool finishes = lease.terms.at_loss == AtLoss::finish;
-    if (!finishes && runs(lease.token)) order_stop(lease.terms.axes, lease.holder);
-    end_lease(held, "it was not kept alive and expired", finishes);
+    end_unkept(held, "it was not kept alive and expired");
   }
   std::vector<Waiting> late;
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {

@@ -84,6 +84,9 @@ class Leases : public stage::Permission {
   Result<Lease> keep_alive(LeaseToken token, TimePoint now);
   // The connection over which it was kept alive broke; AtLoss says what follows.
   void lost(LeaseToken token, TimePoint now);
+  // This holder may call no longer: its leases end, and so does its waiting. What moves under them is stopped, except
+  // where a lease lets it finish.
+  void cut_off(const std::string& holder, const std::string& why, TimePoint now);
   // What runs under it runs to its end, and the axes are free then. lease_lost.
   Result<void> release(LeaseToken token, TimePoint now);
   // To the first of that name who waits for nothing but these axes, past all others. lease_lost, axis_busy while a
@@ -153,6 +156,7 @@ class Leases : public stage::Permission {
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
   void end_lease(Held& held, std::string why, bool continues);
+  void end_unkept(Held& held, std::string why);
   void order_stop(AxisSet axes, const std::string& who);
   void expire(TimePoint now);
   void settle(TimePoint now);

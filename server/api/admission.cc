@@ -30,6 +30,7 @@ std::optional<IdentityLimits::Kind> counted_as(RequestKind kind) {
     case Quota::request:
       return IdentityLimits::Kind::call;
     case Quota::stream:
+    case Quota::outcome:
     case Quota::path:
       break;
   }

@@ -42,7 +42,7 @@ class Api {
         events(gateway, admission, streams),
         diagnostics(gateway, admission, pipeline, streams),
         simulators(gateway, pipeline),
-        tokens(gateway, access, admission) {}
+        tokens(gateway, access, admission, streams) {}
 
   Admission admission;
   Streams streams;

@@ -134,7 +134,7 @@ Opened<ExecuteEvent> Commands::execute(const Call& call, std::string_view device
   }
   const Duration timeout = transaction.timeout.value_or(kTimeout);
   if (!call.not_after) admitted->context.not_after = monotonic_now() + timeout;
-  Result<Streams::Place> place = streams_.take(RequestKind::execute);
+  Result<Streams::Place> place = streams_.take(RequestKind::execute, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Execution>(gateway_, *admitted->device,
                                      stage::ExecuteRequest{std::move(transaction.lines), std::move(admitted->context)},

@@ -80,7 +80,7 @@ void Devices::get(const Call& call, std::string_view device, std::optional<Durat
 Opened<DeviceState> Devices::watch(const Call& call, std::string_view device, Duration min_interval) const {
   const auto admitted = pipeline_.admit({RequestKind::watch_device, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::watch_device);
+  Result<Streams::Place> place = streams_.take(RequestKind::watch_device, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<DeviceWatch>(gateway_, *admitted->device, std::max(kIntervalMin, min_interval),
                                        *std::move(place));

@@ -56,7 +56,7 @@ class RecordingReader final : public Subscription<std::string> {
 Opened<std::string> Diagnostics::record(const Call& call, std::string_view device, bool skip_kept, bool follow) const {
   const auto admitted = pipeline_.admit({RequestKind::record, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::record);
+  Result<Streams::Place> place = streams_.take(RequestKind::record, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<RecordingReader>(*admitted->device, skip_kept, follow, *std::move(place));
 }
@@ -64,7 +64,7 @@ Opened<std::string> Diagnostics::record(const Call& call, std::string_view devic
 Opened<std::string> Diagnostics::report(const Call& call, const DoorReport& door) const {
   const auto caller = admission_.check_role(RequestKind::get_support_report, call.credential);
   if (!caller) return tl::unexpected(caller.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::get_support_report);
+  Result<Streams::Place> place = streams_.take(RequestKind::get_support_report, caller->who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<SupportReport>(gateway_, door, *std::move(place));
 }

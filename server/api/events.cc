@@ -63,7 +63,7 @@ Opened<Event> Events::watch(const Call& call, const EventRange& range) const {
   if (!range.run.empty() && range.run != gateway_.run()) {
     return std::make_shared<EndedWatch>(compacted_at(bus.read(0, 0).next), nullptr);
   }
-  Result<Streams::Place> place = streams_.take(RequestKind::watch_events);
+  Result<Streams::Place> place = streams_.take(RequestKind::watch_events, caller->who);
   if (!place) return tl::unexpected(place.error());
   const std::uint64_t from = range.from.value_or(bus.newest_revision() + 1);
   return std::make_shared<EventWatch>(gateway_, from, std::move(device), *std::move(place));

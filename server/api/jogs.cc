@@ -34,8 +34,8 @@ std::optional<Problem> check_directions(const Result<JogAxes>& axes) {
 
 }  // namespace
 
-Result<std::shared_ptr<Jog>> Jogs::open() const {
-  Result<Streams::Place> place = streams_.take(RequestKind::jog);
+Result<std::shared_ptr<Jog>> Jogs::open(const Credential& caller) const {
+  Result<Streams::Place> place = streams_.take(RequestKind::jog, name_of(caller));
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Jog>(gateway_, pipeline_, *std::move(place));
 }

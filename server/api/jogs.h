@@ -39,7 +39,7 @@ class Jog final : public MotionSubscription {
   // The caller wants it to end.
   void finish();
   // The caller has gone without a word.
-  void break_off();
+  void break_off() override;
 
  private:
   Result<void> post_start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes);
@@ -66,7 +66,7 @@ class Jogs {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
 
   // queue_full.
-  Result<std::shared_ptr<Jog>> open() const;
+  Result<std::shared_ptr<Jog>> open(const Credential& caller) const;
 
  private:
   server::Gateway& gateway_;

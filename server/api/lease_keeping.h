@@ -23,7 +23,7 @@ class LeaseKeeping final : public Subscription<server::Lease> {
   // The caller has ended the stream in order: nothing is kept alive any more, and nothing was lost.
   void finish();
   // The caller has gone without a word: what follows is as the lease's terms have it.
-  void break_off();
+  void break_off() override;
 
  private:
   void keep_on(server::Stage& device, server::LeaseToken token, TimePoint now);

@@ -150,7 +150,7 @@ void Leases::rearm(const Call& call, std::string_view device, Answer<std::vector
 Result<std::shared_ptr<LeaseKeeping>> Leases::keep_alive(const Call& call) const {
   const auto caller = admission_.check_role(RequestKind::keep_lease_alive, call.credential);
   if (!caller) return tl::unexpected(caller.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::keep_lease_alive);
+  Result<Streams::Place> place = streams_.take(RequestKind::keep_lease_alive, caller->who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<LeaseKeeping>(gateway_, *std::move(place));
 }
@@ -158,7 +158,7 @@ Result<std::shared_ptr<LeaseKeeping>> Leases::keep_alive(const Call& call) const
 Opened<Board> Leases::watch(const Call& call, std::string_view device) const {
   const auto admitted = pipeline_.admit({RequestKind::watch_leases, call, find_stage(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::watch_leases);
+  Result<Streams::Place> place = streams_.take(RequestKind::watch_leases, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<LeaseWatch>(*admitted->device, *std::move(place));
 }

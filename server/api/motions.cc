@@ -105,7 +105,7 @@ Opened<CurrentMotion> Motions::watch(const Call& call, std::string_view motion) 
   const Result<MotionName> name = find_motion_name(gateway_, motion);
   const auto admitted = pipeline_.admit({RequestKind::watch_motion, call, device_of(name)});
   if (!admitted) return tl::unexpected(admitted.error());
-  Result<Streams::Place> place = streams_.take(RequestKind::watch_motion);
+  Result<Streams::Place> place = streams_.take(RequestKind::watch_motion, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<MotionWatch>(gateway_, *name, *std::move(place));
 }

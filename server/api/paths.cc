@@ -63,8 +63,8 @@ Result<void> check_segment(const stage::Segment& segment) {
   return check_halt(segment);
 }
 
-Result<std::shared_ptr<Path>> Paths::open() const {
-  Result<Streams::Place> place = streams_.take(RequestKind::run_path);
+Result<std::shared_ptr<Path>> Paths::open(const Credential& caller) const {
+  Result<Streams::Place> place = streams_.take(RequestKind::run_path, name_of(caller));
   if (!place) return tl::unexpected(place.error());
   return std::make_shared<Path>(gateway_, pipeline_, *std::move(place));
 }

@@ -44,7 +44,7 @@ class Path final : public Subscription<PathStep> {
   // All segments have come: the path runs. It counts from now on, as far as its call does not say until when.
   void run();
   // The caller has gone without a word: what has not been posted by then does not run, since it may be half a path.
-  void break_off();
+  void break_off() override;
 
  private:
   Result<void> take_head(const Call& call, std::string_view device);
@@ -85,7 +85,7 @@ class Paths {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
 
   // queue_full.
-  Result<std::shared_ptr<Path>> open() const;
+  Result<std::shared_ptr<Path>> open(const Credential& caller) const;
 
  private:
   server::Gateway& gateway_;

@@ -52,7 +52,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::emergency_stop,     Role::observer,  Kept::none,         Quota::none,    Patience::stop,     Use::nothing,   false},
     {Kind::get_motion,         Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::list_motions,       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
-    {Kind::watch_motion,       Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::watch_motion,       Role::observer,  Kept::none,         Quota::outcome, Patience::question, Use::nothing,   false},
     {Kind::cancel_motion,      Role::operator_, Kept::none,         Quota::request, Patience::stop,     Use::nothing,   false},
     {Kind::ask_door,           Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::watch_door,         Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},

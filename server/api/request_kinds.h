@@ -62,7 +62,8 @@ enum class Quota {
   none,     // neither counted nor refused: what a stop needs
   request,  // one answer
   stream,
-  path,  // a stream that holds a whole path in memory
+  outcome,  // a stream that follows one motion: some are kept for these
+  path,     // a stream that holds a whole path in memory
 };
 
 // What of the call's context counts, and for how long the request does.

@@ -1,8 +1,12 @@
-// How many streams may be open at once, over all callers and doors.
+// How many streams may be open at once, over all callers and doors, and whose they are.
 #pragma once
 
-#include <atomic>
+#include <array>
+#include <functional>
+#include <map>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <string>
 
 #include "device/core/problem.h"
@@ -10,43 +14,68 @@
 
 namespace axisgate::api {
 
+// One open stream. Thread safe.
+class OpenStream {
+ public:
+  // `then` is called once, by the thread that ends the stream, or at once where it has been ended already.
+  void on_cut_off(std::function<void()> then);
+  // Why the daemon ended it; nothing as long as it may continue.
+  std::optional<Problem> cut_off() const;
+  // Ends it. The first time counts.
+  void cut_off(Problem why);
+
+ private:
+  mutable std::mutex mutex_;
+  std::optional<Problem> why_;
+  std::function<void()> then_;
+};
+
 // Thread safe.
 class Streams {
  public:
   static constexpr int kStreamsMax = 4096;
+  // Kept for those that follow one motion, so that nobody's dashboards keep a caller from the outcome of a move.
+  static constexpr int kOutcomesKept = 512;
   // A path is held whole, up to tens of megabytes: fewer of them than of other streams.
   static constexpr int kPathsMax = 32;
+  static constexpr int kPathsOfOneMax = 8;  // of one caller
 
-  explicit Streams(int streams_max = kStreamsMax, int paths_max = kPathsMax)
-      : streams_(streams_max), paths_(paths_max) {}
-
-  // One open stream; gives its place back when the last copy is gone. May outlive the limit.
-  using Place = std::shared_ptr<void>;
-
-  // As the quota of the kind has it. queue_full where no place is left.
-  Result<Place> take(RequestKind kind) { return (rule_of(kind).quota == Quota::path ? paths_ : streams_).take(); }
-
- private:
-  class Limit {
-   public:
-    explicit Limit(int most) : open_(std::make_shared<std::atomic<int>>(0)), most_(most) {}
-
-    Result<Place> take() {
-      if (open_->fetch_add(1) >= most_) {
-        open_->fetch_sub(1);
-        return fail(Reason::queue_full, std::to_string(most_) + " streams are open, and no more are served",
-                    "close streams that nobody reads");
-      }
-      return Place(nullptr, [open = open_](void*) { open->fetch_sub(1); });
-    }
-
-   private:
-    std::shared_ptr<std::atomic<int>> open_;
-    const int most_;
+  struct Limits {
+    int streams = kStreamsMax;  // in all
+    int outcomes_kept = kOutcomesKept;
+    int paths = kPathsMax;
+    int paths_of_one = kPathsOfOneMax;
   };
 
-  Limit streams_;
-  Limit paths_;
+  Streams() : Streams(Limits()) {}
+  explicit Streams(const Limits& limits) : limits_(limits), open_(std::make_shared<Open>()) {}
+
+  // Gives its place back when the last copy is gone. May outlive the limit.
+  using Place = std::shared_ptr<OpenStream>;
+
+  // One more of this caller, as the quota of the kind has it. queue_full where no place is left.
+  Result<Place> take(RequestKind kind, const std::string& who);
+
+  // Ends all that this caller has open, from now on.
+  void cut_off(const std::string& who, const Problem& why);
+
+ private:
+  struct Counts {
+    int streams = 0, outcomes = 0, paths = 0;
+  };
+  struct Open {
+    std::mutex mutex;
+    Counts all;
+    std::map<std::string, int> paths_by_caller;
+    std::multimap<std::string, std::weak_ptr<OpenStream>> by_caller;
+  };
+  using Entry = std::multimap<std::string, std::weak_ptr<OpenStream>>::iterator;
+
+  std::optional<Problem> full(Quota quota, const std::string& who) const;
+  static void count(Open& open, Quota quota, const std::string& who, int one);
+
+  const Limits limits_;
+  const std::shared_ptr<Open> open_;
 };
 
 }  // namespace axisgate::api

@@ -36,14 +36,26 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
   // once for many items, at the latest when this object goes; it may call next(). It must not hold this object.
   void open(std::function<void()> wake) {
     wake_ = std::move(wake);
+    if (place_) {
+      place_->on_cut_off([self = this->weak_from_this()] {
+        const auto still = self.lock();
+        if (!still) return;
+        still->break_off();
+        still->wake();
+      });
+    }
     begin();
   }
 
   // The next item, the end, or nothing before `wake` is called. Nothing follows the end.
   Reading next() {
     const std::lock_guard lock(mutex_);
+    if (auto why = place_ ? place_->cut_off() : std::nullopt) return StreamEnd{std::move(why)};
     return read();
   }
+
+  // Its caller has gone without a word, or may not continue: what must not continue without its caller ends.
+  virtual void break_off() {}
 
   // The reader has gone, in order or not. Once; no wake-up from the gateway's side comes after it has returned.
   void close() {

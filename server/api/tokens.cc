@@ -33,9 +33,11 @@ Result<void> not_written(const std::string& token, const Problem& why) {
 
 }  // namespace
 
-Tokens::Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission)
-    : access_(access),
+Tokens::Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission, Streams& streams)
+    : gateway_(gateway),
+      access_(access),
       admission_(admission),
+      streams_(streams),
       retry_(TokenRetry::make(access.tokens(), [&gateway](Duration wait, std::function<void()> task) {
         gateway.after(wait, std::move(task));
       })) {}
@@ -67,12 +69,25 @@ Result<std::vector<server::Token>> Tokens::list(const Call& call) const {
   return access_.tokens().list();
 }
 
+void Tokens::cut_off(const std::string& token, const std::string& by) const {
+  const std::string who = server::token_caller(token);
+  streams_.cut_off(who, {.reason = Reason::unauthenticated,
+                         .message = fmt::format("{} revoked the token {}", by, token),
+                         .hint = "an administrator makes another one with `axisctl token create`"});
+  for (server::Stage* stage : gateway_.stages()) {
+    stage->post([stage, who, by](stage::StageController&, TimePoint now) {
+      stage->leases().cut_off(who, "its token was revoked by " + by, now);
+    });
+  }
+}
+
 Result<void> Tokens::revoke(const Call& call, const std::string& name) const {
   const auto caller = admission_.check_role(RequestKind::revoke_token, call.credential);
   if (!caller) return tl::unexpected(caller.error());
   const Result<void> revoked = access_.tokens().revoke(name, server::calendar_now());
   const bool unwritten = !revoked && revoked.error().reason == Reason::internal;
   if (revoked || unwritten) audit(RequestKind::revoke_token, caller->who, fmt::format("revoked the token {}", name));
+  if (revoked || unwritten) cut_off(name, caller->who);
   if (!unwritten) return revoked;
   retry_->start(revoked.error());
   return not_written(name, revoked.error());

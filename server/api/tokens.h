@@ -11,6 +11,7 @@
 #include "server/access/access.h"
 #include "server/api/admission.h"
 #include "server/api/call.h"
+#include "server/api/streams.h"
 #include "server/api/token_retry.h"
 #include "server/gateway.h"
 
@@ -32,7 +33,7 @@ struct CreatedToken {
 class Tokens {
  public:
   // All outlive this, and `access` the gateway.
-  Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission);
+  Tokens(server::Gateway& gateway, const server::Access& access, const Admission& admission, Streams& streams);
 
   Result<server::Caller> caller(const Call& call) const;
   // Nothing: it was to be checked only. As server::Tokens::create().
@@ -43,8 +44,13 @@ class Tokens {
   Result<void> revoke(const Call& call, const std::string& name) const;
 
  private:
+  // What the token's caller has open ends, and so do its leases.
+  void cut_off(const std::string& token, const std::string& by) const;
+
+  server::Gateway& gateway_;
   const server::Access& access_;
   const Admission& admission_;
+  Streams& streams_;
   const std::shared_ptr<TokenRetry> retry_;
 };
 

@@ -5,9 +5,11 @@
 #include <string>
 #include <utility>
 
+#include "server/rpc/call.h"
 #include "server/rpc/ended_stream.h"
 #include "server/rpc/pull_stream.h"
 #include "server/rpc/services.h"
+#include "server/rpc/status.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
@@ -21,12 +23,15 @@ bool is_service(std::string_view name) {
   return name.empty() || std::find(kApiServices.begin(), kApiServices.end(), name) != kApiServices.end();
 }
 
-// One answer, which never changes; the stream ends with the call.
+// One answer, which never changes; the stream ends with the call, or with its caller's token.
 class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheckResponse>, HealthCheckResponse> {
  public:
   static HealthWatch* start(HealthCheckResponse::ServingStatus status, api::Streams::Place place) {
     std::shared_ptr<HealthWatch> watch(new HealthWatch(status, std::move(place)));
     watch->open();
+    watch->place_->on_cut_off([stream = watch->weak_from_this()] {
+      if (const auto still = stream.lock()) still->pump();
+    });
     watch->pump();
     return watch.get();
   }
@@ -36,6 +41,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
       : status_(status), place_(std::move(place)) {}
 
   Next next() override {
+    if (const auto why = place_->cut_off()) return to_status(*why);
     if (std::exchange(reported_, true)) return Wait{};
     HealthCheckResponse response;
     response.set_status(status_);
@@ -59,9 +65,10 @@ grpc::ServerUnaryReactor* HealthService::Check(grpc::CallbackServerContext*, con
   return call.get();
 }
 
-grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext*,
+grpc::ServerWriteReactor<HealthCheckResponse>* HealthService::Watch(grpc::CallbackServerContext* context,
                                                                     const HealthCheckRequest* request) {
-  Result<api::Streams::Place> place = streams_.take(api::RequestKind::watch_door);
+  Result<api::Streams::Place> place =
+      streams_.take(api::RequestKind::watch_door, api::name_of(credential_of(*context)));
   if (!place) return new EndedStream<grpc::ServerWriteReactor<HealthCheckResponse>>(place.error());
   const bool known = is_service(request->service());
   return HealthWatch::start(known ? HealthCheckResponse::SERVING : HealthCheckResponse::SERVICE_UNKNOWN,

@@ -49,7 +49,7 @@ grpc::ServerUnaryReactor* StageService::ReturnToOrigin(grpc::CallbackServerConte
 
 grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>* StageService::RunPath(
     grpc::CallbackServerContext* context) {
-  auto path = paths_.open();
+  auto path = paths_.open(credential_of(*context));
   if (!path) return new EndedStream<grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>>(path.error());
   return PathRun::start(*std::move(path), *context, half_close_);
 }
@@ -62,7 +62,7 @@ grpc::ServerUnaryReactor* StageService::Scan(grpc::CallbackServerContext* contex
 }
 
 grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>* StageService::Jog(grpc::CallbackServerContext* context) {
-  auto jog = jogs_.open();
+  auto jog = jogs_.open(credential_of(*context));
   if (!jog) return new EndedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>>(jog.error());
   return JogRun::start(*std::move(jog), *context, half_close_);
 }

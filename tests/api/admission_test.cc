@@ -124,19 +124,5 @@ TEST_F(AdmissionTest, ARefusalForPeople) {
   EXPECT_EQ(far.error().message, "somebody needs a token here");
 }
 
-TEST(StreamsTest, PathsHaveALimitOfTheirOwn) {
-  Streams streams(2, 1);
-  auto path = streams.take(RequestKind::run_path);
-  ASSERT_TRUE(path);
-  EXPECT_EQ(streams.take(RequestKind::run_path).error().reason, Reason::queue_full);
-  auto first = streams.take(RequestKind::jog), second = streams.take(RequestKind::watch_device);
-  ASSERT_TRUE(first && second);
-  EXPECT_EQ(streams.take(RequestKind::execute).error().reason, Reason::queue_full);
-  first->reset();
-  EXPECT_TRUE(streams.take(RequestKind::execute));
-  path->reset();
-  EXPECT_TRUE(streams.take(RequestKind::run_path));
-}
-
 }  // namespace
 }  // namespace axisgate::api

@@ -60,7 +60,7 @@ Reason keep_alive(World& world, const Call& call) {
 }
 
 Reason jog(World& world, const Call& call) {
-  const auto jog = world.api->jogs.open();
+  const auto jog = world.api->jogs.open(call.credential);
   if (!jog) return jog.error().reason;
   Reader<CurrentMotion> reader(*jog);
   (*jog)->start(call, kDevice, std::vector<JogAxis>{{.axis = 1, .direction = 1}});
@@ -69,7 +69,7 @@ Reason jog(World& world, const Call& call) {
 }
 
 Reason run_path(World& world, const Call& call) {
-  const auto path = world.api->paths.open();
+  const auto path = world.api->paths.open(call.credential);
   if (!path) return path.error().reason;
   Reader<PathStep> reader(*path);
   const bool taken = (*path)->start(call, kDevice);

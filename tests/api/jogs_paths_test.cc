@@ -23,7 +23,7 @@ class JogTest : public ::testing::Test {
   Reason why() { return reader_.end().problem ? reader_.end().problem->reason : Reason::unspecified; }
 
   World world_;
-  const std::shared_ptr<Jog> jog_ = *world_.api->jogs.open();
+  const std::shared_ptr<Jog> jog_ = *world_.api->jogs.open({.who = kAnna});
   Reader<CurrentMotion> reader_{jog_};
 };
 
@@ -109,7 +109,7 @@ class PathTest : public ::testing::Test {
   }
 
   World world_;
-  const std::shared_ptr<Path> path_ = *world_.api->paths.open();
+  const std::shared_ptr<Path> path_ = *world_.api->paths.open({.who = kAnna});
   Reader<PathStep> reader_{path_};
 };
 
@@ -185,6 +185,29 @@ TEST_F(PathTest, OfACallerThatBrokeOffNothingRuns) {
   path_->run();
   world_.on_strand([](stage::StageController&, TimePoint) {});
   EXPECT_FALSE(reader_.has_something());
+}
+
+// Of an operator's token that is revoked while it is in use.
+TEST(RevokedToken, EndsItsStreamsAndItsJog) {
+  World world;
+  const Call call{.credential = {.token = world.token("scan", server::Role::operator_)}};
+  const auto jog = *world.api->jogs.open(call.credential);
+  Reader<CurrentMotion> jogging(jog);
+  ASSERT_TRUE(jog->start(call, kDevice, std::vector<JogAxis>{{.axis = 1, .direction = 1}}));
+  const auto running = jogging.next();
+  ASSERT_TRUE(running);
+  Reader<DeviceState> watching(*world.api->devices.watch(call, kDevice, {}));
+  ASSERT_TRUE(world.api->tokens.revoke(World::by(kAdmin), "scan"));
+  EXPECT_EQ(jogging.reason(), Reason::unauthenticated);
+  EXPECT_EQ(watching.reason(), Reason::unauthenticated);
+  EXPECT_EQ(watching.end().problem->message, "unix root revoked the token scan");
+  EXPECT_TRUE(comes_true([&] {
+    bool over = false;
+    world.on_strand([&](const stage::StageController& controller, TimePoint) {
+      over = find_motion(controller, running->motion.id)->state == MotionState::stopped;
+    });
+    return over;
+  }));
 }
 
 // While the path came in, its caller lost the right to run it.

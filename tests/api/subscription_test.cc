@@ -174,11 +174,13 @@ TEST(ReportStream, SaysAllAndEnds) {
 TEST(StreamPlaces, AreTakenAndGivenBack) {
   World world;
   std::vector<std::shared_ptr<Path>> paths;
-  for (int i = 0; i < Streams::kPathsMax; ++i) paths.push_back(*world.api->paths.open());
-  EXPECT_EQ(world.api->paths.open().error().reason, Reason::queue_full);
-  EXPECT_TRUE(world.api->jogs.open());
+  const Credential anna{.who = "unix anna"}, ben{.who = "unix ben"};
+  for (int i = 0; i < Streams::kPathsOfOneMax; ++i) paths.push_back(*world.api->paths.open(anna));
+  EXPECT_EQ(world.api->paths.open(anna).error().reason, Reason::queue_full);
+  EXPECT_TRUE(world.api->jogs.open(anna));
+  EXPECT_TRUE(world.api->paths.open(ben));
   paths.pop_back();
-  EXPECT_TRUE(world.api->paths.open());
+  EXPECT_TRUE(world.api->paths.open(anna));
 }
 
 }  // namespace

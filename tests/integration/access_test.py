@@ -5,6 +5,7 @@ import os
 import re
 import subprocess
 import tempfile
+import time
 import unittest
 
 from programs import BIN, LIMIT_S, Daemon
@@ -49,6 +50,12 @@ class Access(unittest.TestCase):
         self.assertRegex(made.stdout, rf"\Aaxisgate\.{name}\.[0-9a-f]{{64}}\n\Z")
         return made.stdout.strip()
 
+    def wait_until(self, condition, what):
+        deadline = time.monotonic() + LIMIT_S
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, what)
+            time.sleep(0.05)  # between two looks; the deadline above decides
+
     def refused(self, answer, pattern):
         self.assertEqual(answer.returncode, 3, answer.stdout)
         self.assertRegex(answer.stderr, pattern)
@@ -68,6 +75,24 @@ class Access(unittest.TestCase):
         self.assertEqual(self.daemon.run("token", "revoke", "night-scan").stdout, "night-scan is revoked\n")
         self.refused(self.over_tcp("status", token=token), r"UNAUTHENTICATED: the token \"night-scan\" was revoked \(")
         self.assertRegex(self.daemon.run("token", "list").stdout, r"\Anight-scan  operator  revoked 20\d\d-")
+
+    def test_a_revoked_token_ends_what_it_has_open(self):
+        self.start()
+        token = self.make("night-scan")
+        environment = dict(os.environ, AXISGATE_TOKEN=token)
+        jog = subprocess.Popen([BIN / "axisctl", "--target", self.daemon.address(), "jog", "1=+", "--speed", "1mm/s"],
+                               env=environment, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        watch = subprocess.Popen([BIN / "axisctl", "--target", self.daemon.address(), "watch"], env=environment,
+                                 stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+        for program in (jog, watch):
+            self.addCleanup(program.wait)
+            self.addCleanup(program.kill)
+        self.wait_until(lambda: "busy yes" in self.daemon.run("status").stdout, "the jog")
+        self.assertEqual(self.daemon.run("token", "revoke", "night-scan").stdout, "night-scan is revoked\n")
+        for program in (jog, watch):
+            _, said = program.communicate(timeout=LIMIT_S)
+            self.assertRegex(said, r"revoked")
+        self.wait_until(lambda: "busy yes" not in self.daemon.run("status").stdout, "the stage to stand")
 
     def test_a_token_outlives_the_daemon(self):
         self.start()

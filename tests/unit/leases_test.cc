@@ -188,6 +188,32 @@ TEST_F(LeasesTest, StopAndReleaseEndsWithTheConnection) {
   EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
 }
 
+TEST_F(LeasesTest, WhoIsCutOffForGoodLosesAllLeases) {
+  const LeaseToken token = held_by("anna", kOne), berts = held_by("bert", kTwo);
+  begin(1, "anna", token, kOne);
+  wait_for("anna", kTwo);
+  wait_for("carl", kOne);
+  leases_.cut_off("anna", "its token was revoked", now_);
+  pass(seconds(0));
+  EXPECT_EQ(orders_.size(), 1u);
+  EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
+  EXPECT_TRUE(leases_.keep_alive(berts, now_));
+  EXPECT_THAT(answers_, ElementsAre("anna NOT_SENT"));
+  leases_.end(1, now_);
+  leases_.stopped(orders_[0].id, now_);
+  EXPECT_THAT(answers_, ElementsAre("anna NOT_SENT", "carl has it"));
+}
+
+TEST_F(LeasesTest, WhoIsCutOffForGoodFinishesWhatMayFinish) {
+  const LeaseToken token = held_by("anna", kOne, AtLoss::finish);
+  begin(1, "anna", token, kOne);
+  leases_.cut_off("anna", "its token was revoked", now_);
+  pass(seconds(0));
+  EXPECT_THAT(orders_, IsEmpty());
+  EXPECT_EQ(may("anna", token, kOne, 1), kAllowed);
+  EXPECT_EQ(may("anna", token, kOne, 2), Reason::lease_lost);
+}
+
 TEST_F(LeasesTest, HandingOverPassesTheLine) {
   const LeaseToken token = held_by("anna", kBoth);
   wait_for("bert", kOne);
