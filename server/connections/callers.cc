@@ -11,6 +11,7 @@
 
 #include "device/core/escape.h"
 #include "server/access/access.h"
+#include "server/connections/loopback_peer.h"
 
 namespace axisgate::server {
 namespace {
@@ -64,6 +65,7 @@ std::optional<uid_t> peer_uid(int connection) {
 
 std::string connection_owner(int connection) {
   if (const std::optional<uid_t> user = peer_uid(connection)) return fmt::format("uid {}", *user);
+  if (const std::optional<uid_t> user = loopback_uid(connection)) return fmt::format("uid {} over TCP", *user);
   const std::optional<Address> address = address_of_peer(connection);
   if (!address) return kGone;
   return address->host.starts_with("127.") ? "127.0.0.1" : address->host;

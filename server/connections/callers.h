@@ -11,8 +11,9 @@ namespace axisgate::server {
 // The user who connected; none for a TCP connection.
 std::optional<uid_t> peer_uid(int connection);
 
-// The owner of that connection, as far as limits go: "uid 1000", or the machine's address, "192.168.0.7". All callers
-// over loopback count as one owner, since a caller there can choose among 16 million addresses.
+// The owner of that connection, as far as limits go: "uid 1000", "uid 1000 over TCP" on this machine, or the machine's
+// address, "192.168.0.7". Where the kernel does not name a peer over loopback, all of these are one owner, since a
+// caller there can choose among 16 million addresses.
 std::string connection_owner(int connection);
 
 // Of a TCP connection: "127.0.0.1:39482", "[::1]:39482"; "nobody" once it has gone.

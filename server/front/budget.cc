@@ -26,6 +26,13 @@ void TokenBucket::take(double tokens, TimePoint now) {
   tokens_ -= tokens;
 }
 
+bool TokenBucket::take_if_there(double tokens, TimePoint now) {
+  fill(now);
+  if (tokens_ < tokens) return false;
+  tokens_ -= tokens;
+  return true;
+}
+
 Duration TokenBucket::debt() const {
   if (tokens_ >= 0) return {};
   return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(-tokens_ / rate_.per_second));
@@ -45,19 +52,30 @@ Duration Budget::take(Cost cost, double tokens, TimePoint now) {
   return bucket.debt();
 }
 
+bool Budget::take_if_there(Cost cost, double tokens, TimePoint now) {
+  return buckets_[static_cast<std::size_t>(cost)].take_if_there(tokens, now);
+}
+
 bool Budget::full(TimePoint now) {
   return std::ranges::all_of(buckets_, [now](TokenBucket& bucket) { return bucket.full(now); });
 }
 
-std::shared_ptr<Budget> SourceBudgets::of(const std::string& source, TimePoint now) {
-  std::shared_ptr<Budget>& budget = sources_[source];
-  if (!budget) budget = std::make_shared<Budget>(rates_, now);
-  return budget;
+std::shared_ptr<Source> Sources::of(const std::string& source, TimePoint now) {
+  std::shared_ptr<Source>& known = sources_[source];
+  if (!known) {
+    known = std::make_shared<Source>(Source{.frames = Budget(rates_.frames, now),
+                                            .connections = TokenBucket(rates_.connections, now),
+                                            .handshakes = TokenBucket(rates_.handshakes, now)});
+  }
+  return known;
 }
 
-void SourceBudgets::forget_idle(TimePoint now) {
-  std::erase_if(sources_,
-                [now](const auto& entry) { return entry.second.use_count() == 1 && entry.second->full(now); });
+void Sources::forget_idle(TimePoint now) {
+  std::erase_if(sources_, [now](const auto& entry) {
+    Source& source = *entry.second;
+    return entry.second.use_count() == 1 && source.frames.full(now) && source.connections.full(now) &&
+           source.handshakes.full(now);
+  });
 }
 
 }  // namespace axisgate::front

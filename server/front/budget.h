@@ -35,6 +35,8 @@ class TokenBucket {
 
   // Takes them, also where they are not there yet.
   void take(double tokens, TimePoint now);
+  // Takes them where they are there.
+  bool take_if_there(double tokens, TimePoint now);
   // Until what was taken is there: zero, where it is.
   Duration debt() const;
   bool full(TimePoint now);
@@ -53,25 +55,37 @@ class Budget {
   Budget(const Rates& rates, TimePoint now);
 
   Duration take(Cost cost, double tokens, TimePoint now);  // the debt afterwards
+  bool take_if_there(Cost cost, double tokens, TimePoint now);
   bool full(TimePoint now);
 
  private:
   std::array<TokenBucket, kCosts> buckets_;
 };
 
-// Those of the sources: by user, address or certificate, over all their connections. Not thread safe.
-class SourceBudgets {
- public:
-  explicit SourceBudgets(const Rates& rates) : rates_(rates) {}
+// A user or an address, over all its connections.
+struct Source {
+  Budget frames;
+  TokenBucket connections, handshakes;  // new ones
+};
 
-  std::shared_ptr<Budget> of(const std::string& source, TimePoint now);
+struct SourceRates {
+  Rates frames;
+  Rate connections, handshakes;
+};
+
+// Not thread safe.
+class Sources {
+ public:
+  explicit Sources(const SourceRates& rates) : rates_(rates) {}
+
+  std::shared_ptr<Source> of(const std::string& source, TimePoint now);
   // Those that nobody has any more, and that are full.
   void forget_idle(TimePoint now);
   std::size_t size() const { return sources_.size(); }
 
  private:
-  const Rates rates_;
-  std::map<std::string, std::shared_ptr<Budget>> sources_;
+  const SourceRates rates_;
+  std::map<std::string, std::shared_ptr<Source>> sources_;
 };
 
 }  // namespace axisgate::front

@@ -15,7 +15,7 @@ constexpr Duration kFarewell = std::chrono::seconds(1);
 
 }  // namespace
 
-Connection::Connection(const Surroundings& around, Peer peer, std::shared_ptr<Budget> source, bool stops_only)
+Connection::Connection(const Surroundings& around, Peer peer, std::shared_ptr<Source> source, bool stops_only)
     : around_(around),
       peer_(std::move(peer)),
       source_(std::move(source)),

@@ -30,7 +30,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   };
 
   // `around` outlives it.
-  Connection(const Surroundings& around, Peer peer, std::shared_ptr<Budget> source, bool stops_only);
+  Connection(const Surroundings& around, Peer peer, std::shared_ptr<Source> source, bool stops_only);
 
   void start(std::unique_ptr<Wire> wire);
   // A wire whose handshake is still to come; start() when it is over.
@@ -57,7 +57,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   const Surroundings& around_;
   Peer peer_;
-  const std::shared_ptr<Budget> source_;
+  const std::shared_ptr<Source> source_;
   const bool stops_only_;
   const TimePoint begun_ = monotonic_now();
   TimePoint active_ = begun_;

@@ -35,7 +35,7 @@ bool ends_call(const Frame& frame) {
 
 }  // namespace
 
-Conversation::Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Budget> source,
+Conversation::Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Source> source,
                            bool stops_only, OnReply on_reply, TimePoint now)
     : desk_(desk),
       limits_(limits),
@@ -44,6 +44,7 @@ Conversation::Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std
       stops_only_(stops_only),
       on_reply_(std::move(on_reply)),
       own_(limits.connection, now),
+      spared_(limits.spared, now),
       stranger_(limits.stranger, now),
       now_(now) {
   to_client_ =
@@ -58,8 +59,10 @@ void Conversation::end(ErrorCode code, std::string why) {
 
 // What waits is read later; what must not be ends the connection.
 bool Conversation::spend(Cost cost, double tokens) {
-  Duration debt = std::max(own_.take(cost, tokens, now_), source_->take(cost, tokens, now_));
+  Duration debt = own_.take(cost, tokens, now_);
   if (!admitted_) debt = std::max(debt, stranger_.take(cost, tokens, now_));
+  const Duration of_source = source_->frames.take(cost, tokens, now_);
+  if (of_source > debt && !spared_.take_if_there(cost, tokens, now_)) debt = of_source;
   if (debt <= Duration::zero()) return true;
   const bool may_wait =
       cost == Cost::stream || cost == Cost::header_bytes || (cost == Cost::refusal && debt < kRefusalsWait);

@@ -34,7 +34,7 @@ class Conversation {
   using OnReply = std::function<void(std::uint32_t stream, Reply reply)>;
 
   // `desk` and `limits` outlive it.
-  Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Budget> source, bool stops_only,
+  Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Source> source, bool stops_only,
                OnReply on_reply, TimePoint now);
 
   void from_client(std::string_view bytes, TimePoint now);
@@ -107,10 +107,10 @@ class Conversation {
   Desk& desk_;
   const FrontLimits& limits_;
   const Peer peer_;
-  const std::shared_ptr<Budget> source_;
+  const std::shared_ptr<Source> source_;
   bool stops_only_;
   const OnReply on_reply_;
-  Budget own_;
+  Budget own_, spared_;
   Budget stranger_;  // as long as nobody was let in
   TimePoint now_;
   TimePoint not_before_{};

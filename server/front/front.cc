@@ -60,14 +60,24 @@ Peer Front::peer_of(int connection, server::Acceptor::Origin origin) {
 
 void Front::enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin) {
   Peer peer = peer_of(connection.get(), origin);
-  const bool stops_only = service == server::Acceptor::Service::stop_only;
-  auto budget = sources_.of(peer.source, monotonic_now());
-  const auto made = std::make_shared<Connection>(around_, std::move(peer), std::move(budget), stops_only);
+  const TimePoint now = monotonic_now();
+  auto source = sources_.of(peer.source, now);
+  const bool from_network = origin == server::Acceptor::Origin::network;
+  if (from_network && !source->handshakes.take_if_there(1, now)) return refuse_handshake(peer);
+  // A source that connects too often keeps its stop.
+  const bool too_many = !source->connections.take_if_there(1, now);
+  const bool stops_only = service == server::Acceptor::Service::stop_only || too_many;
+  const auto made = std::make_shared<Connection>(around_, std::move(peer), std::move(source), stops_only);
   connections_.emplace(made.get(), made);
   check_later();
   Socket socket = socket_of(around_.strand, std::move(connection));
-  if (origin == server::Acceptor::Origin::network) return begin_tls(made, std::move(socket));
+  if (from_network) return begin_tls(made, std::move(socket));
   made->start(plain_wire(std::move(socket)));
+}
+
+// One costs a signature, which is most of what a source can make the daemon compute.
+void Front::refuse_handshake(const Peer& peer) {
+  if (warning_.due()) spdlog::warn("closed a connection of {}: more TLS handshakes than the daemon makes", peer.source);
 }
 
 void Front::begin_tls(const std::shared_ptr<Connection>& connection, Socket socket) {

@@ -12,6 +12,7 @@
 #include "device/link/descriptor.h"
 #include "server/config/config.h"
 #include "server/connections/acceptor.h"
+#include "server/connections/seldom.h"
 #include "server/front/budget.h"
 #include "server/front/connection.h"
 #include "server/front/desk.h"
@@ -35,17 +36,19 @@ class Front {
   using Held = std::map<const Connection*, std::shared_ptr<Connection>>;
 
   Peer peer_of(int connection, server::Acceptor::Origin origin);
+  void refuse_handshake(const Peer& peer);
   void begin_tls(const std::shared_ptr<Connection>& connection, Socket socket);
   void ended(const Connection& connection, const std::string& why);
   void check_later();
   void check();
 
   const FrontLimits limits_;
-  SourceBudgets sources_;
+  Sources sources_;
   std::optional<TlsFiles> tls_;
   std::map<uid_t, std::string> users_;  // their names, each looked up once
   Connection::Surroundings around_;
   Held connections_;
+  server::Seldom warning_;
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
 };

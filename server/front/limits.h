@@ -14,7 +14,13 @@ struct FrontLimits {
   // In the order of Cost. Streams, bytes of headers and refusals beyond it wait, up to a bound; anything else ends the
   // connection.
   Rates connection{{{4'000, 8'000}, {1 << 20, 4 << 20}, {200, 2'000}, {10'000, 20'000}, {10, 50}, {50, 200}}};
-  Rates source{{{8'000, 16'000}, {2 << 20, 8 << 20}, {400, 4'000}, {20'000, 40'000}, {50, 2'000}, {100, 400}}};
+  SourceRates source{
+      .frames{{{8'000, 16'000}, {2 << 20, 8 << 20}, {400, 4'000}, {20'000, 40'000}, {50, 2'000}, {100, 400}}},
+      .connections{200, 1'000},
+      .handshakes{100, 400},
+  };
+  // What a connection may do although others of its source have used up everything: enough for a stop.
+  Rates spared{{{20, 40}, {16 << 10, 64 << 10}, {2, 10}, {20, 100}, {1, 10}, {1, 5}}};
   // Until a call was let in. A client sends one SETTINGS and a few WINDOW_UPDATEs before that.
   Rates stranger{{{50, 200}, {64 << 10, 64 << 10}, {10, 20}, {200, 400}, {5, 10}, {50, 200}}};
 

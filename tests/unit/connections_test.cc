@@ -1,4 +1,5 @@
 #include <arpa/inet.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
@@ -8,6 +9,7 @@
 
 #include "server/connections/callers.h"
 #include "server/connections/descriptor_limit.h"
+#include "server/connections/loopback_peer.h"
 #include "server/connections/open_connections.h"
 #include "server/connections/reserve.h"
 #include "tests/unit/connection_fixtures.h"
@@ -91,7 +93,7 @@ TEST(Callers, TheKernelNamesTheUserOfAUnixSocketAlone) {
   EXPECT_EQ(peer_uid(tcp.get()), std::nullopt);
 }
 
-TEST(Callers, AConnectionIsItsUsersOrItsMachinesAndLoopbackIsOneMachine) {
+TEST(Callers, AConnectionIsItsUsersAlsoOverLoopback) {
   const auto pair = socket_pair();
   EXPECT_EQ(connection_owner(pair[0].get()), "uid " + std::to_string(::geteuid()));
   link_test::SerialServer server;
@@ -104,8 +106,9 @@ TEST(Callers, AConnectionIsItsUsersOrItsMachinesAndLoopbackIsOneMachine) {
     ASSERT_EQ(::inet_pton(AF_INET, "127.0.0.1", &address.sin_addr), 1);
     address.sin_port = ::htons(server.settings().port);
     ASSERT_EQ(::connect(client.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
-    EXPECT_EQ(connection_owner(server.accept().get()), "127.0.0.1");
-    EXPECT_EQ(connection_owner(client.get()), "127.0.0.1");
+    const Descriptor accepted = server.accept();
+    EXPECT_EQ(connection_owner(accepted.get()), fmt::format("uid {} over TCP", ::geteuid()));
+    EXPECT_EQ(loopback_uid(accepted.get()), ::geteuid());
   }
   const Descriptor alone(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0));
   EXPECT_EQ(connection_owner(alone.get()), "nobody");

@@ -91,7 +91,8 @@ class ConversationTest : public testing::Test {
 
   TimePoint now{std::chrono::seconds(1)};
   TestDesk desk;
-  std::shared_ptr<Budget> source = std::make_shared<Budget>(kLimits.source, now);
+  Sources sources{kLimits.source};
+  std::shared_ptr<Source> source = sources.of("uid 1", now);
   std::optional<Conversation> conversation;
   HeaderEncoder encoder;
   HeaderDecoder decoder;

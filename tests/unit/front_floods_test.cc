@@ -115,9 +115,26 @@ TEST_F(ConversationTest, RefusedCallsOneAfterTheOtherAreSlowedDown) {
 
 TEST_F(ConversationTest, ConnectionsOfOneSourceShareItsBudget) {
   open();
-  while (source->take(Cost::settings, 1, now) <= Duration::zero()) continue;
-  say(settings_frame({}));
+  while (source->frames.take(Cost::settings, 1, now) <= Duration::zero()) continue;
+  for (int i = 0; i < 20 && !conversation->fault(); ++i) say(settings_frame({}));
   EXPECT_THAT(fault(), HasSubstr("more frames a second"));
+}
+
+// A source that uses up everything over other connections.
+TEST_F(ConversationTest, WhoDoesLittleIsNotHeldBackByOthersOfItsSource) {
+  open();
+  for (int number = 0; number < 10; ++number) {
+    source->frames.take(Cost::stream, 100'000, now);
+    source->frames.take(Cost::header_bytes, 100'000'000, now);
+    source->frames.take(Cost::control, 1'000'000, now);
+    say(call(static_cast<std::uint32_t>(2 * number + 1), "/stop") + frame(FrameType::ping, 0, 0, "12345678"));
+    EXPECT_LE(conversation->not_before(), now);
+  }
+  EXPECT_EQ(fault(), "");
+  for (int number = 10; conversation->not_before() <= now && number < 1000; ++number) {
+    say(call(static_cast<std::uint32_t>(2 * number + 1), "/stop"));
+  }
+  EXPECT_GT(conversation->not_before(), now + seconds(1));
 }
 
 }  // namespace
