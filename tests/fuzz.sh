@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# Fuzzes the RML-1 parser, and parser with machine and pictures, with libFuzzer.
-# usage: tests/fuzz.sh [SECONDS]     so long for each of the two, from what was found before on; 1800 make an hour. Without
-#                                    it the same 10,000 jobs each time. What fails stays in build-fuzz/, is tried first from
+# Fuzzes the RML-1 parser, parser with machine and pictures, and the front's HTTP/2, with libFuzzer.
+# usage: tests/fuzz.sh [SECONDS]     so long for each of these, from what was found before on; 1800 make an hour. Without
+#                                    it the same 10,000 inputs each time. What fails stays in build-fuzz/, is tried first from
 #                                    then on, and is told with the line that shows it again.
 set -euo pipefail
 
@@ -38,19 +38,20 @@ run() {
 }
 
 fuzz() {
-  local target="$1" corpus="$build/corpus-$1" failed
+  local target="$1" corpus="$build/corpus-$1" examples="tests/fuzz/corpus" failed
+  if [[ "$target" == front_fuzz ]]; then examples=""; fi  # those are mill jobs
   rm -f "$build/$target.log"
   for failed in "$build/$target"-{crash,leak,oom,timeout}-*; do
     if [[ -e "$failed" ]]; then run "$target" "$failed"; fi
   done
   if [[ -n "$seconds" ]]; then
     mkdir -p "$corpus"
-    run "$target" -max_total_time="$seconds" -print_final_stats=1 "$corpus" tests/fuzz/corpus
+    run "$target" -max_total_time="$seconds" -print_final_stats=1 "$corpus" $examples
   else
     rm -rf "$build/scratch"
     mkdir "$build/scratch"  # libFuzzer writes into the first folder
     # Nor may it look, each second, at what it wrote.
-    run "$target" -runs=10000 -seed=1 -reload=0 -print_final_stats=1 "$build/scratch" tests/fuzz/corpus
+    run "$target" -runs=10000 -seed=1 -reload=0 -print_final_stats=1 "$build/scratch" $examples
   fi
   printf '%s: %s executions, %s\n' "$target" \
     "$(sed -n 's/^stat::number_of_executed_units: *//p' "$build/$target.log" | tail -n 1)" \
@@ -59,18 +60,24 @@ fuzz() {
 
 cd "$root"
 mkdir -p "$build"
-sources=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
-objects=()
-for source in "${sources[@]}"; do
-  # Pictures as PNG are cairo's.
-  if [[ "$source" != device/rml1/png.cc ]]; then
-    compile "$source"
-    objects+=("$(object_of "$source")")
-  fi
-done
-for target in parser_fuzz machine_fuzz; do
-  compile "tests/fuzz/$target.cc"
-  clang++-19 "${flags[@]}" -fsanitize=fuzzer "$(object_of "tests/fuzz/$target.cc")" "${objects[@]}" -lfmt \
-    -o "$build/$target"
+jobs=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
+front=(server/front/{conversation,frames,header_codec,replies,budget}.cc)
+
+# TARGET SOURCE...
+build_and_fuzz() {
+  local target="$1" objects=() source
+  shift
+  for source in "$@" "tests/fuzz/$target.cc"; do
+    # Pictures as PNG are cairo's.
+    if [[ "$source" != device/rml1/png.cc ]]; then
+      compile "$source"
+      objects+=("$(object_of "$source")")
+    fi
+  done
+  clang++-19 "${flags[@]}" -fsanitize=fuzzer "${objects[@]}" -lfmt -lnghttp2 -lz -lcrypto -o "$build/$target"
   fuzz "$target"
-done
+}
+
+build_and_fuzz parser_fuzz "${jobs[@]}"
+build_and_fuzz machine_fuzz "${jobs[@]}"
+build_and_fuzz front_fuzz "${front[@]}"
