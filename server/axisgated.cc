@@ -9,8 +9,12 @@
 #include <cstdio>
 #include <ctime>
 #include <exception>
+#include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "server/access/access.h"
 #include "server/access/generation.h"
@@ -26,6 +30,8 @@
 #include "server/logging.h"
 #include "server/metrics/certificate_metrics.h"
 #include "server/rpc/server.h"
+#include "server/service_manager.h"
+#include "server/watchdog.h"
 
 namespace axisgate {
 namespace {
@@ -76,6 +82,25 @@ Result<std::unique_ptr<server::Access>> open_access(const server::AccessConfig& 
   return std::make_unique<server::Access>(config, server::caller_name(::geteuid()), *std::move(tokens));
 }
 
+// Nothing where no service manager waits for a sign of life.
+std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& server) {
+  const std::optional<Duration> time = server::watchdog_time();
+  if (!time) return nullptr;
+  std::vector<server::Watchdog::Thread> threads = server.threads();
+  for (server::Stage* stage : gateway.stages()) {
+    threads.push_back(
+        {fmt::format("the thread of the lines, at {},", stage->name()), [stage](std::function<void()> answer) {
+           stage->post([answer = std::move(answer)](stage::StageController&, TimePoint) { answer(); });
+         }});
+  }
+  // The tasks run on the readers' thread, which needs no question of its own. Often enough that one ping may be late.
+  constexpr int kPings = 4;
+  return std::make_unique<server::Watchdog>(
+      std::move(threads), *time / kPings,
+      [&gateway](Duration wait, std::function<void()> task) { gateway.after(wait, std::move(task)); },
+      server::notify_alive);
+}
+
 int serve(const server::Config& config) {
   server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
@@ -110,6 +135,8 @@ int serve(const server::Config& config) {
   }
   spdlog::default_logger()->flush();
   gateway.start();
+  const auto watchdog = watch(gateway, **server);
+  server::notify_ready();
   end_signals.wait(gateway);
   return 0;
 }

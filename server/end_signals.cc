@@ -3,10 +3,16 @@
 #include <pthread.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <csignal>
+
+#include "server/service_manager.h"
 
 namespace axisgate::server {
 namespace {
+
+// For streams and threads, after the devices.
+constexpr Duration kRestOfTheEnd = std::chrono::seconds(5);
 
 void change_mask(int how) {
   sigset_t signals;
@@ -34,6 +40,7 @@ void EndSignals::wait(Gateway& gateway) {
 void EndSignals::on_first(Gateway& gateway, int signal) {
   spdlog::info("ending: {}; a second signal ends at once", signal == SIGINT ? "SIGINT" : "SIGTERM");
   spdlog::default_logger()->flush();
+  notify_stopping(gateway.wind_down_limit() + kRestOfTheEnd);
   gateway.wind_down([this] { context_.stop(); });
   signals_.async_wait([this](const boost::system::error_code&, int) {
     spdlog::warn("ending at once, asked twice: what moves may go on moving");

@@ -136,8 +136,8 @@ front::Reply Desk::no_room() {
   return to_reply(to_status(
       {.reason = Reason::queue_full,
        .message =
-           "this caller has too many connections open, or opens them too fast, or the daemon has no descriptor left: "
-           "nothing but a stop is served on this connection",
+           "the daemon serves nothing but a stop on this connection: this caller has too many open, or opens them too "
+           "fast, or no descriptor is left",
        .hint = "close connections that nobody uses, and connect again in 1 s; or have the daemon's limit of open files "
                "raised (ulimit -n, or LimitNOFILE= of its service), or `connections` in [limits] of its "
                "configuration"}));

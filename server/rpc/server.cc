@@ -1,6 +1,7 @@
 #include "server/rpc/server.h"
 
 #include <fmt/format.h>
+#include <grpc/health/v1/health.grpc.pb.h>
 #include <grpc/support/log.h>
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/server.h>
@@ -51,6 +52,7 @@ class Server::Services {
   // Takes connections from now on. internal: gRPC does not start.
   Result<void> serve(server::Gateway& gateway, const server::ConnectionLimits& limits);
   server::Listener& listener() { return *listener_; }
+  std::vector<server::Watchdog::Thread> threads();
 
  private:
   void build();
@@ -76,6 +78,7 @@ class Server::Services {
   HealthService health_;
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> grpc_;
+  std::shared_ptr<grpc::health::v1::Health::Stub> itself_;  // a client within this process
   front::Front front_;
   std::atomic<bool> ending_ = false;
 };
@@ -133,6 +136,27 @@ void Server::Services::build() {
   // The front knows who calls, and what the caller may do.
   acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, grpc::InsecureServerCredentials());
   grpc_ = builder.BuildAndStart();
+  if (grpc_ != nullptr) itself_ = grpc::health::v1::Health::NewStub(grpc_->InProcessChannel({}));
+}
+
+// gRPC's threads answer where a call of its own passes through them.
+std::vector<server::Watchdog::Thread> Server::Services::threads() {
+  const auto ask_listener = [strand = listener_->strand()](std::function<void()> answer) {
+    boost::asio::post(strand, std::move(answer));
+  };
+  const auto ask_grpc = [itself = itself_](std::function<void()> answer) {
+    struct Call {
+      grpc::ClientContext context;
+      grpc::health::v1::HealthCheckRequest request;
+      grpc::health::v1::HealthCheckResponse response;
+    };
+    const auto call = std::make_shared<Call>();
+    itself->async()->Check(&call->context, &call->request, &call->response,
+                           [call, answer = std::move(answer)](const grpc::Status& status) {
+                             if (status.ok()) answer();
+                           });
+  };
+  return {{"the thread of the listener", ask_listener}, {"gRPC", ask_grpc}};
 }
 
 void Server::Services::enter(Descriptor connection) {
@@ -177,6 +201,8 @@ const server::TcpAddress& Server::listen() const { return services_->listener().
 const std::string& Server::socket() const { return services_->listener().socket(); }
 
 const std::optional<server::TcpAddress>& Server::network() const { return services_->listener().network(); }
+
+std::vector<server::Watchdog::Thread> Server::threads() { return services_->threads(); }
 
 server::ConnectionCounts Server::connections() { return services_->listener().counts(); }
 

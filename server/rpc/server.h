@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "server/access/access.h"
@@ -12,6 +13,7 @@
 #include "server/connections/acceptor.h"
 #include "server/devices/saved_positions.h"
 #include "server/gateway.h"
+#include "server/watchdog.h"
 
 namespace axisgate::rpc {
 
@@ -30,6 +32,9 @@ class Server {
   const std::string& socket() const;
   const std::optional<server::TcpAddress>& network() const;
   server::ConnectionCounts connections();  // from any thread
+
+  // Those that serve connections and calls, as long as the server lives.
+  std::vector<server::Watchdog::Thread> threads();
 
  private:
   class Services;
