@@ -2,10 +2,22 @@
 
 #include <spdlog/spdlog.h>
 
+#include "device/core/escape.h"
+
 namespace axisgate::api {
+namespace {
+
+constexpr std::size_t kWhatMax = 400;
+
+}  // namespace
 
 void audit(RequestKind kind, std::string_view who, std::string_view what) {
-  if (rule_of(kind).audited) spdlog::info("{} {}", who, what);
+  if (rule_of(kind).audited) spdlog::info("{} {}", escaped(who), escaped(what, kWhatMax));
+}
+
+void audit(RequestKind kind, const server::Stage& device, const stage::RequestContext& context, std::string_view what) {
+  if (!rule_of(kind).audited) return;
+  spdlog::info("{}: {} requests: {}", device.name(), escaped(context.who), escaped(what, kWhatMax));
 }
 
 }  // namespace axisgate::api

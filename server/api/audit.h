@@ -1,14 +1,21 @@
-// Who changed what, in the log. A device's own changes and stops stand there already: server/devices/device_events.
+// Who requested what changes something, in the log. What became of it follows there: server/devices/device_events.
 #pragma once
 
 #include <string_view>
 
+#include "device/stage/requests.h"
 #include "server/api/request_kinds.h"
+#include "server/devices/stage.h"
 
 namespace axisgate::api {
 
-// After it was done. `what` follows the caller's name: "revoked the token night-scan". Nothing of a kind whose rule is
-// not audited. Thread safe.
+// Nothing of a kind whose rule is not audited. `what` may hold bytes of the caller's: it is escaped, and cut at 400
+// characters. Thread safe.
+
+// After it was done. `what` follows the caller's name: "revoked the token night-scan".
 void audit(RequestKind kind, std::string_view who, std::string_view what);
+
+// Of a request that is handed to its device now: "move axis 1 to 5 mm".
+void audit(RequestKind kind, const server::Stage& device, const stage::RequestContext& context, std::string_view what);
 
 }  // namespace axisgate::api

@@ -7,7 +7,9 @@
 #include <utility>
 
 #include "device/link/clock.h"
+#include "server/api/audit.h"
 #include "server/api/names.h"
+#include "server/api/request_texts.h"
 
 namespace axisgate::api {
 namespace {
@@ -62,6 +64,7 @@ class Execution final : public Subscription<ExecuteEvent> {
  private:
   void begin() override {
     device_.post([self = self<Execution>()](stage::StageController& controller, TimePoint now) {
+      audit(RequestKind::execute, self->device_, self->request_.context, text_of("execute", self->request_.lines));
       controller.execute(std::move(self->request_), now, [self](const ExecuteEvent& event) { self->on_event(event); });
     });
     gateway_.after(timeout_ + kTimeoutGrace, [waiting = weak_from_this(), this] {

@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "device/link/clock.h"
+#include "server/api/audit.h"
 #include "server/api/names.h"
+#include "server/api/request_texts.h"
 #include "server/api/targets.h"
 
 namespace axisgate::api {
@@ -95,6 +97,7 @@ void Devices::clear_errors(const Call& call, std::string_view device, const Resu
       },
       [](const Turn&, stage::AxisSet) { return Result<void>(); },
       [](const Turn& turn, stage::AxisSet chosen, const Answer<void>& respond) {
+        audit(RequestKind::clear_errors, turn.device, turn.context, text_of("clear errors of", chosen));
         turn.controller.clear_errors(chosen, turn.context, turn.now, respond);
       });
 }

@@ -4,7 +4,9 @@
 
 #include <utility>
 
+#include "server/api/audit.h"
 #include "server/api/names.h"
+#include "server/api/request_texts.h"
 
 namespace axisgate::api {
 namespace {
@@ -72,6 +74,7 @@ void Jog::begin_on(server::Stage& device, StageController& controller, stage::Jo
   if (over_) return end(kBrokenOff);
   if (const auto good = check_deadline(RequestKind::jog, request.context, now); !good) return end(good.error());
   follow_from_now();
+  audit(RequestKind::jog, device, request.context, text_of(request));
   motion_ = controller.jog(std::move(request), now, [self = self<Jog>(), &device](const Result<stage::Motion>& motion) {
     self->show(device, motion);
   });

@@ -36,6 +36,9 @@ class Jog final : public MotionSubscription {
   // Every other message: the jog continues, for `axes` at other speeds. False: the jog is stopped, and so on.
   bool renew(const Result<std::vector<JogAxis>>& axes);
 
+  // What came is no message of a jog: the stream ends with `problem`, and the jog is stopped.
+  void refuse_part(const Problem& problem) { (void)refuse(problem); }
+
   // The caller wants it to end.
   void finish();
   // The caller has gone without a word.

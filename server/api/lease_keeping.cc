@@ -27,6 +27,8 @@ void LeaseKeeping::keep_on(server::Stage& device, server::LeaseToken token, Time
   wake();
 }
 
+void LeaseKeeping::refuse(const Problem& problem) { end({problem}); }
+
 void LeaseKeeping::finish() { end({}); }
 
 void LeaseKeeping::break_off() {

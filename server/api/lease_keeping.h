@@ -20,6 +20,8 @@ class LeaseKeeping final : public Subscription<server::Lease> {
 
   // The lease lives on for another time_to_live. The stream ends with invalid_request, unknown_device or lease_lost.
   void keep(std::string_view device, std::string_view lease_token);
+  // What came is no message of this stream, which ends with `problem`. The lease then lives on as its terms have it.
+  void refuse(const Problem& problem);
   // The caller has ended the stream in order: nothing is kept alive any more, and nothing was lost.
   void finish();
   // The caller has gone without a word: what follows is as the lease's terms have it.

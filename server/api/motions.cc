@@ -4,7 +4,9 @@
 #include <utility>
 
 #include "device/stage/envelope.h"
+#include "server/api/audit.h"
 #include "server/api/names.h"
+#include "server/api/request_texts.h"
 
 namespace axisgate::api {
 namespace {
@@ -38,6 +40,7 @@ void Motions::move(const Call& call, std::string_view device, Result<Move> move,
       [move = std::move(move)](const Turn& turn) { return completed(*move, turn.controller.state(), turn.context); },
       [](const Turn& turn, const stage::MoveRequest& request) { return turn.controller.check(request); },
       [](const Turn& turn, stage::MoveRequest request, const Answer<StartedMotion>& respond) {
+        audit(RequestKind::move, turn.device, turn.context, text_of(request));
         turn.controller.move(std::move(request), turn.now, answering(turn.device, respond));
       });
 }
@@ -60,7 +63,9 @@ void Motions::begin_home(RequestKind kind, Start start, const Call& call, std::s
         return stage::HomeRequest{axes, turn.context};
       },
       check_home,
-      [start](const Turn& turn, stage::HomeRequest request, const Answer<StartedMotion>& respond) {
+      [kind, start](const Turn& turn, stage::HomeRequest request, const Answer<StartedMotion>& respond) {
+        audit(kind, turn.device, turn.context,
+              text_of(kind == RequestKind::home ? "home" : "return to the logical origin", request.axes));
         (turn.controller.*start)(std::move(request), turn.now, answering(turn.device, respond));
       });
 }
@@ -77,6 +82,7 @@ void Motions::scan(const Call& call, std::string_view device, Result<stage::Scan
       },
       [](const Turn& turn, const stage::ScanRequest& request) { return turn.controller.check(request); },
       [](const Turn& turn, stage::ScanRequest request, const Answer<StartedMotion>& respond) {
+        audit(RequestKind::scan, turn.device, turn.context, text_of(request));
         turn.controller.scan(std::move(request), turn.now, answering(turn.device, respond));
       });
 }

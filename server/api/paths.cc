@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "server/api/audit.h"
 #include "server/api/names.h"
 
 namespace axisgate::api {
@@ -79,10 +80,6 @@ bool Path::add(Result<stage::Segment> segment) {
   return taken || end(taken.error());
 }
 
-bool Path::refuse_part(std::string_view message) {
-  return end(Problem{.reason = Reason::invalid_request, .message = std::string(message)});
-}
-
 // Admitted now, so that nobody sends a long path for nothing; and again by run(), from which it counts.
 Result<void> Path::take_head(const Call& call, std::string_view device) {
   if (call_) return fail(Reason::invalid_request, "a path has one header, and a second one came");
@@ -145,6 +142,7 @@ void Path::run_on(server::Stage& device, StageController& controller, stage::Req
     const std::lock_guard lock(mutex_);
     reader_.go_to_newest();
   }
+  audit(RequestKind::run_path, device, path_.context, fmt::format("run a path of {} segments", path_.segments.size()));
   controller.run_path(std::move(path_), now, [self = self<Path>(), &device](const Result<stage::Motion>& motion) {
     self->on_started(device, motion);
   });

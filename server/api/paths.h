@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 #include "device/core/problem.h"
@@ -38,8 +39,8 @@ class Path final : public Subscription<PathStep> {
   bool start(const Call& call, std::string_view device);
   // The next segment, at most stage::PathRequest::kSegmentsMax. False: likewise.
   bool add(Result<stage::Segment> segment);
-  // A part that is neither. False, always.
-  bool refuse_part(std::string_view message);
+  // A part that is neither: the stream ends with `problem`. False, always.
+  bool refuse_part(Problem problem) { return end(std::move(problem)); }
 
   // All segments have come: the path runs. It counts from now on, as far as its call does not say until when.
   void run();

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "device/link/clock.h"
+#include "server/api/audit.h"
 #include "server/api/position_changes.h"
 #include "server/api/position_checks.h"
 #include "server/api/setting_lines.h"
@@ -66,6 +67,8 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
       [](const Turn&, const Saving&) { return Result<void>(); },
       [](const Turn& turn, Saving saving, const Answer<Outcome>& respond) {
         saving.answer = respond;
+        audit(RequestKind::save_position, turn.device, turn.context,
+              fmt::format("save the position {}: {}", saving.position.name, saving.lines.save));
         begin(std::move(saving), turn);
       });
 }
@@ -92,6 +95,8 @@ void Positions::remove(const Call& call, std::string_view name, Answer<void> ans
       [](const Turn&, const SavedPosition&) { return Result<void>(); },
       [&gateway = gateway_, &positions = positions_](const Turn& turn, SavedPosition position,
                                                      const Answer<void>& respond) {
+        audit(RequestKind::delete_position, turn.device, turn.context,
+              fmt::format("delete the saved position {}", position.name));
         begin(Removal{gateway, positions, std::move(position), respond}, turn);
       });
 }
@@ -113,6 +118,8 @@ void Positions::move_to(const Call& call, std::string_view name, Answer<StartedM
         return up ? turn.controller.check(move.request) : up;
       },
       [&positions = positions_](const Turn& turn, MoveToPosition move, const Answer<StartedMotion>& respond) {
+        audit(RequestKind::move_to_position, turn.device, turn.context,
+              fmt::format("move to the saved position {}", move.position.name));
         const bool compared = !move.request.expected.empty();
         turn.controller.go_to_position(std::move(move.request), turn.now,
                                        answering_of(turn, positions, std::move(move.position), compared, respond));

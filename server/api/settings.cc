@@ -7,7 +7,9 @@
 #include <memory>
 #include <utility>
 
+#include "server/api/audit.h"
 #include "server/api/names.h"
+#include "server/api/request_texts.h"
 
 namespace axisgate::api {
 namespace {
@@ -100,7 +102,7 @@ void Settings::get(const Call& call, std::string_view device, Answer<stage::Sett
 
 // As one transaction of the lines that the request comes to. Administrators' lines are refused before any is sent.
 template <class ToLines>
-void Settings::set(const Asked& asked, Answer<void> answer, ToLines to_lines) const {
+void Settings::set(const Asked& asked, std::string_view verb, Answer<void> answer, ToLines to_lines) const {
   pipeline_.run(
       asked, std::move(answer),
       [&access = access_, to_lines = std::move(to_lines)](const Turn& turn) -> Result<Lines> {
@@ -114,7 +116,8 @@ void Settings::set(const Asked& asked, Answer<void> answer, ToLines to_lines) co
         return lines;
       },
       [](const Turn& turn, const Lines& lines) { return turn.device.kind().check_lines(lines); },
-      [](const Turn& turn, Lines lines, const Answer<void>& respond) {
+      [kind = asked.kind, verb](const Turn& turn, Lines lines, const Answer<void>& respond) {
+        audit(kind, turn.device, turn.context, text_of(verb, lines));
         turn.controller.execute({std::move(lines), turn.context}, turn.now, [respond](const ExecuteEvent& event) {
           if (event.kind != ExecuteEvent::Kind::ended) return;
           respond(event.problem ? tl::unexpected(*event.problem) : Result<void>());
@@ -124,25 +127,26 @@ void Settings::set(const Asked& asked, Answer<void> answer, ToLines to_lines) co
 
 void Settings::change(const Call& call, std::string_view device, const Result<SettingsChange>& change,
                       Answer<void> answer) const {
-  set({RequestKind::change_settings, call, find_stage(gateway_, device), fault_of(change)}, std::move(answer),
+  set({RequestKind::change_settings, call, find_stage(gateway_, device), fault_of(change)}, "change settings",
+      std::move(answer),
       [change](const stage::Kind& kind, const stage::State& state) { return lines_of(*change, kind, state); });
 }
 
 void Settings::set_coordinates(const Call& call, std::string_view device, const Result<NewCoordinates>& coordinates,
                                Answer<void> answer) const {
-  set({RequestKind::set_coordinates, call, find_stage(gateway_, device), fault_of(coordinates)}, std::move(answer),
-      [coordinates](const stage::Kind& kind, const stage::State& state) {
+  set({RequestKind::set_coordinates, call, find_stage(gateway_, device), fault_of(coordinates)}, "set coordinates",
+      std::move(answer), [coordinates](const stage::Kind& kind, const stage::State& state) {
         return lines_of(*coordinates, kind, state);
       });
 }
 
 void Settings::fire_trigger(const Call& call, std::string_view device, Answer<void> answer) const {
-  set({RequestKind::fire_trigger, call, find_stage(gateway_, device)}, std::move(answer),
+  set({RequestKind::fire_trigger, call, find_stage(gateway_, device)}, "fire the trigger", std::move(answer),
       [](const stage::Kind& kind, const stage::State& state) { return kind.lines_for(stage::FireTrigger{}, state); });
 }
 
 void Settings::reset(const Call& call, std::string_view device, Answer<void> answer) const {
-  set({RequestKind::reset_device, call, find_stage(gateway_, device)}, std::move(answer),
+  set({RequestKind::reset_device, call, find_stage(gateway_, device)}, "reset the device", std::move(answer),
       [](const stage::Kind& kind, const stage::State& state) {
         return kind.lines_for(stage::ResetController{}, state);
       });

@@ -39,7 +39,7 @@ class Settings {
 
  private:
   template <class ToLines>
-  void set(const Asked& asked, Answer<void> answer, ToLines to_lines) const;
+  void set(const Asked& asked, std::string_view verb, Answer<void> answer, ToLines to_lines) const;
 
   const server::Gateway& gateway_;
   const server::Access& access_;

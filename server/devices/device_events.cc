@@ -13,6 +13,12 @@ namespace {
 
 constexpr Duration kUnexpectedLinePause = std::chrono::seconds(1);
 
+// "move of axes 1 and 2"; settings and questions move none: "execute".
+std::string named(const stage::Motion& motion) {
+  if (motion.axes.empty()) return std::string(stage::name(motion.kind));
+  return fmt::format("{} of {}", stage::name(motion.kind), to_string(motion.axes));
+}
+
 std::string because(const std::optional<Problem>& problem) {
   return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
 }
@@ -40,9 +46,8 @@ void DeviceEvents::tell(const stage::MotionChanged& change, TimePoint now) {
   if (revisions_.size() > kMotionsRemembered) revisions_.erase(revisions_.begin());
   if (motion.state == stage::MotionState::queued || motion.state == stage::MotionState::stopping) return;
   const bool well = motion.state == stage::MotionState::running || motion.state == stage::MotionState::succeeded;
-  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({} of {}, asked by {}) is {}{}",
-              device_, motion.id, stage::name(motion.kind), to_string(motion.axes), escaped(motion.who),
-              stage::name(motion.state), because(motion.problem));
+  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({}, asked by {}) is {}{}", device_,
+              motion.id, named(motion), escaped(motion.who), stage::name(motion.state), because(motion.problem));
 }
 
 void DeviceEvents::tell(const stage::LinkChanged& change, TimePoint now) {

@@ -59,7 +59,7 @@ void Connection::move_on() {
   write_grpc();
   const bool said_all = !writes_client_ && !conversation_->has_for_client();
   if (conversation_->fault()) {
-    if (said_all) return close(conversation_->fault()->why);
+    if (said_all) return close();
     if (!fault_since_) fault_since_ = monotonic_now();
     return;
   }
@@ -74,7 +74,7 @@ void Connection::read_client() {
   reads_client_ = true;
   wire_->read_some(asio::buffer(from_client_), [this, self = shared_from_this()](const Error& error, std::size_t size) {
     reads_client_ = false;
-    if (error) return close("");
+    if (error) return close();
     active_ = monotonic_now();
     conversation_->from_client({from_client_.data(), size}, active_);
     if (!conversation_->in_frame()) {
@@ -101,7 +101,7 @@ void Connection::write_client() {
   to_client_ = conversation_->take_to_client();
   wire_->write(asio::buffer(to_client_), [this, self = shared_from_this()](const Error& error) {
     writes_client_ = false;
-    if (error) return close("");
+    if (error) return close();
     move_on();
   });
 }
@@ -127,7 +127,7 @@ void Connection::read_grpc() {
                           reads_grpc_ = false;
                           if (closed_) return;
                           // gRPC has ended the connection: what it said before has been written.
-                          if (error) return close("");
+                          if (error) return close();
                           conversation_->from_server({from_grpc_.data(), size});
                           move_on();
                         });
@@ -139,29 +139,34 @@ void Connection::write_grpc() {
   to_grpc_ = conversation_->take_to_server();
   asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
     writes_grpc_ = false;
-    if (error) return close("");
+    if (error) return close();
     move_on();
   });
 }
 
 void Connection::check(TimePoint now) {
   const FrontLimits& limits = around_.limits;
-  if (fault_since_ && now - *fault_since_ > kFarewell) return close(conversation_->fault()->why);
-  const bool admitted = conversation_ && conversation_->admitted();
-  if (!admitted && now - begun_ > limits.silence) return close("no call came in time");
-  if (frame_since_ && now - *frame_since_ > limits.frame_time) return close("a frame was not finished in time");
+  if (fault_since_ && now - *fault_since_ > kFarewell) return close();
+  if (now - begun_ > limits.silence) {
+    if (!conversation_) return close(Closing{Cause::handshake_failed, "the TLS handshake was not finished in time"});
+    if (!conversation_->admitted()) return close(Closing{Cause::no_call, "no call came in time"});
+  }
+  if (frame_since_ && now - *frame_since_ > limits.frame_time) {
+    return close(Closing{Cause::frame_unfinished, "a frame was not finished in time"});
+  }
   if (!conversation_ || !conversation_->stops_only() || conversation_->calls() > 0) return;
-  if (now - active_ > limits.reserve_idle || now - begun_ > limits.reserve_age) close("");
+  if (now - active_ > limits.reserve_idle || now - begun_ > limits.reserve_age) close();
 }
 
-void Connection::close(const std::string& why) {
+void Connection::close(const std::optional<Closing>& why) {
   if (std::exchange(closed_, true)) return;
   const auto self = shared_from_this();
   Error ignored;
   wire_->close();
   grpc_.close(ignored);
   budget_timer_.cancel();
-  around_.ended(*this, why);
+  const bool at_fault = conversation_ && conversation_->fault();
+  around_.ended(*this, at_fault ? conversation_->fault()->why : why);
 }
 
 }  // namespace axisgate::front

@@ -25,8 +25,9 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::shared_ptr<Mailbox> mailbox;  // to that strand
     Desk& desk;
     const FrontLimits& limits;
-    std::function<void(Descriptor)> to_grpc;                           // a connection of its own, not blocking
-    std::function<void(const Connection&, const std::string&)> ended;  // once: it is closed; with why, if we ended it
+    std::function<void(Descriptor)> to_grpc;  // a connection of its own, not blocking
+    // Once: it is closed; with why, where this side closed it for a cause.
+    std::function<void(const Connection&, const std::optional<Closing>&)> ended;
   };
 
   // `around` outlives it.
@@ -39,7 +40,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   // Now and then: what has taken too long is ended.
   void check(TimePoint now);
-  void close(const std::string& why);
+  void close(const std::optional<Closing>& why = {});
 
   const Peer& peer() const { return peer_; }
 

@@ -28,6 +28,12 @@ std::map<std::uint16_t, std::uint32_t> bounded(std::map<std::uint16_t, std::uint
   return settings;
 }
 
+Cause cause_of(ErrorCode code) {
+  return code == ErrorCode::enhance_your_calm ? Cause::over_budget : Cause::protocol_error;
+}
+
+bool is_own(const Header& header) { return header.name == kCallerHeader || header.name == kSourceHeader; }
+
 bool ends_call(const Frame& frame) {
   const bool carries = frame.type == FrameType::headers || frame.type == FrameType::data;
   return frame.type == FrameType::rst_stream || (carries && frame.has(FrameFlag::end_stream));
@@ -54,7 +60,7 @@ Conversation::Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std
 void Conversation::end(ErrorCode code, std::string why) {
   if (fault_) return;
   to_client_ += goaway(last_stream_, code, why);
-  fault_ = Fault{code, std::move(why)};
+  fault_ = Fault{code, {cause_of(code), std::move(why)}};
 }
 
 // What waits is read later; what must not be ends the connection.
@@ -177,8 +183,9 @@ void Conversation::begin_call(std::uint32_t stream, Headers headers, bool whole)
       return refuse(stream, verdict.refusal, whole);
     case Verdict::What::forward:
       open_[stream] = verdict.place;
-      std::erase_if(headers, [](const Header& header) { return header.name == kCallerHeader; });
+      std::erase_if(headers, is_own);
       headers.push_back({std::string(kCallerHeader), peer_.who});
+      headers.push_back({std::string(kSourceHeader), peer_.source});
       return forward_headers(stream, std::move(headers), whole);
     case Verdict::What::answer:
       break;

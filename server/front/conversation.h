@@ -15,6 +15,7 @@
 
 #include "device/core/time.h"
 #include "server/front/budget.h"
+#include "server/front/closing.h"
 #include "server/front/desk.h"
 #include "server/front/frames.h"
 #include "server/front/header_codec.h"
@@ -29,7 +30,7 @@ class Conversation {
   // Why it ended, where this side ended it.
   struct Fault {
     ErrorCode code = ErrorCode::no_error;
-    std::string why;
+    Closing why;
   };
   // Called with a call's stream and its reply, where the desk gives one: hand it to reply().
   using OnReply = std::function<void(std::uint32_t stream, Reply reply)>;

@@ -10,8 +10,9 @@
 
 namespace axisgate::front {
 
-// The header that names the caller to gRPC. A client's own is dropped.
+// The headers that name the caller, and Peer::source, to gRPC. A client's own are dropped.
 inline constexpr const char* kCallerHeader = "axisgate-caller";
+inline constexpr const char* kSourceHeader = "axisgate-source";
 
 // Who is at the other end of a connection, as far as that is known without a token.
 struct Peer {

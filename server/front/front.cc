@@ -1,7 +1,6 @@
 #include "server/front/front.h"
 
 #include <netinet/in.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
 #include <chrono>
@@ -30,15 +29,16 @@ Socket socket_of(const Strand& strand, Descriptor connection) {
 }  // namespace
 
 Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
-             std::function<void(Descriptor)> to_grpc, const FrontLimits& limits)
+             std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits)
     : limits_(limits),
       sources_(limits.source),
+      on_closing_(std::move(on_closing)),
       around_{strand,
               std::make_shared<Mailbox>(strand),
               desk,
               limits_,
               std::move(to_grpc),
-              [this](const Connection& connection, const std::string& why) { ended(connection, why); }},
+              [this](const Connection& connection, const std::optional<Closing>& why) { ended(connection, why); }},
       timer_(strand) {
   if (network) tls_.emplace(*network);
 }
@@ -63,7 +63,10 @@ void Front::enter(Descriptor connection, server::Acceptor::Service service, serv
   const TimePoint now = monotonic_now();
   auto source = sources_.of(peer.source, now);
   const bool from_network = origin == server::Acceptor::Origin::network;
-  if (from_network && !source->handshakes.take_if_there(1, now)) return refuse_handshake(peer);
+  // One costs a signature, which is most of what a source can make the daemon compute.
+  if (from_network && !source->handshakes.take_if_there(1, now)) {
+    return on_closing_(peer, {Cause::over_budget, "more TLS handshakes a second than the daemon makes for one source"});
+  }
   // A source that connects too often keeps its stop.
   const bool too_many = !source->connections.take_if_there(1, now);
   const bool stops_only = service == server::Acceptor::Service::stop_only || too_many;
@@ -75,22 +78,19 @@ void Front::enter(Descriptor connection, server::Acceptor::Service service, serv
   made->start(plain_wire(std::move(socket)));
 }
 
-// One costs a signature, which is most of what a source can make the daemon compute.
-void Front::refuse_handshake(const Peer& peer) {
-  if (warning_.due()) spdlog::warn("closed a connection of {}: more TLS handshakes than the daemon makes", peer.source);
-}
-
 void Front::begin_tls(const std::shared_ptr<Connection>& connection, Socket socket) {
   auto wire = tls_->begin(std::move(socket), [connection](const Wire::Error& error, std::optional<std::string> name) {
-    if (error) return connection->close("the TLS handshake failed: " + error.message());
+    if (error) {
+      return connection->close(Closing{Cause::handshake_failed, "the TLS handshake failed: " + error.message()});
+    }
     connection->handshake_over(std::move(name));
   });
-  if (!wire) return ended(*connection, "");
+  if (!wire) return ended(*connection, {});
   connection->hold(std::move(wire));
 }
 
-void Front::ended(const Connection& connection, const std::string& why) {
-  if (!why.empty()) spdlog::warn("closed a connection of {}: {}", connection.peer().who, why);
+void Front::ended(const Connection& connection, const std::optional<Closing>& why) {
+  if (why) on_closing_(connection.peer(), *why);
   connections_.erase(&connection);
 }
 

@@ -12,8 +12,8 @@
 #include "device/link/descriptor.h"
 #include "server/config/config.h"
 #include "server/connections/acceptor.h"
-#include "server/connections/seldom.h"
 #include "server/front/budget.h"
+#include "server/front/closing.h"
 #include "server/front/connection.h"
 #include "server/front/desk.h"
 #include "server/front/limits.h"
@@ -24,9 +24,12 @@ namespace axisgate::front {
 // On one strand, where nothing runs any more when it is destroyed.
 class Front {
  public:
+  // Called on the strand when this side has closed a connection for a cause.
+  using OnClosing = std::function<void(const Peer&, const Closing&)>;
+
   // `desk` outlives it. `to_grpc` takes a connected socket for each client that has a call for gRPC.
   Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
-        std::function<void(Descriptor)> to_grpc, const FrontLimits& limits = {});
+        std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits = {});
 
   ~Front() { around_.mailbox->close(); }
 
@@ -36,19 +39,18 @@ class Front {
   using Held = std::map<const Connection*, std::shared_ptr<Connection>>;
 
   Peer peer_of(int connection, server::Acceptor::Origin origin);
-  void refuse_handshake(const Peer& peer);
   void begin_tls(const std::shared_ptr<Connection>& connection, Socket socket);
-  void ended(const Connection& connection, const std::string& why);
+  void ended(const Connection& connection, const std::optional<Closing>& why);
   void check_later();
   void check();
 
   const FrontLimits limits_;
   Sources sources_;
+  const OnClosing on_closing_;
   std::optional<TlsFiles> tls_;
   std::map<uid_t, std::string> users_;  // their names, each looked up once
   Connection::Surroundings around_;
   Held connections_;
-  server::Seldom warning_;
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
 };

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "server/events/wall_time.h"
-#include "server/front/desk.h"
 #include "server/rpc/bearer.h"
 
 namespace axisgate::rpc {
@@ -15,7 +14,7 @@ using server::WallTime;
 
 constexpr const char* kAuthorization = "authorization";
 
-std::optional<std::string_view> find(const grpc::CallbackServerContext& call, grpc::string_ref name) {
+std::optional<std::string_view> find(const grpc::ServerContextBase& call, grpc::string_ref name) {
   const auto found = call.client_metadata().find(name);
   if (found == call.client_metadata().end()) return std::nullopt;
   return std::string_view(found->second.data(), found->second.size());
@@ -37,9 +36,14 @@ std::optional<TimePoint> not_after(const v1::CallContext& context) {
 
 }  // namespace
 
-api::Credential credential_of(const grpc::CallbackServerContext& call) {
+api::Credential credential_of(const grpc::ServerContextBase& call) {
   if (auto token = token_in(find(call, kAuthorization))) return {.token = std::move(token)};
-  return {.who = std::string(find(call, front::kCallerHeader).value_or(""))};
+  return {.who = peer_of(call).who};
+}
+
+front::Peer peer_of(const grpc::ServerContextBase& call) {
+  return {.who = std::string(find(call, front::kCallerHeader).value_or("")),
+          .source = std::string(find(call, front::kSourceHeader).value_or(""))};
 }
 
 api::Call to_call(const grpc::CallbackServerContext& call) {

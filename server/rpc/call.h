@@ -7,11 +7,14 @@
 
 #include "axisgate/v1/common.pb.h"
 #include "server/api/call.h"
+#include "server/front/desk.h"
 
 namespace axisgate::rpc {
 
 // Of a call that was let in: its token, or whom the front knows by the connection.
-api::Credential credential_of(const grpc::CallbackServerContext& call);
+api::Credential credential_of(const grpc::ServerContextBase& call);
+// By the connection alone, as the front says: who, and from where.
+front::Peer peer_of(const grpc::ServerContextBase& call);
 
 // What `context` says, by this caller.
 api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline, const v1::CallContext& context);

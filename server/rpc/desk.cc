@@ -21,6 +21,7 @@
 #include "server/rpc/method_kinds.h"
 #include "server/rpc/status.h"
 #include "server/rpc/to_proto.h"
+#include "server/rpc/unreadable.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -50,6 +51,17 @@ api::Credential credential_of(const Headers& headers, const Peer& peer) {
 
 Reply to_reply(const grpc::Status& status) {
   return {.code = status.error_code(), .message = status.error_message(), .details = status.error_details()};
+}
+
+Problem nothing_left() {
+  return {.reason = Reason::queue_full,
+          .message =
+              "the daemon serves nothing but a stop on this connection: this caller has too many open, or opens them "
+              "too fast, or no descriptor is left",
+          .hint =
+              "close connections that nobody uses, and connect again in 1 s; or have the daemon's limit of open files "
+              "raised (ulimit -n, or LimitNOFILE= of its service), or `connections` in [limits] of its "
+              "configuration"};
 }
 
 Reply no_such_method(std::string_view method) {
@@ -103,28 +115,17 @@ v1::ListDevicesResponse list_of(const std::vector<api::DeviceState>& devices) {
   return response;
 }
 
-Reply not_readable(std::string_view method) {
-  return to_reply(to_status({.reason = Reason::invalid_request,
-                             .message = fmt::format("the message is not one of {}", method),
-                             .hint = "see that client and daemon have the same proto files"}));
-}
-
 }  // namespace
 
 Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   const std::string_view method = method_of(headers);
   const RequestKind kind = kind_of(method);
   const Result<server::Caller> caller = api_.admission.let_in(kind, credential_for_limits(headers, peer), method);
-  if (!caller) {
-    const grpc::Status status = to_status(caller.error());
-    metrics_.count_refusal(status.error_code());
-    const bool unwanted = status.error_code() != grpc::RESOURCE_EXHAUSTED;
-    return {.what = Verdict::What::refuse, .refusal = to_reply(status), .unwanted = unwanted};
-  }
+  if (!caller) return refused(headers, peer, caller.error());
   if (api::rule_of(kind).quota == api::Quota::none) return {.what = Verdict::What::answer};
   if (stops_only) {
     metrics_.count(method, grpc::RESOURCE_EXHAUSTED);
-    return {.what = Verdict::What::refuse, .refusal = no_room()};
+    return refused(headers, peer, nothing_left());
   }
   if (kind == RequestKind::unlisted) {
     return {.what = Verdict::What::refuse, .refusal = no_such_method(method), .unwanted = true};
@@ -132,16 +133,14 @@ Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   return {.what = Verdict::What::forward, .place = api_.admission.take_place(kind, caller->who)};
 }
 
-front::Reply Desk::no_room() {
-  return to_reply(to_status(
-      {.reason = Reason::queue_full,
-       .message =
-           "the daemon serves nothing but a stop on this connection: this caller has too many open, or opens them too "
-           "fast, or no descriptor is left",
-       .hint = "close connections that nobody uses, and connect again in 1 s; or have the daemon's limit of open files "
-               "raised (ulimit -n, or LimitNOFILE= of its service), or `connections` in [limits] of its "
-               "configuration"}));
+front::Verdict Desk::refused(const Headers& headers, const Peer& peer, const Problem& problem) {
+  refusals_.note(peer, credential_of(headers, peer), method_of(headers), problem.reason, problem.message);
+  return {.what = Verdict::What::refuse,
+          .refusal = to_reply(to_status(problem)),
+          .unwanted = problem.reason != Reason::queue_full};
 }
+
+front::Reply Desk::no_room() { return to_reply(to_status(nothing_left())); }
 
 void Desk::answer(const Headers& headers, const Peer& peer, const std::string& message,
                   std::function<void(Reply)> reply) {
@@ -157,7 +156,7 @@ void Desk::answer(const Headers& headers, const Peer& peer, const std::string& m
   switch (kind_of(method)) {
     case RequestKind::stop: {
       const auto request = parsed<v1::StopRequest>(message);
-      if (!request) return counted(not_readable(method));
+      if (!request) return counted(to_reply(to_status(not_readable(method))));
       return api_.stops.stop(call_of(*request), request->device(), to_axes(request->axes()),
                              [counted](const Result<stage::StopReport>& report) {
                                counted(reply_with(report, report_in<v1::StopResponse>));
@@ -165,7 +164,7 @@ void Desk::answer(const Headers& headers, const Peer& peer, const std::string& m
     }
     case RequestKind::emergency_stop: {
       const auto request = parsed<v1::EmergencyStopRequest>(message);
-      if (!request) return counted(not_readable(method));
+      if (!request) return counted(to_reply(to_status(not_readable(method))));
       return api_.stops.emergency_stop(call_of(*request), request->device(),
                                        [counted](const Result<stage::StopReport>& report) {
                                          counted(reply_with(report, report_in<v1::EmergencyStopResponse>));

@@ -4,14 +4,15 @@
 
 #include "server/api/api.h"
 #include "server/front/desk.h"
+#include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
 
 namespace axisgate::rpc {
 
 class Desk final : public front::Desk {
  public:
-  // Both outlive this.
-  Desk(api::Api& api, RpcMetrics& metrics) : api_(api), metrics_(metrics) {}
+  // All outlive this.
+  Desk(api::Api& api, RpcMetrics& metrics, Refusals& refusals) : api_(api), metrics_(metrics), refusals_(refusals) {}
 
   front::Verdict judge(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
   front::Reply no_room() override;
@@ -20,8 +21,11 @@ class Desk final : public front::Desk {
               std::function<void(front::Reply)> reply) override;
 
  private:
+  front::Verdict refused(const front::Headers& headers, const front::Peer& peer, const Problem& problem);
+
   api::Api& api_;
   RpcMetrics& metrics_;
+  Refusals& refusals_;
 };
 
 }  // namespace axisgate::rpc

@@ -8,9 +8,12 @@
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/to_proto.h"
+#include "server/rpc/unreadable.h"
 
 namespace axisgate::rpc {
 namespace {
+
+constexpr const char* kJogMethod = "/axisgate.v1.StageService/Jog";
 
 std::optional<int> to_direction(v1::AxisJog::Direction direction) {
   if (direction == v1::AxisJog::DIRECTION_PLUS) return 1;
@@ -38,7 +41,7 @@ JogRun* JogRun::start(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerC
                       const HalfClose& half_close) {
   const auto run = std::make_shared<JogRun>(std::move(jog), context, half_close);
   run->serve();
-  run->StartRead(&run->incoming_);
+  run->StartRead(run->incoming_.marked());
   return run.get();
 }
 
@@ -50,14 +53,15 @@ JogRun::JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext&
       half_close_(half_close) {}
 
 void JogRun::OnReadDone(bool ok) {
+  if (!ok && incoming_.unreadable()) return jog_->refuse_part(not_readable(kJogMethod));
   if (!ok) return half_close_.wait([jog = jog_] { jog->finish(); });
-  if (take()) StartRead(&incoming_);
+  if (take()) StartRead(incoming_.marked());
 }
 
 bool JogRun::take() {
-  const auto axes = to_jog_axes(incoming_);
+  const auto axes = to_jog_axes(*incoming_);
   if (std::exchange(started_, true)) return jog_->renew(axes);
-  return jog_->start(to_call(context_, incoming_.context()), incoming_.device(), axes);
+  return jog_->start(to_call(context_, incoming_->context()), incoming_->device(), axes);
 }
 
 void JogRun::OnCancel() {

@@ -9,6 +9,7 @@
 #include "axisgate/v1/stage.pb.h"
 #include "server/api/jogs.h"
 #include "server/rpc/half_close.h"
+#include "server/rpc/incoming.h"
 #include "server/rpc/subscribed_stream.h"
 
 namespace axisgate::rpc {
@@ -31,8 +32,8 @@ class JogRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::JogRequ
   const std::shared_ptr<api::Jog> jog_;
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
-  v1::JogRequest incoming_;  // one read is outstanding at most
-  bool started_ = false;     // the first message has come
+  Incoming<v1::JogRequest> incoming_;
+  bool started_ = false;  // the first message has come
 };
 
 }  // namespace axisgate::rpc

@@ -3,13 +3,19 @@
 #include <utility>
 
 #include "server/rpc/lease_to_proto.h"
+#include "server/rpc/unreadable.h"
 
 namespace axisgate::rpc {
+namespace {
+
+constexpr const char* kKeepMethod = "/axisgate.v1.ControlService/KeepLeaseAlive";
+
+}  // namespace
 
 LeaseKeeping* LeaseKeeping::start(std::shared_ptr<api::LeaseKeeping> keeping) {
   const auto call = std::make_shared<LeaseKeeping>(std::move(keeping));
   call->serve();
-  call->StartRead(&call->incoming_);
+  call->StartRead(call->incoming_.marked());
   return call.get();
 }
 
@@ -20,12 +26,13 @@ LeaseKeeping::LeaseKeeping(std::shared_ptr<api::LeaseKeeping> keeping)
 
 // A client that has closed its side in order keeps nothing alive any more, and was not cut off.
 void LeaseKeeping::OnReadDone(bool ok) {
-  ok ? keeping_->keep(incoming_.device(), incoming_.lease_token()) : keeping_->finish();
+  if (ok) return keeping_->keep(incoming_->device(), incoming_->lease_token());
+  incoming_.unreadable() ? keeping_->refuse(not_readable(kKeepMethod)) : keeping_->finish();
 }
 
 // Begun from within gRPC's own callback: elsewhere the call could be over already.
 void LeaseKeeping::OnWriteDone(bool ok) {
-  if (ok) StartRead(&incoming_);
+  if (ok) StartRead(incoming_.marked());
   SubscribedStream::OnWriteDone(ok);
 }
 

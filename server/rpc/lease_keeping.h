@@ -7,6 +7,7 @@
 
 #include "axisgate/v1/control.pb.h"
 #include "server/api/lease_keeping.h"
+#include "server/rpc/incoming.h"
 #include "server/rpc/subscribed_stream.h"
 
 namespace axisgate::rpc {
@@ -25,7 +26,7 @@ class LeaseKeeping final
 
  private:
   const std::shared_ptr<api::LeaseKeeping> keeping_;
-  v1::KeepLeaseAliveRequest incoming_;
+  Incoming<v1::KeepLeaseAliveRequest> incoming_;
 };
 
 }  // namespace axisgate::rpc

@@ -6,9 +6,12 @@
 #include "server/rpc/call.h"
 #include "server/rpc/targets.h"
 #include "server/rpc/to_proto.h"
+#include "server/rpc/unreadable.h"
 
 namespace axisgate::rpc {
 namespace {
+
+constexpr const char* kRunPathMethod = "/axisgate.v1.StageService/RunPath";
 
 void fill_path_step(v1::RunPathResponse& response, const api::PathStep& step) {
   if (const auto* motion = std::get_if<api::CurrentMotion>(&step.what)) {
@@ -24,7 +27,7 @@ PathRun* PathRun::start(std::shared_ptr<api::Path> path, const grpc::CallbackSer
                         const HalfClose& half_close) {
   const auto run = std::make_shared<PathRun>(std::move(path), context, half_close);
   run->serve();
-  run->StartRead(&run->incoming_);
+  run->StartRead(run->incoming_.marked());
   return run.get();
 }
 
@@ -33,16 +36,20 @@ PathRun::PathRun(std::shared_ptr<api::Path> path, const grpc::CallbackServerCont
     : SubscribedStream(path, fill_path_step), path_(std::move(path)), context_(context), half_close_(half_close) {}
 
 void PathRun::OnReadDone(bool ok) {
+  if (!ok && incoming_.unreadable()) {
+    path_->refuse_part(not_readable(kRunPathMethod));
+    return;
+  }
   if (!ok) return half_close_.wait([path = path_] { path->run(); });
-  if (take()) StartRead(&incoming_);
+  if (take()) StartRead(incoming_.marked());
 }
 
 bool PathRun::take() {
-  if (incoming_.has_header()) {
-    return path_->start(to_checked_call(context_, incoming_.header()), incoming_.header().device());
+  if (incoming_->has_header()) {
+    return path_->start(to_checked_call(context_, incoming_->header()), incoming_->header().device());
   }
-  if (incoming_.has_segment()) return path_->add(to_segment(incoming_.segment()));
-  return path_->refuse_part("a part of the path is empty");
+  if (incoming_->has_segment()) return path_->add(to_segment(incoming_->segment()));
+  return path_->refuse_part({.reason = Reason::invalid_request, .message = "a part of the path is empty"});
 }
 
 void PathRun::OnCancel() {

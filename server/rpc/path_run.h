@@ -9,6 +9,7 @@
 #include "axisgate/v1/stage.pb.h"
 #include "server/api/paths.h"
 #include "server/rpc/half_close.h"
+#include "server/rpc/incoming.h"
 #include "server/rpc/subscribed_stream.h"
 
 namespace axisgate::rpc {
@@ -30,7 +31,7 @@ class PathRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::RunPat
   const std::shared_ptr<api::Path> path_;
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
-  v1::RunPathRequest incoming_;  // one read is outstanding at most
+  Incoming<v1::RunPathRequest> incoming_;
 };
 
 }  // namespace axisgate::rpc

@@ -76,16 +76,7 @@ RpcMetrics::RpcMetrics(prometheus::Registry& registry)
       open_streams_(prometheus::BuildGauge()
                         .Name("axisgate_open_streams")
                         .Help("Streams that are open, by method.")
-                        .Register(registry)),
-      refused_(
-          prometheus::BuildCounter()
-              .Name("axisgate_calls_refused_total")
-              .Help(
-                  "Calls refused before any handler: the caller is unknown, may not call, or has too many calls open.")
-              .Register(registry)),
-      unauthenticated_(refused_.Add({{"reason", "unauthenticated"}})),
-      permission_denied_(refused_.Add({{"reason", "permission_denied"}})),
-      too_many_(refused_.Add({{"reason", "too_many"}})) {
+                        .Register(registry)) {
   for (const ServedMethod& method : served_methods()) {
     prometheus::Gauge* open = method.streams ? &open_streams_.Add({{"method", method.name}}) : nullptr;
     methods_.try_emplace(method.name, Method{calls_.Add(labels(method.name, grpc::OK)), open});
@@ -99,13 +90,6 @@ std::unique_ptr<intercepting::ServerInterceptorFactoryInterface> RpcMetrics::int
 void RpcMetrics::count(std::string_view path, grpc::StatusCode code) {
   const auto found = methods_.find(without_slash(path));
   if (found != methods_.end()) calls_.Add(labels(found->first, code)).Increment();
-}
-
-void RpcMetrics::count_refusal(grpc::StatusCode code) {
-  prometheus::Counter& counter = code == grpc::UNAUTHENTICATED     ? unauthenticated_
-                                 : code == grpc::PERMISSION_DENIED ? permission_denied_
-                                                                   : too_many_;
-  counter.Increment();
 }
 
 }  // namespace axisgate::rpc

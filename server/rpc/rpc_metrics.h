@@ -1,5 +1,4 @@
-// Calls by method and code, and the streams that are open, counted where gRPC hands every call through; and those that
-// are not let in.
+// Calls by method and code, and the streams that are open, counted where gRPC hands every call through.
 #pragma once
 
 #include <grpcpp/support/server_interceptor.h>
@@ -26,9 +25,8 @@ class RpcMetrics {
   std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface> interceptor();
 
   // What the front answered by itself, which no interceptor sees: a call of "/axisgate.v1.StageService/Stop" that
-  // ended, and one that was not let in (UNAUTHENTICATED, PERMISSION_DENIED or RESOURCE_EXHAUSTED).
+  // ended.
   void count(std::string_view path, grpc::StatusCode code);
-  void count_refusal(grpc::StatusCode code);
 
  private:
   class CallCount;
@@ -40,10 +38,6 @@ class RpcMetrics {
 
   prometheus::Family<prometheus::Counter>& calls_;
   prometheus::Family<prometheus::Gauge>& open_streams_;
-  prometheus::Family<prometheus::Counter>& refused_;
-  prometheus::Counter& unauthenticated_;
-  prometheus::Counter& permission_denied_;
-  prometheus::Counter& too_many_;
   std::unordered_map<std::string, Method> methods_;  // by "axisgate.v1.StageService/Move"; does not change
 };
 

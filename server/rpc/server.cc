@@ -28,10 +28,12 @@
 #include "server/rpc/half_close.h"
 #include "server/rpc/health_service.h"
 #include "server/rpc/position_service.h"
+#include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
 #include "server/rpc/setting_service.h"
 #include "server/rpc/simulator_service.h"
 #include "server/rpc/stage_service.h"
+#include "server/rpc/unreadable.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -64,6 +66,7 @@ class Server::Services {
   std::unique_ptr<server::Listener> listener_;
   std::optional<server::ConnectionMetrics> connection_metrics_;  // none before the listener has started
   RpcMetrics rpc_metrics_;
+  Refusals refusals_;
   Desk desk_;
   DeviceService devices_;
   StageService stage_;
@@ -90,7 +93,9 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       message_bytes_max_(gateway.config().limits.message_bytes),
       listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
-      desk_(api_, rpc_metrics_),
+      refusals_(*gateway.metrics().registry(),
+                [&gateway](Duration wait, std::function<void()> task) { gateway.after(wait, std::move(task)); }),
+      desk_(api_, rpc_metrics_, refusals_),
       devices_(api_.devices),
       stage_(api_.motions, api_.paths, api_.jogs, half_close_),
       events_(api_.events),
@@ -102,8 +107,10 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       control_(api_.leases),
       known_callers_(api_.tokens),
       health_(api_.streams),
-      front_(listener_->strand(), desk_, gateway.config().network,
-             [this](Descriptor connection) { enter(std::move(connection)); }) {}
+      front_(
+          listener_->strand(), desk_, gateway.config().network,
+          [this](Descriptor connection) { enter(std::move(connection)); },
+          [this](const front::Peer& peer, const front::Closing& closing) { refusals_.note(peer, closing); }) {}
 
 Result<void> Server::Services::serve(server::Gateway& gateway, const server::ConnectionLimits& limits) {
   build();
@@ -129,6 +136,8 @@ void Server::Services::build() {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;
+  interceptors.push_back(unreadable_interceptor());
+  interceptors.push_back(refusals_.interceptor());
   interceptors.push_back(rpc_metrics_.interceptor());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.SetMaxReceiveMessageSize(message_bytes_max_);

@@ -179,9 +179,7 @@ class NotLetInTest : public RpcMetricsTest {
  protected:
   void configure(server::Config& config) override { config.limits.streams = 1; }
 
-  double refused(const std::string& why) const {
-    return find(family("axisgate_calls_refused_total"), {{"reason", why}});
-  }
+  double refused(const std::string& why) const { return find(family("axisgate_refusals_total"), {{"reason", why}}); }
 
   grpc::Status ask(const std::string& method, const std::string& authorization) {
     grpc::ClientContext context;
@@ -192,27 +190,27 @@ class NotLetInTest : public RpcMetricsTest {
 };
 
 TEST_F(NotLetInTest, CallsThatAreNotLetInCountByReason) {
-  for (const char* why : {"unauthenticated", "permission_denied", "too_many"}) EXPECT_EQ(refused(why), 0) << why;
+  for (const char* why : {"UNAUTHENTICATED", "NOT_ALLOWED", "QUEUE_FULL"}) EXPECT_EQ(refused(why), 0) << why;
   const server::Calendar now = server::calendar_now();
   const auto reads = access_->tokens().create("reads", server::Role::observer, now + std::chrono::hours(1), now);
   ASSERT_TRUE(reads) << reads.error().message;
   const std::string bearer = "Bearer " + *reads;
   EXPECT_EQ(ask("/axisgate.v1.StageService/Move", bearer + "0").error_code(), grpc::UNAUTHENTICATED);
-  EXPECT_EQ(refused("unauthenticated"), 1);
+  EXPECT_EQ(refused("UNAUTHENTICATED"), 1);
   EXPECT_EQ(ask("/axisgate.v1.StageService/Move", bearer).error_code(), grpc::PERMISSION_DENIED);
-  EXPECT_EQ(refused("permission_denied"), 1);
+  EXPECT_EQ(refused("NOT_ALLOWED"), 1);
 
   grpc::ClientContext context;
   limit(context);
   context.AddMetadata("authorization", bearer);
   const auto stream = events_->Watch(&context, v1::WatchRequest());
   stream->WaitForInitialMetadata();
-  EXPECT_EQ(refused("too_many"), 0);
+  EXPECT_EQ(refused("QUEUE_FULL"), 0);
   EXPECT_EQ(ask("/" + kWatch, bearer).error_code(), grpc::RESOURCE_EXHAUSTED);
-  EXPECT_EQ(refused("too_many"), 1);
+  EXPECT_EQ(refused("QUEUE_FULL"), 1);
   context.TryCancel();
   stream->Finish();
-  EXPECT_EQ(refused("unauthenticated"), 1);
+  EXPECT_EQ(refused("UNAUTHENTICATED"), 1);
 }
 
 }  // namespace

@@ -49,6 +49,23 @@ TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
 }
 
+// A setting is a transaction of lines: "execute of no axis" would say nothing.
+TEST_F(DeviceEventsTest, AMotionWithoutAxesNamesNone) {
+  std::ostringstream text;
+  const auto before = spdlog::default_logger();
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("test", std::make_shared<spdlog::sinks::ostream_sink_mt>(text)));
+  stage::MotionChanged change = motion(7, stage::MotionState::running);
+  change.motion.kind = stage::MotionKind::execute;
+  change.motion.who = "unix anna";
+  tell(change);
+  change.motion.axes = stage::AxisSet::of(1);
+  tell(change);
+  spdlog::set_default_logger(before);
+  EXPECT_THAT(text.str(), ::testing::HasSubstr("stage: motion 7 (execute, asked by unix anna) is RUNNING"));
+  EXPECT_THAT(text.str(), ::testing::HasSubstr("stage: motion 7 (execute of axis 1, asked by unix anna) is RUNNING"));
+}
+
 TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {
   EXPECT_EQ(events_.motion_revision(1), 0u);
   tell(motion(1, stage::MotionState::queued));

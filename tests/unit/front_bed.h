@@ -87,7 +87,7 @@ class ConversationTest : public testing::Test {
     return frames_in(server_reader, bytes);
   }
   Headers headers_of(const Seen& seen) { return *decoder.decode(seen.payload, 1 << 16); }
-  std::string fault() const { return conversation->fault() ? conversation->fault()->why : ""; }
+  std::string fault() const { return conversation->fault() ? conversation->fault()->why.text : ""; }
 
   TimePoint now{std::chrono::seconds(1)};
   TestDesk desk;

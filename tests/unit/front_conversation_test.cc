@@ -33,10 +33,13 @@ TEST_F(ConversationTest, NothingReachesGrpcBeforeItsFirstCall) {
 
 TEST_F(ConversationTest, TellsGrpcWhoCallsAndBelievesNoClientThere) {
   open();
-  say(call(1, "/forward", false, {{"axisgate-caller", "unix root"}, {"authorization", "Bearer x"}}));
+  say(call(1, "/forward", false,
+           {{"axisgate-caller", "unix root"}, {"axisgate-source", "uid 0"}, {"authorization", "Bearer x"}}));
   const Headers headers = headers_of(passed_on().back());
   EXPECT_EQ(find(headers, "axisgate-caller"), "unix anna");
   EXPECT_EQ(std::ranges::count(headers, "axisgate-caller", &Header::name), 1);
+  EXPECT_EQ(find(headers, "axisgate-source"), "uid 1");
+  EXPECT_EQ(std::ranges::count(headers, "axisgate-source", &Header::name), 1);
   EXPECT_EQ(find(headers, "authorization"), "Bearer x");
   EXPECT_EQ(headers.front().name, ":method");
 }
@@ -219,7 +222,8 @@ TEST_F(ConversationTest, BrokenFramesEndTheConnection) {
   for (const std::string& bytes : broken) {
     open();
     say(bytes);
-    EXPECT_TRUE(conversation->fault()) << testing::PrintToString(bytes);
+    ASSERT_TRUE(conversation->fault()) << testing::PrintToString(bytes);
+    EXPECT_EQ(conversation->fault()->why.cause, Cause::protocol_error);
     EXPECT_EQ(heard().back().type, FrameType::goaway);
   }
 }

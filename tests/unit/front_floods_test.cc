@@ -42,6 +42,7 @@ TEST_P(FloodTest, EndsItsConnectionSoon) {
   EXPECT_LE(static_cast<std::size_t>(sent), GetParam().bound);
   EXPECT_LT(written, 1u << 20);
   EXPECT_EQ(conversation->fault()->code, ErrorCode::enhance_your_calm) << fault();
+  EXPECT_EQ(conversation->fault()->why.cause, Cause::over_budget);
 }
 
 std::string unwanted_call(int number) {

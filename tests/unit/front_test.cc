@@ -47,8 +47,12 @@ class FrontTest : public testing::Test {
     limits.source.connections = {0.001, 2};
     return limits;
   }();
-  Front front_{Strand(io_.get_executor()), desk_, std::nullopt,
-               [this](Descriptor socket) { to_grpc_.push_back(std::move(socket)); }, limits_};
+  Front front_{Strand(io_.get_executor()),
+               desk_,
+               std::nullopt,
+               [this](Descriptor socket) { to_grpc_.push_back(std::move(socket)); },
+               [](const Peer&, const Closing&) {},
+               limits_};
 };
 
 TEST_F(FrontTest, ASourceThatConnectsTooOftenIsServedStopsOnly) {

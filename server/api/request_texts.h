@@ -1,0 +1,23 @@
+// Requests as the log shows them to people.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/stage/requests.h"
+
+namespace axisgate::api {
+
+// "move axis 1 to 5 mm, axis 2 to 100 pulse", "move axis 1 by -3 um".
+std::string text_of(const stage::MoveRequest& move);
+// "scan axis 1 from 0 mm to 5 mm".
+std::string text_of(const stage::ScanRequest& scan);
+// "jog axis 1 plus at 2 mm/s, axis 2 minus at its minimum speed".
+std::string text_of(const stage::JogRequest& jog);
+// "home axis 1", "home all axes".
+std::string text_of(std::string_view verb, stage::AxisSet axes);
+// "change settings: D:1,100,1000,100 | C:1,1". As they are sent, not escaped.
+std::string text_of(std::string_view verb, const std::vector<std::string>& lines);
+
+}  // namespace axisgate::api
