@@ -115,7 +115,7 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  server::Gateway gateway(config, *generation);
+  server::Gateway gateway(config, *generation, state->path());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),

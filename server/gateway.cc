@@ -1,12 +1,15 @@
 #include "server/gateway.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
 #include <random>
 #include <utility>
 
+#include "server/devices/motion_record.h"
+#include "server/explain.h"
 #include "server/recording/recording_file.h"
 
 namespace axisgate::server {
@@ -24,20 +27,29 @@ Executor posting_to(boost::asio::io_context& context) {
   return [&context](std::function<void()> task) { boost::asio::post(context, std::move(task)); };
 }
 
+// Null where nothing can be kept.
+std::unique_ptr<MotionRecord> record_of(const DeviceConfig& device, const std::string& state_directory) {
+  if (state_directory.empty()) return nullptr;
+  auto record = MotionRecord::open(fmt::format("{}/motions-{}", state_directory, device.profile.name), boot_id());
+  if (record) return *std::move(record);
+  spdlog::warn("{}", explain(record.error()));
+  return nullptr;
+}
+
 // Asio opens what its timers need with the first of them, and throws without a free descriptor: while it starts a
 // daemon may fail so, later not.
 void open_timers(boost::asio::io_context& context) { const boost::asio::steady_timer first(context); }
 
 }  // namespace
 
-Gateway::Gateway(const Config& config, std::uint32_t generation)
+Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory)
     : config_(config), run_(random_run()), lease_tokens_(generation), events_(posting_to(readers_)) {
   open_timers(lines_);
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, Strand(lines_.get_executor()));
     auto stage = std::make_unique<Stage>(device, std::move(line), Strand(lines_.get_executor()), events_, metrics_,
-                                         posting_to(readers_), lease_tokens_);
+                                         posting_to(readers_), lease_tokens_, record_of(device, state_directory));
     stages_.push_back(stage.get());
     devices_.push_back(std::move(stage));
   }

@@ -25,8 +25,9 @@ class RecordingFile;
 // that a thousand of them cost the lines nothing. Every member may be called from any thread once start() has returned.
 class Gateway {
  public:
-  // `generation` is greater for every start of the daemon (access/generation.h).
-  Gateway(const Config& config, std::uint32_t generation);
+  // `generation` is greater for every start of the daemon (access/generation.h). What moves is kept in
+  // `state_directory` for a run after this one; without it nothing is.
+  Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {});
   // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
   ~Gateway();
   Gateway(const Gateway&) = delete;

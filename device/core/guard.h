@@ -141,7 +141,7 @@ enum class Guard {
   jog_needs_renewal,
   jog_ends_before_bound,
   jog_ends_with_its_right,
-  orphaned_jogs_stopped,
+  orphans_stopped,
   inputs_start_nothing,
   non_host_alone,
   switches_audited,

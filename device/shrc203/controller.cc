@@ -30,7 +30,7 @@
 #include "device/shrc203/session/lease_orders.h"
 #include "device/shrc203/session/lease_settings.h"
 #include "device/shrc203/session/non_host_visit.h"
-#include "device/shrc203/session/orphaned_jogs.h"
+#include "device/shrc203/session/orphans.h"
 #include "device/shrc203/session/polling.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/session/restart_check.h"
@@ -79,18 +79,17 @@ struct Controller::Rooms {
   SettingsReader settings_reader{dialogue, reader, store};
   Explainer explainer{dialogue, reader, line, store, registers, non_host, tasks};
   Stops stops{dialogue, line, reader, store, motions, registers, non_host, tasks, session};
-  OrphanedJogs orphaned_jogs{stops};
+  Orphans orphans{stops, store};
   LeaseSettings lease_settings{reader, store, pending, permission};
   Restorer restorer{dialogue, reader, store, motions, pending, permission, ending, tasks};
   LeaseOrders lease_orders{permission, stops, restorer, tasks};
   NonHostVisit non_host_visit{dialogue, line, reader, settings_reader, store, motions, registers, non_host, tasks};
-  Handshake handshake{dialogue, line,      reader,   settings_reader, orphaned_jogs, store,
+  Handshake handshake{dialogue, line,      reader,   settings_reader, orphans, store,
                       motions,  registers, non_host, permission,      tasks};
   RestartCheck restart_check{dialogue, line, reader, store, tasks};
   ErrorClearing error_clearing{dialogue, reader, store, rights, non_host, tasks};
   WindDown wind_down{line, stops, restorer, store, motions, ending, tasks};
-  Session session{line,    handshake, restart_check, stops,  orphaned_jogs, store,
-                  motions, registers, rights,        ending, tasks};
+  Session session{line, handshake, restart_check, stops, orphans, store, motions, registers, rights, ending, tasks};
 
   TriggerCount triggers{dialogue, store};
   Watch watch{line, reader, triggers, store, motions, tasks};
@@ -269,6 +268,11 @@ std::optional<Motion> Controller::find_motion(MotionId id) const { return rooms_
 
 void Controller::cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) {
   at(now, [&] { rooms_->stops.cancel(id, context, std::move(done)); });
+}
+
+void Controller::inherit(const stage::Unfinished& unfinished) {
+  rooms_->line.ask_line_before();
+  rooms_->orphans.inherit(unfinished);
 }
 
 void Controller::wind_down(TimePoint now, OnWoundDown done) {

@@ -51,6 +51,7 @@ class Controller : public StageController {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
   int outstanding_answers() const override;
+  void inherit(const stage::Unfinished& unfinished) override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:

@@ -37,7 +37,8 @@ struct PathProgress {
 struct LinkChanged {
   LinkState link = LinkState::down;
   std::string why;
-  AxisSet controllable{};  // when up
+  AxisSet controllable{};       // when up
+  std::string serial_number{};  // of the controller, when up
 };
 
 struct StopRequested {
@@ -49,6 +50,19 @@ struct StopRequested {
 // Axes move that the gateway did not start: the front panel did, or a gateway before this one.
 struct ForeignMotion {
   AxisSet axes;
+};
+
+// What became of a Unfinished. For the log; not a fact with a revision.
+struct UnfinishedJudged {
+  enum class What {
+    not_ours,    // another controller answers, or another program has used the line since
+    stopped,     // these axes are being stopped
+    finishes,    // these axes may finish
+    stationary,  // all axes were seen to be stationary
+  };
+  What what = What::not_ours;
+  AxisSet axes;
+  std::string motions;
 };
 
 // A visit to their edit mode has changed memory switches for good (manual 117) MS:ON).
@@ -137,9 +151,10 @@ struct IllegalTransition {
 // Positions, mode, excitation or the like are newer; ask StageController::state().
 struct StateChanged {};
 
-using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
-                           SwitchesChanged, ProgramNotice, BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded,
-                           BarrierEntered, LineLearned, UnexpectedLine, IllegalTransition, StateChanged>;
+using Event =
+    std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
+                 SwitchesChanged, ProgramNotice, BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded,
+                 BarrierEntered, LineLearned, UnexpectedLine, IllegalTransition, UnfinishedJudged, StateChanged>;
 
 class EventSink {
  public:

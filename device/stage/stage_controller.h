@@ -16,6 +16,7 @@
 #include "device/stage/profile.h"
 #include "device/stage/requests.h"
 #include "device/stage/state.h"
+#include "device/stage/unfinished.h"
 
 namespace axisgate::stage {
 
@@ -80,6 +81,10 @@ class StageController : public LineMachine {
   virtual std::size_t queued(Lane lane) const = 0;
   // Answers to abandoned probes of the line that may still come.
   virtual int outstanding_answers() const = 0;
+
+  // Before link_up(): what the run before this one had started. It is stopped, or finishes where the profile's
+  // at_exit lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
+  virtual void inherit(const Unfinished&) {}
 
   // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
   // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers

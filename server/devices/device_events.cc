@@ -26,12 +26,18 @@ std::string because(const std::optional<Problem>& problem) {
 }  // namespace
 
 DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
-                           OnDue due)
-    : device_(std::move(device)), bus_(bus), metrics_(metrics), recorder_(recorder), due_(std::move(due)) {}
+                           OnDue due, MotionRecord* record)
+    : device_(std::move(device)),
+      bus_(bus),
+      metrics_(metrics),
+      recorder_(recorder),
+      due_(std::move(due)),
+      record_(record) {}
 
 void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
   metrics_.on_event(event);
   recorder_.on_event(event, now);
+  if (record_ != nullptr) record_->on_event(event);
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 
@@ -71,6 +77,25 @@ void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {
   spdlog::warn(
       "{}: FOREIGN_MOTION: {} moves, and nobody here requested it: the front panel, or a gateway before this one",
       device_, to_string(motion.axes));
+}
+
+void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
+  using What = stage::UnfinishedJudged::What;
+  const std::string whose = fmt::format("{}: the daemon was killed during {}", device_, judged.motions);
+  switch (judged.what) {
+    case What::not_ours:
+      return spdlog::warn(
+          "{}; another controller answers now, or another program has used the line since: whether {} moves is "
+          "unknown, and nothing is stopped",
+          whose, to_string(judged.axes));
+    case What::stopped:
+      return spdlog::warn("{}; {} is stopped", whose, to_string(judged.axes));
+    case What::finishes:
+      return spdlog::warn("{}; {} may finish (at_exit)", whose, to_string(judged.axes));
+    case What::stationary:
+      return spdlog::warn("{}; {} is stationary now, and the outcome is unknown: check the position", whose,
+                          to_string(judged.axes));
+  }
 }
 
 void DeviceEvents::tell(const stage::SwitchesChanged& change, TimePoint now) {

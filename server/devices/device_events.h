@@ -8,6 +8,7 @@
 #include <string>
 
 #include "device/stage/event.h"
+#include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recorder.h"
@@ -21,8 +22,9 @@ class DeviceEvents : public stage::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // `bus`, `metrics` and `recorder` outlive this.
-  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder, OnDue due);
+  // `bus`, `metrics`, `recorder` and `record` outlive this. Without `record` nothing is kept for the next run.
+  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder, OnDue due,
+               MotionRecord* record = nullptr);
 
   void on_event(const stage::Event& event, TimePoint now) override;
 
@@ -37,6 +39,7 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::LinkChanged& change, TimePoint now);
   void tell(const stage::StopRequested& stop, TimePoint now);
   void tell(const stage::ForeignMotion& motion, TimePoint now);
+  void tell(const stage::UnfinishedJudged& judged, TimePoint now);
   void tell(const stage::SwitchesChanged& change, TimePoint now);
   void tell(const stage::ProgramNotice& notice, TimePoint now);
   void tell(const stage::CompletionSeen& completion, TimePoint now) { publish(completion, now); }
@@ -58,6 +61,7 @@ class DeviceEvents : public stage::EventSink {
   DeviceMetrics& metrics_;
   DeviceRecorder& recorder_;
   const OnDue due_;
+  MotionRecord* const record_;
   std::map<stage::MotionId, std::uint64_t> revisions_;
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;

@@ -24,14 +24,18 @@ std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
 }  // namespace
 
 Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
-             const Executor& readers, LeaseTokens& lease_tokens)
+             const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record)
     : Device(config.profile.name, recording_header(config.profile), std::move(line), std::move(strand), metrics,
              readers, lease_tokens),
       kind_(*config.kind),
       profile_(config.profile),
       newest_state_(readers),
-      events_(profile_.name, bus, this->metrics(), recorder(), [this](DeviceEvents::Due due) { on_due(due); }),
+      record_(std::move(record)),
+      events_(
+          profile_.name, bus, this->metrics(), recorder(), [this](DeviceEvents::Due due) { on_due(due); },
+          record_.get()),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
+  if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
   runner().attach(*controller_);
 }
 

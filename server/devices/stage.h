@@ -11,15 +11,16 @@
 #include "server/config/config.h"
 #include "server/devices/device.h"
 #include "server/devices/device_events.h"
+#include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
 
 namespace axisgate::server {
 
 class Stage final : public Device {
  public:
-  // `bus`, `metrics` and the strand's io_context outlive this.
+  // `bus`, `metrics` and the strand's io_context outlive this. `record` may be null.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
-        const Executor& readers, LeaseTokens& lease_tokens);
+        const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record);
 
   // From any thread.
   std::string_view kind_name() const override { return kind_.name(); }
@@ -46,6 +47,7 @@ class Stage final : public Device {
   const stage::Kind& kind_;
   const stage::Profile profile_;
   Newest<stage::State> newest_state_;
+  const std::unique_ptr<MotionRecord> record_;
   DeviceEvents events_;
   std::unique_ptr<stage::StageController> controller_;
   bool publishing_ = false;  // a posted publish_due() is under way

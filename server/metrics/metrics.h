@@ -113,6 +113,7 @@ class DeviceMetrics {
   void count(const stage::LineLearned&) {}
   void count(const stage::UnexpectedLine&) { unexpected_lines_.Increment(); }
   void count(const stage::IllegalTransition&) {}
+  void count(const stage::UnfinishedJudged&) {}
   void count(const stage::StateChanged&) {}
   prometheus::Counter& motions(stage::MotionKind kind, stage::MotionState outcome);
 

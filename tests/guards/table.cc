@@ -241,7 +241,7 @@ constexpr Row kTable[] = {
              "HazardOfBoundedJogs.EndsBeforeTheTravelLimit"),
     by_tests(Guard::jog_ends_with_its_right, "jog-ends-with-its-right", "... and one whose lease has ended",
              "HazardOfJogsEnd.H35_ItEndsWithTheLease"),
-    by_tests(Guard::orphaned_jogs_stopped, "orphaned-jogs-stopped", "... and one that ran on while the line was lost",
+    by_tests(Guard::orphans_stopped, "orphans-stopped", "... and one that ran on while the line was lost",
              "HazardOfJogs.H31_TheLineIsLostUnderIt"),
     by_tests(Guard::inputs_start_nothing, "inputs-start-nothing",
              "no input pin starts a motion unless the configuration allows it", "Hazard.H16_InputsStartNothing"),

@@ -32,7 +32,7 @@ class RecordingLink : public ByteLink {
 // What the line reports, in words: "connected", "completion 2", "completion 2 doubtful" ...
 class RecordingListener : public LineListener {
  public:
-  void line_connected(const Identity& identity, TimePoint) override {
+  void line_connected(const Identity& identity, const std::optional<std::string>&, TimePoint) override {
     news.push_back("connected " + identity.serial_number);
   }
   void line_opened(TimePoint) override {}

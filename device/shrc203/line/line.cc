@@ -44,7 +44,9 @@ void Line::link_up(TimePoint now) {
   timing_.connected();
   completions_.connected();
   continuity_.connected();
-  barrier_ = make_barrier({}, connect_limits());
+  // Whatever ?:CMD answers is new here.
+  constexpr const char* kUnknown = "?";
+  barrier_ = make_barrier(asks_line_before_ ? kUnknown : "", connect_limits());
   write_waiting_stops();
   barrier_->start(now);
 }

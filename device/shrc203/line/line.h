@@ -60,7 +60,9 @@ class LineListener {
   virtual ~LineListener() = default;
   virtual void line_opened(TimePoint now) = 0;
   // The identity was received and the line fell silent: the handshake may run.
-  virtual void line_connected(const Identity& identity, TimePoint now) = 0;
+  // `line_before`: what the controller had been sent before, where Line::ask_line_before() was called.
+  virtual void line_connected(const Identity& identity, const std::optional<std::string>& line_before,
+                              TimePoint now) = 0;
   virtual void line_trusted(TimePoint now) = 0;  // open() was called; what waits is sent next
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
@@ -79,6 +81,8 @@ class Line {
  public:
   Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener);
 
+  // From now on a connect begins with ?:CMD, until a controller has answered.
+  void ask_line_before() { asks_line_before_ = true; }
   void link_up(TimePoint now);
   void link_down(TimePoint now, std::string_view why);
   void receive(std::string_view bytes, TimePoint now);
@@ -193,6 +197,7 @@ class Line {
   Continuity continuity_;
   TimePoint now_{};  // of the call from outside
   AxisSet controllable_;
+  bool asks_line_before_ = false;
   bool connected_before_ = false;
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;

@@ -100,7 +100,8 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
 void Line::in_barrier(std::string_view text, TimePoint now) {
   const bool echoed = barrier_->echo().has_value(), identified = barrier_->identity().has_value();
   if (!barrier_->on_line(text, now)) unexpected(text, now);
-  if (!echoed && barrier_->echo()) on_last_command(*barrier_->echo(), now);
+  const bool connecting = state_.phase() == LinkPhase::identifying;
+  if (!echoed && barrier_->echo() && !connecting) on_last_command(*barrier_->echo(), now);
   if (!barrier_) return;  // disconnected
   if (!identified && barrier_->identity()) continuity_.answered(true, now);
   barrier_moved(now);
@@ -273,11 +274,13 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
 void Line::barrier_moved(TimePoint now) {
   if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
   if (barrier_->state() == Barrier::State::failed) {
+    asks_line_before_ = false;  // a controller that does not say is connected without it
     disconnect("no answer to three probes", now);
     return;
   }
   const Identity identity = *barrier_->identity();
   const std::optional<bool> barrier_reported = barrier_->received();
+  const std::optional<std::string> line_before = barrier_->echo();
   // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
   outstanding_.echoes = 0;
   maybe_in_two_ = false;
@@ -295,7 +298,8 @@ void Line::barrier_moved(TimePoint now) {
   }
   change(connecting ? LinkEvent::identified : LinkEvent::barrier_passed, now);
   if (connecting) {
-    listener_.line_connected(identity, now);
+    asks_line_before_ = false;
+    listener_.line_connected(identity, line_before, now);
   } else {
     listener_.barrier_passed(identity, now);
   }

@@ -65,7 +65,7 @@ class Replay : LineListener, ByteLink {
 
   // LineListener
   void line_opened(TimePoint) override {}
-  void line_connected(const Identity&, TimePoint) override {}
+  void line_connected(const Identity&, const std::optional<std::string>&, TimePoint) override {}
   void line_trusted(TimePoint) override {}
   void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override {

@@ -106,7 +106,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      orphaned_jogs_.all_stationary();
+      orphans_.all_stationary();
       line_.ready(AxisSet::all(), tasks_.now());
       auto quiet = tasks_.pause(kNoCompletionAfterReady);
       co_await quiet;
@@ -120,9 +120,11 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
 
 Task<void> Handshake::wait_for_others() {
   line_.busy(AxisSet::all(), tasks_.now());
-  orphaned_jogs_.stop();
+  orphans_.stop();
+  const bool left = !store_.left_moving().empty();
   store_.note_trouble(LinkTrouble::motion,
-                      "something moves that the gateway did not start; waiting until it is stationary");
+                      fmt::format("something moves that {}; waiting until it is stationary",
+                                  left ? "the gateway had started before it was killed" : "the gateway did not start"));
   const auto read = co_await reader_.read_positions(Lane::question, kGateway, true);
   if (!read) store_.publish();
   auto pause = tasks_.pause(kHandshakeReadyPoll);

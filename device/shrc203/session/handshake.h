@@ -7,7 +7,7 @@
 
 #include "device/core/tasks.h"
 #include "device/shrc203/session/dialogue.h"
-#include "device/shrc203/session/orphaned_jogs.h"
+#include "device/shrc203/session/orphans.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/session/settings_reader.h"
 #include "device/shrc203/state/motions.h"
@@ -23,14 +23,14 @@ enum class FrontPanelRead { fit, wrong, unreadable, format_unreadable };
 
 class Handshake {
  public:
-  Handshake(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, OrphanedJogs& orphaned_jogs,
+  Handshake(Dialogue& dialogue, Line& line, Reader& reader, SettingsReader& settings, Orphans& orphans,
             StateStore& store, Motions& motions, Registers& registers, NonHost& non_host, Permission& permission,
             Tasks& tasks)
       : dialogue_(dialogue),
         line_(line),
         reader_(reader),
         settings_(settings),
-        orphaned_jogs_(orphaned_jogs),
+        orphans_(orphans),
         store_(store),
         motions_(motions),
         registers_(registers),
@@ -53,7 +53,7 @@ class Handshake {
   Line& line_;
   Reader& reader_;
   SettingsReader& settings_;
-  OrphanedJogs& orphaned_jogs_;
+  Orphans& orphans_;
   StateStore& store_;
   Motions& motions_;
   Registers& registers_;

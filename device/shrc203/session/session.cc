@@ -19,14 +19,15 @@ void Session::line_opened(TimePoint) {
 void Session::line_trusted(TimePoint) {
   show_link();
   store_.note_trouble(LinkTrouble::none, "");
-  store_.emit(LinkChanged{LinkState::up, "", store_.controllable()});
+  store_.emit(LinkChanged{LinkState::up, "", store_.controllable(), store_.state().serial_number});
 }
 
 void Session::same_controller(TimePoint) { show_link(); }
 
-void Session::line_connected(const Identity& identity, TimePoint) {
+void Session::line_connected(const Identity& identity, const std::optional<std::string>& line_before, TimePoint) {
   store_.connected();
-  orphaned_jogs_.stop();
+  orphans_.identified(identity, line_before);
+  orphans_.stop();
   tasks_.spawn(handshake_.run(identity, store_.connection()));
 }
 
@@ -37,7 +38,7 @@ void Session::line_lost(const std::string& why, TimePoint) {
   store_.note_trouble(LinkTrouble::line, why);
   store_.lost();
   for (const auto& [id, live] : motions_.live()) {
-    if (live->jog && live->life.has_written()) orphaned_jogs_.add(live->motion.axes);
+    if (live->jog && live->life.has_written()) orphans_.add_jogs(live->motion.axes);
   }
   motions_.line_lost(why);
   if (!changed) return;

@@ -11,7 +11,7 @@
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/handshake.h"
-#include "device/shrc203/session/orphaned_jogs.h"
+#include "device/shrc203/session/orphans.h"
 #include "device/shrc203/session/restart_check.h"
 #include "device/shrc203/session/stops.h"
 #include "device/shrc203/state/motions.h"
@@ -24,13 +24,13 @@ namespace axisgate::shrc203 {
 
 class Session : public LineListener, public Violations {
  public:
-  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, OrphanedJogs& orphaned_jogs,
+  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, Orphans& orphans,
           StateStore& store, Motions& motions, Registers& registers, Rights& rights, const Ending& ending, Tasks& tasks)
       : line_(line),
         handshake_(handshake),
         restart_check_(restart_check),
         stops_(stops),
-        orphaned_jogs_(orphaned_jogs),
+        orphans_(orphans),
         store_(store),
         motions_(motions),
         registers_(registers),
@@ -39,7 +39,7 @@ class Session : public LineListener, public Violations {
         tasks_(tasks) {}
 
   void line_opened(TimePoint now) override;
-  void line_connected(const Identity& identity, TimePoint now) override;
+  void line_connected(const Identity& identity, const std::optional<std::string>& line_before, TimePoint now) override;
   void line_trusted(TimePoint now) override;
   void line_lost(const std::string& why, TimePoint now) override;
   void barrier_entered(const std::string& why, TimePoint now) override;
@@ -70,7 +70,7 @@ class Session : public LineListener, public Violations {
   Handshake& handshake_;
   RestartCheck& restart_check_;
   Stops& stops_;
-  OrphanedJogs& orphaned_jogs_;
+  Orphans& orphans_;
   StateStore& store_;
   Motions& motions_;
   Registers& registers_;

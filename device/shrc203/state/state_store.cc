@@ -89,7 +89,7 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
 }
 
 void StateStore::note_foreign_motion(AxisSet busy, AxisSet ours) {
-  const AxisSet expected = state_.moving_unknown ? AxisSet::all() : ours;
+  const AxisSet expected = state_.moving_unknown ? AxisSet::all() : ours | left_moving_;
   const AxisSet unasked = guarded(Guard::foreign_motion_reported) ? busy - expected : AxisSet();
   AxisSet reported;
   for (const int number : AxisSet::all().list()) {

@@ -75,6 +75,9 @@ class StateStore {
   std::optional<Read> note_positions(const Reply& reply);
   // Of axes that are busy and none of ours: two readings must say it, since one flipped bit makes a B of an R.
   void note_foreign_motion(AxisSet busy, AxisSet ours);
+  // Started by the run before this one, and not seen to be stationary yet: nothing foreign.
+  void note_left_moving(AxisSet axes) { left_moving_ = axes; }
+  AxisSet left_moving() const { return left_moving_; }
   void note_excited(int axis, bool excited) { state_.axis(axis).excited = excited; }
   void note_outputs(std::optional<int> outputs) { state_.outputs = outputs; }
   void note_trigger(std::optional<Trigger> trigger) { state_.trigger = std::move(trigger); }
@@ -110,7 +113,8 @@ class StateStore {
   std::string reported_scales_;
   LinkTrouble trouble_ = LinkTrouble::none;
   std::uint64_t connection_ = 0;
-  AxisSet moved_unasked_;  // at the last reading
+  AxisSet moved_unasked_;
+  AxisSet left_moving_;  // at the last reading
   bool settled_ = false;
 };
 

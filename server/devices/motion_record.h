@@ -1,0 +1,61 @@
+// What moves now, kept in a file so that a run after this one knows it if this one is killed. The journal is not this:
+// it remembers what was.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/stage/event.h"
+#include "device/stage/unfinished.h"
+
+namespace axisgate::server {
+
+// On the device's strand. Nothing waits for the disk: the file is mapped, and the kernel keeps what a killed process
+// had written. Only a crash of the machine loses it, and nothing is inherited from before a boot.
+class MotionRecord {
+ public:
+  // `boot` names this boot of the machine. internal, where the file cannot be made or is no regular one.
+  static Result<std::unique_ptr<MotionRecord>> open(const std::string& path, std::string boot);
+  ~MotionRecord();
+  MotionRecord(const MotionRecord&) = delete;
+  MotionRecord& operator=(const MotionRecord&) = delete;
+
+  // What the run before left in the file; nothing where nothing moved, the machine has booted since, or the text is
+  // none of this class.
+  const std::optional<stage::Unfinished>& unfinished() const { return unfinished_; }
+
+  void on_event(const stage::Event& event);
+
+ private:
+  struct File;
+
+  MotionRecord(std::unique_ptr<File> file, std::string boot);
+
+  void note(const stage::MotionChanged& change);
+  void note(const stage::BytesWritten& bytes);
+  void note(const stage::LinkChanged& change);
+  void note(const stage::UnfinishedJudged& judged);
+  template <class Other>
+  void note(const Other&) {}
+  std::string text() const;
+  void write();
+
+  const std::unique_ptr<File> file_;
+  const std::string boot_;
+  std::optional<stage::Unfinished> unfinished_;  // until it is known what became of it
+  std::string serial_number_;
+  std::map<stage::MotionId, stage::Motion> motions_;  // without an outcome
+  stage::AxisSet started_;                            // by a line that was not answered yet
+  std::deque<std::string> last_lines_;                // newest first
+};
+
+// Of this boot of the machine; empty where the kernel does not say.
+std::string boot_id();
+
+}  // namespace axisgate::server

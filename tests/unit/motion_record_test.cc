@@ -1,0 +1,159 @@
+// What a killed daemon leaves in the file of its motions, and what of it the next one believes.
+#include "server/devices/motion_record.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace axisgate::server::motion_record_test {
+namespace {
+
+using stage::AxisSet;
+using stage::BytesWritten;
+using stage::LinkChanged;
+using stage::LinkState;
+using stage::Motion;
+using stage::MotionChanged;
+using stage::MotionKind;
+using stage::MotionState;
+using stage::UnfinishedJudged;
+using testing::ElementsAre;
+
+class MotionRecordTest : public testing::Test {
+ protected:
+  ~MotionRecordTest() override { std::filesystem::remove_all(folder_); }
+
+  void start(const std::string& boot = "boot-1") {
+    record_.reset();
+    auto opened = MotionRecord::open(path_, boot);
+    ASSERT_TRUE(opened) << opened.error().message;
+    record_ = *std::move(opened);
+  }
+  void connect() { record_->on_event(LinkChanged{LinkState::up, "", AxisSet::all(), "2106001001"}); }
+  void motion(MotionKind kind, AxisSet axes, MotionState state, stage::MotionId id = 7) {
+    Motion changed;
+    changed.id = id;
+    changed.kind = kind;
+    changed.state = state;
+    changed.axes = axes;
+    changed.who = "unix anna";
+    record_->on_event(MotionChanged{changed});
+  }
+  void write(const std::string& line, AxisSet completes = {}) {
+    BytesWritten written;
+    written.bytes = line + "\r\n";
+    written.completes = completes;
+    record_->on_event(written);
+  }
+  const std::optional<stage::Unfinished>& unfinished() const { return record_->unfinished(); }
+
+  const std::string folder_ = [] {
+    std::string name = testing::TempDir() + "axisgate-record-XXXXXX";
+    return std::string(::mkdtemp(name.data()));
+  }();
+  const std::string path_ = folder_ + "/motions-stage";
+  std::unique_ptr<MotionRecord> record_;
+};
+
+TEST_F(MotionRecordTest, WhatRanIsLeftWithTheLastLines) {
+  start();
+  EXPECT_FALSE(unfinished());
+  connect();
+  motion(MotionKind::move, AxisSet::of(1), MotionState::running);
+  motion(MotionKind::jog, AxisSet::of(3), MotionState::running, 8);
+  for (const char* line : {"G:1", "J:3+", "Q:SP"}) write(line);
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_EQ(unfinished()->serial_number, "2106001001");
+  EXPECT_EQ(unfinished()->moving, AxisSet::of(1) | AxisSet::of(3));
+  EXPECT_EQ(unfinished()->jogged, AxisSet::of(3));
+  EXPECT_EQ(unfinished()->motions, "motion 7 (move, asked by unix anna), motion 8 (jog, asked by unix anna)");
+  EXPECT_THAT(unfinished()->last_lines, ElementsAre("Q:SP", "J:3+"));
+}
+
+TEST_F(MotionRecordTest, WhatWasStartedAndNotAnsweredMayMove) {
+  start();
+  connect();
+  motion(MotionKind::jog, AxisSet::of(2), MotionState::queued);
+  write("J:2+", AxisSet::of(2));
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_EQ(unfinished()->moving, AxisSet::of(2));
+  EXPECT_EQ(unfinished()->jogged, AxisSet::of(2));
+}
+
+TEST_F(MotionRecordTest, WhatWaitsOrHasEndedIsNotLeft) {
+  start();
+  connect();
+  motion(MotionKind::move, AxisSet::of(1), MotionState::queued);
+  write("Q:SP");
+  start();
+  EXPECT_FALSE(unfinished());
+  motion(MotionKind::move, AxisSet::of(1), MotionState::running);
+  motion(MotionKind::move, AxisSet::of(1), MotionState::succeeded);
+  start();
+  EXPECT_FALSE(unfinished());
+}
+
+TEST_F(MotionRecordTest, NothingIsInheritedFromBeforeABoot) {
+  start();
+  connect();
+  motion(MotionKind::move, AxisSet::of(1), MotionState::running);
+  start("boot-2");
+  EXPECT_FALSE(unfinished());
+  start("");
+  EXPECT_FALSE(unfinished());
+}
+
+// Killed again before the axes stood.
+TEST_F(MotionRecordTest, ItIsKeptUntilItIsKnownWhatBecameOfIt) {
+  start();
+  connect();
+  motion(MotionKind::move, AxisSet::of(1), MotionState::running);
+  start();
+  write("L:1");
+  record_->on_event(UnfinishedJudged{UnfinishedJudged::What::stopped, AxisSet::of(1), ""});
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_EQ(unfinished()->moving, AxisSet::of(1));
+  EXPECT_EQ(unfinished()->serial_number, "2106001001");
+  EXPECT_THAT(unfinished()->last_lines, ElementsAre("L:1"));
+  record_->on_event(UnfinishedJudged{UnfinishedJudged::What::stationary, AxisSet::of(1), ""});
+  start();
+  EXPECT_FALSE(unfinished());
+}
+
+TEST_F(MotionRecordTest, TextOfSomebodyElseIsNoMotion) {
+  for (const std::string& text :
+       {std::string(10'000, 'x'), std::string("0axisgate motions 1\nboot boot-1\nmoving 255\n"),
+        std::string("0axisgate motions 1\nboot boot-1\nmoving -9\nend\n"), std::string()}) {
+    std::ofstream(path_, std::ios::trunc) << text;
+    ASSERT_EQ(::chmod(path_.c_str(), 0600), 0);
+    start();
+    EXPECT_FALSE(unfinished()) << text.substr(0, 50);
+  }
+}
+
+TEST_F(MotionRecordTest, ALongNameDoesNotBreakTheText) {
+  start();
+  connect();
+  for (stage::MotionId id = 1; id <= 50; ++id) motion(MotionKind::move, AxisSet::of(1), MotionState::running, id);
+  write(std::string(4'000, 'x') + "\nend");
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_EQ(unfinished()->moving, AxisSet::of(1));
+}
+
+TEST_F(MotionRecordTest, WhatIsNoRegularFileIsRefused) {
+  std::filesystem::create_symlink("/etc/passwd", path_);
+  EXPECT_FALSE(MotionRecord::open(path_, "boot-1"));
+}
+
+}  // namespace
+}  // namespace axisgate::server::motion_record_test
