@@ -4,6 +4,8 @@
 #include <signal.h>
 #include <unistd.h>
 
+#include <chrono>
+#include <thread>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
@@ -12,6 +14,8 @@
 
 namespace axisgate::axisctl {
 namespace {
+
+constexpr std::chrono::milliseconds kPollEvery{200};
 
 std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
   std::vector<std::string> ends;
@@ -43,6 +47,31 @@ extern "C" void leave_motion_running(int) {
   ::_exit(128 + SIGINT);
 }
 
+// A stream was refused: other streams of the same caller may take all its places. Calls have places of their own.
+v1::Motion poll_outcome(const Session& session, const std::string& motion) {
+  v1::GetMotionRequest request;
+  request.set_name(motion);
+  while (true) {
+    const v1::Motion now =
+        session.connection.call(session.connection.stage, &v1::StageService::Stub::GetMotion, request, kQuestionLimit)
+            .motion();
+    if (now.state() >= v1::MOTION_STATE_SUCCEEDED) return now;
+    std::this_thread::sleep_for(kPollEvery);
+  }
+}
+
+// The outcome is asked by calls; where they fail, too, the motion continues without it.
+v1::Motion outcome_by_calls(const Session& session, const std::string& motion) {
+  try {
+    return poll_outcome(session, motion);
+  } catch (const Failure& failure) {
+    throw Failure{kFailed, "OUTCOME_UNKNOWN",
+                  fmt::format("motion {} continues, and the daemon does not report its outcome: {}: {}",
+                              last_part(motion), failure.reason, failure.message),
+                  "check with `axisctl status` before you repeat it; to stop it: axisctl stop"};
+  }
+}
+
 }  // namespace
 
 v1::Motion await_outcome(const Session& session, const std::string& motion) {
@@ -55,6 +84,7 @@ v1::Motion await_outcome(const Session& session, const std::string& motion) {
   }
   const grpc::Status status = reader->Finish();
   if (status.ok() && response.motion().state() >= v1::MOTION_STATE_SUCCEEDED) return response.motion();
+  if (status.error_code() == grpc::StatusCode::RESOURCE_EXHAUSTED) return outcome_by_calls(session, motion);
   throw Failure{kFailed, "OUTCOME_UNKNOWN",
                 fmt::format("connection lost during motion {}: {}", last_part(motion), status.error_message()),
                 "the axes may still be moving: check with `axisctl status` before you repeat it"};

@@ -1,5 +1,8 @@
-// stop and estop: say of every axis what is known, never more.
+// stop and estop: one call, also for several devices. Say of every axis what is known, never more.
 #include <fmt/format.h>
+
+#include <algorithm>
+#include <optional>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
@@ -9,59 +12,103 @@
 namespace axisgate::axisctl {
 namespace {
 
-std::string describe_stop(const v1::Device& device, const v1::AxisStop& stop) {
-  const v1::Axis& axis = find_axis(device, std::to_string(stop.axis()));
-  std::string text = axis_label(axis) + ": ";
-  if (!stop.named()) {
-    text += "no stop sent, its motor is off";
-  } else if (stop.wire_reply().empty()) {
-    text += "no reply to the stop";
-  } else {
-    text += "replied " + stop.wire_reply();
-  }
-  text += !stop.has_ready() ? ", state unknown" : stop.ready() ? ", stationary" : ", STILL MOVING";
-  if (stop.has_position_pulses()) text += " at " + position_text(axis, stop.position_pulses());
-  return text;
+std::string describe_reply(const v1::AxisStop& stop) {
+  if (!stop.named()) return "no stop sent, its motor is off";
+  if (stop.reply_unreadable()) return "unreadable reply to the stop";
+  return stop.wire_reply().empty() ? "no reply to the stop" : "replied " + stop.wire_reply();
 }
 
-template <class Response>
-int report(const Session& session, const v1::Device& device, const Response& response) {
-  if (session.options.json) {
-    print_json(response);
-  } else {
-    for (const v1::AxisStop& stop : response.axes()) print_line(describe_stop(device, stop));
-  }
-  if (response.has_problem()) throw to_failure(response.problem());
-  for (const v1::AxisStop& stop : response.axes()) {
+std::string describe_position(const v1::AxisStop& stop) {
+  if (!stop.has_position_pulses()) return ", position unknown";
+  if (stop.position().empty()) return fmt::format(" at {} pulse", stop.position_pulses());
+  return fmt::format(" at {} {}", stop.position(), symbol(core_unit(stop.unit())));
+}
+
+std::string describe_stop(const v1::AxisStop& stop) {
+  const char* state = !stop.has_ready() ? "state unknown" : stop.ready() ? "stationary" : "STILL MOVING";
+  return fmt::format("axis {}: {}, {}{}", stop.name().empty() ? std::to_string(stop.axis()) : stop.name(),
+                     describe_reply(stop), state, describe_position(stop));
+}
+
+// What went wrong, and nothing where all axes are stationary.
+std::optional<Failure> failure_of(const v1::DeviceStop& device) {
+  if (device.has_problem()) return to_failure(device.problem());
+  for (const v1::AxisStop& stop : device.axes()) {
     if (!stop.has_ready() || !stop.ready()) {
-      throw Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not confirmed stationary", stop.axis()),
-                    "check the stage"};
+      return Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not confirmed stationary", stop.axis()),
+                     "check the stage"};
     }
   }
-  return kDone;
+  return std::nullopt;
+}
+
+// Every device has its lines and its error, whatever became of the others. The exit code is that of the first error.
+template <class Response>
+int report(const Session& session, const Response& response) {
+  if (session.options.json) print_json(response);
+  int exit_code = kDone;
+  for (const v1::DeviceStop& device : response.devices()) {
+    const std::string whose = response.devices_size() > 1 ? fmt::format("{}: ", last_part(device.device())) : "";
+    if (!session.options.json) {
+      for (const v1::AxisStop& stop : device.axes()) print_line(whose + describe_stop(stop));
+    }
+    auto failure = failure_of(device);
+    if (!failure) continue;
+    failure->message = whose + failure->message;
+    print_failure(*failure);
+    if (exit_code == kDone) exit_code = failure->exit_code;
+  }
+  return exit_code;
+}
+
+// 1 to 3; nothing of a name.
+std::optional<int> axis_number(std::string_view text) {
+  if (text.size() != 1 || text[0] < '1' || text[0] > '3') return std::nullopt;
+  return text[0] - '0';
+}
+
+// Only for names of axes is the daemon asked first what they mean.
+void set_axes(const Session& session, v1::StopRequest& request) {
+  const std::vector<std::string>& axes = session.options.axes;
+  if (std::ranges::all_of(axes, [](const std::string& axis) { return axis_number(axis).has_value(); })) {
+    for (const std::string& axis : axes) request.add_axes(*axis_number(axis));
+    return;
+  }
+  const v1::Device device = chosen_device(session);
+  request.set_device(device.name());
+  for (const int axis : find_axes(device, axes)) request.add_axes(axis);
+}
+
+template <class Request>
+Request new_request(const Session& session) {
+  Request request;
+  *request.mutable_context() = new_stop_context();
+  request.set_device(session.options.device);
+  request.mutable_max_wait()->set_seconds(kStopWait.count());
+  return request;
 }
 
 }  // namespace
 
 int stop(const Session& session) {
-  const v1::Device device = chosen_device(session);
-  v1::StopRequest request;
-  *request.mutable_context() = new_stop_context();
-  request.set_device(device.name());
-  for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
-  return report(session, device,
-                session.connection.call(session.connection.stage, &v1::StageService::Stub::Stop, request, kStopLimit));
+  auto request = new_request<v1::StopRequest>(session);
+  set_axes(session, request);
+  try {
+    return report(
+        session, session.connection.call(session.connection.stage, &v1::StageService::Stub::Stop, request, kStopLimit));
+  } catch (const Failure& failure) {
+    // Axes of several devices: which one is asked as for every other command.
+    if (failure.reason == "INVALID_REQUEST" && request.device().empty()) (void)chosen_device(session);
+    throw;
+  }
 }
 
 int emergency_stop(const Session& session) {
-  const v1::Device device = chosen_device(session);
-  v1::EmergencyStopRequest request;
-  *request.mutable_context() = new_stop_context();
-  request.set_device(device.name());
-  const v1::EmergencyStopResponse response =
-      session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit);
-  const int exit_code = report(session, device, response);
-  if (!session.options.json)
+  const auto request = new_request<v1::EmergencyStopRequest>(session);
+  const int exit_code = report(
+      session,
+      session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit));
+  if (exit_code == kDone && !session.options.json)
     print_line("emergency stop: nothing moves until `axisctl clear`; the motors may be off then");
   return exit_code;
 }

@@ -61,6 +61,7 @@ enum class Guard {
   serial_number,
   serial_number_after_barrier,
   serial_number_twice,
+  identity_twice,
   axes_twice,
   host_mode,
   ready_before_open,

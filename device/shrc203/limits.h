@@ -95,6 +95,9 @@ inline constexpr Duration kStopWriteLimit = std::chrono::seconds(10);
 inline constexpr Duration kStopStationaryLimit = std::chrono::seconds(10);
 // An axis that still moves so long after it should have slowed down is stopped again.
 inline constexpr Duration kStopRepeatAfterSlowing = std::chrono::milliseconds(200);
+// What is asked once the axes are stationary (prebuffers, excitation) holds up the answer to a stop no longer than
+// this.
+inline constexpr Duration kStopAnswerLimit = std::chrono::milliseconds(500);
 inline constexpr Duration kStopStationaryPoll = std::chrono::milliseconds(50);
 
 // --- Jog ---

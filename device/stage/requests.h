@@ -25,10 +25,11 @@ struct RequestContext {
   std::string who;
   std::string request_id{};
   TimePoint not_after{};
-  std::uint64_t lease = 0;         // its fencing token; 0: none
-  std::uint64_t device_epoch = 0;  // State::device_epoch that the caller has in mind; 0: any
-  std::uint64_t frame_epoch = 0;   // the same of State::frame_epoch
-  std::string role{};              // a word of the configuration, "operator": for the travel envelope
+  std::uint64_t lease = 0;               // its fencing token; 0: none
+  std::uint64_t device_epoch = 0;        // State::device_epoch that the caller has in mind; 0: any
+  std::uint64_t frame_epoch = 0;         // the same of State::frame_epoch
+  std::string role{};                    // a word of the configuration, "operator": for the travel envelope
+  std::optional<TimePoint> answer_by{};  // of a stop: its report is made by then, of what is known
 };
 
 // S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.
@@ -127,8 +128,9 @@ struct JogRequest {
 struct StopReport {
   struct Axis {
     int axis = 0;
-    std::string wire_reply;  // OK, NG, or empty: no answer, or none that can be believed
-    bool named = false;      // an axis without excitation is not named: L: would be refused (manual 65))
+    std::string wire_reply;         // OK, NG, or empty: no answer, or none that can be believed
+    bool named = false;             // an axis without excitation is not named: L: would be refused (manual 65))
+    bool reply_unreadable = false;  // an answer came, and is none
     std::optional<bool> ready;
     std::optional<std::int64_t> position_pulses;
   };

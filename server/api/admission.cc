@@ -124,7 +124,8 @@ RequestContext Admission::context_of_stop(const Call& call) const {
   return {.who = name_of(call.credential),
           .request_id = escaped(call.request_id, kRequestIdMax),
           .not_after = until(Patience::stop, call),
-          .lease = lease_tokens_.open(call.lease_token).value_or(0)};
+          .lease = lease_tokens_.open(call.lease_token).value_or(0),
+          .answer_by = call.deadline};
 }
 
 Result<void> check_line(const server::Access& access, const std::string& line, const Caller& caller) {

@@ -26,15 +26,20 @@ std::string position_name(std::string_view device_of_config, std::string_view po
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kPositions, position);
 }
 
+std::string stage_names(const server::Gateway& gateway) {
+  std::string names;
+  for (const auto& device : gateway.stages()) names += (names.empty() ? "" : ", ") + device_name(device->name());
+  return names;
+}
+
 Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_view name) {
   if (!name.starts_with(kDevices)) {
     return fail(Reason::invalid_request, fmt::format("\"{}\" is not the name of a device", escaped(name)),
                 "write \"devices/\" and its name in the configuration, e.g. \"devices/stage\"");
   }
   if (server::Stage* device = gateway.find_stage(name.substr(kDevices.size()))) return device;
-  std::string known;
-  for (const auto& device : gateway.stages()) known += (known.empty() ? "" : ", ") + device_name(device->name());
-  return fail(Reason::unknown_device, fmt::format("no device is named \"{}\"", escaped(name)), "there is " + known);
+  return fail(Reason::unknown_device, fmt::format("no device is named \"{}\"", escaped(name)),
+              "there is " + stage_names(gateway));
 }
 
 Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name) {

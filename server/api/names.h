@@ -15,6 +15,9 @@ std::string motion_name(std::string_view device_of_config, stage::MotionId motio
 std::string position_name(std::string_view device_of_config,
                           std::string_view position);  // "devices/{d}/positions/{name}"
 
+// "devices/a, devices/b": all stages, for people.
+std::string stage_names(const server::Gateway& gateway);
+
 // invalid_request where the name is not "devices/{d}", unknown_device where no device has that name.
 Result<server::Stage*> find_stage(const server::Gateway& gateway, std::string_view name);
 

@@ -3,14 +3,22 @@
 #pragma once
 
 #include <string_view>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "device/stage/requests.h"
+#include "device/stage/state.h"
 #include "server/api/admission.h"
 #include "server/api/call.h"
 #include "server/gateway.h"
 
 namespace axisgate::api {
+
+struct DeviceStop {
+  const server::Stage* device = nullptr;  // never null
+  stage::StopReport report;
+  stage::State state;  // as the report was made
+};
 
 // Thread safe.
 class Stops {
@@ -18,15 +26,19 @@ class Stops {
   // Both outlive this.
   Stops(const server::Gateway& gateway, const Admission& admission) : gateway_(gateway), admission_(admission) {}
 
-  // Of these axes; of none named, of all. Answers when they are stationary or the wait for it has run out.
-  // invalid_request, unknown_device, or as `axes` is at fault.
+  // Of these axes; of none named, of all. Of an empty device name: of all devices, at the same time. Answers when all
+  // are stationary, the wait for it has run out, or at the call's deadline; one for each device, in the order of the
+  // configuration. invalid_request, also for axes without a device where there are several; unknown_device, or as
+  // `axes` is at fault.
   void stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
-            Answer<stage::StopReport> answer) const;
+            Answer<std::vector<DeviceStop>> answer) const;
 
-  // Of all axes. invalid_request, unknown_device.
-  void emergency_stop(const Call& call, std::string_view device, Answer<stage::StopReport> answer) const;
+  // The same of all axes. invalid_request, unknown_device.
+  void emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const;
 
  private:
+  Result<std::vector<server::Stage*>> find_stages(std::string_view device) const;
+
   const server::Gateway& gateway_;
   const Admission& admission_;
 };

@@ -103,10 +103,25 @@ Reply reply_with(const Result<Outcome>& outcome, Fill fill) {
 }
 
 template <class Response>
-Response report_in(const stage::StopReport& report) {
+Response reports_in(const std::vector<api::DeviceStop>& stops) {
   Response response;
-  fill_report(response, report);
+  for (const api::DeviceStop& one : stops) *response.add_devices() = to_proto(one);
+  if (response.devices_size() != 1) return response;
+  const v1::DeviceStop& only = response.devices(0);
+  *response.mutable_axes() = only.axes();
+  if (only.has_problem()) *response.mutable_problem() = only.problem();
   return response;
+}
+
+// Of a stop. Its answer is made by the end of max_wait.
+template <class Request>
+api::Call call_of_stop(const api::Credential& credential, const Headers& headers, const Request& request) {
+  api::Call call = to_call(credential, deadline_of(headers), request.context());
+  if (request.has_max_wait()) {
+    const TimePoint end = monotonic_now() + std::max(Duration::zero(), to_duration(request.max_wait()));
+    call.deadline = std::min(end, call.deadline.value_or(end));
+  }
+  return call;
 }
 
 v1::ListDevicesResponse list_of(const std::vector<api::DeviceState>& devices) {
@@ -150,24 +165,21 @@ void Desk::answer(const Headers& headers, const Peer& peer, const std::string& m
     reply(std::move(given));
   };
   const api::Credential credential = credential_of(headers, peer);
-  const auto call_of = [&](const auto& request) {
-    return to_call(credential, deadline_of(headers), request.context());
-  };
   switch (kind_of(method)) {
     case RequestKind::stop: {
       const auto request = parsed<v1::StopRequest>(message);
       if (!request) return counted(to_reply(to_status(not_readable(method))));
-      return api_.stops.stop(call_of(*request), request->device(), to_axes(request->axes()),
-                             [counted](const Result<stage::StopReport>& report) {
-                               counted(reply_with(report, report_in<v1::StopResponse>));
+      return api_.stops.stop(call_of_stop(credential, headers, *request), request->device(), to_axes(request->axes()),
+                             [counted](const Result<std::vector<api::DeviceStop>>& stops) {
+                               counted(reply_with(stops, reports_in<v1::StopResponse>));
                              });
     }
     case RequestKind::emergency_stop: {
       const auto request = parsed<v1::EmergencyStopRequest>(message);
       if (!request) return counted(to_reply(to_status(not_readable(method))));
-      return api_.stops.emergency_stop(call_of(*request), request->device(),
-                                       [counted](const Result<stage::StopReport>& report) {
-                                         counted(reply_with(report, report_in<v1::EmergencyStopResponse>));
+      return api_.stops.emergency_stop(call_of_stop(credential, headers, *request), request->device(),
+                                       [counted](const Result<std::vector<api::DeviceStop>>& stops) {
+                                         counted(reply_with(stops, reports_in<v1::EmergencyStopResponse>));
                                        });
     }
     default:

@@ -42,9 +42,9 @@ v1::MotionState to_motion_state(MotionState state) {
 }
 
 // Empty where it is not known or the axis is shown in a unit that does not fit its scale.
-std::string position(const stage::AxisState& axis, Unit unit) {
-  if (!axis.position_pulses || (unit != Unit::pulses && !axis.scale)) return "";
-  const Result<Decimal> shown = from_pulses(*axis.position_pulses, unit, axis.scale.value_or(Scale{}));
+std::string position_text(std::optional<std::int64_t> pulses, const std::optional<Scale>& scale, Unit unit) {
+  if (!pulses || (unit != Unit::pulses && !scale)) return "";
+  const Result<Decimal> shown = from_pulses(*pulses, unit, scale.value_or(Scale{}));
   return shown ? to_string(*shown) : "";
 }
 
@@ -73,7 +73,7 @@ void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisS
   axis.set_unit(to_proto(profile.unit));
   axis.set_controllable(state.controllable);
   if (state.position_pulses) axis.set_position_pulses(*state.position_pulses);
-  axis.set_position(position(state, profile.unit));
+  axis.set_position(position_text(state.position_pulses, state.scale, profile.unit));
   if (state.busy) axis.set_busy(*state.busy);
   axis.set_foreign_motion(state.foreign_motion);
   axis.set_armed(state.armed);
@@ -269,20 +269,24 @@ v1::Event to_proto(const server::FactRecord& record, const std::string& run) {
   return event;
 }
 
-template <class Response>
-void fill_report(Response& response, const stage::StopReport& report) {
-  for (const stage::StopReport::Axis& axis : report.axes) {
-    v1::AxisStop& one = *response.add_axes();
+v1::DeviceStop to_proto(const api::DeviceStop& stop) {
+  v1::DeviceStop proto;
+  proto.set_device(api::device_name(stop.device->name()));
+  for (const stage::StopReport::Axis& axis : stop.report.axes) {
+    const stage::AxisProfile& profile = stop.device->profile().axes[static_cast<std::size_t>(axis.axis - 1)];
+    v1::AxisStop& one = *proto.add_axes();
     one.set_axis(axis.axis);
     one.set_wire_reply(escaped(axis.wire_reply));
     one.set_named(axis.named);
+    one.set_reply_unreadable(axis.reply_unreadable);
     if (axis.ready) one.set_ready(*axis.ready);
     if (axis.position_pulses) one.set_position_pulses(*axis.position_pulses);
+    one.set_name(profile.name);
+    one.set_unit(to_proto(profile.unit));
+    one.set_position(position_text(axis.position_pulses, stop.state.axis(axis.axis).scale, profile.unit));
   }
-  if (report.problem) *response.mutable_problem() = to_proto(*report.problem);
+  if (stop.report.problem) *proto.mutable_problem() = to_proto(*stop.report.problem);
+  return proto;
 }
-
-template void fill_report(v1::StopResponse&, const stage::StopReport&);
-template void fill_report(v1::EmergencyStopResponse&, const stage::StopReport&);
 
 }  // namespace axisgate::rpc

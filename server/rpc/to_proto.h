@@ -13,6 +13,7 @@
 #include "axisgate/v1/stage.pb.h"
 #include "device/stage/stage_controller.h"
 #include "server/api/motion_watch.h"
+#include "server/api/stops.h"
 #include "server/devices/stage.h"
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
@@ -34,11 +35,6 @@ v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& pr
 
 v1::Event to_proto(const server::FactRecord& record, const std::string& run);
 
-// StopResponse and EmergencyStopResponse alike.
-template <class Response>
-void fill_report(Response& response, const stage::StopReport& report);
-
-extern template void fill_report(v1::StopResponse&, const stage::StopReport&);
-extern template void fill_report(v1::EmergencyStopResponse&, const stage::StopReport&);
+v1::DeviceStop to_proto(const api::DeviceStop& stop);
 
 }  // namespace axisgate::rpc

@@ -242,7 +242,7 @@ Reason ask_tokens(World& world, RequestKind kind, const Call& call) {
 }
 
 Reason ask_stops(World& world, RequestKind kind, const Call& call) {
-  Asking<stage::StopReport> report;
+  Asking<std::vector<DeviceStop>> report;
   if (kind == RequestKind::stop) {
     world.api->stops.stop(call, kDevice, stage::AxisSet(), report.answer());
   } else {

@@ -127,13 +127,13 @@ TEST_F(SlowWorld, AStopGoesBeforeAllThatWaits) {
 }
 
 TEST_F(SlowWorld, AStopNamesItsAxesAndItsDevice) {
-  Asking<stage::StopReport> unknown, unreadable;
+  Asking<std::vector<DeviceStop>> unknown, unreadable;
   world_.api->stops.stop(World::by(kAnna), "devices/none", stage::AxisSet(), unknown.answer());
   EXPECT_EQ(unknown.reason(), Reason::unknown_device);
   world_.api->stops.stop(World::by(kAnna), kDevice, fail(Reason::unknown_axis, "there is no axis 4"),
                          unreadable.answer());
   EXPECT_EQ(unreadable.reason(), Reason::unknown_axis);
-  Asking<stage::StopReport> emergency;
+  Asking<std::vector<DeviceStop>> emergency;
   world_.api->stops.emergency_stop(World::by(kAnna), "devices/none", emergency.answer());
   EXPECT_EQ(emergency.reason(), Reason::unknown_device);
 }

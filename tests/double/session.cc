@@ -168,7 +168,7 @@ void Controller::stop_rotor(AxisSet axes, bool emergency, const std::string& who
   }
   auto job = std::make_shared<StopJob>();
   job->done.push_back(std::move(done));
-  job->report.axes = {{1, {}, true, {}, {}}};
+  job->report.axes = {{.axis = 1, .wire_reply = {}, .named = true, .ready = {}, .position_pulses = {}}};
   stops_.push_back(job);
   wire_.ask({.opcode = Opcode::stop,
              .lane = Lane::stop,

@@ -41,6 +41,10 @@ class MessageRelay:
                 raise AssertionError(f"no stream of {count} messages: {self._passed}")
             time.sleep(0.01)  # between two looks; the limit above decides
 
+    def streams(self):
+        """How many have passed messages."""
+        return len(self._passed)
+
     def _serve(self):
         if self._end in select.select([self._listener, self._end], [], [])[0]:
             return

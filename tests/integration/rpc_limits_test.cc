@@ -112,11 +112,11 @@ class RpcLimits : public RpcTest {
     return call(channel, method, context);
   }
 
-  // An empty stop names no device: that much its handler says.
+  // An empty stop names no device: it is one of all.
   static void expect_stops_get_through(const Channel& channel) {
     for (const char* method : {"Stop", "EmergencyStop"}) {
       const grpc::Status status = ask(channel, std::string("/axisgate.v1.StageService/") + method);
-      EXPECT_EQ(reason(status), v1::REASON_INVALID_REQUEST) << method << ": " << status.error_message();
+      EXPECT_TRUE(status.ok()) << method << ": " << status.error_message();
     }
     EXPECT_TRUE(ask(channel, "/axisgate.v1.DeviceService/ListDevices").ok());
   }

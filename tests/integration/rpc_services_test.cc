@@ -265,9 +265,13 @@ TEST_F(RpcTest, StopAnswersPerAxisAndTheMotionIsStopped) {
   request.set_device("devices/stage");
   v1::StopResponse response;
   ASSERT_TRUE(stage_->Stop(&context, request, &response).ok());
-  ASSERT_EQ(response.axes_size(), 3);
-  EXPECT_EQ(response.axes(0).wire_reply(), "OK");
-  EXPECT_TRUE(response.axes(0).ready());
+  ASSERT_EQ(response.devices_size(), 1);
+  const v1::DeviceStop& stopped = response.devices(0);
+  EXPECT_EQ(stopped.device(), "devices/stage");
+  ASSERT_EQ(stopped.axes_size(), 3);
+  EXPECT_EQ(stopped.axes(0).wire_reply(), "OK");
+  EXPECT_TRUE(stopped.axes(0).ready());
+  EXPECT_EQ(stopped.axes(1).position(), "0");
   EXPECT_EQ(outcome(motion.name()).state(), v1::MOTION_STATE_STOPPED);
 }
 

@@ -17,11 +17,11 @@ using testing::AnyOf;
 using testing::ElementsAre;
 using testing::Not;
 
-// Replaces the first answer to a line that begins with `prefix`.
-Script instead_of_answer(World& world, std::string prefix, std::string bytes) {
-  return [&world, prefix, bytes, done = false](LineKind kind, const std::string&) mutable -> Scripted {
-    if (done || kind != LineKind::reply || !world.wire().commands().back().starts_with(prefix)) return {};
-    done = true;
+// Replaces the first answers to a line that begins with `prefix`.
+Script instead_of_answer(World& world, std::string prefix, std::string bytes, int answers = 1) {
+  return [&world, prefix, bytes, answers](LineKind kind, const std::string&) mutable -> Scripted {
+    if (answers == 0 || kind != LineKind::reply || !world.wire().commands().back().starts_with(prefix)) return {};
+    --answers;
     return {.drop = false, .delay = {}, .instead = bytes};
   };
 }
@@ -201,8 +201,8 @@ class HazardH42 : public testing::Test {
     look_at(problem->hint);
   }
 
-  void answer_of(const std::string& question, const std::string& bytes) {
-    world.wire().set_script(instead_of_answer(world, question, bytes + "\r\n"));
+  void answer_of(const std::string& question, const std::string& bytes, int answers = 1) {
+    world.wire().set_script(instead_of_answer(world, question, bytes + "\r\n", answers));
   }
 
   // Clears the screen, sets the title, colours what follows; and is long.
@@ -227,8 +227,9 @@ TEST_F(HazardH42, AsAnAnswer) {
   EXPECT_GT(texts, 5);
 }
 
+// One that comes twice is believed.
 TEST_F(HazardH42, AsTheIdentityAtTheHandshake) {
-  answer_of("*IDN?", "SIGMAKOKI," + hostile + ",2106001001,V2.00.000");
+  answer_of("*IDN?", "SIGMAKOKI," + hostile + ",2106001001,V2.00.000", 2);
   world.run_for(milliseconds(300));
   EXPECT_EQ(world.controller().state().link, LinkState::down);
   EXPECT_THAT(world.controller().state().link_problem, testing::HasSubstr("\\x1B[2J"));
@@ -242,7 +243,7 @@ TEST_F(HazardH42, AsTheIdentityInABarrier) {
   answer_of("?:V", "?");
   world.controller().execute({{"?:V"}, world.context("tester")}, world.now(), [](const ExecuteEvent&) {});
   ASSERT_TRUE(world.run_until([&] { return world.barriers() == 2; }, seconds(2))) << world.replay();
-  answer_of("*IDN?", "SIGMAKOKI," + hostile + ",2106001001,V2.00.000");
+  answer_of("*IDN?", "SIGMAKOKI," + hostile + ",2106001001,V2.00.000", 2);
   ASSERT_TRUE(world.run_until([&] { return world.controller().state().link == LinkState::down; }, seconds(2)));
   EXPECT_THAT(world.controller().state().link_problem, testing::HasSubstr("\\x1B[2J"));
 }

@@ -141,6 +141,33 @@ TEST(Hazard, H32_AMisreadNumberDoesNotStay) {
   EXPECT_EQ(world.controller().state().serial_number, "2106001001");
 }
 
+// One damaged byte in an identity, in a barrier or at a connect: the unit is asked again, and stays the one.
+TEST(Hazard, H32_AGarbledIdentityIsNoOtherUnit) {
+  for (const bool connects : {false, true}) {
+    World world(quiet());
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    moved(world, {{1, 700}});
+    bool lost = connects, garbled = false;
+    int downs = 0;
+    world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+      if (kind != LineKind::reply) return {};
+      if (!lost && world.wire().commands().back() == "?:V") return {.drop = lost = true, .delay = {}, .instead = {}};
+      if (garbled || !line.starts_with("SIGMAKOKI")) return {};
+      garbled = true;
+      return {.drop = false, .delay = {}, .instead = "SIGMAKOKI,SHRC-203,2106001009,V2.00.000\r\n"};
+    });
+    world.on_news = [&](const Event& event) {
+      const auto* change = std::get_if<LinkChanged>(&event);
+      downs += change != nullptr && change->link == LinkState::down ? 1 : 0;
+    };
+    if (connects) world.wire().cut(world.now(), seconds(1));
+    if (!connects) execute(world, {"?:V"});
+    ASSERT_TRUE(world.run_until([&] { return garbled; }, seconds(10))) << world.replay();
+    ASSERT_TRUE(world.run_until_up()) << world.replay();
+    EXPECT_EQ(downs, connects ? 1 : 0) << "the unit was taken for another\n" << world.replay();
+  }
+}
+
 // Another program has the line open too and reads the answer to what it sends: only ?:CMD shows it.
 TEST(Hazard, H33_ForeignTrafficIsAFault) {
   for (const std::string foreign : {"M:1+P500", "PSET:1+P77", "Q:", "C:20"}) {

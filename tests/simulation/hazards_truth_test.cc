@@ -14,6 +14,7 @@ using namespace shrc203;
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+using testing::ElementsAre;
 
 Setup with_option(const char* name, const char* value) {
   auto setup = quiet();

@@ -20,8 +20,10 @@ TimePoint at(int ms) { return TimePoint{} + milliseconds(ms); }
 class BarrierTest : public testing::Test {
  protected:
   Barrier barrier(std::string in_doubt) {
-    return Barrier(std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
-                   [this](std::string_view line) { lines.emplace_back(line); });
+    return Barrier(
+        std::move(in_doubt), {milliseconds(500), milliseconds(50)}, owed,
+        [](const Identity& identity) { return identity.serial_number == "2106001001"; },
+        [this](std::string_view line) { lines.emplace_back(line); });
   }
   std::vector<std::string> lines;
   OutstandingAnswers owed;
@@ -48,6 +50,38 @@ TEST_F(BarrierTest, AnotherEchoTellsThatTheLineWasNotReceived) {
   it.start(at(0));
   EXPECT_TRUE(it.on_line("M:1+P1000", at(10)));
   EXPECT_EQ(it.received(), false);
+}
+
+// One damaged byte makes another controller of it: only the same answer twice does.
+TEST_F(BarrierTest, AnIdentityOfAnotherControllerIsAskedForAgain) {
+  constexpr const char* kOther = "SIGMAKOKI,SHRC-203,2106001009,V2.00.000";
+  constexpr const char* kThird = "SIGMAKOKI,SHRC-203,3106001001,V2.00.000";
+  struct Case {
+    std::vector<const char*> answers;
+    const char* believed;  // null: none
+  };
+  for (const Case& one : {Case{{kOther, kIdentity}, "2106001001"}, Case{{kOther, kOther}, "2106001009"},
+                          Case{{kOther, kThird, kThird}, "3106001001"}, Case{{kOther, kThird, kOther}, nullptr}}) {
+    lines.clear();
+    auto it = barrier("");
+    it.start(at(0));
+    int ms = 0;
+    for (const char* answer : one.answers) it.on_line(answer, at(ms += 10));
+    EXPECT_EQ(lines.size(), one.answers.size());
+    it.advance(at(ms + 100));
+    EXPECT_EQ(it.state(), one.believed ? Barrier::State::passed : Barrier::State::failed);
+    EXPECT_EQ(it.identity() ? it.identity()->serial_number : "none", one.believed ? one.believed : "none");
+  }
+}
+
+// Not even the first unreadable answer makes it another.
+TEST_F(BarrierTest, AnUnreadableIdentityIsAskedForAgain) {
+  auto it = barrier("");
+  it.start(at(0));
+  EXPECT_FALSE(it.on_line("SIGMAKOKI,SHRC-203,21060x1001,V2.00.000", at(10)));
+  it.advance(at(500));
+  EXPECT_EQ(lines.size(), 2u);
+  EXPECT_TRUE(it.on_line(kIdentity, at(510)));
 }
 
 TEST_F(BarrierTest, AfterAConnectOnlyTheIdentityIsAsked) {

@@ -36,6 +36,7 @@ std::optional<NumberRange> bare_number_range(const CommandRow& row);
 
 struct Identity {
   std::string vendor, model, serial_number, firmware;
+  friend bool operator==(const Identity&, const Identity&) = default;
 };
 std::optional<Identity> parse_identity(std::string_view line);  // four fields (manual 1))
 

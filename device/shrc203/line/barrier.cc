@@ -1,8 +1,11 @@
 #include "device/shrc203/line/barrier.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <utility>
 
+#include "device/core/escape.h"
 #include "device/core/guard.h"
 #include "device/shrc203/command/builders.h"
 #include "device/shrc203/limits.h"
@@ -18,8 +21,12 @@ bool is_known_command(std::string_view line) { return parse_command(line).has_va
 }  // namespace
 
 Barrier::Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
-                 std::function<void(std::string_view)> write)
-    : line_in_doubt_(std::move(line_in_doubt)), limits_(limits), outstanding_(outstanding), write_(std::move(write)) {}
+                 std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write)
+    : line_in_doubt_(std::move(line_in_doubt)),
+      limits_(limits),
+      outstanding_(outstanding),
+      is_known_(std::move(is_known)),
+      write_(std::move(write)) {}
 
 void Barrier::start(TimePoint now) {
   const bool ask = !line_in_doubt_.empty() && guarded(Guard::received_or_not);
@@ -74,15 +81,29 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
       --older_;
       return settle_outstanding(outstanding_, line);
     }
-    if (auto identity = parse_identity(line)) {
-      identity_ = std::move(identity);
-      begin(Step::silence, now);
-      return true;
-    }
+    if (auto identity = parse_identity(line)) return on_identity(*std::move(identity), now);
   }
   const bool outstanding = settle_outstanding(outstanding_, line);
   silence_broken(now);
   return outstanding;
+}
+
+// False for one that is not believed yet.
+bool Barrier::on_identity(Identity identity, TimePoint now) {
+  if (!is_known_(identity) && unconfirmed_ != identity && guarded(Guard::identity_twice)) {
+    unconfirmed_ = std::move(identity);
+    probe_again(now);
+    return false;
+  }
+  identity_ = std::move(identity);
+  begin(Step::silence, now);
+  return true;
+}
+
+std::string Barrier::why_failed() const {
+  if (!unconfirmed_) return "no answer to three probes";
+  return fmt::format("{} {} answered, and no second answer confirmed it", escaped(unconfirmed_->model),
+                     escaped(unconfirmed_->serial_number));
 }
 
 void Barrier::on_half_line(TimePoint now) {
@@ -100,6 +121,10 @@ void Barrier::advance(TimePoint now) {
     return;
   }
   expect_answer();
+  probe_again(now);
+}
+
+void Barrier::probe_again(TimePoint now) {
   if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
     state_ = State::failed;
   } else {

@@ -2,7 +2,8 @@
 // belongs to.
 //
 //   ?:CMD    its answer equal to the line in doubt means that the controller received it, not that it accepted it
-//   *IDN?    the configured controller is there, and every answer before this one has been given
+//   *IDN?    the configured controller is there, and every answer before this one has been given. One damaged byte
+//            makes another controller of it, so an answer of another controller counts only when it comes twice
 //   silence  completions excepted, for 50 ms, the time of three longest lines, or twice what the identity took: a slow
 //            controller may still have other answers to give
 //
@@ -33,9 +34,10 @@ class Barrier {
     Duration silence;
   };
 
-  // `line_in_doubt` is empty after a connect: ?:CMD is then not asked. `write` sends one line.
+  // `line_in_doubt` is empty after a connect: ?:CMD is then not asked. `is_known`: that of the controller that is
+  // expected. `write` sends one line.
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
-          std::function<void(std::string_view)> write);
+          std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write);
 
   void start(TimePoint now);
   // A Stop was written in between: begin again.
@@ -50,11 +52,14 @@ class Barrier {
 
   enum class State { probing, passed, failed };
   State state() const { return state_; }
+  // Why it has failed, for people.
+  std::string why_failed() const;
 
   // Whether the controller had received the line in doubt; nothing while ?:CMD has shown neither.
   std::optional<bool> received() const { return received_; }
   // What ?:CMD was answered.
   const std::optional<std::string>& echo() const { return echo_; }
+  // The expected one, or the same twice.
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
@@ -62,12 +67,15 @@ class Barrier {
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
   void expect_answer();
+  void probe_again(TimePoint now);
+  bool on_identity(Identity identity, TimePoint now);
   void silence_broken(TimePoint now);
   bool is_echo(std::string_view line) const;
 
   std::string line_in_doubt_;
   Limits limits_;
   OutstandingAnswers& outstanding_;
+  std::function<bool(const Identity&)> is_known_;
   std::function<void(std::string_view)> write_;
   State state_ = State::probing;
   Step step_ = Step::echo;
@@ -82,6 +90,7 @@ class Barrier {
   std::optional<bool> received_;
   std::optional<std::string> echo_;
   std::optional<Identity> identity_;
+  std::optional<Identity> unconfirmed_;  // the newest answer that names another controller
 };
 
 // Whether `line` may be the answer to an outstanding probe; if so, that answer is no longer outstanding.

@@ -86,6 +86,7 @@ void Line::open(AxisSet controllable, TimePoint now) {
   now_ = now;
   if (!change(LinkEvent::handshake_passed, now)) return;
   continuity_.begin(now);
+  trusted_ = answering_;
   controllable_ = controllable;
   listener_.line_trusted(now);
   backoff_ = kReopenBackoffMin;
@@ -270,8 +271,15 @@ Barrier::Limits Line::connect_limits() {
 }
 
 std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt, Barrier::Limits limits) {
-  return std::make_unique<Barrier>(std::move(line_in_doubt), limits, outstanding_,
-                                   [this](std::string_view line) { write_line(line); });
+  return std::make_unique<Barrier>(
+      std::move(line_in_doubt), limits, outstanding_, [this](const Identity& identity) { return is_known(identity); },
+      [this](std::string_view line) { write_line(line); });
+}
+
+// The configured controller, or the one that was here before.
+bool Line::is_known(const Identity& identity) const {
+  const std::string& serial_number = profile_.serial_number.empty() ? trusted_ : profile_.serial_number;
+  return identity.model == profile_.model && (serial_number.empty() || identity.serial_number == serial_number);
 }
 
 }  // namespace axisgate::shrc203

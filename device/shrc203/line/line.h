@@ -45,6 +45,8 @@ struct ExchangeResult {
   bool written = false;              // false: the controller has certainly not seen it
   std::optional<Reply> reply{};      // set when an answer was matched
   std::optional<Problem> problem{};  // why there is no answer that can be believed; also set for NG_I
+  // Of one in doubt: whether ?:CMD has shown that the controller received it; nothing where it has shown neither.
+  std::optional<bool> received{};
 
   // Of a closed exchange whose answer could not be distinguished from completions: all numbers. `reply` is the first.
   std::vector<int> candidates{};
@@ -180,6 +182,7 @@ class Line {
   void look_at_continuity(TimePoint now);
   void unexpected(std::string_view text, TimePoint now);
   void learned(LineLearned::What what, AxisSet axes = {});
+  bool is_known(const Identity& identity) const;
   Barrier::Limits barrier_limits() const;
   Barrier::Limits connect_limits();
   std::unique_ptr<Barrier> make_barrier(std::string line_in_doubt, Barrier::Limits limits);
@@ -199,6 +202,8 @@ class Line {
   AxisSet controllable_;
   bool asks_line_before_ = false;
   bool connected_before_ = false;
+  std::string answering_;  // the serial number of the connect
+  std::string trusted_;    // that of the newest connect whose handshake has passed; empty before the first
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;

@@ -275,7 +275,7 @@ void Line::barrier_moved(TimePoint now) {
   if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
   if (barrier_->state() == Barrier::State::failed) {
     asks_line_before_ = false;  // a controller that does not say is connected without it
-    disconnect("no answer to three probes", now);
+    disconnect(barrier_->why_failed(), now);
     return;
   }
   const Identity identity = *barrier_->identity();
@@ -287,10 +287,12 @@ void Line::barrier_moved(TimePoint now) {
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
   const bool connecting = state_.phase() == LinkPhase::identifying;
+  if (connecting) answering_ = identity.serial_number;
   if (doubted_waiting_) {
     if (const auto received = barrier_reported) {
       doubted_->problem->message +=
           *received ? "; the controller had received it" : "; the controller had not taken it";
+      doubted_->received = *received;
     }
     for (auto& answer : doubted_waiting_->answers) answer.deliver(*doubted_);
     doubted_waiting_.reset();

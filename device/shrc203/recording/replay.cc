@@ -7,6 +7,7 @@
 #include <set>
 
 #include "device/shrc203/command/builders.h"
+#include "device/shrc203/command/reply.h"
 #include "device/shrc203/limits.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/recording/replay_moments.h"
@@ -44,6 +45,7 @@ class Replay : LineListener, ByteLink {
     return profile;
   }
 
+  std::string first_identity() const;
   void connect_before(TimePoint first);
   void take(std::size_t index);
   void let_stops_wait(std::size_t index);
@@ -139,10 +141,19 @@ void Replay::let_time_pass(TimePoint until) {
   now_ = std::max(now_, until);
 }
 
+// The controller that answers in the recording; any where none does.
+std::string Replay::first_identity() const {
+  for (const Moment& moment : moments_) {
+    const std::string_view line = std::string_view(moment.text).substr(0, moment.text.find('\r'));
+    if (moment.what == Moment::What::received && parse_identity(line)) return moment.text;
+  }
+  return "SIGMAKOKI,SHRC-203,0,V0\r\n";
+}
+
 // A line that has been up for long and rests, but for what the header says.
 void Replay::connect_before(TimePoint first) {
   line_.link_up(first - 4 * kReplayConnectStep);
-  line_.receive("SIGMAKOKI,SHRC-203,0,V0\r\n", first - 4 * kReplayConnectStep);
+  line_.receive(first_identity(), first - 4 * kReplayConnectStep);
   line_.advance(first - 3 * kReplayConnectStep);
   line_.ready(AxisSet::all(), first - 2 * kReplayConnectStep);
   line_.completions().answered(first - kReplayConnectStep);

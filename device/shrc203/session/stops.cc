@@ -30,15 +30,41 @@ void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnS
   for (const auto& pending : jobs_) {
     if (guarded(Guard::stops_join) && pending->phase == StopPhase::writing && pending->kind == kind &&
         pending->axes.contains(named)) {
-      pending->done.push_back(std::move(done));
-      return;
+      return add_caller(pending, context, std::move(done));
     }
   }
-  job->done.push_back(std::move(done));
-  for (const int axis : named.list()) job->report.axes.push_back({axis, {}, false, {}, {}});
+  add_caller(job, context, std::move(done));
+  for (const int axis : named.list()) job->report.axes.emplace_back().axis = axis;
   jobs_.push_back(job);
   motions_.gate().hold(job->stops());
   tasks_.spawn(run(job));
+}
+
+void Stops::add_caller(const StopJobPtr& job, const RequestContext& context, OnStopped done) {
+  job->done.push_back(std::move(done));
+  if (context.answer_by) tasks_.spawn(answer_at(job, job->done.size() - 1, *context.answer_by));
+}
+
+// Once. What was seen is the outcome, whatever became of the reply; before that the outcome is unknown.
+void Stops::answer(StopJob& job, std::size_t caller) {
+  const OnStopped done = std::exchange(job.done[caller], {});
+  if (!done) return;
+  StopReport report = job.report;
+  const bool in_doubt = report.problem && report.problem->reason == Reason::outcome_unknown;
+  if (job.stationary && in_doubt) report.problem.reset();
+  if (!job.stationary && !report.problem) {
+    report.problem = Problem{.reason = Reason::outcome_unknown,
+                             .message = "the axes were not confirmed stationary in the time allowed",
+                             .hint = "check with `axisctl status`; use the wired emergency stop if they move"};
+  }
+  done(std::move(report));
+}
+
+// The stop itself continues.
+Task<void> Stops::answer_at(StopJobPtr job, std::size_t caller, TimePoint limit) {
+  auto pause = tasks_.until(limit);
+  co_await pause;
+  answer(*job, caller);
 }
 
 // The queue of motion on these axes is emptied: what was not written never will be.
@@ -91,7 +117,7 @@ Task<void> Stops::run(StopJobPtr job) {
   if (works) change(*job, StopEvent::finished);
   std::erase(jobs_, job);
   motions_.gate().let_go(job->stops());
-  for (auto& done : job->done) done(job->report);
+  for (std::size_t caller = 0; caller < job->done.size(); ++caller) answer(*job, caller);
 }
 
 Command Stops::command_for(const StopJob& job, AxisSet axes) const {
@@ -124,20 +150,26 @@ AxisSet Stops::excited(const StopJob& job) const {
 Task<void> Stops::write(StopJobPtr job) {
   const AxisSet named = excited(*job);
   const Command all = command_for(*job, named);
+  for (auto& axis : job->report.axes) axis.named = named.has(axis.axis);
   ExchangeResult result;
   for (int attempt = 0; attempt < kStopTries; ++attempt) {
     result = co_await write_line(job, all);
     const bool inside_barrier = result.problem && result.problem->reason == Reason::outcome_unknown;
-    if (result.reply || !result.written || inside_barrier || !guarded(Guard::stop_again)) break;
+    const bool received = result.received.value_or(false);
+    if (result.reply || !result.written || inside_barrier || received || !guarded(Guard::stop_again)) break;
   }
   job->report.problem = result.problem;
   if (!result.written && result.problem) {
     job->report.problem->message = "the stop could not be written: " + result.problem->message;
     job->report.problem->hint = "use the wired emergency stop if the axes move";
   }
+  const bool unreadable = result.in_doubt() && result.problem->reason == Reason::line_fault;
+  // It was written: what is seen of the axes decides.
+  if (result.in_doubt()) job->report.problem->reason = Reason::outcome_unknown;
   for (auto& axis : job->report.axes) {
-    axis.named = named.has(axis.axis);
-    if (axis.named && result.reply) axis.wire_reply = result.reply->text;
+    if (!axis.named) continue;
+    if (result.reply) axis.wire_reply = result.reply->text;
+    axis.reply_unreadable = unreadable;
   }
   if (!result.refused() || job->kind == StopKind::emergency || named.count() < 2) co_return;
   if (!guarded(Guard::stop_one_axis_at_a_time)) co_return;
@@ -172,6 +204,7 @@ Task<bool> Stops::look(StopJobPtr job) {
     const auto program = program_status(reported);
     ready = program && !program->runs();
   }
+  job->stationary = ready;
   co_return ready;
 }
 
@@ -187,6 +220,13 @@ Task<bool> Stops::write_again(StopJobPtr job) {
   co_return stopped.written;
 }
 
+// What is still to be asked holds nobody up on a line that garbles the answers.
+void Stops::answer_soon(const StopJobPtr& job) {
+  for (std::size_t caller = 0; caller < job->done.size(); ++caller) {
+    tasks_.spawn(answer_at(job, caller, tasks_.now() + kStopAnswerLimit));
+  }
+}
+
 Task<void> Stops::wait_for_standstill(StopJobPtr job) {
   const TimePoint limit = tasks_.now() + kStopStationaryLimit;
   const TimePoint again_at = tasks_.now() + slowing(job->axes) + kStopRepeatAfterSlowing;
@@ -194,6 +234,7 @@ Task<void> Stops::wait_for_standstill(StopJobPtr job) {
   while (tasks_.now() < limit && store_.state().link != LinkState::down) {
     ready = co_await look(job);
     const bool once_more = job->phase == StopPhase::slowing;
+    if (ready) answer_soon(job);
     const bool runs_on = !ready && tasks_.now() >= again_at && guarded(Guard::stop_again);
     if (ready || (runs_on && once_more)) {
       const bool empty = !runs_on && co_await prebuffer_is_empty(job);
@@ -204,13 +245,6 @@ Task<void> Stops::wait_for_standstill(StopJobPtr job) {
     }
     auto pause = tasks_.pause(kStopStationaryPoll);
     co_await pause;
-  }
-  if (ready && job->report.problem && job->report.problem->reason == Reason::outcome_unknown) {
-    job->report.problem.reset();  // the state seen is the outcome
-  } else if (!ready && !job->report.problem) {
-    job->report.problem = Problem{.reason = Reason::outcome_unknown,
-                                  .message = "the axes were not confirmed stationary",
-                                  .hint = "use the wired emergency stop if they move"};
   }
 }
 

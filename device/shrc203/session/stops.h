@@ -1,6 +1,7 @@
 // Stop goes first: L: and L:E, and what follows from them. Not a safety function.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,10 @@ class Stops {
   void change(StopJob& job, StopEvent event);
   bool has_no_use(StopJob& job) const;
   Problem unseen() const;
+  void add_caller(const StopJobPtr& job, const RequestContext& context, OnStopped done);
+  void answer(StopJob& job, std::size_t caller);
+  void answer_soon(const StopJobPtr& job);
+  Task<void> answer_at(StopJobPtr job, std::size_t caller, TimePoint limit);
   AxisSet excited(const StopJob& job) const;
   Command command_for(const StopJob& job, AxisSet axes) const;
   Task<ExchangeResult> write_line(StopJobPtr job, Command command);

@@ -40,8 +40,9 @@ struct StopJob {
   StopKind kind = StopKind::stop;
   StopPhase phase = StopPhase::writing;  // changed by Stops::change() alone
   RequestContext context;
-  std::vector<StageController::OnStopped> done;
+  std::vector<StageController::OnStopped> done;  // empty ones have been answered
   StopReport report;
+  bool stationary = false;  // the last reading showed it
 
   AxisSet stops() const { return kind == StopKind::emergency ? AxisSet::all() : axes; }
 };
