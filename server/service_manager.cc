@@ -9,7 +9,7 @@
 namespace axisgate::server {
 namespace {
 
-// The children of the daemon, of which there are none, would need them.
+// The variables of systemd stay in the environment: every notification reads them.
 constexpr int kKeepVariables = 0;
 
 }  // namespace

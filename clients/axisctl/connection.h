@@ -24,10 +24,10 @@ namespace axisgate::axisctl {
 // Starting a motion may first wait for its turn, at most 5 s (CallContext.not_after).
 inline constexpr std::chrono::seconds kQuestionLimit{5};
 inline constexpr std::chrono::seconds kStartLimit{10};
-// An axis at full speed may take a second to slow down (manual 89) R), and the daemon watches it for as long. So long
-// the daemon is given to confirm a stop,
+// The daemon answers a stop within this time, with what it knows by then. An axis at full speed may take a second to
+// slow down (manual 89) R).
 inline constexpr std::chrono::seconds kStopWait{3};
-// and so long to answer: it may be flooded.
+// Longer than kStopWait, because the daemon may be flooded.
 inline constexpr std::chrono::seconds kStopLimit{30};
 
 class Connection {

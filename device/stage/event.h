@@ -52,7 +52,7 @@ struct ForeignMotion {
   AxisSet axes;
 };
 
-// What became of a Unfinished. For the log; not a fact with a revision.
+// What became of the motions of a run that was killed (unfinished.h). For the log; not a fact with a revision.
 struct UnfinishedJudged {
   enum class What {
     not_ours,    // another controller answers, or another program has used the line since

@@ -85,16 +85,15 @@ void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
   switch (judged.what) {
     case What::not_ours:
       return spdlog::warn(
-          "{}; another controller answers now, or another program has used the line since: whether {} moves is "
-          "unknown, and nothing is stopped",
+          "{}; another controller answers now, or another program has used the line since: nothing is stopped, check "
+          "{}",
           whose, to_string(judged.axes));
     case What::stopped:
-      return spdlog::warn("{}; {} is stopped", whose, to_string(judged.axes));
+      return spdlog::warn("{}; stopping {}", whose, to_string(judged.axes));
     case What::finishes:
-      return spdlog::warn("{}; {} may finish (at_exit)", whose, to_string(judged.axes));
+      return spdlog::warn("{}; letting {} finish (at_exit)", whose, to_string(judged.axes));
     case What::stationary:
-      return spdlog::warn("{}; {} is stationary now, and the outcome is unknown: check the position", whose,
-                          to_string(judged.axes));
+      return spdlog::warn("{}; {} stationary now, outcome unknown: check the position", whose, to_string(judged.axes));
   }
 }
 

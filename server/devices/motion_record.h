@@ -1,5 +1,4 @@
-// What moves now, kept in a file so that a run after this one knows it if this one is killed. The journal is not this:
-// it remembers what was.
+// What moves now, kept in a file so that a run after this one knows it if this one is killed.
 #pragma once
 
 #include <cstdint>
