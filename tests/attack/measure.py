@@ -8,6 +8,8 @@ Each case has a daemon of its own, so that it does not begin with what the one b
 """
 
 import argparse
+import concurrent.futures
+import contextlib
 import dataclasses
 import itertools
 import json
@@ -115,46 +117,75 @@ class Honest:
         self._caller = None
 
 
-def measure(case, arguments):
-    target = Target()
-    try:
-        honest = Honest(target, case.way, arguments.limit)
+class Measurement:
+    """Of one case: flood() and result_later(), each once. The daemon lives on between them."""
+
+    def __init__(self, case, arguments):
+        self._case, self._arguments = case, arguments
+        self._ends = contextlib.ExitStack()
+        self._target = Target()
+        self._ends.callback(self._target.end)
+
+    def flood(self):
         try:
-            return _measured(case, arguments, target, honest)
-        finally:
-            honest.close()
-    finally:
-        target.end()
+            self._flood()
+        except BaseException:
+            self._ends.close()
+            raise
 
-
-def _measured(case, arguments, target, honest):
-    quiet = honest.stops(arguments.stops), honest.processes(arguments.processes)
-    before = target.memory_kib()
-    attackers = Attackers(target, case.flood, case.way, case.credentials, case.connections,
-                          arguments.seconds + 2 * arguments.limit + STOP_LIMIT_S + AXISCTL_LIMIT_S, arguments.deaf)
-    try:
-        with MemoryPeak(target, attackers, arguments.memory_limit * 1024) as peak:
+    def _flood(self):
+        arguments = self._arguments
+        self._honest = honest = Honest(self._target, self._case.way, arguments.limit)
+        self._ends.callback(honest.close)
+        self._quiet = honest.stops(arguments.stops), honest.processes(arguments.processes)
+        self._before_kib = self._target.memory_kib()
+        case = self._case
+        attackers = Attackers(self._target, case.flood, case.way, case.credentials, case.connections,
+                              arguments.seconds + 2 * arguments.limit + STOP_LIMIT_S + AXISCTL_LIMIT_S, arguments.deaf)
+        self._peak = MemoryPeak(self._target, attackers, arguments.memory_limit * 1024)
+        self._peak.begin()
+        self._ends.callback(self._peak.end)
+        try:
             attackers.await_begin()
             begun = time.monotonic()
-            during = _during(arguments, honest, peak)
+            self._during = self._stops_and_processes()
             time.sleep(max(0, begun + arguments.seconds - time.monotonic()))
             attackers.terminate()
-            outcomes = attackers.outcomes()
-            time.sleep(arguments.later)  # what the daemon has received already may cost memory still
-    finally:
-        attackers.kill()
-    later = target.memory_kib()
-    answers = target.axisctl(honest.way, "status", limit_s=AXISCTL_LIMIT_S)
-    return Result(case, honest.way, *quiet, *during, _mib(before), _mib(peak.kib), _mib(later), peak.limit_reached,
-                  answers, outcomes)
+            self._outcomes = attackers.outcomes()
+        finally:
+            attackers.kill()
+
+    def _stops_and_processes(self):
+        """As long as the flood lasts."""
+        def is_over():
+            return self._peak.limit_reached
+
+        return (self._honest.stops(self._arguments.stops, is_over),
+                self._honest.processes(self._arguments.processes, is_over))
+
+    def result_later(self):
+        with self._ends:
+            time.sleep(self._arguments.later)  # what the daemon has received already may cost memory still
+            self._peak.end()
+            return self._result()
+
+    def _result(self):
+        later = self._target.memory_kib()
+        answers = self._target.axisctl(self._honest.way, "status", limit_s=AXISCTL_LIMIT_S)
+        return Result(self._case, self._honest.way, *self._quiet, *self._during, _mib(self._before_kib),
+                      _mib(self._peak.kib), _mib(later), self._peak.limit_reached, answers, self._outcomes)
 
 
-def _during(arguments, honest, peak):
-    """Both kinds of Stops, as long as the flood lasts."""
-    def is_over():
-        return peak.limit_reached
-
-    return honest.stops(arguments.stops, is_over), honest.processes(arguments.processes, is_over)
+def measure_all(chosen, arguments):
+    """While one daemon is left alone to give back its memory, the next one is flooded."""
+    with concurrent.futures.ThreadPoolExecutor(len(chosen)) as waiting:
+        results = []
+        for case in chosen:
+            print(f"{case.flood}, {case.connections} by {case.way}, credentials {case.credentials}", file=sys.stderr)
+            measurement = Measurement(case, arguments)
+            measurement.flood()
+            results.append(waiting.submit(measurement.result_later))
+        return [one.result() for one in results]
 
 
 def _mib(kib):
@@ -229,10 +260,7 @@ def _parsed(words):
 
 def main(words):
     arguments = _parsed(words)
-    results = []
-    for case in cases(arguments):
-        print(f"{case.flood}, {case.connections} by {case.way}, credentials {case.credentials}", file=sys.stderr)
-        results.append(measure(case, arguments))
+    results = measure_all(cases(arguments), arguments)
     print(json.dumps([dataclasses.asdict(one) for one in results], indent=1) if arguments.json else table(results))
 
 

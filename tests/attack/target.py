@@ -89,8 +89,8 @@ class Target:
 
 
 class MemoryPeak:
-    """The most memory that a daemon takes in a `with`, by samples. Beyond the limit the attackers are ended, so that a
-    flood does not take the memory of the machine."""
+    """The most memory that a daemon takes from `begin` to `end`, by samples. Beyond the limit the attackers are ended,
+    so that a flood does not take the memory of the machine."""
 
     def __init__(self, target, attackers, limit_kib=LIMIT_KIB):
         self._target, self._attackers, self._limit_kib = target, attackers, limit_kib
@@ -99,13 +99,19 @@ class MemoryPeak:
         self.kib = 0
         self.limit_reached = False
 
-    def __enter__(self):
+    def begin(self):
         self._thread.start()
+
+    def end(self):
+        self._over.set()
+        self._thread.join()
+
+    def __enter__(self):
+        self.begin()
         return self
 
     def __exit__(self, *_):
-        self._over.set()
-        self._thread.join()
+        self.end()
 
     def _sample(self):
         while True:
