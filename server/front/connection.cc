@@ -15,10 +15,9 @@ constexpr Duration kFarewell = std::chrono::seconds(1);
 
 }  // namespace
 
-Connection::Connection(const Surroundings& around, Peer peer, std::shared_ptr<Source> source, bool stops_only)
+Connection::Connection(const Surroundings& around, Peer peer, bool stops_only)
     : around_(around),
       peer_(std::move(peer)),
-      source_(std::move(source)),
       stops_only_(stops_only),
       grpc_(around.strand),
       budget_timer_(around.strand) {}
@@ -46,7 +45,7 @@ void Connection::begin() {
       connection->move_on();
     });
   };
-  conversation_.emplace(around_.desk, around_.limits, peer_, source_, stops_only_, std::move(on_reply),
+  conversation_.emplace(around_.desk, around_.limits, around_.sources, peer_, stops_only_, std::move(on_reply),
                         monotonic_now());
   move_on();
 }

@@ -25,13 +25,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
     std::shared_ptr<Mailbox> mailbox;  // to that strand
     Desk& desk;
     const FrontLimits& limits;
+    Sources& sources;
     std::function<void(Descriptor)> to_grpc;  // a connection of its own, not blocking
     // Once: it is closed; with why, where this side closed it for a cause.
     std::function<void(const Connection&, const std::optional<Closing>&)> ended;
   };
 
   // `around` outlives it.
-  Connection(const Surroundings& around, Peer peer, std::shared_ptr<Source> source, bool stops_only);
+  Connection(const Surroundings& around, Peer peer, bool stops_only);
 
   void start(std::unique_ptr<Wire> wire);
   // A wire whose handshake is still to come; start() when it is over.
@@ -58,7 +59,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   const Surroundings& around_;
   Peer peer_;
-  const std::shared_ptr<Source> source_;
   const bool stops_only_;
   const TimePoint begun_ = monotonic_now();
   TimePoint active_ = begun_;

@@ -41,12 +41,13 @@ bool ends_call(const Frame& frame) {
 
 }  // namespace
 
-Conversation::Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Source> source,
-                           bool stops_only, OnReply on_reply, TimePoint now)
+Conversation::Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only,
+                           OnReply on_reply, TimePoint now)
     : desk_(desk),
       limits_(limits),
+      sources_(sources),
       peer_(std::move(peer)),
-      source_(std::move(source)),
+      source_(sources.of(peer_.source, now)),
       stops_only_(stops_only),
       on_reply_(std::move(on_reply)),
       own_(limits.connection, now),
@@ -63,12 +64,18 @@ void Conversation::end(ErrorCode code, std::string why) {
   fault_ = Fault{code, {cause_of(code), std::move(why)}};
 }
 
+// Of all connections of the source, and of all of the caller.
+Duration Conversation::debt_of_others(Cost cost, double tokens) {
+  const Duration of_source = source_->frames.take(cost, tokens, now_);
+  return caller_elsewhere_ ? std::max(of_source, caller_elsewhere_->frames.take(cost, tokens, now_)) : of_source;
+}
+
 // What waits is read later; what must not be ends the connection.
 bool Conversation::spend(Cost cost, double tokens) {
   Duration debt = own_.take(cost, tokens, now_);
   if (!admitted_) debt = std::max(debt, stranger_.take(cost, tokens, now_));
-  const Duration of_source = source_->frames.take(cost, tokens, now_);
-  if (of_source > debt && !spared_.take_if_there(cost, tokens, now_)) debt = of_source;
+  const Duration of_others = debt_of_others(cost, tokens);
+  if (of_others > debt && !spared_.take_if_there(cost, tokens, now_)) debt = of_others;
   if (debt <= Duration::zero()) return true;
   const bool may_wait =
       cost == Cost::stream || cost == Cost::header_bytes || (cost == Cost::refusal && debt < kRefusalsWait);
@@ -178,6 +185,10 @@ void Conversation::begin_call(std::uint32_t stream, Headers headers, bool whole)
   const Verdict verdict = desk_.judge(headers, peer_, stops_only_);
   if (verdict.unwanted && !spend(Cost::refusal, 1)) return;
   admitted_ = admitted_ || !verdict.unwanted;
+  if (verdict.caller != caller_ && !verdict.caller.empty()) {
+    caller_ = verdict.caller;
+    caller_elsewhere_ = sources_.of(caller_, now_);
+  }
   switch (verdict.what) {
     case Verdict::What::refuse:
       return refuse(stream, verdict.refusal, whole);

@@ -35,9 +35,9 @@ class Conversation {
   // Called with a call's stream and its reply, where the desk gives one: hand it to reply().
   using OnReply = std::function<void(std::uint32_t stream, Reply reply)>;
 
-  // `desk` and `limits` outlive it.
-  Conversation(Desk& desk, const FrontLimits& limits, Peer peer, std::shared_ptr<Source> source, bool stops_only,
-               OnReply on_reply, TimePoint now);
+  // `desk`, `limits` and `sources` outlive it.
+  Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only, OnReply on_reply,
+               TimePoint now);
 
   void from_client(std::string_view bytes, TimePoint now);
   void from_server(std::string_view bytes);
@@ -83,6 +83,7 @@ class Conversation {
 
   void end(ErrorCode code, std::string why);
   bool spend(Cost cost, double tokens);
+  Duration debt_of_others(Cost cost, double tokens);
   bool take_preface(std::string_view& bytes);
 
   bool take_frame(const Frame& frame);
@@ -108,8 +109,11 @@ class Conversation {
 
   Desk& desk_;
   const FrontLimits& limits_;
+  Sources& sources_;
   const Peer peer_;
   const std::shared_ptr<Source> source_;
+  std::string caller_;                        // the last one who was let in by a name
+  std::shared_ptr<Source> caller_elsewhere_;  // with all connections of this caller; none without a name
   bool stops_only_;
   const OnReply on_reply_;
   Budget own_, spared_;

@@ -41,6 +41,9 @@ struct Verdict {
   // caller's admission.
   bool unwanted = false;
   std::shared_ptr<void> place{};  // given back when the call has ended
+  // Who was let in by a name of their own, "token alice": whatever connections this caller has, from wherever, share
+  // one budget. Empty: whom nothing names.
+  std::string caller{};
 };
 
 // Called on the front's thread.

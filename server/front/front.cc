@@ -37,6 +37,7 @@ Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfi
               std::make_shared<Mailbox>(strand),
               desk,
               limits_,
+              sources_,
               std::move(to_grpc),
               [this](const Connection& connection, const std::optional<Closing>& why) { ended(connection, why); }},
       timer_(strand) {
@@ -61,7 +62,7 @@ Peer Front::peer_of(int connection, server::Acceptor::Origin origin) {
 void Front::enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin) {
   Peer peer = peer_of(connection.get(), origin);
   const TimePoint now = monotonic_now();
-  auto source = sources_.of(peer.source, now);
+  const auto source = sources_.of(peer.source, now);
   const bool from_network = origin == server::Acceptor::Origin::network;
   // One costs a signature, which is most of what a source can make the daemon compute.
   if (from_network && !source->handshakes.take_if_there(1, now)) {
@@ -70,7 +71,7 @@ void Front::enter(Descriptor connection, server::Acceptor::Service service, serv
   // A source that connects too often keeps its stop.
   const bool too_many = !source->connections.take_if_there(1, now);
   const bool stops_only = service == server::Acceptor::Service::stop_only || too_many;
-  const auto made = std::make_shared<Connection>(around_, std::move(peer), std::move(source), stops_only);
+  const auto made = std::make_shared<Connection>(around_, std::move(peer), stops_only);
   connections_.emplace(made.get(), made);
   check_later();
   Socket socket = socket_of(around_.strand, std::move(connection));

@@ -137,7 +137,8 @@ Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   const RequestKind kind = kind_of(method);
   const Result<server::Caller> caller = api_.admission.let_in(kind, credential_for_limits(headers, peer), method);
   if (!caller) return refused(headers, peer, caller.error());
-  if (api::rule_of(kind).quota == api::Quota::none) return {.what = Verdict::What::answer};
+  const std::string named = caller->who == kAnonymous ? "" : caller->who;
+  if (api::rule_of(kind).quota == api::Quota::none) return {.what = Verdict::What::answer, .caller = named};
   if (stops_only) {
     metrics_.count(method, grpc::RESOURCE_EXHAUSTED);
     return refused(headers, peer, nothing_left());
@@ -145,7 +146,7 @@ Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   if (kind == RequestKind::unlisted) {
     return {.what = Verdict::What::refuse, .refusal = no_such_method(method), .unwanted = true};
   }
-  return {.what = Verdict::What::forward, .place = api_.admission.take_place(kind, caller->who)};
+  return {.what = Verdict::What::forward, .place = api_.admission.take_place(kind, caller->who), .caller = named};
 }
 
 front::Verdict Desk::refused(const Headers& headers, const Peer& peer, const Problem& problem) {

@@ -69,7 +69,7 @@ class World {
  public:
   explicit World(bool stops_only)
       : conversation_(
-            desk_, limits_, Peer{.who = "unix anna", .source = "uid 1"}, sources_.of("uid 1", now_), stops_only,
+            desk_, limits_, sources_, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
             [this](std::uint32_t stream, Reply reply) { conversation_.reply(stream, reply); }, now_) {
     conversation_.from_client(kPreface, now_);
   }

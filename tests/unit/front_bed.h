@@ -29,7 +29,7 @@ class TestDesk final : public Desk {
     const std::string path(find(headers, ":path").value_or(""));
     judged.push_back(path);
     if (path == "/stop") return {.what = Verdict::What::answer};
-    if (path == "/forward" && !stops_only) return {.what = Verdict::What::forward, .place = place};
+    if (path == "/forward" && !stops_only) return {.what = Verdict::What::forward, .place = place, .caller = caller};
     return {
         .what = Verdict::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .unwanted = path == "/unwanted"};
   }
@@ -39,6 +39,7 @@ class TestDesk final : public Desk {
   }
 
   std::shared_ptr<int> place = std::make_shared<int>();
+  std::string caller;
   std::vector<std::string> judged;
   std::vector<std::pair<std::string, std::function<void(Reply)>>> asked;
 };
@@ -63,7 +64,7 @@ class ConversationTest : public testing::Test {
  protected:
   void open(bool stops_only = false) {
     conversation.emplace(
-        desk, kLimits, Peer{.who = "unix anna", .source = "uid 1"}, source, stops_only,
+        desk, kLimits, sources, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
         [this](std::uint32_t stream, Reply reply) { conversation->reply(stream, reply); }, now);
     say(std::string(kPreface) + settings_frame({}) + settings_ack());
     EXPECT_THAT(heard(), testing::SizeIs(2));  // SETTINGS, and the acknowledgement

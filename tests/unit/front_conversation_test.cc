@@ -200,7 +200,7 @@ TEST_F(ConversationTest, WithoutAWayToGrpcOnlyStopsAreServed) {
 TEST_F(ConversationTest, WhatIsNotHttp2IsNot) {
   open();
   conversation.emplace(
-      desk, kLimits, Peer{}, source, false, [](std::uint32_t, Reply) {}, now);
+      desk, kLimits, sources, Peer{}, false, [](std::uint32_t, Reply) {}, now);
   say("GET /metrics HTTP/1.1\r\n");
   EXPECT_EQ(fault(), "this is not HTTP/2");
 }

@@ -121,6 +121,30 @@ TEST_F(ConversationTest, ConnectionsOfOneSourceShareItsBudget) {
   EXPECT_THAT(fault(), HasSubstr("more frames a second"));
 }
 
+// As with a token, from another machine: the address differs, the caller does not.
+TEST_F(ConversationTest, ACallerHasOneBudgetWhateverItsConnections) {
+  desk.caller = "token anna";
+  open();
+  say(call(1, "/forward"));
+  sources.of("token anna", now)->frames.take(Cost::stream, 100'000, now);
+  std::uint32_t stream = 3;
+  while (conversation->not_before() <= now && stream < 1'000) {
+    say(call(stream, "/forward"));
+    stream += 2;
+  }
+  EXPECT_LT(stream, 2u * 50);  // what is spared for a stop
+  EXPECT_GT(conversation->not_before(), now + seconds(1));
+  EXPECT_EQ(fault(), "");
+}
+
+TEST_F(ConversationTest, WhomNothingNamesPaysForNobodyElse) {
+  open();
+  say(call(1, "/forward"));
+  sources.of("", now)->frames.take(Cost::stream, 100'000, now);
+  for (std::uint32_t stream = 3; stream < 500; stream += 2) say(call(stream, "/forward"));
+  EXPECT_LE(conversation->not_before(), now);
+}
+
 // A source that uses up everything over other connections.
 TEST_F(ConversationTest, WhoDoesLittleIsNotHeldBackByOthersOfItsSource) {
   open();
