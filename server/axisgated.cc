@@ -97,7 +97,7 @@ std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& s
   constexpr int kPings = 4;
   return std::make_unique<server::Watchdog>(
       std::move(threads), *time / kPings,
-      [&gateway](Duration wait, std::function<void()> task) { gateway.after(wait, std::move(task)); },
+      [&gateway](Duration wait, std::function<void()> task) { gateway.timeouts().after(wait, std::move(task)); },
       server::notify_alive);
 }
 

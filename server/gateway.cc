@@ -99,13 +99,4 @@ Stage* Gateway::find_stage(std::string_view name) const {
   return found == stages_.end() ? nullptr : *found;
 }
 
-void Gateway::after(Duration wait, std::function<void()> task) {
-  auto timer = std::make_shared<boost::asio::steady_timer>(readers_);
-  timer->expires_after(wait);
-  // A cancelled timer is one of an io_context that ends.
-  timer->async_wait([timer, task = std::move(task)](const boost::system::error_code& error) {
-    if (!error) task();
-  });
-}
-
 }  // namespace axisgate::server

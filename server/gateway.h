@@ -15,6 +15,7 @@
 #include "server/devices/device.h"
 #include "server/devices/stage.h"
 #include "server/events/event_bus.h"
+#include "server/events/timeouts.h"
 #include "server/metrics/metrics.h"
 
 namespace axisgate::server {
@@ -52,8 +53,8 @@ class Gateway {
   const std::vector<Stage*>& stages() const { return stages_; }
   Stage* find_stage(std::string_view name) const;  // null when there is none
 
-  // Calls `task` once on the readers' thread.
-  void after(Duration wait, std::function<void()> task);
+  // Calls tasks on the readers' thread.
+  Timeouts& timeouts() { return timeouts_; }
 
  private:
   using Work = boost::asio::executor_work_guard<boost::asio::io_context::executor_type>;
@@ -64,6 +65,7 @@ class Gateway {
   boost::asio::io_context readers_{1};
   Work lines_work_{lines_.get_executor()};
   Work readers_work_{readers_.get_executor()};
+  Timeouts timeouts_{readers_};
   LeaseTokens lease_tokens_;
   Metrics metrics_;
   EventBus events_;

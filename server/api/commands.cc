@@ -67,7 +67,7 @@ class Execution final : public Subscription<ExecuteEvent> {
       audit(RequestKind::execute, self->device_, self->request_.context, text_of("execute", self->request_.lines));
       controller.execute(std::move(self->request_), now, [self](const ExecuteEvent& event) { self->on_event(event); });
     });
-    gateway_.after(timeout_ + kTimeoutGrace, [waiting = weak_from_this(), this] {
+    time_out_ = gateway_.timeouts().unless_dropped(timeout_ + kTimeoutGrace, [waiting = weak_from_this(), this] {
       if (const auto still = waiting.lock()) end(timed_out(timeout_));
     });
   }
@@ -100,6 +100,8 @@ class Execution final : public Subscription<ExecuteEvent> {
     return Nothing{};
   }
 
+  void left() override { time_out_.reset(); }
+
   server::Gateway& gateway_;
   server::Stage& device_;
   stage::ExecuteRequest request_;  // on the device's strand
@@ -107,6 +109,7 @@ class Execution final : public Subscription<ExecuteEvent> {
   // Bounded by the transaction: a reply for each of its lines and a completion for each axis they move.
   std::deque<ExecuteEvent> due_;
   std::optional<StreamEnd> end_;  // after what is due
+  std::unique_ptr<server::Timeout> time_out_;
 };
 
 }  // namespace

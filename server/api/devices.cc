@@ -39,7 +39,7 @@ class DeviceWatch final : public Subscription<DeviceState> {
 
   void wait(Duration time) {
     if (std::exchange(waiting_, true)) return;
-    gateway_.after(time, [self = self<DeviceWatch>()] {
+    gateway_.timeouts().after(time, [self = self<DeviceWatch>()] {
       {
         const std::lock_guard lock(self->mutex_);
         self->waiting_ = false;

@@ -16,7 +16,7 @@ using stage::StageController;
 // What writes waits for the disk: on the readers' thread, where no line waits for it.
 template <class Task>
 void away_from_the_lines(server::Gateway& gateway, Task task) {
-  gateway.after(Duration::zero(), std::move(task));
+  gateway.timeouts().after(Duration::zero(), std::move(task));
 }
 
 using SavingPtr = std::shared_ptr<Saving>;

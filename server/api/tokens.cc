@@ -39,7 +39,7 @@ Tokens::Tokens(server::Gateway& gateway, const server::Access& access, const Adm
       admission_(admission),
       streams_(streams),
       retry_(TokenRetry::make(access.tokens(), [&gateway](Duration wait, std::function<void()> task) {
-        gateway.after(wait, std::move(task));
+        gateway.timeouts().after(wait, std::move(task));
       })) {}
 
 Result<server::Caller> Tokens::caller(const Call& call) const {

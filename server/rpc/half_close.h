@@ -17,7 +17,7 @@ class HalfClose {
   explicit HalfClose(server::Gateway& gateway) : gateway_(gateway) {}
 
   // Calls `then` on the readers' thread when a client that broke off would have been cancelled.
-  void wait(std::function<void()> then) const { gateway_.after(kBreakOffWait, std::move(then)); }
+  void wait(std::function<void()> then) const { gateway_.timeouts().after(kBreakOffWait, std::move(then)); }
 
  private:
   static constexpr Duration kBreakOffWait = std::chrono::milliseconds(10);

@@ -93,8 +93,9 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       message_bytes_max_(gateway.config().limits.message_bytes),
       listener_(std::move(listener)),
       rpc_metrics_(*gateway.metrics().registry()),
-      refusals_(*gateway.metrics().registry(),
-                [&gateway](Duration wait, std::function<void()> task) { gateway.after(wait, std::move(task)); }),
+      refusals_(
+          *gateway.metrics().registry(),
+          [&gateway](Duration wait, std::function<void()> task) { gateway.timeouts().after(wait, std::move(task)); }),
       desk_(api_, rpc_metrics_, refusals_),
       devices_(api_.devices),
       stage_(api_.motions, api_.paths, api_.jogs, half_close_),

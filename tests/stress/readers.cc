@@ -106,7 +106,7 @@ void come_and_go(server::Gateway& gateway, int times) {
   const TimePoint limit = monotonic_now() + std::chrono::minutes(2);
   auto fired = std::make_shared<std::atomic<int>>(0);
   for (int i = 0; i < times; ++i) {
-    gateway.after(std::chrono::microseconds(i % 500), [fired] { ++*fired; });
+    gateway.timeouts().after(std::chrono::microseconds(i % 500), [fired] { ++*fired; });
     std::atomic<int> woken = 0;
     const auto subscription = gateway.events().subscribe([&] { ++woken; });
     for (int due = 1; due <= i % 3; ++due) {
