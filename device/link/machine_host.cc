@@ -22,18 +22,19 @@ void MachineHost::detach() {
 void MachineHost::arm() {
   // settle() may have detached the machine.
   const auto deadline = machine_ == nullptr ? std::nullopt : machine_->next_deadline();
-  if (deadline == armed_) return;
+  // A timer that stands earlier is left, since most deadlines are time limits that do not pass: when it fires, the
+  // machine is asked again.
+  if (!deadline || (armed_ && *armed_ <= *deadline)) return;
   armed_ = deadline;
-  if (!deadline) {
-    deadline_timer_.cancel();
-    return;
-  }
   // Asio's clock stops while the host sleeps; monotonic_now() does not.
   deadline_timer_.expires_after(*deadline - monotonic_now());
   deadline_timer_.async_wait([self = shared_from_this()](const boost::system::error_code& error) {
     if (error) return;
     self->armed_.reset();
-    self->call([](LineMachine& machine, TimePoint now) { machine.advance(now); });
+    self->call([](LineMachine& machine, TimePoint now) {
+      const auto due = machine.next_deadline();
+      if (due && *due <= now) machine.advance(now);
+    });
   });
 }
 

@@ -1,5 +1,5 @@
-// What every shell around a LineMachine needs: calls on one strand with the clock's time, and one timer that always
-// stands at the machine's next deadline.
+// What every shell around a LineMachine needs: calls on one strand with the clock's time, and one timer that never
+// stands later than the machine's next deadline.
 #pragma once
 
 #include <functional>

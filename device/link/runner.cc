@@ -29,6 +29,7 @@ class Runner::Line : public MachineHost {
         descriptor_(this->strand()),
         reopen_timer_(this->strand()) {}
 
+  void attach(LineMachine& machine, std::function<void()> after_call);
   void open();
   void adopt(Descriptor opened);
   void shut();
@@ -46,6 +47,7 @@ class Runner::Line : public MachineHost {
   void close();
   void discard_unsent();
 
+  std::function<void()> after_call_;
   Opener opener_;
   Opening opening_;
   boost::asio::posix::stream_descriptor descriptor_;
@@ -57,6 +59,11 @@ class Runner::Line : public MachineHost {
   bool waiting_for_room_ = false;
   bool overflowed_ = false;
 };
+
+void Runner::Line::attach(LineMachine& machine, std::function<void()> after_call) {
+  after_call_ = std::move(after_call);
+  MachineHost::attach(machine);
+}
 
 void Runner::Line::open() {
   if (!attached() || !opener_ || opening_) return;
@@ -137,6 +144,7 @@ void Runner::Line::reopen(Duration wait) {
 void Runner::Line::settle() {
   if (overflowed_) return lose("the line takes no bytes: its output queue is full");
   send_queued();
+  if (attached() && after_call_) after_call_();
 }
 
 void Runner::Line::start_reading() {
@@ -184,7 +192,9 @@ Runner::Runner(Strand strand, Opener opener) : line_(std::make_shared<Line>(std:
 
 Runner::~Runner() { line_->shut(); }
 
-void Runner::attach(LineMachine& machine) { line_->attach(machine); }
+void Runner::attach(LineMachine& machine, std::function<void()> after_call) {
+  line_->attach(machine, std::move(after_call));
+}
 
 void Runner::start() {
   boost::asio::dispatch(line_->strand(), [line = line_] { line->open(); });

@@ -26,8 +26,8 @@ class Runner : public ByteLink {
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;
 
-  // Before start(), once.
-  void attach(LineMachine& machine);
+  // Before start(), once. `after_call` is called behind each call into the machine, when what it wrote has been sent.
+  void attach(LineMachine& machine, std::function<void()> after_call = {});
 
   // Opens the line. The machine receives link_up, or link_down with the reason. Then, and after every later loss, the
   // machine must call reopen() with its own backoff.

@@ -36,7 +36,7 @@ Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand stra
           record_.get()),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
-  runner().attach(*controller_);
+  runner().attach(*controller_, [this] { publish_due(); });
 }
 
 void Stage::post(Request request) {
@@ -60,7 +60,7 @@ Duration Stage::wind_down_limit() const {
 
 // Closed from within the answer, so that nothing comes in between.
 void Stage::on_wound_down(const stage::WindDownReport& report) {
-  state_due_ = true;
+  on_due(DeviceEvents::Due::state);
   publish_due();
   shutdown();
   if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
@@ -68,16 +68,15 @@ void Stage::on_wound_down(const stage::WindDownReport& report) {
                report.motions.empty() ? "none" : count_by_outcome(report.motions));
 }
 
-// An event must not call back into the controller, and many come at once: what they leave to do is done once, later.
+// An event must not call back into the controller, and many come at once: what they leave to do is done once, behind
+// the call that made them.
 void Stage::on_due(DeviceEvents::Due due) {
+  due_ = true;
   state_due_ = state_due_ || due == DeviceEvents::Due::state;
-  if (publishing_) return;
-  publishing_ = true;
-  runner().post([this](TimePoint) { publish_due(); });
 }
 
 void Stage::publish_due() {
-  publishing_ = false;
+  if (!std::exchange(due_, false)) return;
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
     metrics().set_queued(static_cast<Lane>(lane), controller_->queued(static_cast<Lane>(lane)));
   }

@@ -50,7 +50,7 @@ class Stage final : public Device {
   const std::unique_ptr<MotionRecord> record_;
   DeviceEvents events_;
   std::unique_ptr<stage::StageController> controller_;
-  bool publishing_ = false;  // a posted publish_due() is under way
+  bool due_ = false;  // publish_due() has something to do
   bool state_due_ = false;
 };
 

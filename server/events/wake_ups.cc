@@ -53,6 +53,10 @@ std::unique_ptr<WakeUps::Subscription> WakeUps::subscribe(std::function<void()> 
 }
 
 void WakeUps::wake_all() {
+  {
+    const std::lock_guard lock(shared_->mutex);
+    if (shared_->sleepers.empty()) return;
+  }
   if (shared_->due.exchange(true)) return;
   executor_([shared = shared_] { run(*shared); });
 }

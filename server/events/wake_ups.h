@@ -13,7 +13,7 @@ namespace axisgate::server {
 using Executor = std::function<void(std::function<void()>)>;
 
 // Thread safe. Any number of wake_all() calls before the executor comes round cost one round of wake-ups, so that a
-// thousand readers cost the device's strand one task.
+// thousand readers cost the device's strand one task; and none costs it nothing.
 class WakeUps {
  public:
   explicit WakeUps(Executor executor);
