@@ -61,7 +61,7 @@ fuzz() {
 cd "$root"
 mkdir -p "$build"
 jobs=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
-front=(server/front/{conversation,frames,header_codec,replies,budget}.cc)
+front=(server/front/{conversation,own_calls,spending,frames,header_codec,replies,budget}.cc)
 
 # TARGET SOURCE...
 build_and_fuzz() {

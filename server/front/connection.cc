@@ -36,18 +36,26 @@ void Connection::handshake_over(std::optional<std::string> certificate) {
 }
 
 void Connection::begin() {
-  // The reply may come from any thread, and after the connection has gone.
-  auto on_reply = [self = weak_from_this(), mailbox = around_.mailbox](std::uint32_t stream, Reply reply) {
-    mailbox->post([self, stream, reply = std::move(reply)] {
-      const auto connection = self.lock();
-      if (!connection || connection->closed_) return;
-      connection->conversation_->reply(stream, reply);
-      connection->move_on();
+  // An answer may come from any thread, and after the connection has gone.
+  auto on_answer = [self = weak_from_this(), mailbox = around_.mailbox](std::uint32_t stream) {
+    mailbox->post([self, stream] {
+      if (const auto connection = self.lock()) connection->pull(stream);
     });
   };
-  conversation_.emplace(around_.desk, around_.limits, around_.sources, peer_, stops_only_, std::move(on_reply),
+  conversation_.emplace(around_.desk, around_.limits, around_.sources, peer_, stops_only_, std::move(on_answer),
                         monotonic_now());
   move_on();
+}
+
+// What other calls have received by then is written together.
+void Connection::pull(std::uint32_t stream) {
+  if (closed_) return;
+  conversation_->pull(stream);
+  if (std::exchange(moves_on_soon_, true)) return;
+  asio::post(around_.strand, [self = shared_from_this()] {
+    self->moves_on_soon_ = false;
+    self->move_on();
+  });
 }
 
 // Starts whatever can be started now.

@@ -49,6 +49,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Error = Wire::Error;
 
   void begin();
+  void pull(std::uint32_t stream);
   void move_on();
   void read_client();
   void write_client();
@@ -73,6 +74,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::string to_client_, to_grpc_;  // being written
   // An operation of each kind is under way.
   bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;
+  bool moves_on_soon_ = false;
   bool closed_ = false;
 };
 

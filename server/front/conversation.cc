@@ -1,7 +1,6 @@
 #include "server/front/conversation.h"
 
 #include <algorithm>
-#include <chrono>
 #include <utility>
 
 #include "server/front/replies.h"
@@ -9,10 +8,8 @@
 namespace axisgate::front {
 namespace {
 
-constexpr std::int64_t kWindowMax = 0x7fff'ffff;
-
-// Who asks again after each refusal is slowed down; who sends so many at once floods.
-constexpr Duration kRefusalsWait = std::chrono::seconds(2);
+// A quarter of what a client may send before it must know that it may send more (RFC 9113, 6.9.2).
+constexpr std::size_t kUntoldMax = 16 << 10;
 
 std::uint8_t flags(bool end_headers, bool end_stream) {
   return static_cast<std::uint8_t>((end_headers ? static_cast<int>(FrameFlag::end_headers) : 0) |
@@ -42,18 +39,14 @@ bool ends_call(const Frame& frame) {
 }  // namespace
 
 Conversation::Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only,
-                           OnReply on_reply, TimePoint now)
+                           OwnCalls::OnAnswer on_answer, TimePoint now)
     : desk_(desk),
       limits_(limits),
-      sources_(sources),
       peer_(std::move(peer)),
-      source_(sources.of(peer_.source, now)),
+      spending_(limits, sources, peer_.source, now),
       stops_only_(stops_only),
-      on_reply_(std::move(on_reply)),
-      own_(limits.connection, now),
-      spared_(limits.spared, now),
-      stranger_(limits.stranger, now),
-      now_(now) {
+      now_(now),
+      own_calls_(desk, limits, peer_, std::move(on_answer)) {
   to_client_ =
       settings_frame({{id_of(SettingId::max_header_list_size), static_cast<std::uint32_t>(limits.header_bytes)}});
 }
@@ -64,25 +57,8 @@ void Conversation::end(ErrorCode code, std::string why) {
   fault_ = Fault{code, {cause_of(code), std::move(why)}};
 }
 
-// Of all connections of the source, and of all of the caller.
-Duration Conversation::debt_of_others(Cost cost, double tokens) {
-  const Duration of_source = source_->frames.take(cost, tokens, now_);
-  return caller_elsewhere_ ? std::max(of_source, caller_elsewhere_->frames.take(cost, tokens, now_)) : of_source;
-}
-
-// What waits is read later; what must not be ends the connection.
 bool Conversation::spend(Cost cost, double tokens) {
-  Duration debt = own_.take(cost, tokens, now_);
-  if (!admitted_) debt = std::max(debt, stranger_.take(cost, tokens, now_));
-  const Duration of_others = debt_of_others(cost, tokens);
-  if (of_others > debt && !spared_.take_if_there(cost, tokens, now_)) debt = of_others;
-  if (debt <= Duration::zero()) return true;
-  const bool may_wait =
-      cost == Cost::stream || cost == Cost::header_bytes || (cost == Cost::refusal && debt < kRefusalsWait);
-  if (may_wait) {
-    not_before_ = std::max(not_before_, now_ + debt);
-    return true;
-  }
+  if (spending_.spend(cost, tokens, now_)) return true;
   end(ErrorCode::enhance_your_calm, "more frames a second than the daemon takes from one client");
   return false;
 }
@@ -184,11 +160,7 @@ void Conversation::take_block(Block block) {
 void Conversation::begin_call(std::uint32_t stream, Headers headers, bool whole) {
   const Verdict verdict = desk_.judge(headers, peer_, stops_only_);
   if (verdict.unwanted && !spend(Cost::refusal, 1)) return;
-  admitted_ = admitted_ || !verdict.unwanted;
-  if (verdict.caller != caller_ && !verdict.caller.empty()) {
-    caller_ = verdict.caller;
-    caller_elsewhere_ = sources_.of(caller_, now_);
-  }
+  if (!verdict.unwanted) spending_.admit(verdict.caller, now_);
   switch (verdict.what) {
     case Verdict::What::refuse:
       return refuse(stream, verdict.refusal, whole);
@@ -201,10 +173,10 @@ void Conversation::begin_call(std::uint32_t stream, Headers headers, bool whole)
     case Verdict::What::answer:
       break;
   }
-  if (asked_.size() >= limits_.answers) {
-    return end(ErrorCode::enhance_your_calm, "too many stops are open on this connection");
+  if (!own_calls_.within_limits()) {
+    return end(ErrorCode::enhance_your_calm, "too many stops, or requests in pieces, are open on this connection");
   }
-  asked_[stream].headers = std::move(headers);
+  own_calls_.begin(stream, std::move(headers), verdict.place);
   if (whole) ask_desk(stream);
 }
 
@@ -223,69 +195,67 @@ void Conversation::forward_headers(std::uint32_t stream, Headers headers, bool e
 }
 
 void Conversation::refuse(std::uint32_t stream, const Reply& refusal, bool whole) {
-  send(reply_frames(stream, refusal).bytes);
+  send(ending_frame(stream, refusal, true));
   // What the client still sends of it is dropped.
   if (!whole) send(rst_stream(stream, ErrorCode::no_error));
 }
 
 void Conversation::ask_desk(std::uint32_t stream) {
-  Asked& asked = asked_[stream];
-  asked.whole = true;
-  const auto message = message_in(asked.data, limits_.message_bytes);
-  constexpr int kInvalidArgument = 3;
-  if (!message) return on_reply_(stream, {.code = kInvalidArgument, .message = "the request is not one whole message"});
-  desk_.answer(asked.headers, peer_, *message,
-               [on_reply = on_reply_, stream](Reply reply) { on_reply(stream, std::move(reply)); });
+  if (const auto refusal = own_calls_.ask(stream)) refuse(stream, *refusal, true);
 }
 
-void Conversation::reply(std::uint32_t stream, const Reply& reply) {
-  if (asked_.erase(stream) == 0 || fault_) return;
-  ReplyFrames frames = reply_frames(stream, reply);
-  waiting_.push_back({std::move(frames.bytes), frames.data_bytes});
-  send_replies();
+void Conversation::pull(std::uint32_t stream) {
+  own_calls_.pull(stream);
+  send_answers();
 }
 
-void Conversation::send_replies() {
-  while (!in_server_block_ && !waiting_.empty()) {
-    const auto size = static_cast<std::int64_t>(waiting_.front().data_bytes);
-    if (size > window_) return;
-    window_ -= size;
-    window_used_ += size;
-    to_client_ += waiting_.front().bytes;
-    waiting_.pop_front();
-  }
+// More when this has been written.
+void Conversation::send_answers() {
+  if (in_server_block_ || fault_ || full()) return;
+  const std::int64_t before = window_;
+  const std::string answers = own_calls_.frames(window_);
+  window_used_ += before - window_;
+  if (answers.empty()) return;
+  tell_given_back();
+  to_client_ += answers;
+}
+
+std::string Conversation::take_to_client() {
+  std::string bytes = std::exchange(to_client_, {});
+  send_answers();
+  return bytes;
 }
 
 // Not between a HEADERS of gRPC and its CONTINUATION (RFC 9113, 6.10).
-void Conversation::send(const std::string& bytes) {
-  if (in_server_block_) {
-    waiting_.push_back({bytes, 0});
-  } else {
-    to_client_ += bytes;
-  }
-}
+void Conversation::send(const std::string& bytes) { (in_server_block_ ? held_ : to_client_) += bytes; }
 
 void Conversation::take_data(const Frame& frame) {
-  const bool ends_stream = frame.has(FrameFlag::end_stream);
-  if (frame.payload.empty() && !ends_stream && !spend(Cost::control, 1)) return;
-  const auto asked = asked_.find(frame.stream);
-  if (asked == asked_.end() && open_.contains(frame.stream)) {
+  if (frame.payload.empty() && !frame.has(FrameFlag::end_stream) && !spend(Cost::control, 1)) return;
+  if (open_.contains(frame.stream)) {
     to_server_ += frame.raw;
     return;
   }
   give_back(frame.payload.size());
-  if (asked == asked_.end() || asked->second.whole) return;
-  const auto content = content_of(frame);
-  if (!content || asked->second.data.size() + content->size() > limits_.message_bytes) {
-    return end(ErrorCode::protocol_error, "a request that the daemon cannot take");
-  }
-  asked->second.data.append(*content);
-  if (ends_stream) ask_desk(frame.stream);
+  if (own_calls_.has(frame.stream)) take_own_data(frame);
 }
 
-// What gRPC did not see it does not allow to be sent again.
+void Conversation::take_own_data(const Frame& frame) {
+  const auto content = content_of(frame);
+  if (!content) return end(ErrorCode::protocol_error, "DATA with a wrong padding");
+  const bool whole = frame.has(FrameFlag::end_stream);
+  if (const auto refusal = own_calls_.take(frame.stream, *content)) return refuse(frame.stream, *refusal, whole);
+  if (whole) ask_desk(frame.stream);
+}
+
+// What gRPC did not see it does not allow to be sent again. The client learns of it with the next answer, or when it is
+// much: a frame of its own would cost it a wake-up.
 void Conversation::give_back(std::size_t bytes) {
-  if (bytes > 0) send(window_update(0, static_cast<std::uint32_t>(bytes)));
+  untold_ += bytes;
+  if (untold_ >= kUntoldMax) tell_given_back();
+}
+
+void Conversation::tell_given_back() {
+  if (untold_ > 0) send(window_update(0, static_cast<std::uint32_t>(std::exchange(untold_, 0))));
 }
 
 void Conversation::take_settings(const Frame& frame) {
@@ -300,6 +270,10 @@ void Conversation::take_settings(const Frame& frame) {
   const auto settings = settings_in(frame.payload);
   if (!settings) return end(ErrorCode::frame_size_error, "SETTINGS of a wrong length");
   if (!spend(Cost::settings, 1)) return;
+  if (const auto first = settings->find(id_of(SettingId::initial_window_size)); first != settings->end()) {
+    if (first->second > kWindowMax) return end(ErrorCode::flow_control_error, "a window that cannot be");
+    own_calls_.set_first_window(first->second);
+  }
   if (upstream_ == Upstream::open) {
     to_server_ += settings_frame(bounded(*settings, false));
     return;
@@ -338,6 +312,7 @@ void Conversation::take_window_update(const Frame& frame) {
   if (frame.payload.size() != kBytes) return end(ErrorCode::frame_size_error, "WINDOW_UPDATE of a wrong length");
   if (frame.stream != 0) {
     if (open_.contains(frame.stream)) to_server_ += frame.raw;
+    if (own_calls_.has(frame.stream)) widen(frame);
     return;
   }
   const std::int64_t bytes = number_at(frame.payload, 0) & kWindowMax;
@@ -348,12 +323,19 @@ void Conversation::take_window_update(const Frame& frame) {
     window_used_ -= kept;
     if (bytes > kept) to_server_ += window_update(0, static_cast<std::uint32_t>(bytes - kept));
   }
-  send_replies();
+  send_answers();
+}
+
+void Conversation::widen(const Frame& frame) {
+  if (!own_calls_.widen(frame.stream, number_at(frame.payload, 0) & kWindowMax)) {
+    return end(ErrorCode::flow_control_error, "a window that cannot be");
+  }
+  send_answers();
 }
 
 void Conversation::take_reset(const Frame& frame) {
   if (!spend(Cost::reset, 1)) return;
-  asked_.erase(frame.stream);
+  own_calls_.forget(frame.stream);
   if (open_.erase(frame.stream) > 0) to_server_ += frame.raw;
 }
 
@@ -390,7 +372,8 @@ bool Conversation::take_server_frame(const Frame& frame) {
   if (frame.type == FrameType::data) window_ -= static_cast<std::int64_t>(frame.payload.size());
   to_client_ += frame.raw;
   if (ends_call(frame)) open_.erase(frame.stream);
-  send_replies();
+  if (!in_server_block_) to_client_ += std::exchange(held_, {});
+  send_answers();
   return true;
 }
 

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -20,6 +18,8 @@
 #include "server/front/frames.h"
 #include "server/front/header_codec.h"
 #include "server/front/limits.h"
+#include "server/front/own_calls.h"
+#include "server/front/spending.h"
 
 namespace axisgate::front {
 
@@ -32,23 +32,21 @@ class Conversation {
     ErrorCode code = ErrorCode::no_error;
     Closing why;
   };
-  // Called with a call's stream and its reply, where the desk gives one: hand it to reply().
-  using OnReply = std::function<void(std::uint32_t stream, Reply reply)>;
 
   // `desk`, `limits` and `sources` outlive it.
-  Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only, OnReply on_reply,
-               TimePoint now);
+  Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only,
+               OwnCalls::OnAnswer on_answer, TimePoint now);
 
   void from_client(std::string_view bytes, TimePoint now);
   void from_server(std::string_view bytes);
-  // Nothing, if the call has gone.
-  void reply(std::uint32_t stream, const Reply& reply);
+  // After on_answer: the desk has more for this call.
+  void pull(std::uint32_t stream);
 
   // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
   void upstream_failed();
 
   // What is to be written. Each is taken once.
-  std::string take_to_client() { return std::exchange(to_client_, {}); }
+  std::string take_to_client();
   std::string take_to_server() { return std::exchange(to_server_, {}); }
   bool has_for_client() const { return !to_client_.empty(); }
   bool has_for_server() const { return !to_server_.empty(); }
@@ -58,11 +56,11 @@ class Conversation {
   Upstream upstream() const { return upstream_; }
   const std::optional<Fault>& fault() const { return fault_; }
   // Nothing more is to be read from the client before then.
-  TimePoint not_before() const { return not_before_; }
+  TimePoint not_before() const { return spending_.not_before(); }
   bool stops_only() const { return stops_only_; }
-  bool admitted() const { return admitted_; }  // a call was let in
+  bool admitted() const { return spending_.admitted(); }  // a call was let in
   bool in_frame() const { return reader_.in_frame() || !preface_.empty() || block_; }
-  std::size_t calls() const { return open_.size() + asked_.size(); }
+  std::size_t calls() const { return open_.size() + own_calls_.size(); }
 
  private:
   static constexpr std::size_t kUntaken = 64 << 10;
@@ -74,16 +72,9 @@ class Conversation {
     std::size_t frames = 0;
     std::string bytes;
   };
-  // A call that the front answers itself.
-  struct Asked {
-    Headers headers;
-    std::string data;
-    bool whole = false;
-  };
 
   void end(ErrorCode code, std::string why);
   bool spend(Cost cost, double tokens);
-  Duration debt_of_others(Cost cost, double tokens);
   bool take_preface(std::string_view& bytes);
 
   bool take_frame(const Frame& frame);
@@ -93,34 +84,29 @@ class Conversation {
   void take_data(const Frame& frame);
   void take_settings(const Frame& frame);
   void take_window_update(const Frame& frame);
+  void widen(const Frame& frame);
   void take_reset(const Frame& frame);
   void take_ping(const Frame& frame);
 
   void begin_call(std::uint32_t stream, Headers headers, bool whole);
   void forward_headers(std::uint32_t stream, Headers headers, bool ends_stream);
   void refuse(std::uint32_t stream, const Reply& refusal, bool whole);
+  void take_own_data(const Frame& frame);
   void ask_desk(std::uint32_t stream);
   void open_upstream();
   void give_back(std::size_t bytes);
-  void send_replies();
+  void tell_given_back();
+  void send_answers();
   void send(const std::string& bytes);
 
   bool take_server_frame(const Frame& frame);
 
   Desk& desk_;
   const FrontLimits& limits_;
-  Sources& sources_;
   const Peer peer_;
-  const std::shared_ptr<Source> source_;
-  std::string caller_;                        // the last one who was let in by a name
-  std::shared_ptr<Source> caller_elsewhere_;  // with all connections of this caller; none without a name
+  Spending spending_;
   bool stops_only_;
-  const OnReply on_reply_;
-  Budget own_, spared_;
-  Budget stranger_;  // as long as nobody was let in
   TimePoint now_;
-  TimePoint not_before_{};
-  bool admitted_ = false;
   std::optional<Fault> fault_;
   Upstream upstream_ = Upstream::none;
 
@@ -131,7 +117,7 @@ class Conversation {
   std::optional<Block> block_;
   std::uint32_t last_stream_ = 0;
   std::map<std::uint32_t, std::shared_ptr<void>> open_;  // gRPC's calls and their places
-  std::map<std::uint32_t, Asked> asked_;                 // the front's own
+  OwnCalls own_calls_;
 
   // RFC 9113, 6.5: each SETTINGS is acknowledged once. The front sends and takes the first ones itself.
   std::map<std::uint16_t, std::uint32_t> client_settings_;
@@ -142,12 +128,9 @@ class Conversation {
   // knowledge.
   std::int64_t window_ = kFirstWindow;
   std::int64_t window_used_ = 0;
-  struct Waiting {
-    std::string bytes;
-    std::size_t data_bytes = 0;
-  };
-  std::deque<Waiting> waiting_;  // for a window, or for the end of gRPC's headers
+  std::size_t untold_ = 0;  // bytes that the client may send again, and does not know
   bool in_server_block_ = false;
+  std::string held_;  // until gRPC's headers have ended
 
   std::string to_client_, to_server_;
 };

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "server/front/header_codec.h"
 
@@ -21,12 +23,21 @@ struct Peer {
   bool needs_token = false;  // without a token nobody may call so
 };
 
-// How a call with one answer ends.
+// What is sent to a caller: a message, the end, or both. A call with one answer has one of these.
 struct Reply {
-  int code = 0;           // gRPC's; 0 is OK
-  std::string message{};  // for people, where it is not OK
-  std::string details{};  // of grpc-status-details-bin; empty: none
-  std::string body{};     // the message, where it is OK
+  int code = 0;                       // gRPC's; 0 is OK
+  std::string message{};              // for people, where it is not OK
+  std::string details{};              // of grpc-status-details-bin; empty: none
+  std::optional<std::string> body{};  // a message of the answer
+  bool last = true;                   // the call ends with it; otherwise its code says nothing
+};
+
+// The answer to one call, on the front's thread. It goes when it has ended, or when its caller has left it.
+class Answer {
+ public:
+  virtual ~Answer() = default;
+  // What has come since the last time, in order.
+  virtual std::vector<Reply> take() = 0;
 };
 
 struct Verdict {
@@ -57,9 +68,10 @@ class Desk {
   // For a call that gRPC cannot be reached for, because no descriptors are free.
   virtual Reply no_room() = 0;
 
-  // `message` is the whole request. `reply` is called once, from any thread, or never.
-  virtual void answer(const Headers& headers, const Peer& peer, const std::string& message,
-                      std::function<void(Reply)> reply) = 0;
+  // `message` is the whole request. `wake` is called from any thread, perhaps from within this and after the answer has
+  // gone, whenever take() has something.
+  virtual std::unique_ptr<Answer> answer(const Headers& headers, const Peer& peer, const std::string& message,
+                                         std::function<void()> wake) = 0;
 };
 
 }  // namespace axisgate::front

@@ -16,6 +16,7 @@ inline constexpr std::size_t kFrameHeaderBytes = 9;
 // What both sides may send without asking (6.5.2); the front lets neither ask for more, so that it can hold a frame.
 inline constexpr std::size_t kFramePayloadMax = 16'384;
 inline constexpr std::int64_t kFirstWindow = 65'535;
+inline constexpr std::int64_t kWindowMax = 0x7fff'ffff;
 
 enum class FrameType : std::uint8_t {
   data = 0,
@@ -45,6 +46,7 @@ enum class SettingId : std::uint16_t {
 enum class ErrorCode : std::uint32_t {
   no_error = 0,
   protocol_error = 1,
+  flow_control_error = 3,
   frame_size_error = 6,
   compression_error = 9,
   enhance_your_calm = 11,

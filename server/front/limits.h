@@ -27,8 +27,9 @@ struct FrontLimits {
   std::size_t header_bytes = 16 << 10;   // names and values of one call
   std::size_t continuations = 8;         // frames of one call's headers beyond the first
   std::size_t open_calls = 4'096;        // of one connection
-  std::size_t answers = 64;              // that the front gives itself, at once on one connection
+  std::size_t answers = 64;              // at once on one connection, of those that count for nobody: stops
   std::size_t message_bytes = 64 << 10;  // of a request that the front answers itself
+  std::size_t requests_bytes = 4 << 20;  // of all of them on one connection that are not whole
 
   Duration silence = std::chrono::seconds(20);      // until the first call is whole
   Duration frame_time = std::chrono::seconds(10);   // for the rest of a frame, or of a call's headers

@@ -4,7 +4,7 @@
 #include <openssl/evp.h>
 #include <zlib.h>
 
-#include <algorithm>
+#include <utility>
 
 #include "server/front/frames.h"
 
@@ -14,6 +14,8 @@ namespace {
 constexpr std::size_t kPrefixBytes = 5;  // of a message: whether it is packed, and its length
 constexpr auto kEnd =
     static_cast<std::uint8_t>(static_cast<int>(FrameFlag::end_headers) | static_cast<int>(FrameFlag::end_stream));
+
+const Headers kHead = {{":status", "200"}, {"content-type", "application/grpc"}};
 
 // As gRPC's protocol wants grpc-message: what is not printable ASCII, and the percent sign, by its code.
 std::string percent_encoded(std::string_view text) {
@@ -48,22 +50,6 @@ Headers trailers(const Reply& reply) {
   return headers;
 }
 
-std::string with_prefix(std::string_view message) {
-  std::string data(1, '\0');
-  for (int shift = 24; shift >= 0; shift -= 8) data.push_back(static_cast<char>(message.size() >> shift & 0xff));
-  data.append(message);
-  return data;
-}
-
-// A frame for each piece that fits.
-std::string data_frames(std::uint32_t stream, std::string_view data) {
-  std::string frames;
-  for (; !data.empty(); data.remove_prefix(std::min(data.size(), kFramePayloadMax))) {
-    frames += frame(FrameType::data, 0, stream, data.substr(0, kFramePayloadMax));
-  }
-  return frames;
-}
-
 std::optional<std::string> unpacked(std::string_view packed, std::size_t bytes_max) {
   z_stream stream{};
   constexpr int kGzipOrDeflate = 15 + 32;
@@ -82,20 +68,22 @@ std::optional<std::string> unpacked(std::string_view packed, std::size_t bytes_m
 
 }  // namespace
 
-ReplyFrames reply_frames(std::uint32_t stream, const Reply& reply) {
-  Headers head = {{":status", "200"}, {"content-type", "application/grpc"}};
-  ReplyFrames frames;
-  if (reply.code == 0) {
-    const std::string data = with_prefix(reply.body);
-    frames.bytes = frame(FrameType::headers, static_cast<std::uint8_t>(FrameFlag::end_headers), stream,
-                         encode_without_table(head));
-    frames.bytes += data_frames(stream, data);
-    frames.data_bytes = data.size();
-    head.clear();
-  }
-  for (Header& header : trailers(reply)) head.push_back(std::move(header));
-  frames.bytes += frame(FrameType::headers, kEnd, stream, encode_without_table(head));
-  return frames;
+std::string head_frame(std::uint32_t stream) {
+  return frame(FrameType::headers, static_cast<std::uint8_t>(FrameFlag::end_headers), stream,
+               encode_without_table(kHead));
+}
+
+std::string with_prefix(std::string_view message) {
+  std::string data(1, '\0');
+  for (int shift = 24; shift >= 0; shift -= 8) data.push_back(static_cast<char>(message.size() >> shift & 0xff));
+  data.append(message);
+  return data;
+}
+
+std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone) {
+  Headers headers = alone ? kHead : Headers();
+  for (Header& header : trailers(reply)) headers.push_back(std::move(header));
+  return frame(FrameType::headers, kEnd, stream, encode_without_table(headers));
 }
 
 std::optional<std::string> message_in(std::string_view data, std::size_t bytes_max) {

@@ -10,13 +10,12 @@
 
 namespace axisgate::front {
 
-struct ReplyFrames {
-  std::string bytes;
-  std::size_t data_bytes = 0;  // of these, what counts for the flow control
-};
-
-// On that stream, which it ends.
-ReplyFrames reply_frames(std::uint32_t stream, const Reply& reply);
+// Before the first message of an answer.
+std::string head_frame(std::uint32_t stream);
+// A message as DATA carries it.
+std::string with_prefix(std::string_view message);
+// The status, which ends the stream. `alone`: no head came before.
+std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone);
 
 // The message in the DATA of a call with one request: what is behind its five bytes, unpacked by zlib where the client
 // packed it. Nothing where it is not whole, or more than `bytes_max`.

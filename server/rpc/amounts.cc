@@ -111,6 +111,11 @@ Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::pro
   return api::checked_axes({numbers.begin(), numbers.end()});
 }
 
+Duration to_span(const google::protobuf::Duration& duration) {
+  constexpr Duration kSpanMax = std::chrono::hours(24);
+  return std::clamp<Duration>(to_duration(duration), Duration::zero(), kSpanMax);
+}
+
 Duration to_duration(const google::protobuf::Duration& duration) {
   constexpr std::int64_t kSecondsMax = std::int64_t{200} * 366 * 24 * 3600;
   if (duration.seconds() < 0 || duration.nanos() < 0) return Duration(-1);

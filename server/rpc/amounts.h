@@ -27,4 +27,7 @@ Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::pro
 Duration to_duration(const google::protobuf::Duration& duration);
 google::protobuf::Duration to_proto(Duration duration);
 
+// From no time at all, also for one that is none, to a day.
+Duration to_span(const google::protobuf::Duration& duration);
+
 }  // namespace axisgate::rpc

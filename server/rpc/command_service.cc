@@ -1,19 +1,12 @@
 #include "server/rpc/command_service.h"
 
-#include <algorithm>
-#include <chrono>
 #include <vector>
 
-#include "device/core/escape.h"
 #include "server/rpc/call.h"
-#include "server/rpc/subscribed_stream.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
 namespace {
-
-// Longer than any line of the controller.
-constexpr std::size_t kDeviceTextMax = 512;
 
 void fill(v1::Command& command, const stage::CommandInfo& info) {
   static_assert(static_cast<int>(Lane::stop) + 1 == v1::LANE_STOP);
@@ -27,24 +20,6 @@ void fill(v1::Command& command, const stage::CommandInfo& info) {
   command.set_moves(info.moves);
 }
 
-void fill_step(v1::ExecuteResponse& response, const stage::ExecuteEvent& event) {
-  if (event.kind == stage::ExecuteEvent::Kind::completion) {
-    response.set_completion(event.axis);
-    return;
-  }
-  v1::LineReply& reply = *response.mutable_reply();
-  reply.set_line(static_cast<int>(event.line));
-  reply.set_answer(escaped(event.answer, kDeviceTextMax));
-  reply.set_sent(event.sent);
-  reply.set_wire_reply(escaped(event.wire_reply, kDeviceTextMax));
-}
-
-// Bounded, so that it does not overflow nanoseconds.
-Duration to_timeout(const google::protobuf::Duration& timeout) {
-  return std::chrono::seconds(std::clamp<std::int64_t>(timeout.seconds(), -1, 3600)) +
-         std::chrono::nanoseconds(timeout.nanos());
-}
-
 }  // namespace
 
 grpc::ServerUnaryReactor* CommandService::ListCommands(grpc::CallbackServerContext* context,
@@ -54,14 +29,6 @@ grpc::ServerUnaryReactor* CommandService::ListCommands(grpc::CallbackServerConte
                         [](v1::ListCommandsResponse& answer, const std::vector<stage::CommandInfo>& commands) {
                           for (const stage::CommandInfo& info : commands) fill(*answer.add_commands(), info);
                         });
-}
-
-grpc::ServerWriteReactor<v1::ExecuteResponse>* CommandService::Execute(grpc::CallbackServerContext* context,
-                                                                       const v1::ExecuteRequest* request) {
-  api::Transaction transaction{.lines = {request->lines().begin(), request->lines().end()}};
-  if (request->has_timeout()) transaction.timeout = to_timeout(request->timeout());
-  return serve<v1::ExecuteResponse>(
-      commands_.execute(to_checked_call(*context, *request), request->device(), std::move(transaction)), fill_step);
 }
 
 }  // namespace axisgate::rpc

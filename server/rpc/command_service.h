@@ -13,8 +13,7 @@ class CommandService final : public v1::CommandService::CallbackService {
 
   grpc::ServerUnaryReactor* ListCommands(grpc::CallbackServerContext* context, const v1::ListCommandsRequest* request,
                                          v1::ListCommandsResponse* response) override;
-  grpc::ServerWriteReactor<v1::ExecuteResponse>* Execute(grpc::CallbackServerContext* context,
-                                                         const v1::ExecuteRequest* request) override;
+  // Execute is the front's (own_answers.h).
 
  private:
   const api::Commands& commands_;

@@ -4,6 +4,7 @@
 
 #include "server/api/api.h"
 #include "server/front/desk.h"
+#include "server/rpc/own_answers.h"
 #include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
 
@@ -12,13 +13,13 @@ namespace axisgate::rpc {
 class Desk final : public front::Desk {
  public:
   // All outlive this.
-  Desk(api::Api& api, RpcMetrics& metrics, Refusals& refusals) : api_(api), metrics_(metrics), refusals_(refusals) {}
+  Desk(api::Api& api, RpcMetrics& metrics, Refusals& refusals)
+      : api_(api), metrics_(metrics), refusals_(refusals), answers_(api) {}
 
   front::Verdict judge(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
   front::Reply no_room() override;
-  // Stop, EmergencyStop and ListDevices.
-  void answer(const front::Headers& headers, const front::Peer& peer, const std::string& message,
-              std::function<void(front::Reply)> reply) override;
+  std::unique_ptr<front::Answer> answer(const front::Headers& headers, const front::Peer& peer,
+                                        const std::string& message, std::function<void()> wake) override;
 
  private:
   front::Verdict refused(const front::Headers& headers, const front::Peer& peer, const Problem& problem);
@@ -26,6 +27,7 @@ class Desk final : public front::Desk {
   api::Api& api_;
   RpcMetrics& metrics_;
   Refusals& refusals_;
+  const OwnAnswers answers_;
 };
 
 }  // namespace axisgate::rpc

@@ -11,8 +11,7 @@ class DeviceService final : public v1::DeviceService::CallbackService {
   // It outlives this.
   explicit DeviceService(const api::Devices& devices) : devices_(devices) {}
 
-  grpc::ServerUnaryReactor* GetDevice(grpc::CallbackServerContext* context, const v1::GetDeviceRequest* request,
-                                      v1::GetDeviceResponse* response) override;
+  // ListDevices and GetDevice are the front's (own_answers.h).
   grpc::ServerWriteReactor<v1::WatchDeviceResponse>* WatchDevice(grpc::CallbackServerContext* context,
                                                                  const v1::WatchDeviceRequest* request) override;
   grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,

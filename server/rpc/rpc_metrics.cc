@@ -23,35 +23,32 @@ prometheus::Labels labels(const std::string& method, grpc::StatusCode code) {
   return {{"method", method}, {"code", std::string(kCodes.at(static_cast<std::size_t>(code)))}};
 }
 
-// Of "/axisgate.v1.StageService/Move", or whatever a caller wrote.
-std::string without_slash(std::string_view path) { return std::string(path.substr(path.empty() ? 0 : 1)); }
-
 }  // namespace
 
-// One call, from its arrival until its status goes out.
+RpcMetrics::Call::Call(RpcMetrics& metrics, const Entry& method) : metrics_(metrics), method_(method) {
+  if (method_.second.open != nullptr) method_.second.open->Increment();
+}
+
+void RpcMetrics::Call::ended(grpc::StatusCode code) {
+  if (!open_.exchange(false)) return;
+  (code == grpc::OK ? method_.second.succeeded : metrics_.calls_.Add(labels(method_.first, code))).Increment();
+  if (method_.second.open != nullptr) method_.second.open->Decrement();
+}
+
+// One call of gRPC's, until its status goes out.
 class RpcMetrics::CallCount final : public intercepting::Interceptor {
  public:
-  CallCount(RpcMetrics& metrics, const std::pair<const std::string, Method>& method)
-      : metrics_(metrics), name_(method.first), method_(method.second) {
-    if (method_.open != nullptr) method_.open->Increment();
-  }
+  CallCount(RpcMetrics& metrics, const Entry& method) : call_(metrics, method) {}
 
   void Intercept(intercepting::InterceptorBatchMethods* batch) override {
     if (batch->QueryInterceptionHookPoint(intercepting::InterceptionHookPoints::PRE_SEND_STATUS)) {
-      count(batch->GetSendStatus().error_code());
+      call_.ended(batch->GetSendStatus().error_code());
     }
     batch->Proceed();
   }
 
  private:
-  void count(grpc::StatusCode code) {
-    (code == grpc::OK ? method_.succeeded : metrics_.calls_.Add(labels(name_, code))).Increment();
-    if (method_.open != nullptr) method_.open->Decrement();
-  }
-
-  RpcMetrics& metrics_;
-  const std::string& name_;
-  const Method& method_;
+  Call call_;
 };
 
 class RpcMetrics::Factory final : public intercepting::ServerInterceptorFactoryInterface {

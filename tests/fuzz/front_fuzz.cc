@@ -47,19 +47,35 @@ class Choices {
   std::string_view bytes_;
 };
 
-// /f is forwarded, /s answered, anything else refused.
+class FuzzAnswer final : public Answer {
+ public:
+  explicit FuzzAnswer(std::shared_ptr<std::vector<Reply>> replies) : replies_(std::move(replies)) {}
+  std::vector<Reply> take() override { return std::exchange(*replies_, {}); }
+
+ private:
+  const std::shared_ptr<std::vector<Reply>> replies_;
+};
+
+// /f is forwarded, /s and /a answered, anything else refused.
 class FuzzDesk final : public Desk {
  public:
   Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
     const auto path = find(headers, ":path").value_or("");
     if (path == "/s") return {.what = Verdict::What::answer};
+    if (path == "/a") return {.what = Verdict::What::answer, .place = std::make_shared<int>()};
     if (path == "/f" && !stops_only) return {.what = Verdict::What::forward, .place = std::make_shared<int>()};
     return {.refusal = {.code = 12, .message = "no"}, .unwanted = path != "/f"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
-  void answer(const Headers&, const Peer&, const std::string& message, std::function<void(Reply)> reply) override {
+  std::unique_ptr<Answer> answer(const Headers&, const Peer&, const std::string& message,
+                                 std::function<void()> wake) override {
     require(message.size() <= 64 << 10);
-    asked.push_back(std::move(reply));
+    auto replies = std::make_shared<std::vector<Reply>>();
+    asked.push_back([replies, wake = std::move(wake)](Reply reply) {
+      replies->push_back(std::move(reply));
+      wake();
+    });
+    return std::make_unique<FuzzAnswer>(std::move(replies));
   }
 
   std::vector<std::function<void(Reply)>> asked;
@@ -70,7 +86,7 @@ class World {
   explicit World(bool stops_only)
       : conversation_(
             desk_, limits_, sources_, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
-            [this](std::uint32_t stream, Reply reply) { conversation_.reply(stream, reply); }, now_) {
+            [this](std::uint32_t stream) { conversation_.pull(stream); }, now_) {
     conversation_.from_client(kPreface, now_);
   }
 
@@ -109,8 +125,8 @@ class World {
         return;
       case 5:
         if (desk_.asked.empty()) return;
-        desk_.asked.back()({.body = choices.text()});
-        desk_.asked.pop_back();
+        desk_.asked.back()({.body = choices.text(), .last = choices.byte() % 2 == 0});
+        if (choices.byte() % 4 == 0) desk_.asked.pop_back();
         return;
       case 6:
         return conversation_.from_client(settings_ack(), now_);
@@ -126,7 +142,7 @@ class World {
   }
 
   static std::string call(Choices& choices) {
-    static const std::vector<std::string> paths = {"/f", "/s", "/x"};
+    static const std::vector<std::string> paths = {"/f", "/s", "/a", "/x"};
     const std::uint8_t flags = choices.byte(), stream = choices.byte() % 32;
     const Headers headers = {{":method", "POST"}, {":path", paths[choices.byte() % paths.size()]}};
     return frame(FrameType::headers, flags, stream, encode_without_table(headers));

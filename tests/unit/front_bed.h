@@ -22,20 +22,37 @@ namespace axisgate::front {
 inline constexpr std::uint8_t kAck = 1, kEndStream = 1, kEndHeaders = 4;
 inline constexpr FrontLimits kLimits{};
 
-// By the method: /forward, /stop, anything else is refused; /unwanted without a right.
+// What a test has said so far.
+class TestAnswer final : public Answer {
+ public:
+  explicit TestAnswer(std::shared_ptr<std::vector<Reply>> replies) : replies_(std::move(replies)) {}
+  std::vector<Reply> take() override { return std::exchange(*replies_, {}); }
+
+ private:
+  const std::shared_ptr<std::vector<Reply>> replies_;
+};
+
+// By the method: /forward, /stop, /ask with a place, anything else is refused; /unwanted without a right.
 class TestDesk final : public Desk {
  public:
   Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
     const std::string path(find(headers, ":path").value_or(""));
     judged.push_back(path);
     if (path == "/stop") return {.what = Verdict::What::answer};
+    if (path == "/ask") return {.what = Verdict::What::answer, .place = place};
     if (path == "/forward" && !stops_only) return {.what = Verdict::What::forward, .place = place, .caller = caller};
     return {
         .what = Verdict::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .unwanted = path == "/unwanted"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
-  void answer(const Headers&, const Peer&, const std::string& message, std::function<void(Reply)> reply) override {
-    asked.emplace_back(message, std::move(reply));
+  std::unique_ptr<Answer> answer(const Headers&, const Peer&, const std::string& message,
+                                 std::function<void()> wake) override {
+    auto replies = std::make_shared<std::vector<Reply>>();
+    asked.emplace_back(message, [replies, wake = std::move(wake)](Reply reply) {
+      replies->push_back(std::move(reply));
+      wake();
+    });
+    return std::make_unique<TestAnswer>(std::move(replies));
   }
 
   std::shared_ptr<int> place = std::make_shared<int>();
@@ -65,7 +82,7 @@ class ConversationTest : public testing::Test {
   void open(bool stops_only = false) {
     conversation.emplace(
         desk, kLimits, sources, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
-        [this](std::uint32_t stream, Reply reply) { conversation->reply(stream, reply); }, now);
+        [this](std::uint32_t stream) { conversation->pull(stream); }, now);
     say(std::string(kPreface) + settings_frame({}) + settings_ack());
     EXPECT_THAT(heard(), testing::SizeIs(2));  // SETTINGS, and the acknowledgement
   }

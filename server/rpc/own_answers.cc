@@ -1,0 +1,133 @@
+#include "server/rpc/own_answers.h"
+
+#include <algorithm>
+#include <utility>
+#include <vector>
+
+#include "device/link/clock.h"
+#include "server/rpc/amounts.h"
+#include "server/rpc/call.h"
+#include "server/rpc/to_proto.h"
+#include "server/rpc/transactions.h"
+#include "server/rpc/unreadable.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using api::RequestKind;
+using front::Answer;
+
+template <class Response>
+Response reports_in(const std::vector<api::DeviceStop>& stops) {
+  Response response;
+  for (const api::DeviceStop& one : stops) *response.add_devices() = to_proto(one);
+  if (response.devices_size() != 1) return response;
+  const v1::DeviceStop& only = response.devices(0);
+  *response.mutable_axes() = only.axes();
+  if (only.has_problem()) *response.mutable_problem() = only.problem();
+  return response;
+}
+
+// Of a stop. Its answer is made by the end of max_wait.
+template <class Request>
+api::Call call_of_stop(const Served& served, std::optional<TimePoint> deadline, const Request& request) {
+  api::Call call = to_call(served.credential(), deadline, request.context());
+  if (request.has_max_wait()) {
+    const TimePoint end = monotonic_now() + std::max(Duration::zero(), to_duration(request.max_wait()));
+    call.deadline = std::min(end, call.deadline.value_or(end));
+  }
+  return call;
+}
+
+v1::ListDevicesResponse list_of(const std::vector<api::DeviceState>& devices) {
+  v1::ListDevicesResponse response;
+  for (const api::DeviceState& one : devices) *response.add_devices() = to_proto(*one.device, *one.state);
+  return response;
+}
+
+}  // namespace
+
+bool OwnAnswers::has(RequestKind kind) {
+  switch (kind) {
+    case RequestKind::stop:
+    case RequestKind::emergency_stop:
+    case RequestKind::list_devices:
+    case RequestKind::get_device:
+    case RequestKind::execute:
+      return true;
+    default:
+      return false;
+  }
+}
+
+template <class Request>
+std::unique_ptr<Answer> OwnAnswers::parsed(Method<Request> method, const std::string& message, Asked asked) const {
+  Request request;
+  if (request.ParseFromString(message)) return (this->*method)(request, std::move(asked));
+  front::Reply refusal = asked.served->refused(not_readable(asked.served->method()));
+  return answer_now(std::move(refusal), std::move(asked.wake));
+}
+
+std::unique_ptr<Answer> OwnAnswers::answer(RequestKind kind, std::shared_ptr<Served> served,
+                                           std::optional<TimePoint> deadline, const std::string& message,
+                                           Wake wake) const {
+  Asked asked{std::move(served), deadline, std::move(wake)};
+  switch (kind) {
+    case RequestKind::stop:
+      return parsed<v1::StopRequest>(&OwnAnswers::stop, message, std::move(asked));
+    case RequestKind::emergency_stop:
+      return parsed<v1::EmergencyStopRequest>(&OwnAnswers::emergency_stop, message, std::move(asked));
+    case RequestKind::get_device:
+      return parsed<v1::GetDeviceRequest>(&OwnAnswers::get_device, message, std::move(asked));
+    case RequestKind::execute:
+      return parsed<v1::ExecuteRequest>(&OwnAnswers::execute, message, std::move(asked));
+    default:
+      return parsed<v1::ListDevicesRequest>(&OwnAnswers::list_devices, message, std::move(asked));
+  }
+}
+
+std::unique_ptr<Answer> OwnAnswers::stop(const v1::StopRequest& request, Asked asked) const {
+  const api::Call call = call_of_stop(*asked.served, asked.deadline, request);
+  return one_answer<std::vector<api::DeviceStop>>(
+      asked.served, asked.wake, reports_in<v1::StopResponse>, [&](api::Answer<std::vector<api::DeviceStop>> answer) {
+        api_.stops.stop(call, request.device(), to_axes(request.axes()), std::move(answer));
+      });
+}
+
+std::unique_ptr<Answer> OwnAnswers::emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const {
+  const api::Call call = call_of_stop(*asked.served, asked.deadline, request);
+  return one_answer<std::vector<api::DeviceStop>>(asked.served, asked.wake, reports_in<v1::EmergencyStopResponse>,
+                                                  [&](api::Answer<std::vector<api::DeviceStop>> answer) {
+                                                    api_.stops.emergency_stop(call, request.device(),
+                                                                              std::move(answer));
+                                                  });
+}
+
+std::unique_ptr<Answer> OwnAnswers::list_devices(const v1::ListDevicesRequest&, Asked asked) const {
+  return one_answer<std::vector<api::DeviceState>>(
+      asked.served, asked.wake, list_of, [&](const api::Answer<std::vector<api::DeviceState>>& answer) {
+        answer(api_.devices.list({.credential = asked.served->credential()}));
+      });
+}
+
+std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& request, Asked asked) const {
+  const auto fill = [](const api::StateNow& now) {
+    v1::GetDeviceResponse response;
+    *response.mutable_device() = to_proto(*now.device, *now.state);
+    return response;
+  };
+  const auto max_age = request.has_max_age() ? std::optional(to_span(request.max_age())) : std::nullopt;
+  return one_answer<api::StateNow>(asked.served, asked.wake, fill, [&](api::Answer<api::StateNow> answer) {
+    api_.devices.get({.credential = asked.served->credential(), .deadline = asked.deadline}, request.name(), max_age,
+                     std::move(answer));
+  });
+}
+
+std::unique_ptr<Answer> OwnAnswers::execute(const v1::ExecuteRequest& request, Asked asked) const {
+  api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
+  call.validate_only = request.validate_only();
+  const auto opened = api_.commands.execute(call, request.device(), to_transaction(request));
+  return stream_answer(opened, std::move(asked.served), to_response, std::move(asked.wake));
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,55 @@
+// The methods that the front answers itself: stops, which share no thread with gRPC; and questions, which are asked so
+// often that every thread they pass through counts.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "axisgate/v1/command.pb.h"
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/stage.pb.h"
+#include "device/core/time.h"
+#include "server/api/api.h"
+#include "server/front/desk.h"
+#include "server/rpc/answers.h"
+#include "server/rpc/served.h"
+
+namespace axisgate::rpc {
+
+// Thread safe.
+class OwnAnswers {
+ public:
+  // It outlives this.
+  explicit OwnAnswers(const api::Api& api) : api_(api) {}
+
+  static bool has(api::RequestKind kind);
+
+  // Of one that it has. `deadline` is the call's.
+  std::unique_ptr<front::Answer> answer(api::RequestKind kind, std::shared_ptr<Served> served,
+                                        std::optional<TimePoint> deadline, const std::string& message, Wake wake) const;
+
+ private:
+  // What came with one request, and whom it is answered to.
+  struct Asked {
+    std::shared_ptr<Served> served;
+    std::optional<TimePoint> deadline;
+    Wake wake;
+  };
+  template <class Request>
+  using Method = std::unique_ptr<front::Answer> (OwnAnswers::*)(const Request&, Asked) const;
+
+  template <class Request>
+  std::unique_ptr<front::Answer> parsed(Method<Request> method, const std::string& message, Asked asked) const;
+
+  std::unique_ptr<front::Answer> stop(const v1::StopRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> list_devices(const v1::ListDevicesRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> get_device(const v1::GetDeviceRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> execute(const v1::ExecuteRequest& request, Asked asked) const;
+
+  const api::Api& api_;
+};
+
+}  // namespace axisgate::rpc

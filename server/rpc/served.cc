@@ -1,0 +1,41 @@
+#include "server/rpc/served.h"
+
+#include <utility>
+
+#include "server/rpc/bearer.h"
+#include "server/rpc/status.h"
+
+namespace axisgate::rpc {
+
+std::string_view method_of(const front::Headers& headers) { return find(headers, ":path").value_or(""); }
+
+api::Credential credential_of(const front::Headers& headers, const front::Peer& peer) {
+  if (auto token = token_in(find(headers, "authorization"))) return {.token = std::move(token)};
+  return {.who = peer.who, .needs_token = peer.needs_token};
+}
+
+front::Reply to_reply(const grpc::Status& status) {
+  return {.code = status.error_code(), .message = status.error_message(), .details = status.error_details()};
+}
+
+Served::Served(RpcMetrics& metrics, Refusals& refusals, const front::Headers& headers, const front::Peer& peer)
+    : refusals_(refusals),
+      peer_(peer),
+      method_(method_of(headers)),
+      credential_(credential_of(headers, peer)),
+      call_(metrics, method_) {}
+
+front::Reply Served::answered(std::string message) {
+  front::Reply reply = ended({});
+  reply.body = std::move(message);
+  return reply;
+}
+
+front::Reply Served::ended(const api::StreamEnd& end) {
+  const grpc::Status status = to_status(end);
+  call_.ended(status.error_code());
+  if (end.problem) refusals_.note(peer_, credential_, method_, end.problem->reason, end.problem->message);
+  return to_reply(status);
+}
+
+}  // namespace axisgate::rpc
