@@ -82,6 +82,7 @@ void Wire::open(TimePoint now) {
   now_ = now;
   open_ = true;
   opens_at_.reset();
+  device_mid_line_ = false;  // the simulator forgets half a line then
   device_->link_up(now);
   gateway_->link_up(now);
 }
