@@ -75,6 +75,13 @@ inline constexpr Duration kStartVisibleWithin = std::chrono::milliseconds(300);
 // Between two readings of READY, which must agree. The configuration's moving_poll, where that is shorter and a motion
 // is watched.
 inline constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
+// Where all axis numbers have come and the controller is still busy, it is asked again so soon. Then after twice as
+// long each time, at most kReadyPoll: settling takes some milliseconds (manual 56) W:).
+inline constexpr Duration kReadyPauseMin = std::chrono::milliseconds(5);
+// The first question after the axis numbers comes no later than it must, to within this.
+inline constexpr Duration kReadyLagPrecision = std::chrono::milliseconds(2);
+// A READY that comes later than this after the axis numbers has another cause than settling.
+inline constexpr Duration kReadyLagMax = std::chrono::milliseconds(200);
 // A gateway that cannot read the positions for this many times has lost the motion.
 inline constexpr int kMotionReadFailuresMax = 20;
 // A pending restore is attempted so often: speeds, outputs, trigger.

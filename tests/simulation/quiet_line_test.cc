@@ -32,6 +32,23 @@ TEST(QuietLine, HomeThenMoveReachesTheTarget) {
   EXPECT_EQ(world.device().starts(1), 2);
 }
 
+// Also while the unit's lag is sought: hardly a move is asked twice for.
+TEST(QuietLine, ManyMovesTakeHardlyMoreThanThreeExchangesEach) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  for (int i = 0; i < 8; ++i) moved(world, {{1, 1000}});
+  constexpr int kMoves = 40;
+  const std::size_t first = world.wire().commands().size();
+  const TimePoint begun = world.now();
+  for (int i = 0; i < kMoves; ++i) moved(world, {{1, i % 2 ? 1000 : -1000}});
+  const double questions = written(world, "Q:SPC", first);
+  const double all = static_cast<double>(world.wire().commands().size() - first);
+  EXPECT_LE(questions / kMoves, 1.1) << world.replay();
+  EXPECT_LE(all / kMoves, 3.1) << world.replay();
+  // 94 ms of ramps, settling, and three exchanges at 38400 baud.
+  EXPECT_LE((world.now() - begun) / kMoves, std::chrono::milliseconds(160)) << world.replay();
+}
+
 TEST(QuietLine, PathRunsOnTheDoubleBuffer) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -88,7 +105,7 @@ TEST(QuietLine, ExecuteAnswers) {
   EXPECT_THAT(execute(world, {"MP:2+P100", "G:2"}), testing::ElementsAre("OK", "OK", "completion 2"));
 }
 
-// Known registers, a line to itself: set, go, and readings from the completion on until the settling is over.
+// Known registers, a line to itself: set, go, and one reading when this unit is READY, as the move before has shown.
 TEST(QuietLine, ExchangesOfAMove) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -96,7 +113,19 @@ TEST(QuietLine, ExchangesOfAMove) {
   const auto first = static_cast<std::ptrdiff_t>(world.wire().commands().size());
   moved(world, {{1, 100}});
   const std::vector<std::string> lines(world.wire().commands().begin() + first, world.wire().commands().end());
-  EXPECT_THAT(lines, testing::ElementsAre("MP:1+P100", "G:1", "Q:SPC", "Q:SPC"));
+  EXPECT_THAT(lines, testing::ElementsAre("MP:1+P100", "G:1", "Q:SPC"));
+}
+
+// A setting of speeds, and what the controller made of it.
+TEST(QuietLine, ExchangesOfASpeedSetting) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  const auto first = static_cast<std::ptrdiff_t>(world.wire().commands().size());
+  EXPECT_THAT(execute(world, {"D:1S2000F20000R200"}), testing::ElementsAre("OK"));
+  world.run_for(std::chrono::milliseconds(100));
+  const std::vector<std::string> lines(world.wire().commands().begin() + first, world.wire().commands().end());
+  EXPECT_THAT(lines, testing::ElementsAre("D:1S2000F20000R200", "?:D"));
+  EXPECT_EQ(world.controller().state().axis(1).maximum_speed, 20000);
 }
 
 }  // namespace

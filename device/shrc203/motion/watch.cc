@@ -53,15 +53,22 @@ Task<void> Watch::wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limi
   seen.wake_ups = live->wake_ups;
 }
 
+// Once all axis numbers have come, until this unit is usually READY.
+Task<void> Watch::wait_for_ready(LiveMotionPtr live, Seen& seen) {
+  if (seen.completed_at || !live->completed_by_all()) co_return;
+  seen.completed_at = tasks_.now();
+  co_await wait_for_change(live, seen, tasks_.now() + ready_lag_.first_question());
+}
+
 Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
   watched_.insert(live->motion.id);
   Seen seen{.begun = tasks_.now(), .start = start, .wake_ups = wake_ups};
-  const Duration moving_poll = store_.profile().moving_poll, soon = std::min(moving_poll, kReadyPoll);
-  Duration pause = moving_poll;
+  Duration pause = store_.profile().moving_poll;
   int failures = 0;
   while (!live->life.has_outcome()) {
     const bool hinted = live->wake_ups != seen.wake_ups;
     co_await wait_for_change(live, seen, tasks_.now() + pause);
+    co_await wait_for_ready(live, seen);
     if (live->life.line_lost()) {
       motions_.end(*live, MotionState::unknown,
                    Problem{.reason = Reason::outcome_unknown,
@@ -69,19 +76,39 @@ Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
                            .hint = "check the positions before the next motion"});
       break;
     }
-    const bool completed = live->completed_by_all();
+    const TimePoint asked = tasks_.now();
     const auto read = co_await read_end(live, seen);
     if (live->life.line_lost()) continue;
     if (read) {
+      learn_lag(*live, seen, asked);
       judge(*live, seen);
       failures = 0;
     } else if (++failures > kMotionReadFailuresMax) {
       unreadable(*live, read.error());
     }
-    // A completion may precede READY by the settling (open question completion_before_settle).
-    pause = hinted || completed || seen.ready_at ? soon : moving_poll;
+    pause = pause_after(*live, seen, hinted);
   }
   watched_.erase(live->motion.id);
+}
+
+// A stop's READY says nothing of settling.
+void Watch::learn_lag(const LiveMotion& live, const Seen& seen, TimePoint asked) {
+  if (!seen.completed_at || live.life.stop_asked()) return;
+  const Duration after = asked - *seen.completed_at;
+  if (axis_busy(live)) {
+    ready_lag_.seen_busy(after);
+  } else {
+    ready_lag_.seen_ready(after);
+  }
+}
+
+Duration Watch::pause_after(const LiveMotion& live, Seen& seen, bool hinted) const {
+  const Duration moving_poll = store_.profile().moving_poll, soon = std::min(moving_poll, kReadyPoll);
+  if (seen.completed_at && !seen.ready_at) {
+    seen.ready_pause = seen.ready_pause == Duration::zero() ? kReadyPauseMin : 2 * seen.ready_pause;
+    return std::min(seen.ready_pause, soon);
+  }
+  return hinted || live.completed_by_all() || seen.ready_at ? soon : moving_poll;
 }
 
 // The positions, and what else may tell why the axes are stationary.

@@ -7,6 +7,7 @@
 
 #include "device/core/tasks.h"
 #include "device/shrc203/line/line.h"
+#include "device/shrc203/motion/ready_lag.h"
 #include "device/shrc203/motion/starter.h"
 #include "device/shrc203/motion/trigger_count.h"
 #include "device/shrc203/session/reader.h"
@@ -31,11 +32,16 @@ class Watch {
     TimePoint begun{};
     Start start = Start::accepted;
     int wake_ups = 0;
+    std::optional<TimePoint> completed_at{};  // all axis numbers had come
+    Duration ready_pause{};                   // the last one since then
     bool busy = false;
     std::optional<Positions> ready_at{};  // the last reading was READY there; away from the target two must agree
   };
 
   Task<void> wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limit);
+  Task<void> wait_for_ready(LiveMotionPtr live, Seen& seen);
+  void learn_lag(const LiveMotion& live, const Seen& seen, TimePoint asked);
+  Duration pause_after(const LiveMotion& live, Seen& seen, bool hinted) const;
   Task<Result<void>> read_end(LiveMotionPtr live, const Seen& seen);
   void unreadable(LiveMotion& live, const Problem& problem);
   void judge(LiveMotion& live, Seen& seen);
@@ -51,6 +57,7 @@ class Watch {
   StateStore& store_;
   Motions& motions_;
   Tasks& tasks_;
+  ReadyLag ready_lag_;
   std::set<MotionId> watched_;
 };
 

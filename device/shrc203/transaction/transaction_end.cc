@@ -1,9 +1,21 @@
 #include "device/shrc203/transaction/transaction_end.h"
 
+#include <algorithm>
+
 #include "device/core/guard.h"
 #include "device/shrc203/planning/transaction_lines.h"
 
 namespace axisgate::shrc203 {
+namespace {
+
+// Which leaves motors and positions as they are (manual 89) D: to 92) DR:, 94) B:).
+bool sets_speeds_only(const Transaction& transaction) {
+  return std::ranges::all_of(transaction.commands, [](const Command& command) {
+    return command.row->effect == Effect::setting && command.row->sets_speeds != SetsSpeeds::no;
+  });
+}
+
+}  // namespace
 
 Task<void> TransactionEnd::end(Transaction& transaction, bool sent_all) {
   if (non_host_.away()) {
@@ -62,9 +74,11 @@ Task<Result<void>> TransactionEnd::read_what_is_set(Transaction& transaction) {
 
 Task<void> TransactionEnd::read_all(Transaction& transaction, bool sent_all) {
   auto read = co_await read_what_is_set(transaction);
-  if (read) read = co_await reader_.read_speeds(transaction.who());
-  if (read) read = co_await reader_.read_excitation(transaction.who());
-  if (read) read = co_await reader_.read_positions(Lane::motion, transaction.who());
+  if (read && !store_.speeds_known(store_.controllable())) read = co_await reader_.read_speeds(transaction.who());
+  if (!sets_speeds_only(transaction)) {
+    if (read) read = co_await reader_.read_excitation(transaction.who());
+    if (read) read = co_await reader_.read_positions(Lane::motion, transaction.who());
+  }
   motions_.end(*transaction.live, sent_all && read ? MotionState::succeeded : MotionState::failed, {});
 }
 

@@ -1,0 +1,29 @@
+#include "device/shrc203/motion/ready_lag.h"
+
+#include <algorithm>
+
+#include "device/shrc203/limits.h"
+
+namespace axisgate::shrc203 {
+
+Duration ReadyLag::first_question() const {
+  if (!ready_) return Duration::zero();
+  const Duration between = *ready_ - busy_;
+  return between <= kReadyLagPrecision ? *ready_ : busy_ + between / 2;
+}
+
+void ReadyLag::seen_busy(Duration after) {
+  if (after > kReadyLagMax) return;
+  busy_ = std::max(busy_, after);
+  if (ready_ && *ready_ <= busy_) ready_.reset();
+}
+
+// What was too soon once may not be for long: another speed, another load. So it counts a little less each time.
+void ReadyLag::seen_ready(Duration after) {
+  if (after > kReadyLagMax) return;
+  constexpr int kForgotten = 128;
+  ready_ = std::min(ready_.value_or(after), after);
+  busy_ = busy_ < after ? busy_ - busy_ / kForgotten : Duration::zero();
+}
+
+}  // namespace axisgate::shrc203

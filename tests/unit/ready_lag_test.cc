@@ -1,0 +1,74 @@
+#include "device/shrc203/motion/ready_lag.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+namespace axisgate::shrc203 {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A unit that is READY so long after its axis number: asked by `lag`, then every 5 ms. How many questions that took.
+int questions(ReadyLag& lag, Duration ready) {
+  int asked = 0;
+  for (Duration at = lag.first_question();; at += milliseconds(5)) {
+    ++asked;
+    if (at >= ready) {
+      lag.seen_ready(at);
+      return asked;
+    }
+    lag.seen_busy(at);
+  }
+}
+
+TEST(ReadyLagTest, NothingIsWaitedForBeforeAnythingIsKnown) {
+  EXPECT_EQ(ReadyLag().first_question(), Duration::zero());
+}
+
+TEST(ReadyLagTest, AUnitThatIsReadyAtItsNumberIsAskedAtOnce) {
+  ReadyLag lag;
+  for (int i = 0; i < 10; ++i) EXPECT_EQ(questions(lag, Duration::zero()), 1);
+  EXPECT_EQ(lag.first_question(), Duration::zero());
+}
+
+TEST(ReadyLagTest, FindsWhenAUnitIsReady) {
+  ReadyLag lag;
+  for (int i = 0; i < 10; ++i) questions(lag, milliseconds(13));
+  EXPECT_GE(lag.first_question(), milliseconds(11));
+  EXPECT_LE(lag.first_question(), milliseconds(15));
+}
+
+TEST(ReadyLagTest, SoonAsksHardlyAnybodyTwice) {
+  ReadyLag lag;
+  for (int i = 0; i < 10; ++i) questions(lag, milliseconds(13));
+  int asked = 0;
+  for (int i = 0; i < 100; ++i) asked += questions(lag, milliseconds(13));
+  EXPECT_LE(asked, 110);
+}
+
+TEST(ReadyLagTest, FollowsAUnitThatBecomesSlower) {
+  ReadyLag lag;
+  for (int i = 0; i < 10; ++i) questions(lag, milliseconds(5));
+  for (int i = 0; i < 10; ++i) questions(lag, milliseconds(40));
+  EXPECT_GE(lag.first_question(), milliseconds(40));
+  EXPECT_LE(lag.first_question(), milliseconds(42));
+}
+
+TEST(ReadyLagTest, FollowsAUnitThatBecomesFaster) {
+  ReadyLag lag;
+  for (int i = 0; i < 10; ++i) questions(lag, milliseconds(40));
+  for (int i = 0; i < 200; ++i) questions(lag, milliseconds(5));
+  EXPECT_LE(lag.first_question(), milliseconds(10));
+}
+
+// It has another cause: a number that came too early, or a stop in between.
+TEST(ReadyLagTest, WhatTakesTooLongIsNotSettling) {
+  ReadyLag lag;
+  lag.seen_busy(milliseconds(300));
+  lag.seen_ready(milliseconds(400));
+  EXPECT_EQ(lag.first_question(), Duration::zero());
+}
+
+}  // namespace
+}  // namespace axisgate::shrc203
