@@ -116,8 +116,8 @@ struct Controller::Rooms {
   TransactionLines transaction_lines{dialogue, explainer, lease_settings, non_host_visit, session,
                                      non_host, pending,   store,          motions,        tasks};
   TransactionEnd transaction_end{line, reader, watch, non_host_visit, non_host, registers, store, motions, tasks};
-  Transactions transactions{transaction_start, transaction_lines, transaction_end, stops, store, rights,
-                            permission,        non_host,          ending,          tasks};
+  Transactions transactions{
+      transaction_start, transaction_lines, transaction_end, stops, store, motions, rights, non_host, ending, tasks};
   Polling polling{reader, store, motions, non_host, tasks, [this] { return watch.watches_any(); }};
 };
 
@@ -242,14 +242,14 @@ Result<void> Controller::check_use(const RequestContext& context, AxisSet axes) 
 
 void Controller::stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    rooms_->permission.stop_asked({context.who, context.lease, axes.empty() ? AxisSet::all() : axes, 0}, now);
+    rooms_->motions.stop_requested(context, axes.empty() ? AxisSet::all() : axes);
     rooms_->stops.stop(axes, StopKind::stop, context, std::move(done));
   });
 }
 
 void Controller::emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) {
   at(now, [&] {
-    rooms_->permission.stop_asked({context.who, context.lease, AxisSet::all(), 0}, now);
+    rooms_->motions.stop_requested(context, AxisSet::all());
     rooms_->stops.stop(AxisSet::all(), StopKind::emergency, context, std::move(done));
   });
 }
@@ -267,7 +267,11 @@ std::vector<Motion> Controller::motions() const { return rooms_->motions.all(); 
 std::optional<Motion> Controller::find_motion(MotionId id) const { return rooms_->motions.find(id); }
 
 void Controller::cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) {
-  at(now, [&] { rooms_->stops.cancel(id, context, std::move(done)); });
+  at(now, [&] {
+    const auto live = rooms_->motions.find_live(id);
+    if (live && live->life.has_turn()) rooms_->motions.stop_requested(context, live->motion.axes);
+    rooms_->stops.cancel(id, context, std::move(done));
+  });
 }
 
 void Controller::inherit(const stage::Unfinished& unfinished) {

@@ -7,7 +7,7 @@ class EverybodyMay final : public Permission {
   Result<void> authorize(const Use&, TimePoint) override { return {}; }
   void begin(const Use&, TimePoint) override {}
   void end(MotionId, TimePoint) override {}
-  void stop_asked(const Use&, TimePoint) override {}
+  void stop_asked(const Use&, const std::vector<Use>&, TimePoint) override {}
   void device_restarted(TimePoint) override {}
   void settings_changed(std::uint64_t) override {}
   Orders advance(TimePoint) override { return {}; }

@@ -52,8 +52,8 @@ class Permission {
   virtual void begin(const Use& use, TimePoint now) = 0;
   virtual void end(MotionId motion, TimePoint now) = 0;
 
-  // A stop of these axes was requested.
-  virtual void stop_asked(const Use& stop, TimePoint now) = 0;
+  // A stop of these axes was requested. `waiting`: motions on them that have not had their turn, and never will.
+  virtual void stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePoint now) = 0;
   // The controller may have restarted: what was promised about it before is void.
   virtual void device_restarted(TimePoint now) = 0;
 

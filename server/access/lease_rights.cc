@@ -77,7 +77,7 @@ Result<void> Leases::may_borrow(const Use& use, TimePoint now) {
   return {};
 }
 
-void Leases::stop_asked(const Use& stop, TimePoint now) {
+void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePoint now) {
   expire(now);
   for (Held& held : held_) {
     const AxisSet hit = held.lease.terms.axes & stop.axes;
@@ -90,6 +90,7 @@ void Leases::stop_asked(const Use& stop, TimePoint now) {
     if (!by_holder && !is_certainly(use.who, stop.who)) moved[use.who] = moved[use.who] | (use.axes & stop.axes);
   };
   for (const auto& [id, running] : running_) add(running.use);
+  for (const Use& use : waiting) add(use);
   for (const Mover& mover : movers_) {
     if (now < mover.until) add(mover.use);
   }

@@ -116,7 +116,7 @@ class Leases : public stage::Permission {
   Result<void> authorize(const stage::Use& use, TimePoint now) override;
   void begin(const stage::Use& use, TimePoint now) override;
   void end(MotionId motion, TimePoint now) override;
-  void stop_asked(const stage::Use& stop, TimePoint now) override;
+  void stop_asked(const stage::Use& stop, const std::vector<stage::Use>& waiting, TimePoint now) override;
   void device_restarted(TimePoint now) override;
   void settings_changed(LeaseToken lease) override;
   stage::Orders advance(TimePoint now) override;

@@ -184,7 +184,7 @@ class World {
       constexpr stage::MotionId kNobodysMotion = 1'000'000;
       const auto axes = stage::AxisSet::all();
       device().leases().begin({who, 0, axes, kNobodysMotion}, now);
-      device().leases().stop_asked({"unix eve", 0, axes, 0}, now);
+      device().leases().stop_asked({"unix eve", 0, axes, 0}, {}, now);
       device().leases().end(kNobodysMotion, now);
     });
   }

@@ -33,7 +33,7 @@ class Porter final : public Permission {
   }
   void begin(const Use& use, TimePoint) override { begun.push_back(use.motion); }
   void end(MotionId motion, TimePoint) override { ended.push_back(motion); }
-  void stop_asked(const Use& stop, TimePoint) override { stops.push_back(stop.who); }
+  void stop_asked(const Use& stop, const std::vector<Use>&, TimePoint) override { stops.push_back(stop.who); }
   void device_restarted(TimePoint) override { ++restarts; }
   void settings_changed(std::uint64_t) override {}
   Orders advance(TimePoint) override { return std::exchange(orders, {}); }

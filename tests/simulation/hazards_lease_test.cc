@@ -280,5 +280,26 @@ TEST_F(HazardOfSharing, H52_SettingsNeedTheRightToTheirAxes) {
   EXPECT_EQ(execute_by("anna", token, "D:1S100F1000R100"), "OK");
 }
 
+// A motion that waited for its turn is withdrawn, and its caller asked.
+TEST_F(HazardOfSharing, WhoWaitedWhenAnotherStoppedIsHeldBack) {
+  EXPECT_EQ(move("anna", 0, 1, 100000), Reason::unspecified);
+  EXPECT_EQ(move("bert", 0, 1, 100000), Reason::unspecified);
+  run_until_written("G");
+  stop_by("carl");
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 2; }, seconds(20))) << world.replay();
+  EXPECT_EQ(move("bert", 0, 1, 1000), Reason::stopped_by);
+  EXPECT_EQ(move("anna", 0, 1, 1000), Reason::stopped_by);
+  EXPECT_EQ(move("carl", 0, 1, 1000), Reason::unspecified);
+}
+
+TEST_F(HazardOfSharing, CancellingAnothersMotionHoldsItsCallerBack) {
+  EXPECT_EQ(move("anna", 0, 1, 100000), Reason::unspecified);
+  run_until_written("G");
+  world.controller().cancel_motion(1, context("bert", 0), world.now(), [](const Result<void>&) {});
+  ASSERT_TRUE(world.run_until([&] { return world.outcomes().size() == 1; }, seconds(20))) << world.replay();
+  EXPECT_EQ(move("anna", 0, 1, 1000), Reason::stopped_by);
+  EXPECT_THAT(told, HasSubstr("bert stopped axis 1"));
+}
+
 }  // namespace
 }  // namespace axisgate::simulation

@@ -20,6 +20,16 @@ TEST_F(LatchesTest, AnothersStopHoldsTheHolderBackUntilRearm) {
   EXPECT_EQ(may("anna", token, kOne), kAllowed);
 }
 
+// It waits in the queue when the stop comes, and is withdrawn.
+TEST_F(LatchesTest, WhoWaitsToMoveIsHeldBackAsWhoMoves) {
+  stop_by("unix bert", kOne, 0, {{"unix anna", 0, kOne, 7}, {"unix bert", 0, kOne, 8}});
+  EXPECT_EQ(may("unix anna", 0, kOne), Reason::stopped_by);
+  EXPECT_EQ(may("unix anna", 0, kTwo), kAllowed);
+  EXPECT_EQ(may("unix bert", 0, kOne), kAllowed);
+  EXPECT_EQ(rearm("unix anna"), kOne);
+  EXPECT_EQ(may("unix anna", 0, kOne), kAllowed);
+}
+
 TEST_F(LatchesTest, TheHoldersOwnStopHoldsNobodyBack) {
   const LeaseToken token = held_by("anna", kOne);
   stop_by("anna", kOne, token);
@@ -87,7 +97,7 @@ TEST_F(LatchesTest, WhomAStopHoldsBack) {
   for (const Row& row : rows) {
     Leases leases(tokens_);
     leases.begin({row.moved, 0, kOne, 1}, now_);
-    leases.stop_asked({row.stopped, 0, kOne, 0}, now_);
+    leases.stop_asked({row.stopped, 0, kOne, 0}, {}, now_);
     leases.end(1, now_);
     std::vector<std::string> held_back;
     for (const std::string& who : {anna, bert, std::string("token scan"), std::string("cert anna"), tcp, other}) {

@@ -53,8 +53,9 @@ class LeaseFixture : public testing::Test {
     for (const Latch& latch : leases_.rearm(lease, who, now_)) axes = axes | latch.axes;
     return axes;
   }
-  void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0) {
-    leases_.stop_asked({who, lease, axes, 0}, now_);
+  void stop_by(const std::string& who, AxisSet axes, LeaseToken lease = 0,
+               const std::vector<stage::Use>& waiting = {}) {
+    leases_.stop_asked({who, lease, axes, 0}, waiting, now_);
   }
 
   TimePoint now_{std::chrono::seconds(1000)};

@@ -143,6 +143,15 @@ void Motions::leave(LiveMotion& live) {
   rights_.end(live.motion.id);
 }
 
+void Motions::stop_requested(const RequestContext& by, AxisSet axes) {
+  std::vector<Use> waiting;
+  for (const auto& [id, live] : live_) {
+    if (live->life.has_turn() || live->life.has_outcome() || !live->motion.axes.touches(axes)) continue;
+    waiting.push_back({live->context.who, live->context.lease, live->uses, id});
+  }
+  rights_.stop_asked({by.who, by.lease, axes, 0}, waiting);
+}
+
 void Motions::stop_asked(LiveMotion& live, const std::string& who) {
   live.life.stop(who);
   if (live.life.shown() == MotionState::stopping) show(live, MotionState::stopping);

@@ -2,6 +2,8 @@
 // (device/stage/permission.h).
 #pragma once
 
+#include <vector>
+
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
 #include "device/shrc203/stage.h"
@@ -25,6 +27,9 @@ class Rights {
   // A motion has its turn, or has left its axes.
   void begin(const Use& use) { permission_.begin(use, tasks_.now()); }
   void end(MotionId motion) { permission_.end(motion, tasks_.now()); }
+  void stop_asked(const Use& stop, const std::vector<Use>& waiting) {
+    permission_.stop_asked(stop, waiting, tasks_.now());
+  }
 
  private:
   Permission& permission_;

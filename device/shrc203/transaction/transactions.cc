@@ -79,7 +79,7 @@ void Transactions::stop(const Command& command, const ExecuteRequest& request, O
   const bool emergency = command.row->meaning == Meaning::emergency_stop;
   const AxisSet named = command.axes(store_.controllable());
   const AxisSet axes = emergency ? AxisSet::all() : named;
-  permission_.stop_asked({request.context.who, request.context.lease, axes, 0}, tasks_.now());
+  motions_.stop_requested(request.context, axes);
   stops_.stop(named, emergency ? StopKind::emergency : StopKind::stop, request.context,
               [event = std::move(event), line = command.line](const StopReport& report) {
                 ExecuteEvent reply;

@@ -20,15 +20,15 @@ class Transactions {
   using OnExecute = StageController::OnExecute;
 
   Transactions(TransactionStart& start, TransactionLines& lines, TransactionEnd& end, Stops& stops,
-               const StateStore& store, Rights& rights, Permission& permission, const NonHost& non_host,
+               const StateStore& store, Motions& motions, Rights& rights, const NonHost& non_host,
                const Ending& ending, Tasks& tasks)
       : start_(start),
         lines_(lines),
         end_(end),
         stops_(stops),
         store_(store),
+        motions_(motions),
         rights_(rights),
-        permission_(permission),
         non_host_(non_host),
         ending_(ending),
         tasks_(tasks) {}
@@ -46,8 +46,8 @@ class Transactions {
   TransactionEnd& end_;
   Stops& stops_;
   const StateStore& store_;
+  Motions& motions_;
   Rights& rights_;
-  Permission& permission_;
   const NonHost& non_host_;
   const Ending& ending_;
   Tasks& tasks_;
