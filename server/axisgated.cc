@@ -31,6 +31,7 @@
 #include "server/metrics/certificate_metrics.h"
 #include "server/rpc/server.h"
 #include "server/service_manager.h"
+#include "server/spare_memory.h"
 #include "server/watchdog.h"
 
 namespace axisgate {
@@ -135,6 +136,7 @@ int serve(const server::Config& config) {
   }
   spdlog::default_logger()->flush();
   gateway.start();
+  server::keep_little_spare_memory(gateway.timeouts());
   const auto watchdog = watch(gateway, **server);
   server::notify_ready();
   end_signals.wait(gateway);

@@ -1,0 +1,40 @@
+#include "server/spare_memory.h"
+
+#include <malloc.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+namespace axisgate::server {
+namespace {
+
+constexpr Duration kPause = std::chrono::seconds(20);
+
+void look_later(Timeouts& timeouts, std::shared_ptr<SpareMemory> memory) {
+  timeouts.after(kPause, [&timeouts, memory = std::move(memory)] {
+    memory->look();
+    look_later(timeouts, memory);
+  });
+}
+
+}  // namespace
+
+// What was given back and is used again has to be given back again.
+void SpareMemory::look() {
+  const std::size_t unused = allocator_.unused();
+  given_back_ = std::min(given_back_, unused);
+  if (unused - given_back_ < kWorthIt) return;
+  allocator_.give_back();
+  given_back_ = allocator_.unused();
+}
+
+void keep_little_spare_memory(Timeouts& timeouts) {
+  look_later(timeouts, std::make_shared<SpareMemory>(SpareMemory::Allocator{
+                           .unused = [] { return mallinfo2().fordblks; },
+                           .give_back = [] { malloc_trim(0); },
+                       }));
+}
+
+}  // namespace axisgate::server
