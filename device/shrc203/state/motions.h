@@ -49,7 +49,7 @@ class Motions {
   // Of one that restores something: all of that is over.
   void leave(LiveMotion& live);
 
-  // From outside. A caller wants these axes to stop: told to the keeper of leases, before anything is stopped.
+  // From outside. A caller wants these axes to stop: the keeper of leases learns of it before anything is stopped.
   void stop_requested(const RequestContext& by, AxisSet axes);
   void stop_asked(LiveMotion& live, const std::string& who);
   // All on these axes. Those that it has stopped.

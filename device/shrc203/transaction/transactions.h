@@ -20,8 +20,8 @@ class Transactions {
   using OnExecute = StageController::OnExecute;
 
   Transactions(TransactionStart& start, TransactionLines& lines, TransactionEnd& end, Stops& stops,
-               const StateStore& store, Motions& motions, Rights& rights, const NonHost& non_host,
-               const Ending& ending, Tasks& tasks)
+               const StateStore& store, Motions& motions, Rights& rights, const NonHost& non_host, const Ending& ending,
+               Tasks& tasks)
       : start_(start),
         lines_(lines),
         end_(end),
