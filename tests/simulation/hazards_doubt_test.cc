@@ -47,6 +47,24 @@ std::vector<std::string> ask_at_once(World& world, const std::vector<std::string
   return *heard;
 }
 
+// A byte of the setting was doubled, and a reading behind the axis number lost one.
+TEST(Hazard, H04_AReadingThatContradictsTheOneBeforeIsNotTheEnd) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  int ready = 0;
+  world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
+    if (kind == LineKind::command && line == "MP:1+P1000") return {.instead = "MP:1+P11000\r\n"};
+    const auto place = line.find("11000");
+    if (kind != LineKind::reply || place == std::string::npos || !line.ends_with("R,R,R") || ++ready != 2) return {};
+    return {.instead = std::string(line).replace(place, 5, "1000") + "\r\n"};
+  });
+  move_by(world, {{1, 1000}});
+  const Motion motion = outcome_of(world, 1);
+  EXPECT_EQ(motion.state, MotionState::failed) << world.replay();
+  EXPECT_EQ(reason_of(motion), Reason::target_not_reached) << world.replay();
+  EXPECT_GE(ready, 4);
+}
+
 // The answer to a setting was lost, and what is read back is another: it is not set once more.
 TEST(Hazard, H11_WhatIsReadBackAsAnotherStartsNothing) {
   World world(quiet());

@@ -165,8 +165,10 @@ bool Watch::has_succeeded(const LiveMotion& live, const Seen& seen, const Positi
   // A whole circle ends where it began, so it must have been seen to run, or had the time to show.
   const bool ran = completed || seen.busy || (started && tasks_.now() - seen.begun >= kStartVisibleWithin);
   const bool evident = homed && (ran || live.goal != Goal::round_trip || !guarded(Guard::circle_seen_to_run));
-  // One flipped bit makes an R of a B; where no axis number confirms a READY, a second reading does.
-  const bool confirmed = !guarded(Guard::success_seen_twice) || completed || seen.ready_at == here;
+  // One flipped bit makes an R of a B; where no axis number confirms a READY, a second reading does. So it does where
+  // the reading before was READY elsewhere.
+  const bool undisputed = completed && !seen.ready_at;
+  const bool confirmed = !guarded(Guard::success_seen_twice) || undisputed || seen.ready_at == here;
   const bool good = !error_shown(live.motion.axes, store_.state()) || !guarded(Guard::success_without_error);
   return at_targets(live) && good && evident && confirmed && live.goal != Goal::none;
 }
