@@ -18,12 +18,16 @@ void ReadyLag::seen_busy(Duration after) {
   if (ready_ && *ready_ <= busy_) ready_.reset();
 }
 
-// What was too soon once may not be for long: another speed, another load. So it counts a little less each time.
+// What was too soon once may not be for long: another speed, another load. So it is sought again now and then, at the
+// cost of a few questions.
 void ReadyLag::seen_ready(Duration after) {
   if (after > kReadyLagMax) return;
-  constexpr int kForgotten = 128;
+  constexpr int kAgain = 256;
   ready_ = std::min(ready_.value_or(after), after);
-  busy_ = busy_ < after ? busy_ - busy_ / kForgotten : Duration::zero();
+  if (busy_ >= after || ++known_for_ == kAgain) {
+    busy_ = Duration::zero();
+    known_for_ = 0;
+  }
 }
 
 }  // namespace axisgate::shrc203

@@ -21,6 +21,7 @@ class ReadyLag {
  private:
   Duration busy_{};                // the longest that was too soon
   std::optional<Duration> ready_;  // the shortest that was not
+  int known_for_ = 0;              // motions since it was sought
 };
 
 }  // namespace axisgate::shrc203
