@@ -113,8 +113,8 @@ struct Controller::Rooms {
   Jogs jogs{entry, speeds, starter, watch, watchdog, reader, restorer, stops, store, motions, rights, tasks};
   SavedPositions saved{dialogue, explainer, entry, speeds, starter, watch, restorer, store, motions, rights, tasks};
   TransactionStart transaction_start{dialogue, explainer, entry, lease_settings, restorer, reader, store, motions};
-  TransactionLines transaction_lines{dialogue, explainer, lease_settings, non_host_visit, session,
-                                     non_host, pending,   store,          motions,        tasks};
+  TransactionLines transaction_lines{dialogue, explainer, reader, lease_settings, non_host_visit, session,
+                                     non_host, pending,   store,  motions,        tasks};
   TransactionEnd transaction_end{line, reader, watch, non_host_visit, non_host, registers, store, motions, tasks};
   Transactions transactions{
       transaction_start, transaction_lines, transaction_end, stops, store, motions, rights, non_host, ending, tasks};

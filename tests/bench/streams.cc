@@ -32,6 +32,7 @@ struct Options {
   double moves_per_second = 0;
 };
 
+constexpr std::chrono::milliseconds kUntilQuiet(500);
 constexpr std::int64_t kPulses = 30;  // 12 ms with the simulator's speeds
 
 // Connections share out the targets: a thousand streams acknowledge more than the daemon takes from one source.
@@ -178,6 +179,7 @@ void run(const Options& options, Open open) {
     streams.back()->begin();
   }
   shared.opened.wait();
+  std::this_thread::sleep_for(kUntilQuiet);  // what came before their opening was ended is under way to some of them
   shared.measuring = true;
   say_begun();
   const auto begun = Clock::now();

@@ -4,10 +4,11 @@
 import os
 import subprocess
 import tempfile
+import time
 import unittest
 
 from message_relay import MessageRelay
-from programs import BIN, LIMIT_S, Daemon
+from programs import BIN, LIMIT_S, Daemon, Lines
 
 HEAD = """
 listen = "127.0.0.1:0"
@@ -17,6 +18,8 @@ socket = "{socket}"
 STAGE = '[[device]]\nname = "{}"\nconnection = "simulated"\n'
 # Nothing listens there.
 DEAD = '[[device]]\nname = "dead"\nconnection = "tcp"\nhost = "127.0.0.1"\nport = 1\n'
+# So slow that the handshake takes a while.
+SLOW = '[[device]]\nname = "slow"\nconnection = "serial"\npath = "TTY"\nbaud = 9600\n'
 STOPPED = r"replied OK, stationary at \S+ um\n"
 
 
@@ -61,6 +64,26 @@ class Stops(unittest.TestCase):
         self.assertEqual((answer.returncode, answer.stdout), (2, ""))
         self.assertRegex(answer.stderr, r"\Aaxisctl: INVALID_REQUEST: .*left, right[^\n]*\n\Z")
         self.assertRegex(self.daemon.run("--device", "right", "stop", "1").stdout, rf"\Aaxis 1: {STOPPED}\Z")
+
+    def test_while_the_daemon_connects(self):
+        folder = tempfile.TemporaryDirectory(prefix="axisgate-stop-tty-")
+        self.addCleanup(folder.cleanup)
+        tty = os.path.join(folder.name, "tty")
+        simulator = Lines([BIN / "shrc203-sim", "--pty", tty, "--baud", "9600"])
+        self.addCleanup(simulator.kill)
+        simulator.until("simulator on")
+        self.with_daemon(STAGE.format("ready") + SLOW.replace("TTY", tty))
+        answers = []
+        deadline = time.monotonic() + LIMIT_S
+        while "slow: link is UP" not in self.daemon.log():
+            self.assertLess(time.monotonic(), deadline)
+            answers.append(self.daemon.run("--device", "slow", "stop"))
+        self.assertTrue(answers)
+        for answer in answers:
+            if answer.returncode == 0:
+                self.assertRegex(answer.stdout, rf"\A(axis \d: {STOPPED})+\Z")
+            else:
+                self.assertRegex(answer.stderr, r"\Aaxisctl: [A-Z_]+: \w[^\n]+\n")
 
     def test_one_that_cannot_be_stopped_hides_no_other(self):
         self.with_daemon(DEAD + STAGE.format("stage"))

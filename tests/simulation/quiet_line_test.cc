@@ -116,6 +116,44 @@ TEST(QuietLine, ExchangesOfAMove) {
   EXPECT_THAT(lines, testing::ElementsAre("MP:1+P100", "G:1", "Q:SPC"));
 }
 
+// Callers who may have a state that is 100 ms old share the question in flight; for others there is another one.
+TEST(QuietLine, CallersShareAQuestionInFlight) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.run_for(seconds(5));
+  const std::size_t first = world.wire().commands().size();
+  int answers = 0;
+  const auto ask = [&](Duration max_age) {
+    world.controller().refresh(max_age, world.context("anna"), world.now(),
+                               [&](const Result<State>& state) { answers += state ? 1 : 0; });
+    world.run_for(std::chrono::milliseconds(1));
+  };
+  for (int i = 0; i < 5; ++i) ask(std::chrono::milliseconds(100));
+  EXPECT_EQ(answers, 0);
+  world.run_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(answers, 5);
+  EXPECT_EQ(written(world, "Q:SPC", first), 1) << world.replay();
+  ask(Duration::zero());
+  ask(Duration::zero());
+  world.run_for(std::chrono::milliseconds(50));
+  EXPECT_EQ(answers, 7);
+  EXPECT_EQ(written(world, "Q:SPC", first), 3) << world.replay();
+}
+
+// What a caller asks often enough the gateway does not ask besides.
+TEST(QuietLine, ACallersQuestionTakesThePlaceOfAPoll) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.run_for(seconds(1));
+  const std::size_t first = world.wire().commands().size();
+  for (int i = 0; i < 50; ++i) {
+    EXPECT_EQ(execute(world, {"Q:SPC"}).size(), 1u);
+    world.run_for(std::chrono::milliseconds(100));
+  }
+  EXPECT_LE(written(world, "Q:SPC", first), 51) << world.replay();  // one may have been due before
+  EXPECT_LE(world.now() - world.controller().state().read, std::chrono::milliseconds(200));
+}
+
 // A setting of speeds, and what the controller made of it.
 TEST(QuietLine, ExchangesOfASpeedSetting) {
   World world(quiet());

@@ -14,7 +14,8 @@ Polling::Polling(Reader& reader, StateStore& store, Motions& motions, const NonH
       motions_(motions),
       non_host_(non_host),
       tasks_(tasks),
-      watched_(std::move(watched)) {
+      watched_(std::move(watched)),
+      reading_ended_(tasks.executor()) {
   tasks_.spawn(poll());
 }
 
@@ -46,14 +47,35 @@ Task<void> Polling::read_for(Duration max_age, RequestContext context, StageCont
     done(tl::unexpected(store_.not_up()));
     co_return;
   }
-  if (store_.state().read == TimePoint{} || tasks_.now() - store_.state().read > max_age) {
-    const auto read = co_await reader_.read_positions(Lane::question, context.who);
+  co_await join(max_age);
+  if (!is_fresh(max_age)) {
+    const auto read = co_await read_now(context.who);
     if (!read) {
       done(tl::unexpected(read.error()));
       co_return;
     }
   }
   done(store_.state());
+}
+
+bool Polling::is_fresh(Duration max_age) const {
+  return store_.state().read != TimePoint{} && tasks_.now() - store_.state().read <= max_age;
+}
+
+// The answer to a question in flight is of when that was written, or later: it serves callers who may have it so old.
+Task<void> Polling::join(Duration max_age) {
+  if (is_fresh(max_age) || !reading_since_ || tasks_.now() - *reading_since_ > max_age) co_return;
+  auto ended = reading_ended_.wait_until(tasks_.now() + kCallerWriteLimit);
+  co_await ended;
+}
+
+Task<Result<void>> Polling::read_now(std::string caller) {
+  const TimePoint begun = tasks_.now();
+  reading_since_ = begun;
+  auto read = co_await reader_.read_positions(Lane::question, std::move(caller));
+  if (reading_since_ == begun) reading_since_.reset();
+  reading_ended_.notify();
+  co_return read;
 }
 
 }  // namespace axisgate::shrc203

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <functional>
+#include <optional>
+#include <string>
 
 #include "device/core/tasks.h"
 #include "device/shrc203/session/reader.h"
@@ -24,6 +26,9 @@ class Polling {
   Duration interval() const;
   Task<void> poll();
   Task<void> read_for(Duration max_age, RequestContext context, StageController::OnState done);
+  bool is_fresh(Duration max_age) const;
+  Task<void> join(Duration max_age);
+  Task<Result<void>> read_now(std::string caller);
 
   Reader& reader_;
   StateStore& store_;
@@ -31,6 +36,8 @@ class Polling {
   const NonHost& non_host_;
   Tasks& tasks_;
   std::function<bool()> watched_;
+  std::optional<TimePoint> reading_since_;  // the newest question for a caller was asked then, and is not answered
+  Signal reading_ended_;
 };
 
 }  // namespace axisgate::shrc203

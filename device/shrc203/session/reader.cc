@@ -57,6 +57,10 @@ Task<Result<void>> Reader::read_positions(Lane lane, std::string caller, bool in
   co_return fail(Reason::line_fault, "the positions read make no sense", "check the cable and the line settings");
 }
 
+void Reader::note_positions(const Reply& reply) {
+  if (reply.kind == Reply::Kind::data && !implausible(reply)) apply_positions(reply);
+}
+
 // Axes that move as asked and will not tell when they are stationary.
 AxisSet Reader::moving_silently() const { return motions_.running() - line_.completions().possible(); }
 

@@ -28,6 +28,8 @@ class Reader {
 
   // Also line_fault.
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
+  // A caller's own question was answered so. What is not plausible is left to the next reading.
+  void note_positions(const Reply& reply);
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
   Task<Result<void>> read_origin_speeds(std::string caller);

@@ -134,6 +134,8 @@ void TransactionLines::note(Transaction& transaction, const Command& command, co
   const AxisSet axes = command.axes(store_.controllable());
   const bool perhaps = result.accepted() || result.in_doubt();
   note_setting(store_, command, result);
+  if (as_sent(command).line == commands::text(commands::Question::positions) && result.reply)
+    reader_.note_positions(*result.reply);
   if (trigger_of(command) && result.accepted()) pending_.forget_scan();
   if (row.moves()) note_start(transaction, result);
   note_speeds(command, result);

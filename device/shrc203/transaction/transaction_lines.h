@@ -10,6 +10,7 @@
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/session/lease_settings.h"
 #include "device/shrc203/session/non_host_visit.h"
+#include "device/shrc203/session/reader.h"
 #include "device/shrc203/session/session.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/non_host.h"
@@ -20,11 +21,12 @@ namespace axisgate::shrc203 {
 
 class TransactionLines {
  public:
-  TransactionLines(Dialogue& dialogue, Explainer& explainer, LeaseSettings& settings, NonHostVisit& non_host_visit,
-                   Session& session, NonHost& non_host, PendingRestores& pending, StateStore& store, Motions& motions,
-                   const Tasks& tasks)
+  TransactionLines(Dialogue& dialogue, Explainer& explainer, Reader& reader, LeaseSettings& settings,
+                   NonHostVisit& non_host_visit, Session& session, NonHost& non_host, PendingRestores& pending,
+                   StateStore& store, Motions& motions, const Tasks& tasks)
       : dialogue_(dialogue),
         explainer_(explainer),
+        reader_(reader),
         settings_(settings),
         non_host_visit_(non_host_visit),
         session_(session),
@@ -52,6 +54,7 @@ class TransactionLines {
 
   Dialogue& dialogue_;
   Explainer& explainer_;
+  Reader& reader_;
   LeaseSettings& settings_;
   NonHostVisit& non_host_visit_;
   Session& session_;
