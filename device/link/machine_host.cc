@@ -8,13 +8,14 @@
 namespace axisgate {
 
 void MachineHost::post(std::function<void(TimePoint now)> request) {
-  boost::asio::post(strand_, [self = shared_from_this(), request = std::move(request)] {
+  inbox_.post([self = shared_from_this(), request = std::move(request)] {
     self->call([&](LineMachine&, TimePoint now) { request(now); });
   });
 }
 
 void MachineHost::detach() {
   machine_ = nullptr;
+  inbox_.close();
   armed_.reset();
   deadline_timer_.cancel();
 }

@@ -9,6 +9,7 @@
 #include "device/core/line_machine.h"
 #include "device/link/asio.h"
 #include "device/link/clock.h"
+#include "device/link/inbox.h"
 
 namespace axisgate {
 
@@ -25,7 +26,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
   const Strand& strand() const { return strand_; }
 
  protected:
-  explicit MachineHost(Strand strand) : strand_(std::move(strand)), deadline_timer_(strand_) {}
+  explicit MachineHost(Strand strand) : strand_(std::move(strand)), inbox_(strand_), deadline_timer_(strand_) {}
 
   bool attached() const { return machine_ != nullptr; }
 
@@ -48,6 +49,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
   void arm();
 
   Strand strand_;
+  Inbox inbox_;
   boost::asio::steady_timer deadline_timer_;
   std::optional<TimePoint> armed_;
   LineMachine* machine_ = nullptr;

@@ -37,8 +37,8 @@ void Connection::handshake_over(std::optional<std::string> certificate) {
 
 void Connection::begin() {
   // An answer may come from any thread, and after the connection has gone.
-  auto on_answer = [self = weak_from_this(), mailbox = around_.mailbox](std::uint32_t stream) {
-    mailbox->post([self, stream] {
+  auto on_answer = [self = weak_from_this(), inbox = around_.inbox](std::uint32_t stream) {
+    inbox->post([self, stream] {
       if (const auto connection = self.lock()) connection->pull(stream);
     });
   };
@@ -47,15 +47,10 @@ void Connection::begin() {
   move_on();
 }
 
-// What other calls have received by then is written together.
 void Connection::pull(std::uint32_t stream) {
   if (closed_) return;
   conversation_->pull(stream);
-  if (std::exchange(moves_on_soon_, true)) return;
-  asio::post(around_.strand, [self = shared_from_this()] {
-    self->moves_on_soon_ = false;
-    self->move_on();
-  });
+  move_on();
 }
 
 // Starts whatever can be started now.

@@ -10,8 +10,8 @@
 #include "device/link/asio.h"
 #include "device/link/clock.h"
 #include "device/link/descriptor.h"
+#include "device/link/inbox.h"
 #include "server/front/conversation.h"
-#include "server/front/mailbox.h"
 #include "server/front/wire.h"
 
 namespace axisgate::front {
@@ -22,7 +22,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   // What it needs of the front.
   struct Surroundings {
     Strand strand;
-    std::shared_ptr<Mailbox> mailbox;  // to that strand
+    std::shared_ptr<Inbox> inbox;  // to that strand
     Desk& desk;
     const FrontLimits& limits;
     Sources& sources;
@@ -74,7 +74,6 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::string to_client_, to_grpc_;  // being written
   // An operation of each kind is under way.
   bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;
-  bool moves_on_soon_ = false;
   bool closed_ = false;
 };
 

@@ -34,7 +34,7 @@ Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfi
       sources_(limits.source),
       on_closing_(std::move(on_closing)),
       around_{strand,
-              std::make_shared<Mailbox>(strand),
+              std::make_shared<Inbox>(strand),
               desk,
               limits_,
               sources_,

@@ -31,7 +31,7 @@ class Front {
   Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfig>& network,
         std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits = {});
 
-  ~Front() { around_.mailbox->close(); }
+  ~Front() { around_.inbox->close(); }
 
   void enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin);
 

@@ -176,8 +176,8 @@ TEST_F(RunnerTest, AWithdrawnDeadlineIsNotCalled) {
 TEST_F(RunnerTest, ReopeningForgetsWhatTheOldLineHeld) {
   start();
   ASSERT_TRUE(up());
-  send_now(far(), "late reply\r\n");
   runner_.post([&](TimePoint) {
+    send_now(far(), "late reply\r\n");
     runner_.write("never sent\r\n");
     runner_.reopen(milliseconds(1));
   });

@@ -1,0 +1,102 @@
+#include "device/link/inbox.h"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <optional>
+#include <utility>
+
+#include "device/link/descriptor.h"
+
+namespace axisgate {
+
+class Inbox::Queue : public std::enable_shared_from_this<Queue> {
+ public:
+  explicit Queue(const Strand& strand);
+
+  void post(std::function<void()> task);
+  void close();
+  void wait();
+
+ private:
+  std::optional<std::function<void()>> take();
+  void run();
+
+  const Descriptor bell_;  // an eventfd; outlives `reader_`, since a thread may still ring when that has been closed
+  std::uint64_t rings_ = 0;
+  std::mutex mutex_;
+  std::deque<std::function<void()>> tasks_;
+  std::optional<boost::asio::posix::stream_descriptor> reader_;  // of bell_; none once closed
+};
+
+namespace {
+
+// So many, then the strand looks at its lines.
+constexpr int kTasksInTurn = 16;
+
+Descriptor new_bell() {
+  Descriptor bell(::eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC));
+  if (!bell.valid()) throw boost::system::system_error(errno, boost::system::system_category(), "eventfd");
+  return bell;
+}
+
+}  // namespace
+
+Inbox::Queue::Queue(const Strand& strand) : bell_(new_bell()) { reader_.emplace(strand, bell_.get()); }
+
+void Inbox::Queue::post(std::function<void()> task) {
+  {
+    const std::lock_guard lock(mutex_);
+    if (!reader_) return;
+    tasks_.push_back(std::move(task));
+    if (tasks_.size() > 1) return;  // rung for already
+  }
+  const std::uint64_t ring = 1;
+  (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only where the count is full, and then it is heard as well
+}
+
+void Inbox::Queue::close() {
+  std::deque<std::function<void()>> dropped;  // may end what posts again
+  const std::lock_guard lock(mutex_);
+  dropped.swap(tasks_);
+  if (reader_) (void)reader_->release();
+  reader_.reset();
+}
+
+void Inbox::Queue::wait() {
+  reader_->async_read_some(boost::asio::buffer(&rings_, sizeof rings_),
+                           [self = shared_from_this()](const boost::system::error_code& error, std::size_t) {
+                             if (!error) self->run();
+                           });
+}
+
+std::optional<std::function<void()>> Inbox::Queue::take() {
+  const std::lock_guard lock(mutex_);
+  if (tasks_.empty()) return std::nullopt;
+  auto task = std::move(tasks_.front());
+  tasks_.pop_front();
+  return task;
+}
+
+void Inbox::Queue::run() {
+  for (int done = 0; reader_ && done < kTasksInTurn; ++done) {
+    const auto task = take();
+    if (!task) return wait();
+    (*task)();
+  }
+  if (reader_) boost::asio::post(reader_->get_executor(), [self = shared_from_this()] { self->run(); });
+}
+
+Inbox::Inbox(const Strand& strand) : queue_(std::make_shared<Queue>(strand)) { queue_->wait(); }
+
+Inbox::~Inbox() { close(); }
+
+void Inbox::post(std::function<void()> task) { queue_->post(std::move(task)); }
+
+void Inbox::close() { queue_->close(); }
+
+}  // namespace axisgate
