@@ -44,12 +44,12 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 
 Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory)
     : config_(config), run_(random_run()), lease_tokens_(generation), events_(posting_to(readers_)) {
-  open_timers(lines_);
+  open_timers(lines_.context());
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
-    auto line = make_line(device, Strand(lines_.get_executor()));
-    auto stage = std::make_unique<Stage>(device, std::move(line), Strand(lines_.get_executor()), events_, metrics_,
-                                         posting_to(readers_), lease_tokens_, record_of(device, state_directory));
+    auto line = make_line(device, lines_.new_strand());
+    auto stage = std::make_unique<Stage>(device, std::move(line), lines_, events_, metrics_, posting_to(readers_),
+                                         lease_tokens_, record_of(device, state_directory));
     stages_.push_back(stage.get());
     devices_.push_back(std::move(stage));
   }
@@ -57,19 +57,17 @@ Gateway::Gateway(const Config& config, std::uint32_t generation, const std::stri
 
 Gateway::~Gateway() {
   for (const auto& device : devices_) device->shutdown();
-  lines_work_.reset();
   readers_work_.reset();
   readers_.stop();
   // What the lines still have to say in order has been said by shutdown(); their timers end with the thread.
   lines_.stop();
-  if (lines_thread_.joinable()) lines_thread_.join();
   if (readers_thread_.joinable()) readers_thread_.join();
   for (const auto& device : devices_) device->recorder().flush();
   recording_files_.clear();
 }
 
 void Gateway::start() {
-  lines_thread_ = std::thread([this] { lines_.run(); });
+  lines_.start();
   readers_thread_ = std::thread([this] { readers_.run(); });
   for (std::size_t i = 0; i < devices_.size(); ++i) {
     const std::string& path = config_.devices[i].record;

@@ -10,6 +10,7 @@
 
 #include "device/core/time.h"
 #include "device/link/asio.h"
+#include "device/link/line_thread.h"
 #include "server/access/leases.h"
 #include "server/config/config.h"
 #include "server/devices/device.h"
@@ -61,9 +62,8 @@ class Gateway {
 
   const Config config_;
   const std::string run_;
-  boost::asio::io_context lines_{1};
+  LineThread lines_;
   boost::asio::io_context readers_{1};
-  Work lines_work_{lines_.get_executor()};
   Work readers_work_{readers_.get_executor()};
   Timeouts timeouts_{readers_};
   LeaseTokens lease_tokens_;
@@ -72,7 +72,6 @@ class Gateway {
   std::vector<std::unique_ptr<Device>> devices_;
   std::vector<Stage*> stages_;  // of devices_
   std::vector<std::unique_ptr<RecordingFile>> recording_files_;
-  std::thread lines_thread_;
   std::thread readers_thread_;
 };
 

@@ -12,6 +12,7 @@
 #include <system_error>
 #include <utility>
 
+#include "device/link/clock.h"
 #include "device/link/descriptor.h"
 #include "device/link/machine_host.h"
 
@@ -23,9 +24,10 @@ using boost::system::error_code;
 // started in and does nothing when that has passed.
 class Runner::Line : public MachineHost {
  public:
-  Line(Strand strand, Opener opener)
+  Line(Strand strand, Opener opener, Wakefulness* wakefulness)
       : MachineHost(std::move(strand)),
         opener_(std::move(opener)),
+        wakefulness_(wakefulness),
         descriptor_(this->strand()),
         reopen_timer_(this->strand()) {}
 
@@ -49,6 +51,7 @@ class Runner::Line : public MachineHost {
 
   std::function<void()> after_call_;
   Opener opener_;
+  Wakefulness* const wakefulness_;
   Opening opening_;
   boost::asio::posix::stream_descriptor descriptor_;
   boost::asio::steady_timer reopen_timer_;
@@ -157,6 +160,7 @@ void Runner::Line::start_reading() {
 void Runner::Line::on_read(const error_code& error, std::size_t count) {
   if (error == boost::asio::error::eof) return lose("the line was closed at its other end");
   if (error) return lose("reading from the line failed: " + error.message());
+  if (wakefulness_ != nullptr) wakefulness_->replied(monotonic_now());
   const auto generation = generation_;
   call([&](LineMachine& machine, TimePoint now) { machine.receive({incoming_.data(), count}, now); });
   if (generation == generation_) start_reading();
@@ -170,6 +174,7 @@ void Runner::Line::send_queued() {
                                  : ::write(line, queued_.data(), queued_.size());
     if (sent >= 0) {
       queued_.erase(0, static_cast<std::size_t>(sent));
+      if (wakefulness_ != nullptr) wakefulness_->written(monotonic_now());
     } else if (errno == EAGAIN) {
       wait_for_room();
     } else if (errno != EINTR) {
@@ -188,7 +193,8 @@ void Runner::Line::wait_for_room() {
                          });
 }
 
-Runner::Runner(Strand strand, Opener opener) : line_(std::make_shared<Line>(std::move(strand), std::move(opener))) {}
+Runner::Runner(Strand strand, Opener opener, Wakefulness* wakefulness)
+    : line_(std::make_shared<Line>(std::move(strand), std::move(opener), wakefulness)) {}
 
 Runner::~Runner() { line_->shut(); }
 

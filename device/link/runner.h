@@ -7,6 +7,7 @@
 
 #include "device/core/line_machine.h"
 #include "device/link/asio.h"
+#include "device/link/line_thread.h"
 #include "device/link/opener.h"
 
 namespace axisgate {
@@ -21,7 +22,7 @@ class Runner : public ByteLink {
   static constexpr std::size_t kOutputBytesMax = 64 * 1024;
 
   // Without an opener the line comes from adopt() alone: the device's end of a line that its host opens.
-  explicit Runner(Strand strand, Opener opener = {});
+  explicit Runner(Strand strand, Opener opener = {}, Wakefulness* wakefulness = nullptr);
   ~Runner() override;
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;

@@ -4,7 +4,7 @@
 
 namespace axisgate::server {
 
-Device::Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, Strand strand,
+Device::Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, LineThread& thread,
                Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens)
     : name_(std::move(name)),
       line_(std::move(line)),
@@ -12,7 +12,7 @@ Device::Device(std::string name, const stage::RecordingHeader& header, std::uniq
       metrics_(metrics, name_),
       recorder_(header, readers, metrics_),
       leases_(lease_tokens),
-      runner_(std::move(strand), line_->opener()) {
+      runner_(thread.new_strand(), line_->opener(), &thread.wakefulness()) {
   leases_.on_change = [this](TimePoint now) {
     newest_leases_.publish({leases_.held(), leases_.waiting(now), leases_.held_back()});
   };

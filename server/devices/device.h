@@ -50,8 +50,8 @@ class Device {
   void shutdown();
 
  protected:
-  // `metrics`, `lease_tokens` and the strand's io_context outlive this.
-  Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, Strand strand,
+  // `metrics`, `lease_tokens` and `thread` outlive this.
+  Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, LineThread& thread,
          Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens);
 
   Runner& runner() { return runner_; }

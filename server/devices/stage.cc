@@ -23,10 +23,10 @@ std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
 
 }  // namespace
 
-Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
-             const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record)
-    : Device(config.profile.name, recording_header(config.profile), std::move(line), std::move(strand), metrics,
-             readers, lease_tokens),
+Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus,
+             Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record)
+    : Device(config.profile.name, recording_header(config.profile), std::move(line), thread, metrics, readers,
+             lease_tokens),
       kind_(*config.kind),
       profile_(config.profile),
       newest_state_(readers),

@@ -18,8 +18,8 @@ namespace axisgate::server {
 
 class Stage final : public Device {
  public:
-  // `bus`, `metrics` and the strand's io_context outlive this. `record` may be null.
-  Stage(const DeviceConfig& config, std::unique_ptr<Line> line, Strand strand, EventBus& bus, Metrics& metrics,
+  // `bus`, `metrics` and `thread` outlive this. `record` may be null.
+  Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
         const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record);
 
   // From any thread.

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <chrono>
-#include <utility>
+#include <memory>
 
 namespace axisgate::server::device_test {
 namespace {
@@ -31,9 +31,9 @@ class CountedLine : public Line {
 
 class Lathe : public Device {
  public:
-  Lathe(CountedLine::Counts& counts, Strand strand, Metrics& metrics, const Executor& readers, LeaseTokens& tokens)
-      : Device("turning", {.device = "turning"}, std::make_unique<CountedLine>(counts), std::move(strand), metrics,
-               readers, tokens) {}
+  Lathe(CountedLine::Counts& counts, LineThread& thread, Metrics& metrics, const Executor& readers, LeaseTokens& tokens)
+      : Device("turning", {.device = "turning"}, std::make_unique<CountedLine>(counts), thread, metrics, readers,
+               tokens) {}
 
   std::string_view kind_name() const override { return "lathe"; }
   void wind_down(std::function<void()> done) override {
@@ -45,11 +45,11 @@ class Lathe : public Device {
 
 class DeviceTest : public testing::Test {
  protected:
-  boost::asio::io_context io_;
+  LineThread thread_;  // never started
   Metrics metrics_;
   LeaseTokens tokens_{1};
   CountedLine::Counts line_;
-  Lathe lathe_{line_, Strand(io_.get_executor()), metrics_, [](const std::function<void()>& task) { task(); }, tokens_};
+  Lathe lathe_{line_, thread_, metrics_, [](const std::function<void()>& task) { task(); }, tokens_};
   Device& device_ = lathe_;
 };
 
