@@ -41,6 +41,8 @@ certificate = "FOLDER/gateway.crt"
 key = "FOLDER/gateway.key"
 client_ca = "FOLDER/lab.crt"
 """
+# The text of the page is made again when the last is as old (server/metrics/page_limits.h), and a little.
+PAGE_AGE_S = 0.2
 # The daemon computes times from it. The simulator then does not pace the line at all.
 UNPACED_BAUD = 4_000_000
 SER2NET = """%YAML 1.1
@@ -86,6 +88,11 @@ class Served:
     def exchanges(self):
         """The time, and how many exchanges there were so far, by command."""
         return time.monotonic(), self.metric("axisgate_exchanges_total", "command")
+
+    def exchanges_by_now(self):
+        """Likewise, to the last one."""
+        time.sleep(PAGE_AGE_S)
+        return self.exchanges()[1]
 
 
 @dataclasses.dataclass

@@ -119,6 +119,8 @@ def moves(plan):
         for _ in range(plan.repeat):
             series.add("exchange", measure("direct", "--target", made.direct).figures["p50"])
             for gateway in made.gateways:
+                # What is read before the first motion is read once.
+                measure("moves", *gateway.targets["Unix"], "--pulses", "1", "--count", "1")
                 for what, pulses, count in kinds:
                     _moves_of(gateway, what, pulses, count, series)
     for gateway in made.gateways:
@@ -127,9 +129,9 @@ def moves(plan):
 
 
 def _moves_of(gateway, what, pulses, count, series):
-    measured = measure("moves", *gateway.targets["Unix"], "--pulses", str(pulses), "--count", str(count),
-                       look=gateway.exchanges)
-    (_, before), (_, after) = measured.before, measured.after
+    before = gateway.exchanges_by_now()
+    measured = measure("moves", *gateway.targets["Unix"], "--pulses", str(pulses), "--count", str(count))
+    after = gateway.exchanges_by_now()
     by_command = {name: (after[name] - before[name]) / count for name in after if after[name] != before[name]}
     series.add(gateway.name, what, "exchanges", sum(by_command.values()))
     series.add(gateway.name, what, "commands", by_command)

@@ -81,7 +81,6 @@ class Mover {
 };
 
 void run(const Options& options) {
-  Mover(options.target).move(1);  // what is read before the first motion is read once
   Mover mover(options.target);
   say_begun();
   for (int i = 0; i < options.count; ++i) mover.move(i % 2 == 0 ? options.pulses : -options.pulses);
