@@ -75,6 +75,9 @@ inline constexpr Duration kStartVisibleWithin = std::chrono::milliseconds(300);
 // Between two readings of READY, which must agree. The configuration's moving_poll, where that is shorter and a motion
 // is watched.
 inline constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
+// A move whose state nobody follows is looked at so often before its time, for what no axis number reports: a stop at
+// the front panel, a motor that was switched off.
+inline constexpr Duration kUnfollowedPoll = std::chrono::seconds(1);
 // Where all axis numbers have come and the controller is still busy, it is asked again so soon. Then after twice as
 // long each time, at most kReadyPoll: settling takes some milliseconds (manual 56) W:).
 inline constexpr Duration kReadyPauseMin = std::chrono::milliseconds(5);

@@ -161,6 +161,8 @@ class EventSink {
   virtual ~EventSink() = default;
   // Called on the controller's strand; must not call back into the controller.
   virtual void on_event(const Event& event, TimePoint now) = 0;
+  // Whether somebody follows the state as it changes. If nobody does, it is read less often. As on_event().
+  virtual bool state_followed() const { return true; }
 };
 
 }  // namespace axisgate::stage

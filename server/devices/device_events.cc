@@ -26,11 +26,12 @@ std::string because(const std::optional<Problem>& problem) {
 }  // namespace
 
 DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
-                           OnDue due, MotionRecord* record)
+                           const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record)
     : device_(std::move(device)),
       bus_(bus),
       metrics_(metrics),
       recorder_(recorder),
+      newest_state_(newest_state),
       due_(std::move(due)),
       record_(record) {}
 

@@ -10,6 +10,7 @@
 #include "device/stage/event.h"
 #include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
+#include "server/events/newest.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recorder.h"
 
@@ -22,11 +23,12 @@ class DeviceEvents : public stage::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // `bus`, `metrics`, `recorder` and `record` outlive this. Without `record` nothing is kept for the next run.
-  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder, OnDue due,
-               MotionRecord* record = nullptr);
+  // All that is referred to outlives this. Without `record` nothing is kept for the next run.
+  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
+               const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr);
 
   void on_event(const stage::Event& event, TimePoint now) override;
+  bool state_followed() const override { return newest_state_.has_subscribers(); }
 
   // The revision of the newest fact about a motion; 0 when there is none or it is long ago.
   std::uint64_t motion_revision(stage::MotionId motion) const;
@@ -60,6 +62,7 @@ class DeviceEvents : public stage::EventSink {
   EventBus& bus_;
   DeviceMetrics& metrics_;
   DeviceRecorder& recorder_;
+  const Newest<stage::State>& newest_state_;
   const OnDue due_;
   MotionRecord* const record_;
   std::map<stage::MotionId, std::uint64_t> revisions_;

@@ -32,8 +32,8 @@ Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread&
       newest_state_(readers),
       record_(std::move(record)),
       events_(
-          profile_.name, bus, this->metrics(), recorder(), [this](DeviceEvents::Due due) { on_due(due); },
-          record_.get()),
+          profile_.name, bus, this->metrics(), recorder(), newest_state_,
+          [this](DeviceEvents::Due due) { on_due(due); }, record_.get()),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
   runner().attach(*controller_, [this] { publish_due(); });

@@ -36,6 +36,8 @@ class Newest {
     return newest_;
   }
 
+  bool has_subscribers() const { return wake_ups_.has_subscribers(); }
+
   std::unique_ptr<WakeUps::Subscription> subscribe(std::function<void()> wake) {
     return wake_ups_.subscribe(std::move(wake));
   }

@@ -52,11 +52,13 @@ std::unique_ptr<WakeUps::Subscription> WakeUps::subscribe(std::function<void()> 
   return std::make_unique<Handle>(shared_, std::move(sleeper));
 }
 
+bool WakeUps::has_subscribers() const {
+  const std::lock_guard lock(shared_->mutex);
+  return !shared_->sleepers.empty();
+}
+
 void WakeUps::wake_all() {
-  {
-    const std::lock_guard lock(shared_->mutex);
-    if (shared_->sleepers.empty()) return;
-  }
+  if (!has_subscribers()) return;
   if (shared_->due.exchange(true)) return;
   executor_([shared = shared_] { run(*shared); });
 }

@@ -27,6 +27,7 @@ class WakeUps {
   std::unique_ptr<Subscription> subscribe(std::function<void()> wake);
 
   void wake_all();
+  bool has_subscribers() const;
 
  private:
   class Sleeper;

@@ -25,6 +25,7 @@ struct Setup {
   shrc203::simulator::Options options;
   stage::EventSink* listener = nullptr;     // receives every event too
   stage::Permission* permission = nullptr;  // none: everybody may
+  bool followed = true;                     // else moves are seldom looked at on their way
   bool callers_send_bare_go = false;        // else a bare G is taken for a fault of the gateway's own
 };
 
@@ -70,6 +71,7 @@ class World : public stage::EventSink {
   Phase phase() const;
 
   void on_event(const stage::Event& event, TimePoint now) override;
+  bool state_followed() const override { return setup_.followed; }
   const std::vector<stage::Motion>& outcomes() const { return outcomes_; }
   const std::vector<stage::PathProgress>& progress() const { return progress_; }
   const std::vector<stage::CompletionSeen>& completions() const { return completions_; }

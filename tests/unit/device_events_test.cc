@@ -30,9 +30,10 @@ class DeviceEventsTest : public ::testing::Test {
   Metrics metrics_;
   DeviceMetrics device_metrics_{metrics_, "stage"};
   DeviceRecorder recorder_{{}, [](std::function<void()>) {}, device_metrics_};
+  Newest<stage::State> state_{[](std::function<void()>) {}};
   std::vector<DeviceEvents::Due> due_;
-  DeviceEvents events_{"stage", bus_, device_metrics_, recorder_,
-                       [this](DeviceEvents::Due due) { due_.push_back(due); }};
+  DeviceEvents events_{"stage",   bus_,   device_metrics_,
+                       recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); }};
 };
 
 TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
@@ -64,6 +65,12 @@ TEST_F(DeviceEventsTest, AMotionWithoutAxesNamesNone) {
   spdlog::set_default_logger(before);
   EXPECT_THAT(text.str(), ::testing::HasSubstr("stage: motion 7 (execute, asked by unix anna) is RUNNING"));
   EXPECT_THAT(text.str(), ::testing::HasSubstr("stage: motion 7 (execute of axis 1, asked by unix anna) is RUNNING"));
+}
+
+TEST_F(DeviceEventsTest, TheStateIsFollowedWhileSomebodySubscribes) {
+  EXPECT_FALSE(events_.state_followed());
+  const auto reader = state_.subscribe([] {});
+  EXPECT_TRUE(events_.state_followed());
 }
 
 TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {

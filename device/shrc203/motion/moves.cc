@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/shrc203/planning/travel_time.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -103,6 +104,7 @@ Task<void> Moves::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuf
     co_return;
   }
   store_.note_speeds(speeds_of(plan));
+  const Positions from = store_.positions();
   const auto start = co_await starter_.go(live, by_prebuffer ? live->motion.axes : AxisSet());
   if (!start) {
     motions_.disconnect(*live, start.error());
@@ -111,6 +113,10 @@ Task<void> Moves::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuf
   if (*start == Start::in_doubt && co_await starter_.start_never_came(live, setter)) {
     motions_.disconnect(*live, Starter::never_came(*live));
     co_return;
+  }
+  if (const auto travel = travel_time(plan, from, store_.speeds(live->motion.axes));
+      travel && *start == Start::accepted) {
+    live->due_at = tasks_.now() + *travel;
   }
   co_await watch_.run(live, *start);
 }

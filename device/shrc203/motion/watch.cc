@@ -63,7 +63,7 @@ Task<void> Watch::wait_for_ready(LiveMotionPtr live, Seen& seen) {
 Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
   watched_.insert(live->motion.id);
   Seen seen{.begun = tasks_.now(), .start = start, .wake_ups = wake_ups};
-  Duration pause = store_.profile().moving_poll;
+  Duration pause = pause_on_the_way(*live);
   int failures = 0;
   while (!live->life.has_outcome()) {
     const bool hinted = live->wake_ups != seen.wake_ups;
@@ -108,7 +108,15 @@ Duration Watch::pause_after(const LiveMotion& live, Seen& seen, bool hinted) con
     seen.ready_pause = seen.ready_pause == Duration::zero() ? kReadyPauseMin : 2 * seen.ready_pause;
     return std::min(seen.ready_pause, soon);
   }
-  return hinted || live.completed_by_all() || seen.ready_at ? soon : moving_poll;
+  return hinted || live.completed_by_all() || seen.ready_at ? soon : pause_on_the_way(live);
+}
+
+// An axis number reports the end. The positions on the way are for who follows them, and for a number that is lost.
+Duration Watch::pause_on_the_way(const LiveMotion& live) const {
+  const Duration moving_poll = store_.profile().moving_poll;
+  if (store_.followed() || !live.due_at || live.life.stop_asked()) return moving_poll;
+  const Duration longest = std::max(moving_poll, kUnfollowedPoll);
+  return std::clamp(*live.due_at + moving_poll - tasks_.now(), moving_poll, longest);
 }
 
 // The positions, and what else may tell why the axes are stationary.

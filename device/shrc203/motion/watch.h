@@ -42,6 +42,7 @@ class Watch {
   Task<void> wait_for_ready(LiveMotionPtr live, Seen& seen);
   void learn_lag(const LiveMotion& live, const Seen& seen, TimePoint asked);
   Duration pause_after(const LiveMotion& live, Seen& seen, bool hinted) const;
+  Duration pause_on_the_way(const LiveMotion& live) const;
   Task<Result<void>> read_end(LiveMotionPtr live, const Seen& seen);
   void unreadable(LiveMotion& live, const Problem& problem);
   void judge(LiveMotion& live, Seen& seen);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "device/shrc203/planning/arc_lines.h"
+#include "device/shrc203/planning/travel_time.h"
 
 namespace axisgate::shrc203 {
 namespace {
@@ -16,23 +17,12 @@ constexpr int kInputsMax = 63;                 // IN1 to IN6 (manual 95) I:)
 
 Duration seconds(double value) { return std::chrono::nanoseconds(static_cast<std::int64_t>(value * 1e9)); }
 
-// From rest to rest: from S towards F, which R milliseconds would lead to, and back, with or without a stretch at F.
-double seconds_of_one_axis(double way, const SpeedSetting& speed) {
-  const auto minimum = static_cast<double>(speed.minimum), maximum = static_cast<double>(speed.maximum);
-  const double ramp = static_cast<double>(speed.acceleration_ms) / 1000;
-  const double both_ramps = (minimum + maximum) * ramp;
-  if (way >= both_ramps) return 2 * ramp + (way - both_ramps) / maximum;
-  const double acceleration = (maximum - minimum) / ramp;
-  if (acceleration == 0) return way / maximum;
-  return 2 * (std::sqrt(minimum * minimum + acceleration * way) - minimum) / acceleration;
-}
-
 struct Times {
   Duration shortest{}, longest{};
 };
 
 Times time_of_one_axis(double way, const SpeedSetting& speed) {
-  return {seconds(seconds_of_one_axis(way, speed)),
+  return {travel_time(way, speed),
           seconds(way / static_cast<double>(speed.maximum)) + 2 * std::chrono::milliseconds(speed.acceleration_ms)};
 }
 

@@ -35,6 +35,7 @@ class StateStore {
   Envelope envelope(const RequestContext& context) const { return {profile_, state_, context.who, context.role}; }
 
   void publish() { emit(StateChanged{}); }
+  bool followed() const { return events_.state_followed(); }
   void emit(const Event& event) { events_.on_event(event, tasks_.now()); }
 
   // The link. not_up() reports it together with the trouble.
