@@ -1,11 +1,13 @@
 #include "server/devices/line.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <utility>
 #include <variant>
 
 #include "device/core/paced_line.h"
+#include "device/link/low_latency.h"
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "device/link/tcp_socket.h"
@@ -29,11 +31,17 @@ class OutsideLine final : public Line {
   const std::string description_;
 };
 
+OpenedLine open(const SerialSettings& settings) {
+  const Result<int> port = open_serial(settings);
+  if (!port) return tl::unexpected(port.error());
+  if (const auto warning = ask_for_low_latency(*port, settings.path)) spdlog::warn("{}", *warning);
+  return Descriptor(*port);
+}
+
 // On a thread, since an adapter that hangs may keep its driver busy for seconds.
 std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
-  Opener opener =
-      opener_on_thread([settings] { return open_serial(settings).map([](int port) { return Descriptor(port); }); });
-  return std::make_unique<OutsideLine>(std::move(opener), fmt::format("{} at {} baud", settings.path, settings.baud));
+  return std::make_unique<OutsideLine>(opener_on_thread([settings] { return open(settings); }),
+                                       fmt::format("{} at {} baud", settings.path, settings.baud));
 }
 
 std::unique_ptr<Line> make_tcp(const TcpSettings& settings, const stage::Profile& profile) {

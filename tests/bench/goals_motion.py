@@ -133,7 +133,9 @@ def _moves_of(gateway, what, pulses, count, series):
     measured = measure("moves", *gateway.targets["Unix"], "--pulses", str(pulses), "--count", str(count))
     after = gateway.exchanges_by_now()
     by_command = {name: (after[name] - before[name]) / count for name in after if after[name] != before[name]}
-    series.add(gateway.name, what, "exchanges", sum(by_command.values()))
+    # ?:CMD is asked behind each pause of the line, also the one before the measurement: whether the controller has
+    # restarted. It is shown, not counted.
+    series.add(gateway.name, what, "exchanges", sum(by_command.values()) - by_command.get("?:CMD", 0))
     series.add(gateway.name, what, "commands", by_command)
     # The completion has its time when its last byte has been received.
     completion_us = COMPLETION_BYTES * 10 * 1e6 / BAUD
