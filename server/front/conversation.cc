@@ -307,7 +307,11 @@ void Conversation::upstream_failed() {
 }
 
 void Conversation::take_window_update(const Frame& frame) {
-  if (!spend(Cost::control, 1)) return;
+  if (acknowledgements_due_ > 0) {
+    --acknowledgements_due_;
+  } else if (!spend(Cost::control, 1)) {
+    return;
+  }
   constexpr std::size_t kBytes = 4;
   if (frame.payload.size() != kBytes) return end(ErrorCode::frame_size_error, "WINDOW_UPDATE of a wrong length");
   if (frame.stream != 0) {
@@ -369,12 +373,20 @@ bool Conversation::take_server_frame(const Frame& frame) {
       return true;
     }
   }
-  if (frame.type == FrameType::data) window_ -= static_cast<std::int64_t>(frame.payload.size());
+  if (frame.type == FrameType::data) note_data(frame);
   to_client_ += frame.raw;
   if (ends_call(frame)) open_.erase(frame.stream);
   if (!in_server_block_) to_client_ += std::exchange(held_, {});
   send_answers();
   return true;
+}
+
+// Clients acknowledge what they were sent, on its stream and on the connection: that costs them nothing, or a thousand
+// streams of events would be a flood.
+void Conversation::note_data(const Frame& frame) {
+  constexpr int kAcknowledgements = 2, kMost = 100'000;
+  window_ -= static_cast<std::int64_t>(frame.payload.size());
+  acknowledgements_due_ = std::min(acknowledgements_due_ + kAcknowledgements, kMost);
 }
 
 }  // namespace axisgate::front

@@ -100,6 +100,7 @@ class Conversation {
   void send(const std::string& bytes);
 
   bool take_server_frame(const Frame& frame);
+  void note_data(const Frame& frame);
 
   Desk& desk_;
   const FrontLimits& limits_;
@@ -128,7 +129,8 @@ class Conversation {
   // knowledge.
   std::int64_t window_ = kFirstWindow;
   std::int64_t window_used_ = 0;
-  std::size_t untold_ = 0;  // bytes that the client may send again, and does not know
+  int acknowledgements_due_ = 0;  // WINDOW_UPDATEs for what gRPC has sent
+  std::size_t untold_ = 0;        // bytes that the client may send again, and does not know
   bool in_server_block_ = false;
   std::string held_;  // until gRPC's headers have ended
 

@@ -77,6 +77,21 @@ INSTANTIATE_TEST_SUITE_P(
                     Flood{"unwanted_calls", 400, unwanted_burst}, Flood{"rapid_reset", 40'000, begun_and_reset},
                     Flood{"continuation", 10, continued}));
 
+// A dashboard with many streams acknowledges each message, on its stream and on the connection.
+TEST_F(ConversationTest, WhatAcknowledgesMessagesIsNoFlood) {
+  open();
+  say(call(1, "/forward"));
+  conversation->from_server(settings_ack());
+  for (int i = 0; i < 15'000 && !conversation->fault(); ++i) {
+    conversation->from_server(message(1, "event", false));
+    say(window_update(1, 10) + window_update(0, 10));
+    heard();
+  }
+  EXPECT_FALSE(conversation->fault()) << fault();
+  for (int i = 0; i < 25'000 && !conversation->fault(); ++i) say(window_update(1, 1));
+  EXPECT_TRUE(conversation->fault()) << "nothing was sent any more";
+}
+
 TEST_F(ConversationTest, HeadersThatAreTooLongEndTheConnection) {
   open();
   Headers headers = {{":path", "/forward"}, {"x", std::string(17'000, 'a')}};
