@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <csignal>
 #include <cstdint>
 #include <cstdio>
@@ -16,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "device/link/clock.h"
 #include "server/access/access.h"
 #include "server/access/generation.h"
 #include "server/access/state_directory.h"
@@ -26,6 +28,7 @@
 #include "server/end_signals.h"
 #include "server/explain.h"
 #include "server/gateway.h"
+#include "server/journal/journal.h"
 #include "server/kinds.h"
 #include "server/logging.h"
 #include "server/metrics/certificate_metrics.h"
@@ -102,6 +105,21 @@ std::unique_ptr<server::Watchdog> watch(server::Gateway& gateway, rpc::Server& s
       server::notify_alive);
 }
 
+server::journal::Entry entry_of_daemon(server::journal::EntryKind kind) {
+  return {.kind = kind,
+          .time = std::chrono::system_clock::now(),
+          .boot_time = monotonic_now(),
+          .body = R"({"version":")" AXISGATE_VERSION R"("})"};
+}
+
+// Without it the daemon serves, and says so.
+std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state) {
+  auto opened = server::journal::Journal::open(state.file("journal.sqlite"));
+  if (opened) return *std::move(opened);
+  spdlog::error("no journal is kept: {}", server::explain(opened.error()));
+  return nullptr;
+}
+
 int serve(const server::Config& config) {
   server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
@@ -116,7 +134,9 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  server::Gateway gateway(config, *generation, state->path());
+  const std::unique_ptr<server::journal::Journal> journal = open_journal(*state);
+  if (journal) journal->append(entry_of_daemon(server::journal::EntryKind::daemon_started));
+  server::Gateway gateway(config, *generation, state->path(), journal.get());
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
@@ -140,6 +160,7 @@ int serve(const server::Config& config) {
   const auto watchdog = watch(gateway, **server);
   server::notify_ready();
   end_signals.wait(gateway);
+  if (journal) journal->append(entry_of_daemon(server::journal::EntryKind::daemon_ended));
   return 0;
 }
 

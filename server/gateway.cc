@@ -42,14 +42,15 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 
 }  // namespace
 
-Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory)
-    : config_(config), run_(random_run()), lease_tokens_(generation), events_(posting_to(readers_)) {
+Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory,
+                 journal::Journal* journal)
+    : config_(config), run_(random_run()), journal_(journal), lease_tokens_(generation), events_(posting_to(readers_)) {
   open_timers(lines_.context());
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, lines_.new_strand());
     auto stage = std::make_unique<Stage>(device, std::move(line), lines_, events_, metrics_, posting_to(readers_),
-                                         lease_tokens_, record_of(device, state_directory));
+                                         lease_tokens_, record_of(device, state_directory), journal);
     stages_.push_back(stage.get());
     devices_.push_back(std::move(stage));
   }

@@ -17,6 +17,7 @@
 #include "server/devices/stage.h"
 #include "server/events/event_bus.h"
 #include "server/events/timeouts.h"
+#include "server/journal/journal.h"
 #include "server/metrics/metrics.h"
 
 namespace axisgate::server {
@@ -28,8 +29,9 @@ class RecordingFile;
 class Gateway {
  public:
   // `generation` is greater for every start of the daemon (access/generation.h). What moves is kept in
-  // `state_directory` for a run after this one; without it nothing is.
-  Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {});
+  // `state_directory` for a run after this one; without it nothing is. `journal` outlives this; null: none is kept.
+  Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {},
+          journal::Journal* journal = nullptr);
   // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
   ~Gateway();
   Gateway(const Gateway&) = delete;
@@ -48,6 +50,7 @@ class Gateway {
   const Config& config() const { return config_; }
   const LeaseTokens& lease_tokens() const { return lease_tokens_; }
   EventBus& events() { return events_; }
+  const journal::Journal* journal() const { return journal_; }  // null: none is kept
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
   // Those of them that are stages.
@@ -62,6 +65,7 @@ class Gateway {
 
   const Config config_;
   const std::string run_;
+  journal::Journal* const journal_;
   LineThread lines_;
   boost::asio::io_context readers_{1};
   Work readers_work_{readers_.get_executor()};

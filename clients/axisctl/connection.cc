@@ -95,7 +95,8 @@ Connection::Connection(const Target& target)
       access(v1::AccessService::NewStub(channel_)),
       settings(v1::SettingService::NewStub(channel_)),
       simulators(v1::SimulatorService::NewStub(channel_)),
-      positions(v1::PositionService::NewStub(channel_)) {}
+      positions(v1::PositionService::NewStub(channel_)),
+      history(v1::HistoryService::NewStub(channel_)) {}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;

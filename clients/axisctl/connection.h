@@ -13,6 +13,7 @@
 #include "axisgate/v1/device.grpc.pb.h"
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
+#include "axisgate/v1/history.grpc.pb.h"
 #include "axisgate/v1/position.grpc.pb.h"
 #include "axisgate/v1/settings.grpc.pb.h"
 #include "axisgate/v1/simulator.grpc.pb.h"
@@ -68,6 +69,7 @@ class Connection {
   const std::unique_ptr<v1::SettingService::Stub> settings;
   const std::unique_ptr<v1::SimulatorService::Stub> simulators;
   const std::unique_ptr<v1::PositionService::Stub> positions;
+  const std::unique_ptr<v1::HistoryService::Stub> history;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

@@ -8,6 +8,7 @@ namespace {
 int exit_code(v1::Reason reason) {
   switch (reason) {
     case v1::REASON_LINK_DOWN:
+    case v1::REASON_JOURNAL_UNAVAILABLE:
     case v1::REASON_NOT_SENT:
     case v1::REASON_REPLY_TIMED_OUT:
     case v1::REASON_LINE_FAULT:

@@ -104,6 +104,12 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
      "axisctl clear\naxisctl motor 1,2,3 on"},
     {"exec", "Each LINE is a command of the manual. `axisctl commands` lists them.", "axisctl exec 'M:1+P1000' 'G:1'"},
     {"watch", "", "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C"},
+    {"history", "The daemon keeps it over restarts, in its state directory.",
+     "axisctl history --hours 12\naxisctl history --who 'unix anna' --limit 20\naxisctl history --motion 12"},
+    {"audit",
+     R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added.
+Who can write the file could compute all hashes again. So note the head that it prints, and check it later.)",
+     "axisctl audit verify"},
     {"whoami", "", "axisctl whoami"},
     {"lease", "`axisctl help leases` explains them.",
      R"(axisctl lease run --axes 1 --wait 60 --purpose 'scan of sample 12' -- axisctl move 1=0mm

@@ -1,4 +1,5 @@
-// CLI11 takes eight seconds to compile: only this unit, setting_options.cc and mill_options.cc include it.
+// CLI11 takes eight seconds to compile: only this unit, setting_options.cc, history_options.cc and mill_options.cc
+// include it.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
@@ -283,7 +284,7 @@ void set_groups(CLI::App& app) {
     std::vector<std::string> verbs;
   };
   const Group groups[] = {
-      {"Looking", {"devices", "status", "position", "watch", "whoami"}},
+      {"Looking", {"devices", "status", "position", "watch", "history", "audit", "whoami"}},
       {"Moving", {"home", "move", "path", "line", "arc", "scan", "jog", "save", "positions", "go", "forget"}},
       {"Stopping and sharing", {"stop", "estop", "rearm", "clear", "lease", "token"}},
       {"Settings",
@@ -353,6 +354,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_questions(app, options);
   add_motion_verbs(app, options);
   add_position_verbs(app, options);
+  add_history_verbs(app, options);
   add_other_verbs(app, options);
   add_lease_verbs(app, options);
   add_access_verbs(app, options);

@@ -63,6 +63,8 @@ enum class Verb {
   positions,
   go,
   forget,
+  history,
+  audit_verify,
   mill_check,
   mill_preview
 };
@@ -129,6 +131,11 @@ struct Options {
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
   int days = 90;                               // token create: until it expires
+  std::string who;                             // history: of this caller only
+  std::optional<std::uint64_t> motion;         // history: of this motion only
+  std::optional<int> hours;                    // history: of the last hours only
+  int limit = 100;                             // history: lines at most
+  std::string head;                            // audit verify: that was noted before
   MillOptions mill;
 };
 

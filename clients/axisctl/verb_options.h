@@ -21,6 +21,9 @@ void add_axes(CLI::App& verb, Options& options);
 // setting_options.cc
 void add_setting_verbs(CLI::App& app, Options& options);
 
+// history_options.cc
+void add_history_verbs(CLI::App& app, Options& options);
+
 // mill_options.cc
 void add_mill_verbs(CLI::App& app, Options& options);
 

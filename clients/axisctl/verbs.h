@@ -58,6 +58,8 @@ int save_position(const Session& session);
 int list_positions(const Session& session);
 int go_to_position(const Session& session);
 int forget_position(const Session& session);
+int history(const Session& session);
+int audit_verify(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

@@ -60,6 +60,8 @@ enum class Reason {
   epoch_passed,
   not_homed,
   unexplained,
+  // the journal
+  journal_unavailable,
 };
 
 // "STALE_SETPOINT" and the like, as they stand in the API and in log lines.

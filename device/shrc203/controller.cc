@@ -274,6 +274,8 @@ void Controller::cancel_motion(MotionId id, const RequestContext& context, TimeP
   });
 }
 
+void Controller::number_motions_after(MotionId last) { rooms_->motions.number_after(last); }
+
 void Controller::inherit(const stage::Unfinished& unfinished) {
   rooms_->line.ask_line_before();
   rooms_->orphans.inherit(unfinished);

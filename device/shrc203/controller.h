@@ -52,6 +52,7 @@ class Controller : public StageController {
   std::size_t queued(Lane lane) const override;
   int outstanding_answers() const override;
   void inherit(const stage::Unfinished& unfinished) override;
+  void number_motions_after(MotionId last) override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:

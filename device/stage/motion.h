@@ -12,7 +12,7 @@
 
 namespace axisgate::stage {
 
-using MotionId = std::uint64_t;  // 0 is none; counts from 1 as long as the daemon runs
+using MotionId = std::uint64_t;  // 0 is none; of each device they ascend
 
 enum class MotionKind { move, home, return_to_origin, path, execute, jog, scan };
 

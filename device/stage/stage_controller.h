@@ -85,6 +85,8 @@ class StageController : public LineMachine {
   // Before link_up(): what the run before this one had started. It is stopped, or finishes where the profile's
   // at_exit lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
   virtual void inherit(const Unfinished&) {}
+  // Once, before the first request: the next motion has the number behind this one. Otherwise they count from 1.
+  virtual void number_motions_after(MotionId last) = 0;
 
   // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
   // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers

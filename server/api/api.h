@@ -7,6 +7,7 @@
 #include "server/api/devices.h"
 #include "server/api/diagnostics.h"
 #include "server/api/events.h"
+#include "server/api/history.h"
 #include "server/api/jogs.h"
 #include "server/api/leases.h"
 #include "server/api/motions.h"
@@ -40,6 +41,7 @@ class Api {
         commands(gateway, access, pipeline, streams),
         devices(gateway, admission, pipeline, streams),
         events(gateway, admission, streams),
+        history(gateway, admission),
         diagnostics(gateway, admission, pipeline, streams),
         simulators(gateway, pipeline),
         tokens(gateway, access, admission, streams) {}
@@ -57,6 +59,7 @@ class Api {
   const Commands commands;
   const Devices devices;
   const Events events;
+  const History history;
   const Diagnostics diagnostics;
   const Simulators simulators;
   const Tokens tokens;

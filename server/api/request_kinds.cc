@@ -32,6 +32,8 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::record,             Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::get_support_report, Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::watch_events,       Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
+    {Kind::list_history,       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::verify_journal,     Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::save_position,      Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},
     {Kind::list_positions,     Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::delete_position,    Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::all_axes,  true},

@@ -29,6 +29,8 @@ enum class RequestKind {
   record,
   get_support_report,
   watch_events,
+  list_history,
+  verify_journal,
   save_position,
   list_positions,
   delete_position,

@@ -26,19 +26,22 @@ std::string because(const std::optional<Problem>& problem) {
 }  // namespace
 
 DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
-                           const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record)
+                           const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record,
+                           journal::DeviceEntries* entries)
     : device_(std::move(device)),
       bus_(bus),
       metrics_(metrics),
       recorder_(recorder),
       newest_state_(newest_state),
       due_(std::move(due)),
-      record_(record) {}
+      record_(record),
+      entries_(entries) {}
 
 void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
   metrics_.on_event(event);
   recorder_.on_event(event, now);
   if (record_ != nullptr) record_->on_event(event);
+  if (entries_ != nullptr) entries_->on_event(event, now);
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 

@@ -11,6 +11,7 @@
 #include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
 #include "server/events/newest.h"
+#include "server/journal/device_entries.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recorder.h"
 
@@ -23,9 +24,11 @@ class DeviceEvents : public stage::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // All that is referred to outlives this. Without `record` nothing is kept for the next run.
+  // All that is referred to outlives this. Without `record` nothing is
+  // kept for the next run, without `entries` nothing in the journal.
   DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
-               const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr);
+               const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr,
+               journal::DeviceEntries* entries = nullptr);
 
   void on_event(const stage::Event& event, TimePoint now) override;
   bool state_followed() const override { return newest_state_.has_subscribers(); }
@@ -65,6 +68,7 @@ class DeviceEvents : public stage::EventSink {
   const Newest<stage::State>& newest_state_;
   const OnDue due_;
   MotionRecord* const record_;
+  journal::DeviceEntries* const entries_;
   std::map<stage::MotionId, std::uint64_t> revisions_;
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;

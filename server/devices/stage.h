@@ -13,14 +13,17 @@
 #include "server/devices/device_events.h"
 #include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
+#include "server/journal/device_entries.h"
 
 namespace axisgate::server {
 
 class Stage final : public Device {
  public:
-  // `bus`, `metrics` and `thread` outlive this. `record` may be null.
+  // `bus`, `metrics` and `thread` outlive this. `record` and `journal` may be null;
+  // otherwise motions are numbered on from the journal's last.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
-        const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record);
+        const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
+        journal::Journal* journal);
 
   // From any thread.
   std::string_view kind_name() const override { return kind_.name(); }
@@ -40,6 +43,7 @@ class Stage final : public Device {
   Duration wind_down_limit() const override;
 
  private:
+  void number_motions_after(const journal::Journal& journal);
   void on_wound_down(const stage::WindDownReport& report);
   void on_due(DeviceEvents::Due due);
   void publish_due();
@@ -48,6 +52,7 @@ class Stage final : public Device {
   const stage::Profile profile_;
   Newest<stage::State> newest_state_;
   const std::unique_ptr<MotionRecord> record_;
+  std::optional<journal::DeviceEntries> entries_;
   DeviceEvents events_;
   std::unique_ptr<stage::StageController> controller_;
   bool due_ = false;  // publish_due() has something to do

@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 42> kKinds = {{
+constexpr std::array<MethodKind, 44> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -33,6 +33,8 @@ constexpr std::array<MethodKind, 42> kKinds = {{
     {"DiagnosticsService/Record", Kind::record},
     {"DiagnosticsService/GetSupportReport", Kind::get_support_report},
     {"EventService/Watch", Kind::watch_events},
+    {"HistoryService/ListHistory", Kind::list_history},
+    {"HistoryService/VerifyJournal", Kind::verify_journal},
     {"PositionService/SavePosition", Kind::save_position},
     {"PositionService/ListPositions", Kind::list_positions},
     {"PositionService/DeletePosition", Kind::delete_position},

@@ -27,6 +27,7 @@
 #include "server/rpc/event_service.h"
 #include "server/rpc/half_close.h"
 #include "server/rpc/health_service.h"
+#include "server/rpc/history_service.h"
 #include "server/rpc/position_service.h"
 #include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
@@ -71,6 +72,7 @@ class Server::Services {
   DeviceService devices_;
   StageService stage_;
   EventService events_;
+  HistoryService history_;
   CommandService commands_;
   SettingService settings_;
   SimulatorService simulators_;
@@ -100,6 +102,7 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       devices_(api_.devices),
       stage_(api_.motions, api_.paths, api_.jogs, half_close_),
       events_(api_.events),
+      history_(api_.history, gateway),
       commands_(api_.commands),
       settings_(api_.settings),
       simulators_(api_.simulators),
@@ -131,9 +134,9 @@ void Server::Services::build() {
   grpc::ServerBuilder builder;
   // By estimates of the bandwidth gRPC would raise the length of frames, which the front bounds.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
-  for (grpc::Service* service :
-       std::initializer_list<grpc::Service*>{&devices_, &stage_, &events_, &commands_, &settings_, &simulators_,
-                                             &positions_, &diagnostics_, &control_, &known_callers_, &health_}) {
+  for (grpc::Service* service : std::initializer_list<grpc::Service*>{
+           &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &diagnostics_,
+           &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;

@@ -241,6 +241,17 @@ Reason ask_tokens(World& world, RequestKind kind, const Call& call) {
   }
 }
 
+Reason ask_history(World& world, RequestKind kind, const Call& call) {
+  if (kind == RequestKind::list_history) {
+    Asking<HistoryPage> page;
+    world.api->history.list(call, server::journal::Filter(), 10, page.answer());
+    return page.reason();
+  }
+  Asking<JournalVerdict> verdict;
+  world.api->history.verify(call, std::nullopt, verdict.answer());
+  return verdict.reason();
+}
+
 Reason ask_stops(World& world, RequestKind kind, const Call& call) {
   Asking<std::vector<DeviceStop>> report;
   if (kind == RequestKind::stop) {
@@ -287,6 +298,9 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::get_support_report:
     case Kind::watch_events:
       return ask_readers(world, kind, call);
+    case Kind::list_history:
+    case Kind::verify_journal:
+      return ask_history(world, kind, call);
     case Kind::save_position:
     case Kind::list_positions:
     case Kind::delete_position:

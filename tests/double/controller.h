@@ -59,6 +59,7 @@ class Controller final : public StageController, private Wire::Listener {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
   int outstanding_answers() const override { return 0; }  // a late answer has an old sequence number
+  void number_motions_after(MotionId last) override { last_motion_ = last; }
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:

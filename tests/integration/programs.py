@@ -121,6 +121,10 @@ class Daemon:
     def exit_code(self):
         return self._process.wait(timeout=LIMIT_S)
 
+    def kill(self):
+        self._process.kill()
+        self._process.wait(timeout=LIMIT_S)
+
     def stop(self):
         self._process.terminate()
         try:

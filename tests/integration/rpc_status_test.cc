@@ -53,6 +53,7 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::epoch_passed, grpc::FAILED_PRECONDITION},
       {Reason::not_homed, grpc::FAILED_PRECONDITION},
       {Reason::unexplained, grpc::FAILED_PRECONDITION},
+      {Reason::journal_unavailable, grpc::UNAVAILABLE},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(v1::Reason_ARRAYSIZE));

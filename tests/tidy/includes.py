@@ -18,7 +18,7 @@ _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/co
 _FLOORS = {
     "device/core": (0,), "device/config": (0,), "device/stage": (1, 0), "device/*": (1, 1),
     "device": (1, 2),
-    "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/connections": (2, 2),
+    "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
     "server": (3,), "server/api": (4,), "server/rpc": (5,), "clients": (6,), "tests": (7,),
 }

@@ -1,11 +1,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <stdlib.h>
 
+#include <filesystem>
 #include <fstream>
 #include <string>
 
 #include "device/link/low_latency.h"
+#include "tests/unit/link_fixtures.h"
 
 namespace axisgate::link_test {
 namespace {
@@ -16,28 +17,28 @@ namespace fs = std::filesystem;
 class LowLatencyTest : public testing::Test {
  protected:
   LowLatencyTest() {
-    std::string name = (fs::temp_directory_path() / "axisgate-latency-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data());
-    std::ofstream(folder_ / "ttyUSB7");
-    fs::create_symlink(folder_ / "ttyUSB7", folder_ / "stage");
+    std::ofstream{tty_};
+    fs::create_symlink(tty_, link_);
   }
-  ~LowLatencyTest() override { fs::remove_all(folder_); }
 
   void show_timer(const std::string& text) {
-    fs::create_directories(folder_ / "classes" / "ttyUSB7" / "device");
-    std::ofstream(folder_ / "classes" / "ttyUSB7" / "device" / "latency_timer") << text;
+    fs::create_directories(fs::path(timer_).parent_path());
+    std::ofstream(timer_) << text;
   }
-  std::optional<std::string> ask() { return ask_for_low_latency(-1, folder_ / "stage", folder_ / "classes"); }
+  std::optional<std::string> ask() { return ask_for_low_latency(-1, link_, directory_ / "classes"); }
 
-  fs::path folder_;
+  const TemporaryDirectory directory_;
+  const std::string tty_ = directory_ / "ttyUSB7";
+  const std::string link_ = directory_ / "stage";
+  const std::string timer_ = directory_ / "classes/ttyUSB7/device/latency_timer";
 };
 
 TEST_F(LowLatencyTest, AnAdapterThatHoldsBackIsNamedWithWhatEndsIt) {
   show_timer("16\n");
   const auto warning = ask();
   ASSERT_TRUE(warning);
-  EXPECT_THAT(*warning, testing::HasSubstr((folder_ / "stage").string() + " holds replies back for up to 16 ms"));
-  EXPECT_THAT(*warning, testing::HasSubstr("echo 1 > " + (folder_ / "classes/ttyUSB7/device/latency_timer").string()));
+  EXPECT_THAT(*warning, testing::HasSubstr(link_ + " holds replies back for up to 16 ms"));
+  EXPECT_THAT(*warning, testing::HasSubstr("echo 1 > " + timer_));
 }
 
 TEST_F(LowLatencyTest, OneThatPassesRepliesOnAtOnceIsNot) {
@@ -49,7 +50,7 @@ TEST_F(LowLatencyTest, NorIsOneWithoutATimer) { EXPECT_FALSE(ask()); }
 
 TEST_F(LowLatencyTest, NorIsAPortThatHasGone) {
   show_timer("16\n");
-  fs::remove(folder_ / "ttyUSB7");
+  fs::remove(tty_);
   EXPECT_FALSE(ask());
 }
 

@@ -26,6 +26,8 @@ class Motions {
 
   Motions(StateStore& store, Registers& registers, Rights& rights, Tasks& tasks, Violations& violations);
 
+  // Before the first: the next has the number behind this one.
+  void number_after(MotionId last) { last_ = last; }
   // A new one, which waits for enter().
   LiveMotionPtr create(MotionKind kind, AxisSet axes, RequestContext context, OnStarted started);
   // Its turn. `prebuffer`: it will set prebuffers, which belong to one motion unless the profile says that each axis

@@ -1,0 +1,27 @@
+// The chain of hashes that shows whether a row was changed, removed, added or put elsewhere.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "server/journal/entry.h"
+
+namespace axisgate::server::journal {
+
+// The columns of a row as they are stored.
+struct Row {
+  std::int64_t number = 0;
+  std::int64_t time_us = 0;       // since 1970
+  std::int64_t boot_time_us = 0;  // since the machine's boot
+  std::int64_t kind = 0;
+  std::string_view device;
+  std::int64_t person = 0;
+  std::int64_t motion = 0;
+  std::string_view body;
+};
+
+// SHA-256. Of the first row: `before` is that of the journal's epoch.
+Hash hash_of(const Hash& before, const Row& row);
+Hash hash_of_epoch(std::string_view epoch);
+
+}  // namespace axisgate::server::journal

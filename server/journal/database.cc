@@ -1,0 +1,92 @@
+#include "server/journal/database.h"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+
+#include "server/access/synced_file.h"
+
+namespace axisgate::server::journal {
+namespace {
+
+// A reader holds the writer up for moments only.
+constexpr int kBusyMilliseconds = 2000;
+
+tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
+  const char* path = database == nullptr ? nullptr : sqlite3_db_filename(database, "main");
+  return fail(Reason::internal,
+              fmt::format("journal {}: {} failed: {}", path == nullptr ? "" : path, what, sqlite3_errmsg(database)),
+              "look at the disk's free space and rights");
+}
+
+}  // namespace
+
+Statement& Statement::bind(int parameter, std::int64_t value) {
+  sqlite3_bind_int64(statement_.get(), parameter, value);
+  return *this;
+}
+
+Statement& Statement::bind(int parameter, std::string_view text) {
+  sqlite3_bind_text64(statement_.get(), parameter, text.data(), text.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+  return *this;
+}
+
+Statement& Statement::bind_bytes(int parameter, std::string_view bytes) {
+  sqlite3_bind_blob64(statement_.get(), parameter, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
+  return *this;
+}
+
+Result<bool> Statement::step() {
+  switch (sqlite3_step(statement_.get())) {
+    case SQLITE_ROW:
+      return true;
+    case SQLITE_DONE:
+      return false;
+    default:
+      return failed(sqlite3_db_handle(statement_.get()), sqlite3_sql(statement_.get()));
+  }
+}
+
+std::string_view Statement::bytes(int column) const {
+  const auto* begin = static_cast<const char*>(sqlite3_column_blob(statement_.get(), column));
+  return {begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
+}
+
+tl::expected<Database, Unopened> Database::open(const std::string& path, Access access) {
+  if (access == Access::write) {
+    // SQLite would follow a link, and make a file that others may read.
+    const Result<Descriptor> file = open_state_file(path, O_RDWR | O_CREAT);
+    if (!file) return tl::unexpected(Unopened{file.error()});
+  }
+  const int flags = access == Access::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY;
+  sqlite3* opened = nullptr;
+  const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, nullptr);
+  Database database(opened);
+  if (code != SQLITE_OK) return tl::unexpected(Unopened{failed(opened, "opening it").value()});
+  sqlite3_busy_timeout(opened, kBusyMilliseconds);
+  if (access == Access::read) return database;
+  // In WAL mode only FULL syncs at each commit.
+  if (auto set = database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"); !set) {
+    return tl::unexpected(Unopened{set.error(), database.is_damaged()});
+  }
+  return database;
+}
+
+bool Database::is_damaged() const {
+  const int code = sqlite3_errcode(database_.get()) & 0xFF;
+  return code == SQLITE_CORRUPT || code == SQLITE_NOTADB;
+}
+
+Result<void> Database::run(const char* sql) {
+  if (sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) return failed(database_.get(), sql);
+  return {};
+}
+
+Result<Statement> Database::prepare(std::string_view sql) {
+  sqlite3_stmt* statement = nullptr;
+  if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr) != SQLITE_OK) {
+    return failed(database_.get(), sql);
+  }
+  return Statement(statement);
+}
+
+}  // namespace axisgate::server::journal

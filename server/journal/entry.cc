@@ -1,0 +1,35 @@
+#include "server/journal/entry.h"
+
+#include <fmt/format.h>
+
+namespace axisgate::server::journal {
+
+std::string name(EntryKind kind) {
+  switch (kind) {
+    case EntryKind::daemon_started:
+      return "daemon started";
+    case EntryKind::daemon_ended:
+      return "daemon ended";
+    case EntryKind::entries_left_out:
+      return "entries left out";
+    case EntryKind::motion_requested:
+      return "motion requested";
+    case EntryKind::motion_started:
+      return "motion started";
+    case EntryKind::motion_ended:
+      return "motion ended";
+    case EntryKind::stop_requested:
+      return "stop requested";
+    case EntryKind::link_changed:
+      return "link changed";
+    case EntryKind::barrier_entered:
+      return "barrier entered";
+    case EntryKind::foreign_motion:
+      return "foreign motion";
+    case EntryKind::switches_changed:
+      return "switches changed";
+  }
+  return fmt::format("kind {}", static_cast<int>(kind));
+}
+
+}  // namespace axisgate::server::journal

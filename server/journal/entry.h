@@ -1,0 +1,49 @@
+// What the journal has of one thing that happened.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "device/core/time.h"
+#include "server/events/wall_time.h"
+
+namespace axisgate::server::journal {
+
+// The numbers are in the file: they never change.
+enum class EntryKind {
+  daemon_started = 1,
+  daemon_ended = 2,
+  entries_left_out = 3,
+  motion_requested = 10,
+  motion_started = 11,
+  motion_ended = 12,
+  stop_requested = 20,
+  link_changed = 30,
+  barrier_entered = 31,
+  foreign_motion = 32,
+  switches_changed = 40,
+};
+// "motion ended" and the like; "kind 77" of a number that this program does not know.
+std::string name(EntryKind kind);
+
+struct Entry {
+  EntryKind kind = EntryKind::daemon_started;
+  WallTime time{};
+  TimePoint boot_time{};     // since the machine's boot: a clock that is set does not change it
+  std::string device{};      // empty: the daemon's own
+  std::string who{};         // the caller; empty: nobody
+  std::uint64_t motion = 0;  // its number; 0: none
+  std::string body{};        // JSON, without names of persons
+};
+
+using Hash = std::array<std::uint8_t, 32>;
+
+struct StoredEntry {
+  std::int64_t number = 0;  // counts from 1
+  Entry entry;
+  Hash hash{};
+};
+
+}  // namespace axisgate::server::journal

@@ -1,0 +1,259 @@
+#include "server/journal/store.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <random>
+#include <utility>
+#include <variant>
+
+#include "server/journal/chain.h"
+
+namespace axisgate::server::journal {
+namespace {
+
+constexpr std::int64_t kSchema = 1;
+constexpr const char* kMakeSchema = R"(
+CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
+CREATE TABLE person(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
+CREATE TABLE entry(
+  number INTEGER PRIMARY KEY, time_us INTEGER NOT NULL, boot_time_us INTEGER NOT NULL, kind INTEGER NOT NULL,
+  device TEXT NOT NULL, person INTEGER NOT NULL, motion INTEGER NOT NULL, body TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
+CREATE INDEX entry_by_time ON entry(time_us);
+CREATE INDEX entry_by_motion ON entry(device, motion);
+)";
+constexpr std::string_view kColumns =
+    "SELECT number, time_us, boot_time_us, kind, device, person, motion, body, hash, "
+    "coalesce((SELECT name FROM person WHERE id = person), '') FROM entry ";
+
+std::int64_t micros(WallTime time) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
+}
+
+std::int64_t micros(TimePoint time) {
+  return std::chrono::duration_cast<std::chrono::microseconds>(time.time_since_epoch()).count();
+}
+
+std::string random_epoch() {
+  std::random_device random;
+  return fmt::format("{:08x}{:08x}", random(), random());
+}
+
+Row row_of(const Statement& row) {
+  return {row.integer(0), row.integer(1), row.integer(2), row.integer(3),
+          row.bytes(4),   row.integer(5), row.integer(6), row.bytes(7)};
+}
+
+Hash stored_hash(const Statement& row) {
+  Hash hash{};
+  const std::string_view bytes = row.bytes(8);
+  if (bytes.size() == hash.size()) std::ranges::copy(bytes, hash.begin());
+  return hash;
+}
+
+StoredEntry entry_of(const Statement& row) {
+  StoredEntry stored{.number = row.integer(0), .entry = {}, .hash = stored_hash(row)};
+  stored.entry.time = WallTime(std::chrono::microseconds(row.integer(1)));
+  stored.entry.boot_time = TimePoint(std::chrono::microseconds(row.integer(2)));
+  stored.entry.kind = static_cast<EntryKind>(row.integer(3));
+  stored.entry.device = row.bytes(4);
+  stored.entry.motion = static_cast<std::uint64_t>(row.integer(6));
+  stored.entry.body = row.bytes(7);
+  stored.entry.who = row.bytes(9);
+  return stored;
+}
+
+// The conditions of a filter, each with what is bound to it.
+class Conditions {
+ public:
+  void add(std::string_view condition, std::int64_t value) { add(condition), values_.emplace_back(value); }
+  void add(std::string_view condition, std::string_view value) {
+    add(condition), values_.emplace_back(std::string(value));
+  }
+  void add_any_of(const std::vector<EntryKind>& kinds) {
+    std::string list;
+    for (const EntryKind kind : kinds) list += fmt::format("{}{}", list.empty() ? "" : ",", static_cast<int>(kind));
+    add(fmt::format("kind IN ({})", list));
+  }
+
+  std::string sql() const { return sql_; }
+  void bind(Statement& statement) const {
+    int parameter = 0;
+    for (const auto& value : values_) {
+      ++parameter;
+      std::visit([&](const auto& one) { statement.bind(parameter, one); }, value);
+    }
+  }
+
+ private:
+  void add(std::string_view condition) { sql_ += fmt::format("{}{} ", sql_.empty() ? "WHERE " : "AND ", condition); }
+
+  std::string sql_;
+  std::vector<std::variant<std::int64_t, std::string>> values_;
+};
+
+Conditions conditions_of(const Filter& filter) {
+  Conditions all;
+  if (filter.from) all.add("time_us >= ?", micros(*filter.from));
+  if (filter.to) all.add("time_us < ?", micros(*filter.to));
+  if (!filter.device.empty()) all.add("device = ?", filter.device);
+  if (!filter.who.empty()) all.add("person = (SELECT id FROM person WHERE name = ?)", filter.who);
+  if (filter.motion != 0) all.add("motion = ?", static_cast<std::int64_t>(filter.motion));
+  if (!filter.kinds.empty()) all.add_any_of(filter.kinds);
+  if (filter.before != 0) all.add("number < ?", filter.before);
+  return all;
+}
+
+}  // namespace
+
+tl::expected<Store, Unopened> Store::open(const std::string& path) {
+  auto database = Database::open(path, Database::Access::write);
+  if (!database) return tl::unexpected(database.error());
+  Store store(*std::move(database));
+  if (const auto good = store.check_schema(path); !good) {
+    return tl::unexpected(Unopened{good.error(), store.database_.is_damaged()});
+  }
+  return store;
+}
+
+Result<Store> Store::open_to_read(const std::string& path) {
+  auto database = Database::open(path, Database::Access::read);
+  if (!database) return tl::unexpected(database.error().problem);
+  return Store(*std::move(database));
+}
+
+Result<void> Store::check_schema(const std::string& path) {
+  auto version = database_.prepare("PRAGMA user_version");
+  if (!version) return tl::unexpected(version.error());
+  if (const auto row = version->step(); !row) return tl::unexpected(row.error());
+  const std::int64_t found = version->integer(0);
+  version->reset();
+  if (found == 0) return make_schema();
+  if (found == kSchema) return {};
+  return fail(Reason::internal,
+              fmt::format("journal {}: a newer version of axisgated has written it (schema {}, this one knows {})",
+                          path, found, kSchema),
+              "install that version again, or move the file away: a new journal then begins");
+}
+
+Result<void> Store::make_schema() {
+  const std::string sql =
+      fmt::format("BEGIN IMMEDIATE; {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
+                  kMakeSchema, random_epoch(), kSchema);
+  return database_.run(sql.c_str());
+}
+
+Result<void> Store::append(std::span<const Entry> entries) {
+  if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
+  Result<void> done;
+  Result<Head> last = head();
+  if (!last) done = tl::unexpected(last.error());
+  for (const Entry& entry : entries) {
+    if (done) done = add(entry, *last);
+  }
+  if (done) done = database_.run("COMMIT");
+  if (!done) (void)database_.run("ROLLBACK");
+  return done;
+}
+
+Result<void> Store::add(const Entry& entry, Head& head) {
+  const auto who = person(entry.who);
+  if (!who) return tl::unexpected(who.error());
+  const Row row{head.number + 1,
+                micros(entry.time),
+                micros(entry.boot_time),
+                static_cast<std::int64_t>(entry.kind),
+                entry.device,
+                *who,
+                static_cast<std::int64_t>(entry.motion),
+                entry.body};
+  head.hash = hash_of(head.hash, row);
+  head.number = row.number;
+  auto insert = database_.prepare("INSERT INTO entry VALUES(?, ?, ?, ?, ?, ?, ?, ?, ?)");
+  if (!insert) return tl::unexpected(insert.error());
+  insert->bind(1, row.number).bind(2, row.time_us).bind(3, row.boot_time_us).bind(4, row.kind).bind(5, row.device);
+  insert->bind(6, row.person).bind(7, row.motion).bind(8, row.body);
+  insert->bind_bytes(9, {reinterpret_cast<const char*>(head.hash.data()), head.hash.size()});
+  return insert->step().map([](bool) {});
+}
+
+// Made with the first entry that names it. 0: nobody.
+Result<std::int64_t> Store::person(std::string_view name) {
+  if (name.empty()) return 0;
+  auto insert = database_.prepare("INSERT OR IGNORE INTO person(name) VALUES(?)");
+  if (!insert) return tl::unexpected(insert.error());
+  if (const auto done = insert->bind(1, name).step(); !done) return tl::unexpected(done.error());
+  auto find = database_.prepare("SELECT id FROM person WHERE name = ?");
+  if (!find) return tl::unexpected(find.error());
+  return find->bind(1, name).step().map([&](bool) { return find->integer(0); });
+}
+
+Result<std::vector<StoredEntry>> Store::read(const Filter& filter, std::size_t limit) {
+  const Conditions conditions = conditions_of(filter);
+  auto rows = database_.prepare(fmt::format("{}{}ORDER BY number DESC LIMIT {}", kColumns, conditions.sql(), limit));
+  if (!rows) return tl::unexpected(rows.error());
+  conditions.bind(*rows);
+  std::vector<StoredEntry> found;
+  while (true) {
+    const auto row = rows->step();
+    if (!row) return tl::unexpected(row.error());
+    if (!*row) return found;
+    found.push_back(entry_of(*rows));
+  }
+}
+
+Result<std::uint64_t> Store::last_motion(std::string_view device) {
+  auto highest = database_.prepare("SELECT coalesce(max(motion), 0) FROM entry WHERE device = ?");
+  if (!highest) return tl::unexpected(highest.error());
+  return highest->bind(1, device).step().map([&](bool) { return static_cast<std::uint64_t>(highest->integer(0)); });
+}
+
+Result<std::string> Store::epoch() {
+  auto found = database_.prepare("SELECT value FROM meta WHERE key = 'epoch'");
+  if (!found) return tl::unexpected(found.error());
+  return found->step().map([&](bool there) { return there ? std::string(found->bytes(0)) : std::string(); });
+}
+
+Result<Head> Store::head() {
+  auto epoch = this->epoch();
+  if (!epoch) return tl::unexpected(epoch.error());
+  auto last = database_.prepare(fmt::format("{}ORDER BY number DESC LIMIT 1", kColumns));
+  if (!last) return tl::unexpected(last.error());
+  const auto there = last->step();
+  if (!there) return tl::unexpected(there.error());
+  if (!*there) return Head{*epoch, 0, hash_of_epoch(*epoch)};
+  return Head{*std::move(epoch), last->integer(0), stored_hash(*last)};
+}
+
+Result<Verdict> Store::verify(const std::optional<Head>& noted) {
+  const auto epoch = this->epoch();
+  if (!epoch) return tl::unexpected(epoch.error());
+  auto rows = database_.prepare(fmt::format("{}ORDER BY number", kColumns));
+  if (!rows) return tl::unexpected(rows.error());
+  Verdict verdict;
+  Hash hash = hash_of_epoch(*epoch);
+  const auto bad = [&](std::int64_t number, std::string fault) {
+    verdict.first_bad = number;
+    verdict.fault = std::move(fault);
+    return verdict;
+  };
+  if (noted && noted->epoch != *epoch) return bad(1, "the head is of another journal: a new one has begun since");
+  while (true) {
+    const auto there = rows->step();
+    if (!there) return tl::unexpected(there.error());
+    if (!*there) break;
+    const Row row = row_of(*rows);
+    if (row.number != verdict.rows + 1) return bad(verdict.rows + 1, "it is missing");
+    hash = hash_of(hash, row);
+    if (hash != stored_hash(*rows)) return bad(row.number, "it or its place was changed");
+    if (noted && noted->number == row.number && noted->hash != hash) {
+      return bad(row.number, "it or a row before it was changed since the head was noted, and all hashes with it");
+    }
+    ++verdict.rows;
+  }
+  if (noted && noted->number > verdict.rows)
+    return bad(verdict.rows + 1, "it is missing: the noted head lies behind it");
+  return verdict;
+}
+
+}  // namespace axisgate::server::journal

@@ -1,0 +1,181 @@
+// The journal's file: what is appended is found again, and what was changed is found out.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "server/journal/store.h"
+#include "tests/unit/link_fixtures.h"
+
+namespace axisgate::server::journal {
+namespace {
+
+using std::chrono::hours;
+using testing::HasSubstr;
+
+const WallTime kNight = std::chrono::sys_days(std::chrono::year(2026) / 11 / 24) + hours(1);
+
+Entry moved(std::uint64_t motion, std::string who, WallTime time) {
+  return {.kind = EntryKind::motion_ended,
+          .time = time,
+          .boot_time = TimePoint(std::chrono::seconds(motion)),
+          .device = "stage",
+          .who = std::move(who),
+          .motion = motion,
+          .body = R"({"outcome":"SUCCEEDED"})"};
+}
+
+class JournalStoreTest : public testing::Test {
+ protected:
+  JournalStoreTest() {
+    const std::array night{moved(1, "unix anna", kNight), moved(2, "unix bert", kNight + hours(1)),
+                           moved(3, "unix anna", kNight + hours(2))};
+    Store store = *Store::open(path_);
+    EXPECT_TRUE(store.append(night));
+  }
+
+  std::vector<std::uint64_t> found(const Filter& filter, std::size_t limit = 100) {
+    std::vector<std::uint64_t> motions;
+    const std::vector<StoredEntry> all = *Store::open(path_)->read(filter, limit);
+    for (const StoredEntry& stored : all) motions.push_back(stored.entry.motion);
+    return motions;
+  }
+  void tamper(const char* sql) { ASSERT_TRUE(Database::open(path_, Database::Access::write)->run(sql)) << sql; }
+  Verdict verdict(const std::optional<Head>& noted = {}) { return *Store::open_to_read(path_)->verify(noted); }
+
+  const link_test::TemporaryDirectory directory_;
+  const std::string path_ = directory_ / "journal.sqlite";
+};
+
+TEST_F(JournalStoreTest, WhatWasAppendedIsReadNewestFirst) {
+  const auto all = *Store::open(path_)->read({}, 100);
+  ASSERT_EQ(all.size(), 3u);
+  EXPECT_EQ(all[0].number, 3);
+  const Entry& newest = all[0].entry;
+  EXPECT_EQ(newest.kind, EntryKind::motion_ended);
+  EXPECT_EQ(newest.time, kNight + hours(2));
+  EXPECT_EQ(newest.boot_time, TimePoint(std::chrono::seconds(3)));
+  EXPECT_EQ(newest.device, "stage");
+  EXPECT_EQ(newest.who, "unix anna");
+  EXPECT_EQ(newest.motion, 3u);
+  EXPECT_EQ(newest.body, R"({"outcome":"SUCCEEDED"})");
+}
+
+TEST_F(JournalStoreTest, EachFilterCounts) {
+  using testing::ElementsAre;
+  EXPECT_THAT(found({.from = kNight + hours(1)}), ElementsAre(3, 2));
+  EXPECT_THAT(found({.to = kNight + hours(1)}), ElementsAre(1)) << "not at the end itself";
+  EXPECT_THAT(found({.who = "unix anna"}), ElementsAre(3, 1));
+  EXPECT_THAT(found({.who = "unix carl"}), ElementsAre());
+  EXPECT_THAT(found({.device = "mill"}), ElementsAre());
+  EXPECT_THAT(found({.motion = 2}), ElementsAre(2));
+  EXPECT_THAT(found({.kinds = {EntryKind::stop_requested}}), ElementsAre());
+  EXPECT_THAT(found({.before = 3}, 1), ElementsAre(2)) << "a page of one";
+}
+
+TEST_F(JournalStoreTest, MotionsAreNumberedOverRestarts) {
+  EXPECT_EQ(*Store::open(path_)->last_motion("stage"), 3u);
+  EXPECT_EQ(*Store::open(path_)->last_motion("mill"), 0u);
+}
+
+TEST_F(JournalStoreTest, AWholeChainIsGood) {
+  EXPECT_EQ(verdict().rows, 3);
+  EXPECT_FALSE(verdict().first_bad);
+}
+
+struct Tampering {
+  std::string_view name;
+  const char* sql;
+  std::int64_t first_bad;
+};
+void PrintTo(const Tampering& one, std::ostream* out) { *out << one.name; }
+
+class JournalTampering : public JournalStoreTest, public testing::WithParamInterface<Tampering> {};
+
+TEST_P(JournalTampering, IsFoundAtItsFirstRow) {
+  tamper(GetParam().sql);
+  EXPECT_EQ(verdict().first_bad, GetParam().first_bad) << verdict().fault;
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Rows, JournalTampering,
+    testing::Values(Tampering{"kind", "UPDATE entry SET kind = 20 WHERE number = 2", 2},
+                    Tampering{"time", "UPDATE entry SET time_us = time_us + 1 WHERE number = 2", 2},
+                    Tampering{"boot_time", "UPDATE entry SET boot_time_us = 0 WHERE number = 2", 2},
+                    Tampering{"device", "UPDATE entry SET device = 'mill' WHERE number = 2", 2},
+                    Tampering{"person", "UPDATE entry SET person = 1 WHERE number = 2", 2},
+                    Tampering{"motion", "UPDATE entry SET motion = 9 WHERE number = 2", 2},
+                    Tampering{"body", "UPDATE entry SET body = '{}' WHERE number = 2", 2},
+                    Tampering{"hash", "UPDATE entry SET hash = x'00' WHERE number = 2", 2},
+                    Tampering{"first_removed", "DELETE FROM entry WHERE number = 1", 1},
+                    Tampering{"one_removed", "DELETE FROM entry WHERE number = 2", 2},
+                    Tampering{"one_added",
+                              "INSERT INTO entry SELECT 4, time_us, boot_time_us, kind, device, person, motion, body, "
+                              "hash FROM entry WHERE number = 3",
+                              4},
+                    Tampering{"two_exchanged",
+                              "UPDATE entry SET number = -1 WHERE number = 1; UPDATE entry SET number = 1 WHERE "
+                              "number = 2; UPDATE entry SET number = 2 WHERE number = -1",
+                              1}),
+    [](const auto& one) { return std::string(one.param.name); });
+
+// Who can write the file can also compute all hashes again.
+TEST_F(JournalStoreTest, WhoComputesAllHashesIsFoundOutByAHeadThatWasNoted) {
+  const Head noted = *Store::open_to_read(path_)->head();
+  const auto rows = *Store::open_to_read(path_)->read({}, 100);
+  tamper("DELETE FROM entry");
+  std::vector<Entry> forged;
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) forged.push_back(row->entry);
+  forged[1].body = R"({"outcome":"FAILED"})";
+  ASSERT_TRUE(Store::open(path_)->append(forged));
+  EXPECT_FALSE(verdict().first_bad) << "the chain alone shows nothing";
+  EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
+  tamper("DELETE FROM entry WHERE number = 3");
+  EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
+}
+
+TEST_F(JournalStoreTest, AHeadOfAnotherFileIsNoneOfThisChain) {
+  Head noted = *Store::open_to_read(path_)->head();
+  noted.epoch = "0123";
+  EXPECT_EQ(verdict(noted).first_bad, 1);
+}
+
+// A person can be erased: the chain has a number.
+TEST_F(JournalStoreTest, ErasingANameLeavesTheChain) {
+  tamper("UPDATE person SET name = 'erased 1' WHERE name = 'unix anna'");
+  EXPECT_FALSE(verdict().first_bad);
+  EXPECT_THAT(found({.who = "unix anna"}), testing::IsEmpty());
+}
+
+TEST_F(JournalStoreTest, AnEntryThatIsNoTextIsKeptAsItIs) {
+  Entry odd = moved(4, "unix anna", kNight);
+  odd.device = std::string("a\0b", 3);
+  ASSERT_TRUE(Store::open(path_)->append(std::array{odd}));
+  const std::vector<StoredEntry> newest = *Store::open(path_)->read({}, 1);
+  EXPECT_EQ(newest.at(0).entry.device, odd.device);
+  EXPECT_FALSE(verdict().first_bad);
+}
+
+TEST_F(JournalStoreTest, AFileOfANewerVersionIsRefusedWithWhatToDo) {
+  tamper("PRAGMA user_version = 7");
+  const auto opened = Store::open(path_);
+  ASSERT_FALSE(opened);
+  EXPECT_FALSE(opened.error().damaged);
+  EXPECT_THAT(opened.error().problem.message, HasSubstr("a newer version of axisgated has written it (schema 7"));
+  EXPECT_THAT(opened.error().problem.hint, HasSubstr("install that version again"));
+}
+
+TEST_F(JournalStoreTest, AFileThatIsNoJournalIsDamaged) {
+  std::ofstream(path_, std::ios::trunc) << std::string(8192, 'x');
+  std::filesystem::remove(path_ + "-wal");
+  const auto opened = Store::open(path_);
+  ASSERT_FALSE(opened);
+  EXPECT_TRUE(opened.error().damaged);
+}
+
+}  // namespace
+}  // namespace axisgate::server::journal
