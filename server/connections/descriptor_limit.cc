@@ -9,7 +9,7 @@ namespace {
 
 // Each costs some 100 kB.
 constexpr std::size_t kConnectionsMax = 4096;
-// An idle daemon with one device has about 40 open, the reserve's among them; the metrics page may have 128
+// An idle daemon with one device has about 55 open, the reserve's among them; the metrics page may have 128
 // connections.
 constexpr std::size_t kSetAside = 320;
 // The client's, and both ends of its way to gRPC.

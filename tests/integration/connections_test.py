@@ -26,7 +26,7 @@ connection = "simulated"
 """
 
 # So few that connections exhaust them before as many are open as the daemon allows.
-DESCRIPTORS = 64
+DESCRIPTORS = 72
 
 # What every HTTP/2 client begins with, and an empty SETTINGS frame.
 HTTP2_BEGIN = b"PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + bytes([0, 0, 0, 4, 0, 0, 0, 0, 0])

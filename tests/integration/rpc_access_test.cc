@@ -18,14 +18,15 @@ using server::Role;
 
 // What each asks for, typed from README's table of roles. In kOperator are also what `admin_commands` keeps for
 // administrators.
-const std::set<std::string> kObserver = {"AccessService/GetCaller",    "CommandService/ListCommands",
-                                         "ControlService/WatchLeases", "DeviceService/ListDevices",
-                                         "DeviceService/GetDevice",    "DeviceService/WatchDevice",
-                                         "DiagnosticsService/Record",  "DiagnosticsService/GetSupportReport",
-                                         "EventService/Watch",         "StageService/Stop",
-                                         "StageService/EmergencyStop", "StageService/GetMotion",
-                                         "StageService/ListMotions",   "StageService/WatchMotion",
-                                         "SettingService/GetSettings", "PositionService/ListPositions"};
+const std::set<std::string> kObserver = {"AccessService/GetCaller",      "CommandService/ListCommands",
+                                         "ControlService/WatchLeases",   "DeviceService/ListDevices",
+                                         "DeviceService/GetDevice",      "DeviceService/WatchDevice",
+                                         "DiagnosticsService/Record",    "DiagnosticsService/GetSupportReport",
+                                         "EventService/Watch",           "HistoryService/ListHistory",
+                                         "HistoryService/VerifyJournal", "StageService/Stop",
+                                         "StageService/EmergencyStop",   "StageService/GetMotion",
+                                         "StageService/ListMotions",     "StageService/WatchMotion",
+                                         "SettingService/GetSettings",   "PositionService/ListPositions"};
 const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "ControlService/AcquireLease",
                                          "ControlService/KeepLeaseAlive",
