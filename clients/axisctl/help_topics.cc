@@ -104,7 +104,7 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
      "axisctl clear\naxisctl motor 1,2,3 on"},
     {"exec", "Each LINE is a command of the manual. `axisctl commands` lists them.", "axisctl exec 'M:1+P1000' 'G:1'"},
     {"watch", "", "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C"},
-    {"history", "The daemon keeps it over restarts, in its state directory.",
+    {"history", "The daemon keeps it in its state directory, also over restarts.",
      "axisctl history --hours 12\naxisctl history --who 'unix anna' --limit 20\naxisctl history --motion 12"},
     {"audit",
      R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added.

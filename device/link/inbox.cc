@@ -53,10 +53,10 @@ void Inbox::Queue::post(std::function<void()> task) {
     const std::lock_guard lock(mutex_);
     if (!reader_) return;
     tasks_.push_back(std::move(task));
-    if (tasks_.size() > 1) return;  // rung for already
+    if (tasks_.size() > 1) return;  // it has rung, and they are not all taken
   }
   const std::uint64_t ring = 1;
-  (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only where the count is full, and then it is heard as well
+  (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only where the count is full: then it rings anyway
 }
 
 void Inbox::Queue::close() {

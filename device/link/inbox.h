@@ -9,7 +9,7 @@
 namespace axisgate {
 
 // Why not boost::asio::post: Asio wakes the other thread while it holds the lock that this thread needs first, so that
-// most hand-overs put it to sleep a second time. That cost a question 10 µs each way.
+// most hand-overs put it to sleep a second time (README, Threads).
 //
 // Thread safe, except construction and close().
 class Inbox {

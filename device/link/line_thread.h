@@ -9,15 +9,14 @@
 
 namespace axisgate {
 
-// Whether the thread should stay awake for a moment. To be put to sleep and woken takes longer than an instant device
+// Whether the thread stays awake for a moment. To be put to sleep and woken takes longer than an instant device
 // needs for its reply, and a client for its next question. Such a device is a simulator: nobody stays awake for a line
 // that takes time. On the thread of its lines only.
 class Wakefulness {
  public:
   bool is_awake(TimePoint now) const { return now < until_; }
-  // A line was written, and the bytes that came behind it.
-  void written(TimePoint now);
-  void replied(TimePoint now);
+  void written(TimePoint now);  // a command
+  void replied(TimePoint now);  // bytes came; those that no command waits for do not count
 
  private:
   bool device_is_prompt_ = false;  // whichever replied last

@@ -32,8 +32,8 @@ std::optional<std::string> ask_for_low_latency(int port, const std::filesystem::
   int milliseconds = 0;
   if (!(std::ifstream(timer) >> milliseconds) || milliseconds <= kShortest) return std::nullopt;
   return fmt::format(
-      "the adapter of {} holds replies back for up to {} ms: `echo {} > {}` as root ends it until it is "
-      "unplugged",
+      "the adapter of {} holds replies back for up to {} ms: `echo {} > {}` as root ends that until "
+      "it is unplugged",
       path.string(), milliseconds, kShortest, timer.string());
 }
 

@@ -24,8 +24,8 @@ class DeviceEvents : public stage::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // All that is referred to outlives this. Without `record` nothing is
-  // kept for the next run, without `entries` nothing in the journal.
+  // All that is referred to outlives this. Without `record` nothing is kept for the next run, without `entries`
+  // nothing in the journal.
   DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
                const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr,
                journal::DeviceEntries* entries = nullptr);

@@ -19,8 +19,8 @@ namespace axisgate::server {
 
 class Stage final : public Device {
  public:
-  // `bus`, `metrics` and `thread` outlive this. `record` and `journal` may be null;
-  // otherwise motions are numbered on from the journal's last.
+  // `bus`, `metrics` and `thread` outlive this. `record` and `journal` may be null. With a journal,
+  // motions are numbered on from its last.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
         const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
         journal::Journal* journal);
