@@ -24,6 +24,7 @@
 #include "server/config/config.h"
 #include "server/connections/callers.h"
 #include "server/connections/descriptor_limit.h"
+#include "server/devices/motion_record.h"
 #include "server/devices/saved_positions.h"
 #include "server/end_signals.h"
 #include "server/explain.h"
@@ -114,7 +115,7 @@ server::journal::Entry entry_of_daemon(server::journal::EntryKind kind) {
 
 // Without it the daemon serves, and says so.
 std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state) {
-  auto opened = server::journal::Journal::open(state.file("journal.sqlite"));
+  auto opened = server::journal::Journal::open(state.file("journal.sqlite"), server::boot_id());
   if (opened) return *std::move(opened);
   spdlog::error("no journal is kept: {}", server::explain(opened.error()));
   return nullptr;
@@ -134,9 +135,9 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  const std::unique_ptr<server::journal::Journal> journal = open_journal(*state);
-  if (journal) journal->append(entry_of_daemon(server::journal::EntryKind::daemon_started));
+  const std::unique_ptr<server::journal::Journal> journal = config.journal.kept ? open_journal(*state) : nullptr;
   server::Gateway gateway(config, *generation, state->path(), journal.get());
+  if (journal) journal->append({entry_of_daemon(server::journal::EntryKind::daemon_started)});
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
   if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
   const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
@@ -160,7 +161,7 @@ int serve(const server::Config& config) {
   const auto watchdog = watch(gateway, **server);
   server::notify_ready();
   end_signals.wait(gateway);
-  if (journal) journal->append(entry_of_daemon(server::journal::EntryKind::daemon_ended));
+  if (journal) journal->append({entry_of_daemon(server::journal::EntryKind::daemon_ended)});
   return 0;
 }
 

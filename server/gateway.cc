@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "server/devices/after_crash.h"
 #include "server/devices/motion_record.h"
 #include "server/explain.h"
 #include "server/recording/recording_file.h"
@@ -36,6 +37,13 @@ std::unique_ptr<MotionRecord> record_of(const DeviceConfig& device, const std::s
   return nullptr;
 }
 
+journal::RequestMemory memory_of(const JournalConfig& config, journal::Journal* journal, const std::string& run) {
+  const journal::MemoryBounds bounds{std::chrono::hours(config.remember_hours),
+                                     static_cast<std::size_t>(config.remember_requests)};
+  if (journal == nullptr) return {bounds, run, Duration::zero()};
+  return {bounds, journal->epoch(), journal->boot_offset(), journal->take_requests()};
+}
+
 // Asio opens what its timers need with the first of them, and throws without a free descriptor: while it starts a
 // daemon may fail so, later not.
 void open_timers(boost::asio::io_context& context) { const boost::asio::steady_timer first(context); }
@@ -44,19 +52,29 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 
 Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory,
                  journal::Journal* journal)
-    : config_(config), run_(random_run()), journal_(journal), lease_tokens_(generation), events_(posting_to(readers_)) {
+    : config_(config),
+      run_(random_run()),
+      journal_(journal),
+      requests_(memory_of(config.journal, journal, run_)),
+      lease_tokens_(generation),
+      events_(posting_to(readers_)) {
   open_timers(lines_.context());
   open_timers(readers_);
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, lines_.new_strand());
     auto stage = std::make_unique<Stage>(device, std::move(line), lines_, events_, metrics_, posting_to(readers_),
-                                         lease_tokens_, record_of(device, state_directory), journal);
+                                         lease_tokens_, record_of(device, state_directory), journal, requests_);
     stages_.push_back(stage.get());
     devices_.push_back(std::move(stage));
   }
+  settle_what_was_left(journal, requests_, [this](std::string_view device) {
+    const Stage* const stage = find_stage(device);
+    return stage == nullptr ? std::nullopt : stage->started_before();
+  });
 }
 
 Gateway::~Gateway() {
+  if (journal_ != nullptr) journal_->answer_nobody();
   for (const auto& device : devices_) device->shutdown();
   readers_work_.reset();
   readers_.stop();

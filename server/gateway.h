@@ -18,6 +18,7 @@
 #include "server/events/event_bus.h"
 #include "server/events/timeouts.h"
 #include "server/journal/journal.h"
+#include "server/journal/request_memory.h"
 #include "server/metrics/metrics.h"
 
 namespace axisgate::server {
@@ -50,7 +51,8 @@ class Gateway {
   const Config& config() const { return config_; }
   const LeaseTokens& lease_tokens() const { return lease_tokens_; }
   EventBus& events() { return events_; }
-  const journal::Journal* journal() const { return journal_; }  // null: none is kept
+  journal::Journal* journal() const { return journal_; }  // null: none is kept
+  journal::RequestMemory& requests() { return requests_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }
   // Those of them that are stages.
@@ -66,6 +68,7 @@ class Gateway {
   const Config config_;
   const std::string run_;
   journal::Journal* const journal_;
+  journal::RequestMemory requests_;
   LineThread lines_;
   boost::asio::io_context readers_{1};
   Work readers_work_{readers_.get_executor()};

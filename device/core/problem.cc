@@ -53,8 +53,10 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "NOT_HOMED",
     "UNEXPLAINED",
     "JOURNAL_UNAVAILABLE",
+    "REQUEST_ID_REUSED",
+    "REQUEST_MEMORY_LOST",
 });
-static_assert(kNames.size() == static_cast<std::size_t>(Reason::journal_unavailable) + 1, "a name for each Reason");
+static_assert(kNames.size() == static_cast<std::size_t>(Reason::request_memory_lost) + 1, "a name for each Reason");
 
 }  // namespace
 

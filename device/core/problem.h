@@ -62,6 +62,8 @@ enum class Reason {
   unexplained,
   // the journal
   journal_unavailable,
+  request_id_reused,
+  request_memory_lost,
 };
 
 // "STALE_SETPOINT" and the like, as they stand in the API and in log lines.

@@ -1,5 +1,6 @@
 #include "device/shrc203/kind.h"
 
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <utility>
@@ -67,6 +68,16 @@ class Shrc203 final : public stage::Kind {
   Result<void> check_lines(const std::vector<std::string>& lines) const override {
     const auto commands = shrc203::check_lines(lines);
     return commands ? Result<void>() : tl::unexpected(commands.error());
+  }
+
+  bool changes_something(const std::vector<std::string>& lines) const override {
+    const auto commands = shrc203::check_lines(lines);
+    if (!commands) return false;
+    const auto any = [&](auto holds) {
+      return std::ranges::any_of(*commands, [&](const Command& command) { return holds(command.row->effect); });
+    };
+    return !any([](Effect effect) { return effect == Effect::stop; }) &&
+           any([](Effect effect) { return effect != Effect::question; });
   }
 
   std::vector<stage::CommandInfo> commands() const override { return list_commands(); }

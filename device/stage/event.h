@@ -83,7 +83,8 @@ struct ProgramNotice {
   std::int64_t count = 1;  // how often it was reported since the last of these
 };
 
-// A line was written, its CR LF included. For the recorder and metrics, as are the other events of the line itself.
+// A line is about to be written, its CR LF included. For the recorder and metrics, as are the other events of the line
+// itself.
 struct BytesWritten {
   std::string bytes;
   // Counts from 1 with each command sent, and belongs to what closes it, too. 0: a probe that belongs to none.
@@ -91,6 +92,7 @@ struct BytesWritten {
   std::string who;  // who requested it; empty: the line itself
   Lane lane = Lane::question;
   AxisSet completes{};  // the axes whose numbers may come from now on
+  MotionId motion = 0;  // whose line it is; 0: of none
   bool closed = false;  // an !:S follows an answer that could be such a number
 };
 

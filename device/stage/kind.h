@@ -64,6 +64,8 @@ class Kind {
   // Checks a caller's own lines, as far as the lines themselves allow it: malformed_line, unknown_command,
   // incomplete_transaction, invalid_request.
   virtual Result<void> check_lines(const std::vector<std::string>& lines) const = 0;
+  // Whether checked lines move or change something. Not where one of them is a stop, which waits for nothing.
+  virtual bool changes_something(const std::vector<std::string>&) const { return false; }
 
   // From here to read_position(): what a kind need not have. Nothing, where it has none of it.
   virtual std::vector<CommandInfo> commands() const;  // in the manual's order

@@ -44,6 +44,7 @@ struct Motion {
   AxisSet axes;
   std::vector<AxisResult> results;  // one per axis, ascending
   std::optional<Problem> problem;   // why it failed, was stopped or is unknown
+  bool written = false;             // a line of its own has gone out, so that its start may have
   std::string who;                  // the caller
   std::string request_id;
   TimePoint created{}, started{}, ended{};

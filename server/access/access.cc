@@ -53,6 +53,9 @@ std::string token_caller(std::string_view name) { return fmt::format("token {}",
 std::string certificate_caller(std::string_view name) { return fmt::format("{}{}", kCertificate, name); }
 std::string anonymous_caller(std::string_view address) { return fmt::format("{}{}", kAnonymous, address); }
 bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous) || who == kSharedUnixName; }
+std::string identity_of(std::string_view who) {
+  return std::string(who.starts_with(kAnonymous) ? kAnonymous.substr(0, kAnonymous.find(' ')) : who);
+}
 bool is_certainly(std::string_view who, std::string_view other) { return who == other && !is_anonymous(who); }
 
 }  // namespace axisgate::server

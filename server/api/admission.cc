@@ -49,13 +49,6 @@ TimePoint until(Patience patience, const Call& call) {
   return std::min(end, call.deadline.value_or(TimePoint::max()));
 }
 
-Result<void> check_request_id(const std::string& id) {
-  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
-  if (id.size() <= kRequestIdMax && std::ranges::all_of(id, printable)) return {};
-  return fail(Reason::invalid_request,
-              fmt::format("context.request_id is not at most {} printable ASCII characters", kRequestIdMax));
-}
-
 }  // namespace
 
 Result<Caller> Admission::identify(const Credential& credential) const {
@@ -100,6 +93,13 @@ Result<Caller> Admission::check_role(RequestKind kind, const Credential& credent
   return caller;
 }
 
+Result<void> Admission::check_request_id(const Call& call) {
+  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
+  if (call.request_id.size() <= kRequestIdMax && std::ranges::all_of(call.request_id, printable)) return {};
+  return fail(Reason::invalid_request,
+              fmt::format("context.request_id is not at most {} printable ASCII characters", kRequestIdMax));
+}
+
 Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call, const Caller& caller) const {
   const Rule& rule = rule_of(kind);
   if (rule.patience == Patience::stop) return context_of_stop(call);
@@ -112,7 +112,7 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
     context.lease = lease.value_or(server::LeaseTokens::kUnknown);
   }
   if (rule.patience == Patience::question) return context;
-  if (const auto good = check_request_id(call.request_id); !good) return tl::unexpected(good.error());
+  if (const auto good = check_request_id(call); !good) return tl::unexpected(good.error());
   context.request_id = call.request_id;
   if (rule.use == Use::nothing || rule.use == Use::lease) return context;
   context.device_epoch = call.device_epoch;

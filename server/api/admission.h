@@ -34,6 +34,9 @@ class Admission {
   // unauthenticated, not_allowed.
   Result<server::Caller> check_role(RequestKind kind, const Credential& credential) const;
 
+  // Of at most 128 printable ASCII characters. invalid_request.
+  static Result<void> check_request_id(const Call& call);
+
   // As the kind's patience and use have it. invalid_request for a request_id of more than 128 characters, or others
   // than printable ASCII; lease_lost for what is no token of a lease.
   Result<stage::RequestContext> context_of(RequestKind kind, const Call& call, const server::Caller& caller) const;

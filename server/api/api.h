@@ -30,7 +30,8 @@ class Api {
   // `gateway` outlives this, and `access` and `saved_positions` the gateway.
   Api(server::Gateway& gateway, const server::Access& access, server::SavedPositions& saved_positions)
       : admission(access, gateway.config().limits, gateway.lease_tokens()),
-        pipeline(admission),
+        mutations(gateway),
+        pipeline(admission, mutations),
         stops(gateway, admission),
         motions(gateway, pipeline, streams),
         paths(gateway, pipeline, streams),
@@ -48,6 +49,7 @@ class Api {
 
   Admission admission;
   Streams streams;
+  const Mutations mutations;
   const Pipeline pipeline;
   const Stops stops;
   const Motions motions;

@@ -31,6 +31,8 @@ struct Call {
   std::uint64_t device_epoch = 0;        // that the caller has in mind; 0: any
   std::uint64_t frame_epoch = 0;         // likewise
   bool validate_only = false;            // every check, and nothing is sent
+  std::string digest{};                  // of what is requested, the same for the same; with a request_id
+  std::string request_memory{};          // of a repeat: RequestMemory::mark() before the first time; else empty
 };
 
 // Called once, from any thread, also before the member that took it has returned. Dropped where the device's line is

@@ -10,6 +10,7 @@
 #include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/api/request_texts.h"
+#include "server/journal/answers.h"
 
 namespace axisgate::api {
 namespace {
@@ -53,23 +54,63 @@ Problem timed_out(Duration timeout) {
 // One transaction under way.
 class Execution final : public Subscription<ExecuteEvent> {
  public:
-  Execution(server::Gateway& gateway, server::Stage& device, stage::ExecuteRequest request, Duration timeout,
-            Streams::Place place)
+  Execution(server::Gateway& gateway, const Pipeline& pipeline, Call call, const Admitted& admitted,
+            Transaction transaction, Streams::Place place)
       : Subscription(std::move(place)),
         gateway_(gateway),
-        device_(device),
-        request_(std::move(request)),
-        timeout_(timeout) {}
+        pipeline_(pipeline),
+        call_(std::move(call)),
+        device_(*admitted.device),
+        request_{std::move(transaction.lines), admitted.context},
+        timeout_(transaction.timeout.value_or(kTimeout)) {}
 
  private:
   void begin() override {
-    device_.post([self = self<Execution>()](stage::StageController& controller, TimePoint now) {
-      audit(RequestKind::execute, self->device_, self->request_.context, text_of("execute", self->request_.lines));
-      controller.execute(std::move(self->request_), now, [self](const ExecuteEvent& event) { self->on_event(event); });
-    });
+    if (device_.kind().changes_something(request_.lines)) {
+      change();
+    } else {
+      device_.post([self = self<Execution>()](stage::StageController& controller, TimePoint now) {
+        audit(RequestKind::execute, self->device_, self->request_.context, text_of("execute", self->request_.lines));
+        self->execute(controller, now, nullptr);
+      });
+    }
     time_out_ = gateway_.timeouts().unless_dropped(timeout_ + kTimeoutGrace, [waiting = weak_from_this(), this] {
       if (const auto still = waiting.lock()) end(timed_out(timeout_));
     });
+  }
+
+  void change() {
+    pipeline_.act(
+        {RequestKind::execute, call_, &device_},
+        [self = self<Execution>()](const Turn&) -> Result<std::string> {
+          return text_of("execute", self->request_.lines);
+        },
+        [self = self<Execution>()](const Turn& turn, const MutationPtr& mutation) {
+          self->execute(turn.controller, turn.now, mutation);
+        },
+        [self = self<Execution>()](const Problem& problem) { self->end(problem); },
+        [self = self<Execution>()](server::Stage&, const Result<Known>& known) { self->repeat(known); });
+  }
+
+  void execute(stage::StageController& controller, TimePoint now, const std::shared_ptr<Mutation>& mutation) {
+    controller.execute(std::move(request_), now, [self = self<Execution>(), mutation](const ExecuteEvent& event) {
+      if (mutation) self->remember(event, *mutation);
+      self->on_event(event);
+    });
+  }
+
+  // On the strand. What was answered to no line at all may not have been sent.
+  void remember(const ExecuteEvent& event, Mutation& mutation) {
+    events_.push_back(event);
+    if (event.kind != ExecuteEvent::Kind::ended) return;
+    const bool answered = events_.size() > 1;
+    event.problem && !answered ? mutation.failed(*event.problem) : mutation.acted(server::journal::answer_of(events_));
+  }
+
+  void repeat(const Result<Known>& known) {
+    if (!known) return end(known.error());
+    if (const auto problem = server::journal::problem_in(known->answer)) return end(problem);
+    for (const ExecuteEvent& event : server::journal::events_in(known->answer)) on_event(event);
   }
 
   void on_event(const ExecuteEvent& event) {
@@ -103,8 +144,11 @@ class Execution final : public Subscription<ExecuteEvent> {
   void left() override { time_out_.reset(); }
 
   server::Gateway& gateway_;
+  const Pipeline& pipeline_;
+  const Call call_;
   server::Stage& device_;
-  stage::ExecuteRequest request_;  // on the device's strand
+  stage::ExecuteRequest request_;     // on the device's strand
+  std::vector<ExecuteEvent> events_;  // likewise
   const Duration timeout_;
   // Bounded by the transaction: a reply for each of its lines and a completion for each axis they move.
   std::deque<ExecuteEvent> due_;
@@ -138,13 +182,10 @@ Opened<ExecuteEvent> Commands::execute(const Call& call, std::string_view device
     if (!checked) return tl::unexpected(checked.error());
     return nullptr;
   }
-  const Duration timeout = transaction.timeout.value_or(kTimeout);
-  if (!call.not_after) admitted->context.not_after = monotonic_now() + timeout;
+  if (!call.not_after) admitted->context.not_after = monotonic_now() + transaction.timeout.value_or(kTimeout);
   Result<Streams::Place> place = streams_.take(RequestKind::execute, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());
-  return std::make_shared<Execution>(gateway_, *admitted->device,
-                                     stage::ExecuteRequest{std::move(transaction.lines), std::move(admitted->context)},
-                                     timeout, *std::move(place));
+  return std::make_shared<Execution>(gateway_, pipeline_, call, *admitted, std::move(transaction), *std::move(place));
 }
 
 }  // namespace axisgate::api

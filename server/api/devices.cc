@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "device/link/clock.h"
-#include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/api/request_texts.h"
 #include "server/api/targets.h"
@@ -58,11 +57,11 @@ class DeviceWatch final : public Subscription<DeviceState> {
 
 }  // namespace
 
-Result<std::vector<DeviceState>> Devices::list(const Call& call) const {
+Result<DeviceList> Devices::list(const Call& call) const {
   const auto caller = admission_.check_role(RequestKind::list_devices, call.credential);
   if (!caller) return tl::unexpected(caller.error());
-  std::vector<DeviceState> all;
-  for (const auto& device : gateway_.stages()) all.push_back({device, device->newest_state().get().value});
+  DeviceList all{{}, gateway_.requests().mark(), gateway_.journal() != nullptr && !gateway_.journal()->failure()};
+  for (const auto& device : gateway_.stages()) all.devices.push_back({device, device->newest_state().get().value});
   return all;
 }
 
@@ -96,8 +95,8 @@ void Devices::clear_errors(const Call& call, std::string_view device, const Resu
         return controllable_axes(named, turn.controller.state());
       },
       [](const Turn&, stage::AxisSet) { return Result<void>(); },
+      [](stage::AxisSet chosen) { return text_of("clear errors of", chosen); },
       [](const Turn& turn, stage::AxisSet chosen, const Answer<void>& respond) {
-        audit(RequestKind::clear_errors, turn.device, turn.context, text_of("clear errors of", chosen));
         turn.controller.clear_errors(chosen, turn.context, turn.now, respond);
       });
 }

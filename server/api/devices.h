@@ -4,6 +4,7 @@
 #include <chrono>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -23,6 +24,12 @@ struct DeviceState {
   std::shared_ptr<const stage::State> state;
 };
 
+struct DeviceList {
+  std::vector<DeviceState> devices;
+  std::string request_memory{};  // RequestMemory::mark()
+  bool requests_kept = false;    // also over a restart
+};
+
 // Not copied: valid during the call that hands it over.
 struct StateNow {
   const server::Stage* device = nullptr;
@@ -39,7 +46,7 @@ class Devices {
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
   // From memory. A stop needs it, for the device's name.
-  Result<std::vector<DeviceState>> list(const Call& call) const;
+  Result<DeviceList> list(const Call& call) const;
 
   // With `max_age` read again from the device where it is older: link_down while that is not up.
   void get(const Call& call, std::string_view device, std::optional<Duration> max_age, Answer<StateNow> answer) const;

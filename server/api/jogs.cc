@@ -4,7 +4,6 @@
 
 #include <utility>
 
-#include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/api/request_texts.h"
 
@@ -43,8 +42,27 @@ Result<std::shared_ptr<Jog>> Jogs::open(const Credential& caller) const {
 }
 
 bool Jog::start(const Call& call, std::string_view device, const Result<JogAxes>& axes) {
-  const Result<void> posted = post_start(call, device, axes);
-  return posted || refuse(posted.error());
+  const Result<server::Stage*> found = find_stage(gateway_, device);
+  {
+    const std::lock_guard lock(mutex_);
+    jogged_ = found.value_or(nullptr);
+  }
+  pipeline_.act(
+      {RequestKind::jog, call, found, check_directions(axes)},
+      [self = self<Jog>(), axes](const Turn& turn) -> Result<std::string> {
+        if (self->is_over()) return tl::unexpected(kBrokenOff);
+        if (const auto good = check_deadline(RequestKind::jog, turn.context, turn.now); !good) {
+          return tl::unexpected(good.error());
+        }
+        return text_of(stage::JogRequest{request_axes(*axes), turn.context});
+      },
+      [self = self<Jog>(), axes](const Turn& turn, const MutationPtr& mutation) {
+        self->begin_on(turn, *axes, mutation);
+      },
+      [self = self<Jog>()](const Problem& problem) { (void)self->refuse(problem); },
+      [self = self<Jog>()](server::Stage& its_device, const Result<Known>& known) { self->repeat(its_device, known); });
+  const std::lock_guard lock(mutex_);
+  return !refused_;
 }
 
 bool Jog::renew(const Result<JogAxes>& axes) {
@@ -52,31 +70,26 @@ bool Jog::renew(const Result<JogAxes>& axes) {
   return posted || refuse(posted.error());
 }
 
-Result<void> Jog::post_start(const Call& call, std::string_view device, const Result<JogAxes>& axes) {
-  const auto admitted = pipeline_.admit({RequestKind::jog, call, find_stage(gateway_, device), check_directions(axes)});
-  if (!admitted) return tl::unexpected(admitted.error());
-  {
-    const std::lock_guard lock(mutex_);
-    jogged_ = admitted->device;
-  }
-  admitted->device->post(
-      [self = self<Jog>(), &device = *admitted->device,
-       request = stage::JogRequest{request_axes(*axes), admitted->context}](
-          StageController& controller, TimePoint now) { self->begin_on(device, controller, request, now); });
-  return {};
+bool Jog::is_over() {
+  const std::lock_guard lock(mutex_);
+  over_ = over_ || broken_off_;
+  return over_;
 }
 
-void Jog::begin_on(server::Stage& device, StageController& controller, stage::JogRequest request, TimePoint now) {
-  {
-    const std::lock_guard lock(mutex_);
-    over_ = over_ || broken_off_;
-  }
-  if (over_) return end(kBrokenOff);
-  if (const auto good = check_deadline(RequestKind::jog, request.context, now); !good) return end(good.error());
+void Jog::begin_on(const Turn& turn, const JogAxes& axes, const MutationPtr& mutation) {
   follow_from_now();
-  audit(RequestKind::jog, device, request.context, text_of(request));
-  motion_ = controller.jog(std::move(request), now, [self = self<Jog>(), &device](const Result<stage::Motion>& motion) {
-    self->show(device, motion);
+  motion_ = turn.controller.jog({request_axes(axes), turn.context}, turn.now,
+                                [self = self<Jog>(), mutation, &device = turn.device](Result<stage::Motion> motion) {
+                                  motion ? mutation->acted({}) : mutation->failed(motion.error());
+                                  self->show(device, motion);
+                                });
+}
+
+// It never starts twice: the reader sees the first one.
+void Jog::repeat(server::Stage& device, const Result<Known>& known) {
+  device.post([self = self<Jog>(), &device, known](const StageController& controller, TimePoint) {
+    self->over_ = true;
+    self->show_repeated(device, controller, known);
   });
 }
 
@@ -102,6 +115,10 @@ void Jog::break_off() {
 }
 
 bool Jog::refuse(const Problem& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    refused_ = true;
+  }
   end(problem);
   stop(problem);
   return false;

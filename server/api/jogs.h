@@ -45,16 +45,17 @@ class Jog final : public MotionSubscription {
   void break_off() override;
 
  private:
-  Result<void> post_start(const Call& call, std::string_view device, const Result<std::vector<JogAxis>>& axes);
   Result<void> post_renewal(server::Stage& device, const Result<std::vector<JogAxis>>& axes);
-  void begin_on(server::Stage& device, stage::StageController& controller, stage::JogRequest request, TimePoint now);
+  bool is_over();
+  void begin_on(const Turn& turn, const std::vector<JogAxis>& axes, const MutationPtr& mutation);
+  void repeat(server::Stage& device, const Result<Known>& known);
   bool refuse(const Problem& problem);
   void stop(std::optional<Problem> why);
   server::Stage* device();
 
   const Pipeline& pipeline_;
-  server::Stage* jogged_ = nullptr;  // under mutex_; null: no message yet
-  bool broken_off_ = false;          // under mutex_
+  server::Stage* jogged_ = nullptr;            // under mutex_; null: no message yet
+  bool broken_off_ = false, refused_ = false;  // under mutex_
 
   // On the device's strand.
   stage::MotionId motion_ = 0;  // 0: none

@@ -73,8 +73,6 @@ server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::
   };
 }
 
-Result<void> nothing_to_check(const Turn&, const LeaseTerms&) { return {}; }
-
 class LeaseWatch final : public Subscription<Board> {
  public:
   LeaseWatch(server::Stage& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
@@ -97,16 +95,19 @@ class LeaseWatch final : public Subscription<Board> {
 
 }  // namespace
 
+// Without the memory of requests: a lease whose answer does not reach its caller is given back, so that a repeat seeks
+// one again.
 void Leases::acquire(const Call& call, std::string_view device, const Result<LeaseWish>& wish, Duration wait,
                      const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);
   const Result<Duration> waits = terms ? check_span(wait, kWaitMax, "wait") : tl::unexpected(terms.error());
-  pipeline_.run(
+  pipeline_.ask(
       {RequestKind::acquire_lease, call, find_stage(gateway_, device), fault_of(waits)}, answering(seeker),
-      [terms](const Turn&) { return terms; }, nothing_to_check,
-      [seeker, wait = waits.value_or(Duration())](const Turn& turn, const LeaseTerms& wanted, const auto&) {
+      [seeker, terms, wait = waits.value_or(Duration()), validate_only = call.validate_only](
+          const Turn& turn, const Answer<std::optional<Lease>>& respond) {
+        if (validate_only) return respond(std::nullopt);
         server::Stage& here = turn.device;
-        const std::uint64_t id = here.leases().acquire(wanted, turn.context.who, wait > Duration::zero(),
+        const std::uint64_t id = here.leases().acquire(*terms, turn.context.who, wait > Duration::zero(),
                                                        turn.now + wait, turn.now, handing_to(seeker, here));
         if (id == 0) return;
         seeker->when_gone([&here, id] {
@@ -118,12 +119,12 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
 void Leases::take_over(const Call& call, std::string_view device, const Result<LeaseWish>& wish,
                        const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);
-  pipeline_.run(
-      {RequestKind::take_over_lease, call, find_stage(gateway_, device), fault_of(terms)}, answering(seeker),
-      [terms](const Turn&) { return terms; }, nothing_to_check,
-      [seeker](const Turn& turn, const LeaseTerms& wanted, const auto&) {
-        turn.device.leases().take_over(wanted, turn.context.who, turn.now, handing_to(seeker, turn.device));
-      });
+  pipeline_.ask({RequestKind::take_over_lease, call, find_stage(gateway_, device), fault_of(terms)}, answering(seeker),
+                [seeker, terms, validate_only = call.validate_only](const Turn& turn,
+                                                                    const Answer<std::optional<Lease>>& respond) {
+                  if (validate_only) return respond(std::nullopt);
+                  turn.device.leases().take_over(*terms, turn.context.who, turn.now, handing_to(seeker, turn.device));
+                });
 }
 
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {

@@ -6,6 +6,8 @@
 #include <utility>
 #include <variant>
 
+#include "server/journal/answers.h"
+
 namespace axisgate::api {
 
 Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id) {
@@ -15,6 +17,14 @@ Result<stage::Motion> find_motion(const stage::StageController& controller, stag
                           stage::StageController::kMotionsKept));
 }
 
+Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& known,
+                                const stage::StageController& controller) {
+  if (known.open) return find_motion(controller, known.motion);
+  if (auto problem = server::journal::problem_in(known.answer)) return tl::unexpected(*std::move(problem));
+  if (auto motion = server::journal::motion_in(known.answer)) return *std::move(motion);
+  return fail(Reason::internal, "what became of the request cannot be read", "look at `axisctl history`");
+}
+
 void MotionSubscription::follow_from_now() {
   const std::lock_guard lock(mutex_);
   reader_.go_to_newest();
@@ -22,11 +32,23 @@ void MotionSubscription::follow_from_now() {
 
 void MotionSubscription::show(server::Stage& device, const Result<stage::Motion>& motion) {
   if (!motion) return end(motion.error());
+  follow(device, CurrentMotion(device, *motion));
+}
+
+void MotionSubscription::show_repeated(server::Stage& device, const stage::StageController& controller,
+                                       const Result<server::journal::RequestMemory::Known>& known) {
+  if (!known) return end(known.error());
+  follow_from_now();
+  const auto motion = motion_of(*known, controller);
+  motion ? follow(device, CurrentMotion::repeated(device, *motion)) : end(motion.error());
+}
+
+void MotionSubscription::follow(server::Stage& device, CurrentMotion motion) {
   {
     const std::lock_guard lock(mutex_);
     device_ = &device;
-    followed_ = motion->id;
-    set_due(CurrentMotion(device, *motion));
+    followed_ = motion.motion.id;
+    set_due(std::move(motion));
   }
   wake();
 }

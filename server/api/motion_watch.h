@@ -13,6 +13,7 @@
 #include "server/api/names.h"
 #include "server/api/subscription.h"
 #include "server/gateway.h"
+#include "server/journal/request_memory.h"
 
 namespace axisgate::api {
 
@@ -22,16 +23,29 @@ struct CurrentMotion {
   CurrentMotion(server::Stage& its_device, stage::Motion its_motion)
       : device(its_device.name()), motion(std::move(its_motion)), revision(its_device.motion_revision(motion.id)) {}
   // As a fact had it.
-  CurrentMotion(server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact)
+  CurrentMotion(const server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact)
       : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact) {}
+
+  // Of a request that came before.
+  static CurrentMotion repeated(const server::Stage& its_device, stage::Motion its_motion) {
+    CurrentMotion current(its_device, std::move(its_motion), 0);
+    current.is_repeated = true;
+    return current;
+  }
 
   std::string_view device;  // its name in the configuration; valid as long as the gateway
   stage::Motion motion;
   std::uint64_t revision = 0;  // of the newest fact about it; 0: not known
+  bool is_repeated = false;    // the answer to a request that came before
 };
 
 // The motion, or not_found. On the device's strand.
 Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id);
+
+// The motion of a request that came before, as it is or as it ended; or what the request came to instead. On the
+// device's strand.
+Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& known,
+                                const stage::StageController& controller);
 
 // What the streams of one motion share: they follow its changes, and where a reader was too slow for all of them, the
 // motion as it is now takes the place of those that were missed.
@@ -48,6 +62,9 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   void follow_from_now();
   // On the device's strand. Follows it from then on; or ends with what kept it from starting.
   void show(server::Stage& device, const Result<stage::Motion>& motion);
+  // Likewise, of a request that came before.
+  void show_repeated(server::Stage& device, const stage::StageController& controller,
+                     const Result<server::journal::RequestMemory::Known>& known);
   // Ends with that problem, after what is due; the first end counts.
   void end(const Problem& problem);
   // Fetches the motion as it is now.
@@ -58,6 +75,7 @@ class MotionSubscription : public Subscription<CurrentMotion> {
  private:
   void read_changes();
   void set_due(CurrentMotion motion);
+  void follow(server::Stage& device, CurrentMotion motion);
 
   FactReader reader_;
   server::Stage* device_ = nullptr;  // null: no motion is followed

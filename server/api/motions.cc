@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "device/stage/envelope.h"
-#include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/api/request_texts.h"
 
@@ -39,8 +38,8 @@ void Motions::move(const Call& call, std::string_view device, Result<Move> move,
       asked, std::move(answer),
       [move = std::move(move)](const Turn& turn) { return completed(*move, turn.controller.state(), turn.context); },
       [](const Turn& turn, const stage::MoveRequest& request) { return turn.controller.check(request); },
+      [](const stage::MoveRequest& request) { return text_of(request); },
       [](const Turn& turn, stage::MoveRequest request, const Answer<StartedMotion>& respond) {
-        audit(RequestKind::move, turn.device, turn.context, text_of(request));
         turn.controller.move(std::move(request), turn.now, answering(turn.device, respond));
       });
 }
@@ -63,9 +62,10 @@ void Motions::begin_home(RequestKind kind, Start start, const Call& call, std::s
         return stage::HomeRequest{axes, turn.context};
       },
       check_home,
-      [kind, start](const Turn& turn, stage::HomeRequest request, const Answer<StartedMotion>& respond) {
-        audit(kind, turn.device, turn.context,
-              text_of(kind == RequestKind::home ? "home" : "return to the logical origin", request.axes));
+      [kind](const stage::HomeRequest& request) {
+        return text_of(kind == RequestKind::home ? "home" : "return to the logical origin", request.axes);
+      },
+      [start](const Turn& turn, stage::HomeRequest request, const Answer<StartedMotion>& respond) {
         (turn.controller.*start)(std::move(request), turn.now, answering(turn.device, respond));
       });
 }
@@ -81,8 +81,8 @@ void Motions::scan(const Call& call, std::string_view device, Result<stage::Scan
         return request;
       },
       [](const Turn& turn, const stage::ScanRequest& request) { return turn.controller.check(request); },
+      [](const stage::ScanRequest& request) { return text_of(request); },
       [](const Turn& turn, stage::ScanRequest request, const Answer<StartedMotion>& respond) {
-        audit(RequestKind::scan, turn.device, turn.context, text_of(request));
         turn.controller.scan(std::move(request), turn.now, answering(turn.device, respond));
       });
 }

@@ -16,9 +16,6 @@
 
 namespace axisgate::api {
 
-// A motion that has started. Nothing: it was to be checked only.
-using StartedMotion = std::optional<CurrentMotion>;
-
 // Thread safe. Each answers with what kept it from starting, or when it has started: with the problems of
 // Pipeline::admit(), of Permission, and of the device.
 class Motions {

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include "server/api/audit.h"
 #include "server/api/names.h"
 
 namespace axisgate::api {
@@ -107,57 +106,89 @@ Result<void> Path::take_segment(Result<stage::Segment> segment) {
   return {};
 }
 
-Result<Admitted> Path::admit() const {
-  if (path_.segments.empty()) {
-    return fail(Reason::invalid_request, "the path has no segment", "send a header, then segments");
-  }
-  return pipeline_.admit({RequestKind::run_path, *call_, taken_for_});
+std::optional<Problem> Path::fault() const {
+  if (!path_.segments.empty()) return std::nullopt;
+  return Problem{
+      .reason = Reason::invalid_request, .message = "the path has no segment", .hint = "send a header, then segments"};
 }
 
-void Path::run() {
+void Path::run(std::string digest) {
   if (broken_off()) return;
-  const Result<Admitted> admitted = admit();
-  if (!admitted) {
-    end(admitted.error());
+  if (!call_) {
+    end(fault());
     return;
   }
-  admitted->device->post(
-      [self = self<Path>(), &device = *admitted->device, context = admitted->context](
-          StageController& controller, TimePoint now) { self->run_on(device, controller, context, now); });
+  call_->digest = std::move(digest);
+  if (call_->validate_only) return check_only();
+  pipeline_.act(
+      {RequestKind::run_path, *call_, taken_for_, fault()},
+      [self = self<Path>()](const Turn& turn) { return self->ready(turn); },
+      [self = self<Path>()](const Turn& turn, const MutationPtr& mutation) { self->run_on(turn, mutation); },
+      [self = self<Path>()](const Problem& problem) { self->end(problem); },
+      [self = self<Path>()](server::Stage& device, const Result<Known>& known) {
+        device.post([self, &device, known](const StageController& controller, TimePoint) {
+          self->repeat(device, controller, known);
+        });
+      });
 }
 
-void Path::run_on(server::Stage& device, StageController& controller, stage::RequestContext context, TimePoint now) {
-  if (broken_off()) return;
-  path_.context = std::move(context);
-  if (call_->validate_only) {
-    const Result<void> checked = controller.check(path_);
-    end(fault_of(checked));
-    return;
+void Path::check_only() {
+  pipeline_.ask<void>(
+      {RequestKind::run_path, *call_, taken_for_, fault()},
+      [self = self<Path>()](const Result<void>& checked) { self->end(fault_of(checked)); },
+      [self = self<Path>()](const Turn& turn, const Answer<void>& respond) {
+        self->path_.context = turn.context;
+        respond(turn.controller.check(self->path_));
+      });
+}
+
+Result<std::string> Path::ready(const Turn& turn) {
+  if (broken_off()) return fail(Reason::stopped, "the call of the path broke off before it ran");
+  if (const auto good = check_deadline(RequestKind::run_path, turn.context, turn.now); !good) {
+    return tl::unexpected(good.error());
   }
-  if (const auto good = check_deadline(RequestKind::run_path, path_.context, now); !good) {
-    end(good.error());
-    return;
-  }
+  return fmt::format("run a path of {} segments", path_.segments.size());
+}
+
+void Path::run_on(const Turn& turn, const MutationPtr& mutation) {
   {
     const std::lock_guard lock(mutex_);
     reader_.go_to_newest();
   }
-  audit(RequestKind::run_path, device, path_.context, fmt::format("run a path of {} segments", path_.segments.size()));
-  controller.run_path(std::move(path_), now, [self = self<Path>(), &device](const Result<stage::Motion>& motion) {
-    self->on_started(device, motion);
-  });
+  path_.context = turn.context;
+  turn.controller.run_path(std::move(path_), turn.now,
+                           [self = self<Path>(), mutation, &device = turn.device](const Result<stage::Motion>& motion) {
+                             if (!motion) {
+                               mutation->failed(motion.error());
+                               self->end(motion.error());
+                               return;
+                             }
+                             mutation->acted({});
+                             self->follow(device, CurrentMotion(device, *motion));
+                           });
 }
 
-void Path::on_started(server::Stage& device, const Result<stage::Motion>& motion) {
+// On the device's strand.
+void Path::repeat(server::Stage& device, const StageController& controller, const Result<Known>& known) {
+  const auto motion = known ? motion_of(*known, controller) : tl::unexpected(known.error());
   if (!motion) {
     end(motion.error());
     return;
   }
   {
     const std::lock_guard lock(mutex_);
+    reader_.go_to_newest();
+  }
+  follow(device, CurrentMotion::repeated(device, *motion));
+}
+
+void Path::follow(server::Stage& device, CurrentMotion motion) {
+  {
+    const std::lock_guard lock(mutex_);
     device_ = &device;
-    motion_ = motion->id;
-    due_ = PathStep{device.name(), CurrentMotion(device, *motion)};
+    motion_ = motion.motion.id;
+    if (stage::is_outcome(motion.motion.state)) end_ = StreamEnd{};
+    due_ = PathStep{device.name(), std::move(motion)};
   }
   wake();
 }

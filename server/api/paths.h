@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -42,17 +43,21 @@ class Path final : public Subscription<PathStep> {
   // A part that is neither: the stream ends with `problem`. False, always.
   bool refuse_part(Problem problem) { return end(std::move(problem)); }
 
-  // All segments have come: the path runs. It counts from now on, as far as its call does not say until when.
-  void run();
+  // All segments have come: the path runs. It counts from now on, as far as its call does not say until when. `digest`
+  // is of all that came: Call::digest.
+  void run(std::string digest);
   // The caller has gone without a word: what has not been posted by then does not run, since it may be half a path.
   void break_off() override;
 
  private:
   Result<void> take_head(const Call& call, std::string_view device);
   Result<void> take_segment(Result<stage::Segment> segment);
-  Result<Admitted> admit() const;
-  void run_on(server::Stage& device, stage::StageController& controller, stage::RequestContext context, TimePoint now);
-  void on_started(server::Stage& device, const Result<stage::Motion>& motion);
+  std::optional<Problem> fault() const;
+  Result<std::string> ready(const Turn& turn);
+  void check_only();
+  void run_on(const Turn& turn, const MutationPtr& mutation);
+  void repeat(server::Stage& device, const stage::StageController& controller, const Result<Known>& known);
+  void follow(server::Stage& device, CurrentMotion motion);
   bool end(std::optional<Problem> problem);
   bool broken_off();
 

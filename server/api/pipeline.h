@@ -4,12 +4,17 @@
 
 #include <memory>
 #include <optional>
+#include <string>
+#include <type_traits>
 #include <utility>
 
 #include "device/core/problem.h"
 #include "device/stage/stage_controller.h"
 #include "server/api/admission.h"
+#include "server/api/audit.h"
 #include "server/api/call.h"
+#include "server/api/mutations.h"
+#include "server/api/repeats.h"
 #include "server/api/request_kinds.h"
 #include "server/devices/stage.h"
 
@@ -46,45 +51,125 @@ Result<void> check_deadline(RequestKind kind, const stage::RequestContext& conte
 // Thread safe.
 class Pipeline {
  public:
-  // It outlives this.
-  explicit Pipeline(const Admission& admission) : admission_(admission) {}
+  // Both outlive this.
+  Pipeline(const Admission& admission, const Mutations& mutations) : admission_(admission), mutations_(mutations) {}
 
   // In this order: unauthenticated, not_allowed; invalid_request or unknown_device; invalid_request for a request_id;
   // the fault of the rest.
   Result<Admitted> admit(const Asked& asked) const;
 
   // Posts to the device. There `prepare` makes what is to be done of the request and the device's state, or refuses;
-  // `check` does the rest of the checks where validate_only ends the request there; `begin` does it and answers.
-  //   Result<Prepared> prepare(const Turn&)
+  // `check` does the rest of the checks where validate_only ends the request there; `describe` says what it is, for the
+  // log and the journal; `begin` does it and answers.
+  //   Result<Prepared> prepare(const Turn&), several times
   //   Result<void> check(const Turn&, const Prepared&)
+  //   std::string describe(const Prepared&)
   //   void begin(const Turn&, Prepared, const Answer<Outcome>&)
-  // The answer to validate_only is an empty Outcome.
-  template <class Outcome, class Prepare, class Check, class Begin>
-  void run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Begin begin) const;
+  // The answer to validate_only is an empty Outcome. A request whose id has come before is answered by `repeat`.
+  template <class Outcome, class Prepare, class Check, class Describe, class Begin>
+  void run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe, Begin begin,
+           std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Outcome>()) const;
 
-  // Likewise, for what has nothing to check there, and no validate_only.
+  // What changes something, and answers in its own way. `ready` is called on the strand, before it is in the journal
+  // and, where that has taken time, again: whether it may be done now, and what it is. `begin` does it, and says what
+  // became of it. `refuse` and `repeat` are called from any thread.
+  //   Result<std::string> ready(const Turn&)
+  //   void begin(const Turn&, const MutationPtr&)
+  //   void refuse(const Problem&)
+  //   void repeat(server::Stage&, const Result<Known>&)
+  template <class Ready, class Begin, class Refuse, class Again>
+  void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const;
+
+  // For what has nothing to check there, and no validate_only.
   //   void begin(const Turn&, const Answer<Outcome>&)
   template <class Outcome, class Begin>
   void ask(const Asked& asked, Answer<Outcome> answer, Begin begin) const;
 
  private:
+  struct Identified {
+    server::Stage* device = nullptr;  // never null
+    server::Caller caller;
+  };
+  Result<Identified> identify(const Asked& asked) const;
+  Result<Admitted> admit(const Asked& asked, Identified identified) const;
   static Result<void> check_right(RequestKind kind, const Turn& turn);
+  // Whether it may be done now.
+  static Result<void> check_now(RequestKind kind, const Turn& turn);
 
   const Admission& admission_;
+  const Mutations& mutations_;
 };
 
-template <class Outcome, class Prepare, class Check, class Begin>
-void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Begin begin) const {
-  ask(asked, std::move(answer),
-      [kind = asked.kind, validate_only = asked.call.validate_only, prepare = std::move(prepare),
-       check = std::move(check), begin = std::move(begin)](const Turn& turn, const Answer<Outcome>& respond) {
-        auto prepared = prepare(turn);
-        if (!prepared) return respond(tl::unexpected(prepared.error()));
-        Result<void> good = check_right(kind, turn);
-        if (good) good = validate_only ? check(turn, *prepared) : check_deadline(kind, turn.context, turn.now);
-        if (!good) return respond(tl::unexpected(good.error()));
-        validate_only ? respond(Result<Outcome>()) : begin(turn, *std::move(prepared), respond);
+template <class Ready, class Begin, class Refuse, class Again>
+void Pipeline::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
+  const Result<Identified> identified = identify(asked);
+  if (!identified) return refuse(identified.error());
+  server::Stage& device = *identified->device;
+  const auto begun = mutations_.begin(asked.kind, asked.call, device, identified->caller.who,
+                                      [&device, repeat](const auto& known) { repeat(device, known); });
+  if (!begun) return refuse(begun.error());
+  if (*begun == nullptr) return;
+  const MutationPtr mutation = *begun;
+  auto refuse_it = [mutation, refuse](const Problem& problem) {
+    mutation->failed(problem);
+    refuse(problem);
+  };
+  Result<Admitted> admitted = admit(asked, *identified);
+  if (!admitted) return refuse_it(admitted.error());
+  // Shared by the two visits to the strand.
+  struct Visit {
+    Admitted admitted;
+    Ready ready;
+    Begin begin;
+  };
+  const auto visit = std::make_shared<Visit>(Visit{*std::move(admitted), std::move(ready), std::move(begin)});
+  device.post([kind = asked.kind, visit, mutation, refuse_it](stage::StageController& controller, TimePoint now) {
+    const Admitted& it = visit->admitted;
+    const Turn turn{*it.device, controller, it.caller, it.context, now};
+    const Result<std::string> what = visit->ready(turn);
+    if (!what) return refuse_it(what.error());
+    audit(kind, turn.device, turn.context, *what);
+    const auto then = [visit, mutation, refuse_it](const Result<void>& written) {
+      if (!written) return refuse_it(written.error());
+      visit->admitted.device->post([visit, mutation, refuse_it](stage::StageController& same, TimePoint later) {
+        const Admitted& still = visit->admitted;
+        const Turn second{*still.device, same, still.caller, still.context, later};
+        const Result<std::string> yet = visit->ready(second);
+        yet ? visit->begin(second, mutation) : refuse_it(yet.error());
       });
+    };
+    if (!mutation->intend(it.context, *what, then)) visit->begin(turn, mutation);
+  });
+}
+
+template <class Outcome, class Prepare, class Check, class Describe, class Begin>
+void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe,
+                   Begin begin, std::type_identity_t<Repeat<Outcome>> repeat) const {
+  if (asked.call.validate_only) {
+    return ask(asked, std::move(answer),
+               [kind = asked.kind, prepare, check](const Turn& turn, const Answer<Outcome>& respond) {
+                 auto prepared = prepare(turn);
+                 if (!prepared) return respond(tl::unexpected(prepared.error()));
+                 Result<void> good = check_right(kind, turn);
+                 if (good) good = check(turn, *prepared);
+                 good ? respond(Result<Outcome>()) : respond(tl::unexpected(good.error()));
+               });
+  }
+  act(
+      asked,
+      [kind = asked.kind, prepare, describe](const Turn& turn) -> Result<std::string> {
+        auto prepared = prepare(turn);
+        if (!prepared) return tl::unexpected(prepared.error());
+        if (const auto good = check_now(kind, turn); !good) return tl::unexpected(good.error());
+        return describe(*prepared);
+      },
+      [prepare, begin, answer](const Turn& turn, const MutationPtr& mutation) {
+        const Answer<Outcome> respond = settling(mutation, answer);
+        auto prepared = prepare(turn);
+        prepared ? begin(turn, *std::move(prepared), respond) : respond(tl::unexpected(prepared.error()));
+      },
+      [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
+      [repeat, answer](server::Stage& device, const auto& known) { repeat(device, known, answer); });
 }
 
 template <class Outcome, class Begin>

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "device/link/clock.h"
-#include "server/api/audit.h"
 #include "server/api/position_changes.h"
 #include "server/api/position_checks.h"
 #include "server/api/setting_lines.h"
@@ -65,11 +64,21 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
         return Saving{gateway, positions, kind, *lines, position, *std::move(number), positions.find(device, own)};
       },
       [](const Turn&, const Saving&) { return Result<void>(); },
+      [](const Saving& saving) {
+        return fmt::format("save the position {}: {}", saving.position.name, saving.lines.save);
+      },
       [](const Turn& turn, Saving saving, const Answer<Outcome>& respond) {
         saving.answer = respond;
-        audit(RequestKind::save_position, turn.device, turn.context,
-              fmt::format("save the position {}: {}", saving.position.name, saving.lines.save));
         begin(std::move(saving), turn);
+      },
+      [own = own_name(found), &positions = positions_](server::Stage& its_device, const Result<Known>& known,
+                                                       const Answer<Outcome>& respond) {
+        repeat_done(its_device, known, [&](const Result<void>& done) {
+          if (!done) return respond(tl::unexpected(done.error()));
+          auto position = find_position(positions, its_device.name(), own);
+          if (!position) return respond(tl::unexpected(position.error()));
+          respond(NamedPosition{*std::move(position), false});
+        });
       });
 }
 
@@ -93,10 +102,9 @@ void Positions::remove(const Call& call, std::string_view name, Answer<void> ans
         return find_position(positions, turn.device.name(), own);
       },
       [](const Turn&, const SavedPosition&) { return Result<void>(); },
+      [](const SavedPosition& position) { return fmt::format("delete the saved position {}", position.name); },
       [&gateway = gateway_, &positions = positions_](const Turn& turn, SavedPosition position,
                                                      const Answer<void>& respond) {
-        audit(RequestKind::delete_position, turn.device, turn.context,
-              fmt::format("delete the saved position {}", position.name));
         begin(Removal{gateway, positions, std::move(position), respond}, turn);
       });
 }
@@ -117,9 +125,8 @@ void Positions::move_to(const Call& call, std::string_view name, Answer<StartedM
         const Result<void> up = check_up(turn.controller.state());
         return up ? turn.controller.check(move.request) : up;
       },
+      [](const MoveToPosition& move) { return fmt::format("move to the saved position {}", move.position.name); },
       [&positions = positions_](const Turn& turn, MoveToPosition move, const Answer<StartedMotion>& respond) {
-        audit(RequestKind::move_to_position, turn.device, turn.context,
-              fmt::format("move to the saved position {}", move.position.name));
         const bool compared = !move.request.expected.empty();
         turn.controller.go_to_position(std::move(move.request), turn.now,
                                        answering_of(turn, positions, std::move(move.position), compared, respond));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <string_view>
 
 #include "server/access/access.h"
 
@@ -86,6 +87,7 @@ enum class Use {
 
 struct Rule {
   RequestKind kind;
+  std::string_view name;  // "change settings", for people; also in the journal, so that it stays
   server::Role least_role;
   server::KeptRequest kept;  // under which `admin_commands` of the configuration may keep it for administrators
   Quota quota;
@@ -95,5 +97,7 @@ struct Rule {
 };
 
 const Rule& rule_of(RequestKind kind);
+
+std::string_view name(RequestKind kind);
 
 }  // namespace axisgate::api

@@ -7,7 +7,6 @@
 #include <memory>
 #include <utility>
 
-#include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/api/request_texts.h"
 
@@ -116,8 +115,8 @@ void Settings::set(const Asked& asked, std::string_view verb, Answer<void> answe
         return lines;
       },
       [](const Turn& turn, const Lines& lines) { return turn.device.kind().check_lines(lines); },
-      [kind = asked.kind, verb](const Turn& turn, Lines lines, const Answer<void>& respond) {
-        audit(kind, turn.device, turn.context, text_of(verb, lines));
+      [verb](const Lines& lines) { return text_of(verb, lines); },
+      [](const Turn& turn, Lines lines, const Answer<void>& respond) {
         turn.controller.execute({std::move(lines), turn.context}, turn.now, [respond](const ExecuteEvent& event) {
           if (event.kind != ExecuteEvent::Kind::ended) return;
           respond(event.problem ? tl::unexpected(*event.problem) : Result<void>());

@@ -14,6 +14,7 @@
 #include "server/config/access.h"
 #include "server/config/axis.h"
 #include "server/config/default_socket.h"
+#include "server/config/journal.h"
 #include "server/config/limits.h"
 #include "server/config/name.h"
 #include "server/config/network.h"
@@ -58,6 +59,7 @@ class ConfigReader {
     if (const toml::table* limits = table.table("limits")) {
       read_identity_limits(*limits, file_, errors_, config.limits);
     }
+    if (const toml::table* journal = table.table("journal")) read_journal(*journal, file_, errors_, config.journal);
     const auto devices = table.tables("device");
     if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
     for (const toml::table* device : devices) config.devices.push_back(read_device(*device));
@@ -250,6 +252,7 @@ Config default_config(DeviceKinds kinds) {
                 .network = {},
                 .access = {.admin_commands = admin_commands(kinds)},
                 .limits = {},
+                .journal = {},
                 .devices = {std::move(device)}};
 }
 

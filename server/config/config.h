@@ -57,6 +57,14 @@ struct NetworkConfig {
   std::string client_ca;    // authorities whose certificates name callers; empty: tokens only
 };
 
+// What has happened, and what requests have become (journal/).
+struct JournalConfig {
+  bool kept = true;          // false: request ids are remembered in memory only
+  bool act_without = false;  // what moves and changes is done also where the disk refuses the journal
+  int remember_hours = 24;   // request ids; less long, where there are more than:
+  int remember_requests = 20'000;
+};
+
 struct Config {
   TcpAddress listen;
   std::string socket;  // path of the Unix socket
@@ -64,6 +72,7 @@ struct Config {
   std::optional<NetworkConfig> network;
   AccessConfig access;
   LimitsConfig limits;
+  JournalConfig journal;
   std::vector<DeviceConfig> devices;
 };
 

@@ -81,6 +81,14 @@ void write(TomlWriter& out, const LimitsConfig& limits) {
   out.number("message_bytes", limits.message_bytes);
 }
 
+void write(TomlWriter& out, const JournalConfig& journal) {
+  out.table("[journal]");
+  out.key("kept", journal.kept ? "true" : "false");
+  out.key("unavailable", word(kUnavailable, journal.act_without));
+  out.number("remember_hours", journal.remember_hours);
+  out.number("remember_requests", journal.remember_requests);
+}
+
 void write(TomlWriter& out, const SerialSettings& serial, const stage::Profile& profile) {
   out.text("connection", "serial");
   out.text("path", serial.path);
@@ -174,6 +182,7 @@ std::string to_toml(const Config& config) {
   if (config.network) write(out, *config.network);
   write(out, config.access);
   write(out, config.limits);
+  write(out, config.journal);
   for (const DeviceConfig& device : config.devices) write(out, device);
   return out.take();
 }

@@ -5,6 +5,7 @@
 #include <sys/mman.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <charconv>
@@ -19,8 +20,11 @@
 namespace axisgate::server {
 namespace {
 
-constexpr std::size_t kTextMax = 2048, kLinesKept = 2;
-constexpr const char* kFirstLine = "axisgate motions 1";
+constexpr std::size_t kTextMax = 8192, kLinesKept = 2;
+// Their ends may not be in the journal yet. More are never under way without an outcome.
+constexpr std::size_t kStartedKept = 16;
+constexpr std::size_t kNamesMax = 512, kLineMax = 256, kNameMax = 160;
+constexpr const char* kFirstLine = "axisgate motions 2";
 
 stage::AxisSet axes_in(const std::string& text) {
   unsigned bits = 0;
@@ -38,28 +42,20 @@ unsigned bits_of(stage::AxisSet axes) {
   return bits;
 }
 
-std::optional<stage::Unfinished> parsed(std::string_view text, std::string_view boot) {
-  std::istringstream lines{std::string(text)};
-  std::string line;
-  if (!std::getline(lines, line) || line != kFirstLine) return std::nullopt;
-  stage::Unfinished found;
-  bool same_boot = false, whole = false;
-  while (std::getline(lines, line)) {
-    const std::size_t space = line.find(' ');
-    if (space == std::string::npos) {
-      whole = line == "end";
-      continue;
-    }
-    const std::string key = line.substr(0, space), value = line.substr(space + 1);
-    if (key == "boot") same_boot = !value.empty() && value == boot;
-    if (key == "serial") found.serial_number = value;
-    if (key == "moving") found.moving = axes_in(value);
-    if (key == "jogged") found.jogged = axes_in(value);
-    if (key == "motions") found.motions = value;
-    if (key == "sent") found.last_lines.push_back(value);
-  }
-  if (!whole || !same_boot || found.moving.empty()) return std::nullopt;
-  return found;
+// "STATE MOTION WHO REQUEST_ID", between tabs: neither name has one.
+std::optional<StartedMotion> started_in(const std::string& text) {
+  std::istringstream words(text);
+  std::string state, motion;
+  StartedMotion request;
+  const bool whole =
+      std::getline(words, state, '\t') && std::getline(words, motion, '\t') && std::getline(words, request.who, '\t');
+  std::getline(words, request.request_id);
+  int number = 0;
+  const auto [end, error] = std::from_chars(state.data(), state.data() + state.size(), number);
+  std::from_chars(motion.data(), motion.data() + motion.size(), request.motion);
+  if (!whole || error != std::errc{} || number < 0 || number > static_cast<int>(stage::MotionState::unknown)) return {};
+  request.state = static_cast<stage::MotionState>(number);
+  return request;
 }
 
 std::string one_line(std::string_view text) {
@@ -102,6 +98,40 @@ struct MotionRecord::File {
   Content* const content;
 };
 
+struct MotionRecord::Left {
+  std::optional<stage::Unfinished> unfinished;
+  std::vector<StartedMotion> started;
+};
+
+// Nothing where it is no whole text of this boot.
+std::optional<MotionRecord::Left> MotionRecord::parsed(std::string_view text, std::string_view boot) {
+  std::istringstream lines{std::string(text)};
+  std::string line;
+  if (!std::getline(lines, line) || line != kFirstLine) return std::nullopt;
+  Left left;
+  stage::Unfinished found;
+  bool same_boot = false, whole = false;
+  while (std::getline(lines, line)) {
+    const std::size_t space = line.find(' ');
+    if (space == std::string::npos) {
+      whole = line == "end";
+      continue;
+    }
+    const std::string key = line.substr(0, space), value = line.substr(space + 1);
+    if (key == "boot") same_boot = !value.empty() && value == boot;
+    if (key == "serial") found.serial_number = value;
+    if (key == "moving") found.moving = axes_in(value);
+    if (key == "jogged") found.jogged = axes_in(value);
+    if (key == "motions") found.motions = value;
+    if (key == "sent") found.last_lines.push_back(value);
+    if (key != "started") continue;
+    if (auto request = started_in(value)) left.started.push_back(*std::move(request));
+  }
+  if (!whole || !same_boot) return std::nullopt;
+  if (!found.moving.empty()) left.unfinished = std::move(found);
+  return left;
+}
+
 Result<std::unique_ptr<MotionRecord>> MotionRecord::open(const std::string& path, std::string boot) {
   const Result<Descriptor> file = open_state_file(path, O_RDWR | O_CREAT);
   if (!file) return tl::unexpected(file.error());
@@ -120,7 +150,12 @@ Result<std::unique_ptr<MotionRecord>> MotionRecord::open(const std::string& path
 }
 
 MotionRecord::MotionRecord(std::unique_ptr<File> file, std::string boot)
-    : file_(std::move(file)), boot_(std::move(boot)), unfinished_(parsed(file_->text(), boot_)) {}
+    : file_(std::move(file)), boot_(std::move(boot)) {
+  std::optional<Left> left = parsed(file_->text(), boot_);
+  if (!left) return;
+  unfinished_ = std::move(left->unfinished);
+  started_before_ = std::move(left->started);
+}
 
 MotionRecord::~MotionRecord() = default;
 
@@ -131,6 +166,9 @@ void MotionRecord::on_event(const stage::Event& event) {
 void MotionRecord::note(const stage::MotionChanged& change) {
   const stage::Motion& motion = change.motion;
   started_ = started_ - motion.axes;
+  for (StartedMotion& request : started_motions_) {
+    if (request.motion == motion.id) request.state = motion.state;
+  }
   if (stage::is_outcome(motion.state)) {
     motions_.erase(motion.id);
   } else {
@@ -144,7 +182,16 @@ void MotionRecord::note(const stage::BytesWritten& bytes) {
   last_lines_.push_front(std::move(line));
   if (last_lines_.size() > kLinesKept) last_lines_.pop_back();
   started_ = started_ | bytes.completes;
+  if (bytes.motion != 0) note_started(bytes.motion);
   if (!motions_.empty() || unfinished_) write();
+}
+
+void MotionRecord::note_started(stage::MotionId id) {
+  const auto motion = motions_.find(id);
+  const bool noted = std::ranges::any_of(started_motions_, [id](const auto& request) { return request.motion == id; });
+  if (noted || motion == motions_.end()) return;
+  started_motions_.push_back({id, motion->second.state, motion->second.who, motion->second.request_id});
+  if (started_motions_.size() > kStartedKept) started_motions_.pop_front();
 }
 
 void MotionRecord::note(const stage::LinkChanged& change) {
@@ -173,9 +220,18 @@ std::string MotionRecord::text() const {
   }
   std::string text = fmt::format("{}\nboot {}\nserial {}\nmoving {}\njogged {}\nmotions {}\n", kFirstLine, boot_,
                                  one_line(serial_number_.empty() ? left.serial_number : serial_number_),
-                                 bits_of(moving), bits_of(jogged), names.substr(0, 512));
-  for (const std::string& line : last_lines_) text += fmt::format("sent {}\n", one_line(line).substr(0, 256));
-  return text + "end\n";
+                                 bits_of(moving), bits_of(jogged), names.substr(0, kNamesMax));
+  for (const std::string& line : last_lines_) text += fmt::format("sent {}\n", one_line(line).substr(0, kLineMax));
+  return text + started_lines() + "end\n";
+}
+
+std::string MotionRecord::started_lines() const {
+  std::string lines;
+  for (const StartedMotion& request : started_motions_) {
+    lines += fmt::format("started {}\t{}\t{}\t{}\n", static_cast<int>(request.state), request.motion,
+                         one_line(request.who).substr(0, kNameMax), one_line(request.request_id).substr(0, kNameMax));
+  }
+  return lines;
 }
 
 void MotionRecord::write() { file_->replace(text()); }

@@ -8,12 +8,20 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "device/stage/event.h"
 #include "device/stage/unfinished.h"
 
 namespace axisgate::server {
+
+// A motion of which a line was written, so that its start may have been.
+struct StartedMotion {
+  stage::MotionId motion = 0;
+  stage::MotionState state = stage::MotionState::queued;  // as it was last known
+  std::string who, request_id;                            // as in stage::Motion
+};
 
 // On the device's strand. Nothing waits for the disk: the file is mapped, and the kernel keeps what a killed process
 // had written. Only a crash of the machine loses it, and nothing is inherited from before a boot.
@@ -29,12 +37,18 @@ class MotionRecord {
   // none of this class.
   const std::optional<stage::Unfinished>& unfinished() const { return unfinished_; }
 
+  // Of the run before, those of which a line was written: all that run now, and the newest that have ended. Nothing:
+  // the machine has booted since, or the text is none of this class, so that any may have been started.
+  const std::optional<std::vector<StartedMotion>>& started_before() const { return started_before_; }
+
   void on_event(const stage::Event& event);
 
  private:
   struct File;
+  struct Left;
 
   MotionRecord(std::unique_ptr<File> file, std::string boot);
+  static std::optional<Left> parsed(std::string_view text, std::string_view boot);
 
   void note(const stage::MotionChanged& change);
   void note(const stage::BytesWritten& bytes);
@@ -42,14 +56,18 @@ class MotionRecord {
   void note(const stage::UnfinishedJudged& judged);
   template <class Other>
   void note(const Other&) {}
+  void note_started(stage::MotionId motion);
   std::string text() const;
+  std::string started_lines() const;
   void write();
 
   const std::unique_ptr<File> file_;
   const std::string boot_;
   std::optional<stage::Unfinished> unfinished_;  // until it is known what became of it
+  std::optional<std::vector<StartedMotion>> started_before_;
   std::string serial_number_;
   std::map<stage::MotionId, stage::Motion> motions_;  // without an outcome
+  std::deque<StartedMotion> started_motions_;         // of this run, oldest first
   stage::AxisSet started_;                            // by a line that was not answered yet
   std::deque<std::string> last_lines_;                // newest first
 };

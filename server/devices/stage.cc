@@ -25,17 +25,17 @@ std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
 
 Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus,
              Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
-             journal::Journal* journal)
+             journal::Journal* journal, journal::RequestMemory& requests)
     : Device(config.profile.name, recording_header(config.profile), std::move(line), thread, metrics, readers,
              lease_tokens),
       kind_(*config.kind),
       profile_(config.profile),
       newest_state_(readers),
       record_(std::move(record)),
-      entries_(journal == nullptr ? std::nullopt : std::optional(journal::DeviceEntries(profile_.name, *journal))),
+      entries_(profile_.name, journal, requests),
       events_(
           profile_.name, bus, this->metrics(), recorder(), newest_state_,
-          [this](DeviceEvents::Due due) { on_due(due); }, record_.get(), entries_ ? &*entries_ : nullptr),
+          [this](DeviceEvents::Due due) { on_due(due); }, record_.get(), &entries_),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
   if (journal != nullptr) number_motions_after(*journal);
@@ -46,6 +46,10 @@ void Stage::number_motions_after(const journal::Journal& journal) {
   const Result<stage::MotionId> last = journal.last_motion(profile_.name);
   if (last) return controller_->number_motions_after(*last);
   spdlog::warn("{}: motions are numbered from 1 again: {}", profile_.name, explain(last.error()));
+}
+
+std::optional<std::vector<StartedMotion>> Stage::started_before() const {
+  return record_ ? record_->started_before() : std::nullopt;
 }
 
 void Stage::post(Request request) {

@@ -19,11 +19,11 @@ namespace axisgate::server {
 
 class Stage final : public Device {
  public:
-  // `bus`, `metrics` and `thread` outlive this. `record` and `journal` may be null. With a journal,
+  // `bus`, `metrics`, `thread` and `requests` outlive this. `record` and `journal` may be null. With a journal,
   // motions are numbered on from its last.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
         const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
-        journal::Journal* journal);
+        journal::Journal* journal, journal::RequestMemory& requests);
 
   // From any thread.
   std::string_view kind_name() const override { return kind_.name(); }
@@ -37,6 +37,9 @@ class Stage final : public Device {
 
   // On the strand only: from within a posted request or a callback of the controller.
   std::uint64_t motion_revision(stage::MotionId motion) const { return events_.motion_revision(motion); }
+
+  // Of the run before: MotionRecord::started_before(). Nothing, where nothing is known of it. Before start().
+  std::optional<std::vector<StartedMotion>> started_before() const;
 
   // `done` comes when every motion has its outcome and the line is closed: StageController::wind_down().
   void wind_down(std::function<void()> done) override;
@@ -52,7 +55,7 @@ class Stage final : public Device {
   const stage::Profile profile_;
   Newest<stage::State> newest_state_;
   const std::unique_ptr<MotionRecord> record_;
-  std::optional<journal::DeviceEntries> entries_;
+  journal::DeviceEntries entries_;
   DeviceEvents events_;
   std::unique_ptr<stage::StageController> controller_;
   bool due_ = false;  // publish_due() has something to do

@@ -4,6 +4,9 @@
 #include <optional>
 #include <utility>
 
+#include "server/access/access.h"
+#include "server/journal/answers.h"
+
 namespace axisgate::server::journal {
 namespace {
 
@@ -89,17 +92,31 @@ std::optional<Said> said(const Other&) {
 
 }  // namespace
 
+// A motion of which no line was written is refused where its start is answered.
+std::optional<RequestChange> DeviceEntries::change_of(const stage::Event& event) {
+  const auto* change = std::get_if<stage::MotionChanged>(&event);
+  if (change == nullptr || change->motion.request_id.empty()) return std::nullopt;
+  const stage::Motion& motion = change->motion;
+  const RequestMemory::Key key{identity_of(motion.who), motion.request_id};
+  if (motion.state == stage::MotionState::queued) return requests_.made(key, motion.id, answer_of(motion));
+  if (!stage::is_outcome(motion.state) || !motion.written) return std::nullopt;
+  return requests_.motion_ended(key, motion.id, answer_of(motion));
+}
+
 void DeviceEntries::on_event(const stage::Event& event, TimePoint now) {
+  const std::optional<RequestChange> change = change_of(event);
+  if (journal_ == nullptr) return;
   auto noted = std::visit([](const auto& what) { return said(what); }, event);
   if (!noted) return;
-  journal_.append({.kind = noted->kind,
-                   .time = to_wall(now),
-                   .boot_time = now,
-                   .device = device_,
-                   .who = std::move(noted->who),
-                   .motion = noted->motion,
-                   // What came from a device may be no UTF-8.
-                   .body = noted->body.dump(-1, ' ', false, Json::error_handler_t::replace)});
+  journal_->append({{.kind = noted->kind,
+                     .time = to_wall(now),
+                     .boot_time = now,
+                     .device = device_,
+                     .who = std::move(noted->who),
+                     .motion = noted->motion,
+                     // What came from a device may be no UTF-8.
+                     .body = noted->body.dump(-1, ' ', false, Json::error_handler_t::replace)},
+                    change.value_or(RequestChange{})});
 }
 
 }  // namespace axisgate::server::journal

@@ -12,6 +12,8 @@ std::string name(EntryKind kind) {
       return "daemon ended";
     case EntryKind::entries_left_out:
       return "entries left out";
+    case EntryKind::journal_failed:
+      return "journal failed";
     case EntryKind::motion_requested:
       return "motion requested";
     case EntryKind::motion_started:
@@ -28,6 +30,12 @@ std::string name(EntryKind kind) {
       return "foreign motion";
     case EntryKind::switches_changed:
       return "switches changed";
+    case EntryKind::request_made:
+      return "request made";
+    case EntryKind::request_refused:
+      return "request refused";
+    case EntryKind::request_ended:
+      return "request ended";
   }
   return fmt::format("kind {}", static_cast<int>(kind));
 }

@@ -16,6 +16,7 @@ enum class EntryKind {
   daemon_started = 1,
   daemon_ended = 2,
   entries_left_out = 3,
+  journal_failed = 4,  // the disk refused it, from then on until this entry
   motion_requested = 10,
   motion_started = 11,
   motion_ended = 12,
@@ -24,6 +25,9 @@ enum class EntryKind {
   barrier_entered = 31,
   foreign_motion = 32,
   switches_changed = 40,
+  request_made = 50,     // what somebody wants to change or move; on the disk before it is done
+  request_refused = 51,  // nothing was sent
+  request_ended = 52,    // of one that is no motion
 };
 // "motion ended" and the like; "kind 77" of a number that this program does not know.
 std::string name(EntryKind kind);

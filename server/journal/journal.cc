@@ -16,12 +16,16 @@ namespace {
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr auto kCatchingUp = std::chrono::seconds(1);  // a disk that hangs keeps no reader longer
 
-Entry left_out(std::uint64_t count) {
-  return {.kind = EntryKind::entries_left_out,
-          .time = std::chrono::system_clock::now(),
-          .boot_time = monotonic_now(),
-          .body = fmt::format(R"({{"count":{}}})", count)};
+Entry own_entry(EntryKind kind, std::string body) {
+  return {
+      .kind = kind, .time = std::chrono::system_clock::now(), .boot_time = monotonic_now(), .body = std::move(body)};
 }
+
+Entry left_out(std::uint64_t count) {
+  return own_entry(EntryKind::entries_left_out, fmt::format(R"({{"count":{}}})", count));
+}
+
+Entry journal_failed() { return own_entry(EntryKind::journal_failed, "{}"); }
 
 // SQLite's own files beside it are worth nothing without it.
 Result<void> move_aside(const std::string& path) {
@@ -41,19 +45,32 @@ Result<void> move_aside(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<Journal>> Journal::open(const std::string& path) {
+Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, std::string_view boot) {
   auto store = Store::open(path);
   if (!store && store.error().damaged) {
     if (auto moved = move_aside(path); !moved) return tl::unexpected(moved.error());
     store = Store::open(path);
   }
   if (!store) return tl::unexpected(store.error().problem);
-  return std::unique_ptr<Journal>(new Journal(path, *std::move(store)));
+  return start(path, *std::move(store), boot);
 }
 
-Journal::Journal(std::string path, Store store) : path_(std::move(path)), store_(std::move(store)) {
-  thread_ = std::thread([this] { run(); });
+Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, std::string_view boot) {
+  auto epoch = store.epoch();
+  if (!epoch) return tl::unexpected(epoch.error());
+  const auto offset = store.boot_offset(boot, monotonic_now());
+  if (!offset) return tl::unexpected(offset.error());
+  auto requests = store.requests();
+  if (!requests) return tl::unexpected(requests.error());
+  std::unique_ptr<Journal> journal(new Journal(std::move(path), std::move(store)));
+  journal->epoch_ = *std::move(epoch);
+  journal->boot_offset_ = *offset;
+  journal->requests_ = *std::move(requests);
+  journal->thread_ = std::thread([&self = *journal] { self.run(); });
+  return journal;
 }
+
+Journal::Journal(std::string path, Store store) : path_(std::move(path)), store_(std::move(store)) {}
 
 Journal::~Journal() {
   {
@@ -64,68 +81,129 @@ Journal::~Journal() {
   thread_.join();
 }
 
-void Journal::append(Entry entry) {
+void Journal::append(Record record) {
   {
     const std::lock_guard lock(mutex_);
     if (waiting_.size() >= kWaitingMax) {
       ++left_out_;
       return;
     }
-    waiting_.push_back(std::move(entry));
+    waiting_.push_back({std::move(record), {}});
   }
   changed_.notify_all();
 }
 
+void Journal::commit(Record record, OnCommitted done) {
+  std::optional<Problem> refusal;
+  {
+    const std::lock_guard lock(mutex_);
+    refusal = unavailable();
+    if (!refusal) waiting_.push_back({std::move(record), std::move(done)});
+  }
+  if (refusal) return done(tl::unexpected(*refusal));
+  changed_.notify_all();
+}
+
+std::optional<Problem> Journal::unavailable() const {
+  const bool hangs = writing_since_ && monotonic_now() - *writing_since_ > kHangs;
+  if (!failure_ && !hangs && waiting_.size() < kWaitingMax) return std::nullopt;
+  return Problem{.reason = Reason::journal_unavailable,
+                 .message = failure_ ? failure_->message : fmt::format("the disk of {} does not answer", path_),
+                 .hint = "nothing was sent; stops work; look at the disk, the daemon recovers by itself"};
+}
+
+void Journal::answer_nobody() {
+  const std::lock_guard lock(answering_);
+  silent_ = true;
+}
+
+void Journal::answer(const OnCommitted& done, const Result<void>& written) {
+  if (!done) return;
+  const std::lock_guard lock(answering_);
+  if (!silent_) done(written);
+}
+
 std::optional<Problem> Journal::failure() const {
   const std::lock_guard lock(mutex_);
-  return failure_;
+  return unavailable();
+}
+
+Duration Journal::last_commit() const {
+  const std::lock_guard lock(mutex_);
+  const Duration now = writing_since_ ? monotonic_now() - *writing_since_ : Duration::zero();
+  return now > kHangs ? now : last_commit_;
 }
 
 void Journal::run() {
   while (true) {
-    const std::vector<Entry> entries = wait_for_entries();
-    if (entries.empty() || !write(entries)) return;
+    Batch batch = wait_for_records();
+    if (batch.empty() || !write(std::move(batch))) return;
   }
 }
 
 // Nothing: the daemon ends, and all is written.
-std::vector<Entry> Journal::wait_for_entries() {
+Journal::Batch Journal::wait_for_records() {
   std::unique_lock lock(mutex_);
   changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
-  auto entries = std::exchange(waiting_, {});
-  writing_ = !entries.empty();
-  if (const auto count = std::exchange(left_out_, 0); count > 0) entries.push_back(left_out(count));
-  return entries;
+  Batch batch = std::exchange(waiting_, {});
+  if (const auto count = std::exchange(left_out_, 0); count > 0) batch.push_back({{left_out(count)}, {}});
+  if (!batch.empty()) writing_since_ = monotonic_now();
+  return batch;
 }
 
-bool Journal::write(const std::vector<Entry>& entries) {
+bool Journal::write(Batch batch) {
   while (true) {
-    const Result<void> written = store_.append(entries);
+    std::vector<Record> records;
+    for (const Waiting& one : batch) records.push_back(one.record);
+    const Result<void> written = store_.append(records);
+    if (!written) note_failure(batch, written.error());
     std::unique_lock lock(mutex_);
     if (written) {
       if (failure_) spdlog::info("journal {}: it is written again", path_);
       failure_.reset();
-      writing_ = false;
+      last_commit_ = monotonic_now() - *std::exchange(writing_since_, {});
+      lock.unlock();
+      for (const Waiting& one : batch) answer(one.done, {});
       changed_.notify_all();
       return true;
     }
-    if (!failure_) spdlog::error("{}", explain(written.error()));
-    failure_ = written.error();
+    writing_since_.reset();
     changed_.notify_all();
     if (changed_.wait_for(lock, kRetry, [this] { return ending_; })) return false;
+    writing_since_ = monotonic_now();
   }
+}
+
+// Those who wait are refused, and what they wanted is not tried again.
+void Journal::note_failure(Batch& batch, const Problem& problem) {
+  std::optional<Problem> refusal;
+  {
+    const std::lock_guard lock(mutex_);
+    if (!failure_) {
+      spdlog::error("{}", explain(problem));
+      batch.push_back({{journal_failed()}, {}});
+    }
+    failure_ = problem;
+    refusal = unavailable();
+  }
+  for (const Waiting& one : batch) answer(one.done, tl::unexpected(*refusal));
+  std::erase_if(batch, [](const Waiting& one) { return one.done != nullptr; });
 }
 
 Result<Store> Journal::reader() const {
   {
     std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_); });
+    changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
   }
   return Store::open_to_read(path_);
 }
 
 Result<std::vector<StoredEntry>> Journal::read(const Filter& filter, std::size_t limit) const {
   return reader().and_then([&](Store store) { return store.read(filter, limit); });
+}
+
+Result<std::vector<StoredEntry>> Journal::unfinished_motions() const {
+  return reader().and_then([](Store store) { return store.unfinished_motions(); });
 }
 
 Result<std::uint64_t> Journal::last_motion(std::string_view device) const {

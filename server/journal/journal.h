@@ -3,11 +3,13 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "server/journal/store.h"
@@ -17,46 +19,81 @@ namespace axisgate::server::journal {
 // Thread safe. Entries that are appended while others are written are committed together.
 class Journal {
  public:
+  // A disk that takes longer for one commit hangs: commit() refuses then, until it has come back.
+  static constexpr Duration kHangs = std::chrono::seconds(2);
   // Beyond so many that wait for the disk, entries are left out, and the journal says how many.
   static constexpr std::size_t kWaitingMax = 10'000;
 
-  // As Store::open(). A damaged file is moved aside, with a warning that names it, and a new one begins.
-  static Result<std::unique_ptr<Journal>> open(const std::string& path);
+  // As Store::open(). A damaged file is moved aside, with a warning that names it, and a new one begins. `boot` names
+  // this boot of the machine; empty: not known.
+  static Result<std::unique_ptr<Journal>> open(const std::string& path, std::string_view boot = {});
   // Writes what waits, if the disk takes it.
   ~Journal();
   Journal(const Journal&) = delete;
   Journal& operator=(const Journal&) = delete;
 
   // Never waits for the disk. Where the disk refuses, it is tried again each second.
-  void append(Entry entry);
+  void append(Record record);
+  // The same, for what must be on the disk before it is done: `done` is called once, from the journal's thread or from
+  // within this call. journal_unavailable, where the disk refuses it, so that it is not written later either. From a
+  // disk that hangs the answer comes late.
+  using OnCommitted = std::function<void(Result<void>)>;
+  void commit(Record record, OnCommitted done);
+  // From now on nobody is answered any more. Before that goes which they would call.
+  void answer_nobody();
   // Why nothing is written now; nothing while the disk takes what comes.
   std::optional<Problem> failure() const;
+
+  // How long the last commit took; while one takes longer than kHangs, how long it has taken.
+  Duration last_commit() const;
+
+  // As the file had it when it was opened.
+  const std::string& epoch() const { return epoch_; }
+  Duration boot_offset() const { return boot_offset_; }
+  RequestsOnFile take_requests() { return std::exchange(requests_, {}); }
 
   // Each with a connection of its own, for threads that may wait. What was appended before is found, unless the disk
   // refuses it or is slow.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit) const;
+  Result<std::vector<StoredEntry>> unfinished_motions() const;  // of the run before: before it is begun
   Result<std::uint64_t> last_motion(std::string_view device) const;
   Result<Verdict> verify(const std::optional<Head>& noted) const;
   Result<Head> head() const;
 
  private:
+  struct Waiting {
+    Record record;
+    OnCommitted done;  // empty: nobody waits
+  };
+  using Batch = std::vector<Waiting>;
+
   Journal(std::string path, Store store);
 
+  static Result<std::unique_ptr<Journal>> start(std::string path, Store store, std::string_view boot);
   Result<Store> reader() const;
   void run();
-  std::vector<Entry> wait_for_entries();
-  // Until they are written; false where the daemon ends before.
-  bool write(const std::vector<Entry>& entries);
+  Batch wait_for_records();
+  // Until it is written; false where the daemon ends before.
+  bool write(Batch batch);
+  void answer(const OnCommitted& done, const Result<void>& written);
+  void note_failure(Batch& batch, const Problem& problem);
+  std::optional<Problem> unavailable() const;  // under mutex_
 
   const std::string path_;
   Store store_;  // of the thread
+  std::string epoch_;
+  Duration boot_offset_{};
+  RequestsOnFile requests_;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  std::vector<Entry> waiting_;
-  bool writing_ = false;
+  Batch waiting_;
+  std::optional<TimePoint> writing_since_;
+  Duration last_commit_{};
   std::uint64_t left_out_ = 0;
   std::optional<Problem> failure_;
   bool ending_ = false;
+  std::mutex answering_;  // held while somebody is answered
+  bool silent_ = false;   // under answering_
   std::thread thread_;
 };
 

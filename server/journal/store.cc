@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <random>
 #include <utility>
 #include <variant>
@@ -12,7 +13,7 @@
 namespace axisgate::server::journal {
 namespace {
 
-constexpr std::int64_t kSchema = 1;
+constexpr std::int64_t kSchema = 2, kWithoutRequests = 1;
 constexpr const char* kMakeSchema = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
 CREATE TABLE person(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
@@ -130,6 +131,7 @@ Result<void> Store::check_schema(const std::string& path) {
   version->reset();
   if (found == 0) return make_schema();
   if (found == kSchema) return {};
+  if (found == kWithoutRequests) return upgrade();
   return fail(Reason::internal,
               fmt::format("journal {}: a newer version of axisgated has written it (schema {}, this one knows {})",
                           path, found, kSchema),
@@ -138,18 +140,26 @@ Result<void> Store::check_schema(const std::string& path) {
 
 Result<void> Store::make_schema() {
   const std::string sql =
-      fmt::format("BEGIN IMMEDIATE; {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
-                  kMakeSchema, random_epoch(), kSchema);
+      fmt::format("BEGIN IMMEDIATE; {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
+                  kMakeSchema, RequestTable::kMake, random_epoch(), kSchema);
   return database_.run(sql.c_str());
 }
 
-Result<void> Store::append(std::span<const Entry> entries) {
+Result<void> Store::upgrade() {
+  const std::string sql =
+      fmt::format("BEGIN IMMEDIATE; {} PRAGMA user_version = {}; COMMIT;", RequestTable::kMake, kSchema);
+  return database_.run(sql.c_str());
+}
+
+Result<void> Store::append(std::span<const Record> records) {
   if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
   Result<void> done;
   Result<Head> last = head();
   if (!last) done = tl::unexpected(last.error());
-  for (const Entry& entry : entries) {
-    if (done) done = add(entry, *last);
+  RequestTable requests(database_);
+  for (const Record& record : records) {
+    if (done) done = add(record.entry, *last);
+    if (done) done = requests.change(record.requests);
   }
   if (done) done = database_.run("COMMIT");
   if (!done) (void)database_.run("ROLLBACK");
@@ -193,13 +203,28 @@ Result<std::vector<StoredEntry>> Store::read(const Filter& filter, std::size_t l
   auto rows = database_.prepare(fmt::format("{}{}ORDER BY number DESC LIMIT {}", kColumns, conditions.sql(), limit));
   if (!rows) return tl::unexpected(rows.error());
   conditions.bind(*rows);
+  return all_of(*rows);
+}
+
+Result<std::vector<StoredEntry>> Store::all_of(Statement& rows) {
   std::vector<StoredEntry> found;
   while (true) {
-    const auto row = rows->step();
+    const auto row = rows.step();
     if (!row) return tl::unexpected(row.error());
     if (!*row) return found;
-    found.push_back(entry_of(*rows));
+    found.push_back(entry_of(rows));
   }
+}
+
+Result<std::vector<StoredEntry>> Store::unfinished_motions() {
+  using enum EntryKind;
+  auto rows = database_.prepare(fmt::format(
+      "{}AS begun WHERE kind = {} AND number > coalesce((SELECT max(number) FROM entry WHERE kind = {}), 0) AND NOT "
+      "EXISTS (SELECT 1 FROM entry WHERE device = begun.device AND motion = begun.motion AND kind = {}) ORDER BY "
+      "number",
+      kColumns, static_cast<int>(motion_requested), static_cast<int>(daemon_started), static_cast<int>(motion_ended)));
+  if (!rows) return tl::unexpected(rows.error());
+  return all_of(*rows);
 }
 
 Result<std::uint64_t> Store::last_motion(std::string_view device) {
@@ -208,10 +233,34 @@ Result<std::uint64_t> Store::last_motion(std::string_view device) {
   return highest->bind(1, device).step().map([&](bool) { return static_cast<std::uint64_t>(highest->integer(0)); });
 }
 
-Result<std::string> Store::epoch() {
-  auto found = database_.prepare("SELECT value FROM meta WHERE key = 'epoch'");
+Result<std::string> Store::meta(std::string_view key) {
+  auto found = database_.prepare("SELECT value FROM meta WHERE key = ?");
   if (!found) return tl::unexpected(found.error());
-  return found->step().map([&](bool there) { return there ? std::string(found->bytes(0)) : std::string(); });
+  return found->bind(1, key).step().map([&](bool there) { return there ? std::string(found->bytes(0)) : ""; });
+}
+
+Result<void> Store::set_meta(std::string_view key, std::string_view value) {
+  auto set = database_.prepare("INSERT OR REPLACE INTO meta VALUES(?, ?)");
+  if (!set) return tl::unexpected(set.error());
+  return set->bind(1, key).bind(2, value).step().map([](bool) {});
+}
+
+Result<std::string> Store::epoch() { return meta("epoch"); }
+
+// "BOOT MICROSECONDS". The time between two boots does not count: what is remembered is remembered the longer.
+Result<Duration> Store::boot_offset(std::string_view boot, TimePoint now) {
+  const auto known = meta("boot");
+  if (!known) return tl::unexpected(known.error());
+  const std::size_t space = known->rfind(' ');
+  if (!boot.empty() && space != std::string::npos && std::string_view(*known).substr(0, space) == boot) {
+    return std::chrono::microseconds(std::strtoll(known->c_str() + space, nullptr, 10));
+  }
+  auto latest = database_.prepare("SELECT coalesce(max(lived_us), 0) FROM request");
+  if (!latest) return tl::unexpected(latest.error());
+  if (const auto row = latest->step(); !row) return tl::unexpected(row.error());
+  const std::int64_t offset = latest->integer(0) - micros(now);
+  const auto kept = set_meta("boot", fmt::format("{} {}", boot, offset));
+  return kept.map([&] { return Duration(std::chrono::microseconds(offset)); });
 }
 
 Result<Head> Store::head() {

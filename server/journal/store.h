@@ -10,8 +10,15 @@
 
 #include "server/journal/database.h"
 #include "server/journal/entry.h"
+#include "server/journal/request_table.h"
 
 namespace axisgate::server::journal {
+
+// What is written together.
+struct Record {
+  Entry entry;
+  RequestChange requests{};
+};
 
 // Which entries are wanted. All, where nothing is said.
 struct Filter {
@@ -43,10 +50,17 @@ class Store {
   static Result<Store> open_to_read(const std::string& path);
 
   // All of them are on the disk when it returns, or none.
-  Result<void> append(std::span<const Entry> entries);
+  Result<void> append(std::span<const Record> records);
 
   // Newest first, at most `limit`.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit);
+  Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
+  // What, added to the time since this boot, gives a clock that continues over boots. `boot` names this one.
+  Result<Duration> boot_offset(std::string_view boot, TimePoint now);
+  // A different text for each new file.
+  Result<std::string> epoch();
+  // The entries of motions of the newest run of the daemon that were requested, and have not ended.
+  Result<std::vector<StoredEntry>> unfinished_motions();
   // The highest number of a motion of the device; 0: it had none.
   Result<std::uint64_t> last_motion(std::string_view device);
   Result<Head> head();
@@ -58,9 +72,12 @@ class Store {
 
   Result<void> check_schema(const std::string& path);
   Result<void> make_schema();
+  Result<void> upgrade();
   Result<void> add(const Entry& entry, Head& head);
   Result<std::int64_t> person(std::string_view name);
-  Result<std::string> epoch();
+  static Result<std::vector<StoredEntry>> all_of(Statement& rows);
+  Result<std::string> meta(std::string_view key);
+  Result<void> set_meta(std::string_view key, std::string_view value);
 
   Database database_;
 };

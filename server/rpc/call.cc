@@ -57,7 +57,8 @@ api::Call to_call(api::Credential credential, std::optional<TimePoint> deadline,
           .not_after = not_after(context),
           .lease_token = context.lease_token(),
           .device_epoch = context.device_epoch(),
-          .frame_epoch = context.frame_epoch()};
+          .frame_epoch = context.frame_epoch(),
+          .request_memory = context.request_memory()};
 }
 
 api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext& context, bool validate_only) {

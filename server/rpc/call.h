@@ -8,6 +8,7 @@
 #include "axisgate/v1/common.pb.h"
 #include "server/api/call.h"
 #include "server/front/desk.h"
+#include "server/rpc/digest.h"
 
 namespace axisgate::rpc {
 
@@ -26,7 +27,9 @@ api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext
 // Of a request with a context and validate_only.
 template <class Request>
 api::Call to_checked_call(const grpc::CallbackServerContext& call, const Request& request) {
-  return to_call(call, request.context(), request.validate_only());
+  api::Call made = to_call(call, request.context(), request.validate_only());
+  if (!made.request_id.empty()) made.digest = digest_of(request);
+  return made;
 }
 
 }  // namespace axisgate::rpc

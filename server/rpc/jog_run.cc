@@ -61,7 +61,9 @@ void JogRun::OnReadDone(bool ok) {
 bool JogRun::take() {
   const auto axes = to_jog_axes(*incoming_);
   if (std::exchange(started_, true)) return jog_->renew(axes);
-  return jog_->start(to_call(context_, incoming_->context()), incoming_->device(), axes);
+  api::Call call = to_call(context_, incoming_->context());
+  call.digest = digest_of(*incoming_);
+  return jog_->start(call, incoming_->device(), axes);
 }
 
 void JogRun::OnCancel() {

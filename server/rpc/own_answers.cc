@@ -7,6 +7,7 @@
 #include "device/link/clock.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
+#include "server/rpc/digest.h"
 #include "server/rpc/to_proto.h"
 #include "server/rpc/transactions.h"
 #include "server/rpc/unreadable.h"
@@ -39,9 +40,11 @@ api::Call call_of_stop(const Served& served, std::optional<TimePoint> deadline, 
   return call;
 }
 
-v1::ListDevicesResponse list_of(const std::vector<api::DeviceState>& devices) {
+v1::ListDevicesResponse list_of(const api::DeviceList& list) {
   v1::ListDevicesResponse response;
-  for (const api::DeviceState& one : devices) *response.add_devices() = to_proto(*one.device, *one.state);
+  for (const api::DeviceState& one : list.devices) *response.add_devices() = to_proto(*one.device, *one.state);
+  response.set_request_memory(list.request_memory);
+  response.set_requests_kept(list.requests_kept);
   return response;
 }
 
@@ -104,10 +107,10 @@ std::unique_ptr<Answer> OwnAnswers::emergency_stop(const v1::EmergencyStopReques
 }
 
 std::unique_ptr<Answer> OwnAnswers::list_devices(const v1::ListDevicesRequest&, Asked asked) const {
-  return one_answer<std::vector<api::DeviceState>>(
-      asked.served, asked.wake, list_of, [&](const api::Answer<std::vector<api::DeviceState>>& answer) {
-        answer(api_.devices.list({.credential = asked.served->credential()}));
-      });
+  return one_answer<api::DeviceList>(asked.served, asked.wake, list_of,
+                                     [&](const api::Answer<api::DeviceList>& answer) {
+                                       answer(api_.devices.list({.credential = asked.served->credential()}));
+                                     });
 }
 
 std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& request, Asked asked) const {
@@ -126,6 +129,7 @@ std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& reque
 std::unique_ptr<Answer> OwnAnswers::execute(const v1::ExecuteRequest& request, Asked asked) const {
   api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
   call.validate_only = request.validate_only();
+  if (!call.request_id.empty()) call.digest = digest_of(request);
   const auto opened = api_.commands.execute(call, request.device(), to_transaction(request));
   return stream_answer(opened, std::move(asked.served), to_response, std::move(asked.wake));
 }

@@ -4,6 +4,7 @@
 #include <variant>
 
 #include "server/rpc/call.h"
+#include "server/rpc/digest.h"
 #include "server/rpc/targets.h"
 #include "server/rpc/to_proto.h"
 #include "server/rpc/unreadable.h"
@@ -40,15 +41,19 @@ void PathRun::OnReadDone(bool ok) {
     path_->refuse_part(not_readable(kRunPathMethod));
     return;
   }
-  if (!ok) return half_close_.wait([path = path_] { path->run(); });
+  if (!ok) return half_close_.wait([path = path_, digest = digest_] { path->run(digest); });
   if (take()) StartRead(incoming_.marked());
 }
 
 bool PathRun::take() {
   if (incoming_->has_header()) {
+    digest_ = digest_of(incoming_->header());
     return path_->start(to_checked_call(context_, incoming_->header()), incoming_->header().device());
   }
-  if (incoming_->has_segment()) return path_->add(to_segment(incoming_->segment()));
+  if (incoming_->has_segment()) {
+    digest_ = digest_of(digest_, incoming_->segment());
+    return path_->add(to_segment(incoming_->segment()));
+  }
   return path_->refuse_part({.reason = Reason::invalid_request, .message = "a part of the path is empty"});
 }
 

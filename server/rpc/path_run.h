@@ -32,6 +32,7 @@ class PathRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::RunPat
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
   Incoming<v1::RunPathRequest> incoming_;
+  std::string digest_;  // of all that has come
 };
 
 }  // namespace axisgate::rpc

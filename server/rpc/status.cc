@@ -15,7 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
-static_assert(static_cast<int>(Reason::journal_unavailable) == v1::REASON_JOURNAL_UNAVAILABLE);
+static_assert(static_cast<int>(Reason::request_memory_lost) == v1::REASON_REQUEST_MEMORY_LOST);
 
 void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -73,6 +73,7 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::epoch_passed:
     case Reason::not_homed:
     case Reason::unexplained:
+    case Reason::request_memory_lost:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::link_down:
     case Reason::not_sent:
@@ -83,6 +84,8 @@ grpc::StatusCode code_of(Reason reason) {
       return grpc::StatusCode::UNAVAILABLE;
     case Reason::deadline_passed:
       return grpc::StatusCode::DEADLINE_EXCEEDED;
+    case Reason::request_id_reused:
+      return grpc::StatusCode::ALREADY_EXISTS;
     case Reason::unauthenticated:
       return grpc::StatusCode::UNAUTHENTICATED;
     case Reason::not_allowed:

@@ -241,7 +241,9 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
 }
 
 v1::Motion to_proto(const api::CurrentMotion& motion) {
-  return to_proto(motion.device, motion.motion, motion.revision);
+  v1::Motion proto = to_proto(motion.device, motion.motion, motion.revision);
+  proto.set_repeated(motion.is_repeated);
+  return proto;
 }
 
 v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress) {

@@ -76,7 +76,7 @@ Reason run_path(World& world, const Call& call) {
   if (taken &&
       (*path)->add(stage::Segment{
           .moves = {{.axis = 1, .distance = pulses(10), .profile = {}}}, .speed = {}, .acceleration_ms = {}})) {
-    (*path)->run();
+    (*path)->run("");
   }
   return reader.reason();
 }

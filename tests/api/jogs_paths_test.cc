@@ -174,7 +174,7 @@ TEST_F(PathTest, AtMost100000Segments) {
 
 TEST_F(PathTest, WithoutASegmentThereIsNoPath) {
   ASSERT_TRUE(start());
-  path_->run();
+  path_->run("");
   EXPECT_EQ(refusal(), "INVALID_REQUEST: the path has no segment");
 }
 
@@ -182,7 +182,7 @@ TEST_F(PathTest, OfACallerThatBrokeOffNothingRuns) {
   ASSERT_TRUE(start());
   ASSERT_TRUE(path_->add(segment()));
   path_->break_off();
-  path_->run();
+  path_->run("");
   world_.on_strand([](stage::StageController&, TimePoint) {});
   EXPECT_FALSE(reader_.has_something());
 }
@@ -215,14 +215,14 @@ TEST_F(PathTest, ATokenRevokedMeanwhile) {
   ASSERT_TRUE(start({.credential = {.token = world_.token("scan", server::Role::operator_)}}));
   ASSERT_TRUE(path_->add(segment()));
   ASSERT_TRUE(world_.access->tokens().revoke("scan", server::calendar_now()));
-  path_->run();
+  path_->run("");
   EXPECT_EQ(reader_.reason(), Reason::unauthenticated);
 }
 
 TEST_F(PathTest, ReachesTheDevice) {
   ASSERT_TRUE(start());
   ASSERT_TRUE(path_->add(segment()));
-  path_->run();
+  path_->run("");
   EXPECT_EQ(refusal(), "NOT_ALLOWED: device turn: a rotor has no look-ahead: paths are not possible");
 }
 

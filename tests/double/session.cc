@@ -23,7 +23,7 @@ std::optional<Problem> Controller::may_write(const Asked& asked) {
   if (live == nullptr) return Problem{.reason = Reason::stopped, .message = "the motion has ended"};
   const auto good = permission_.authorize({live->context.who, live->context.lease, kAxis, asked.motion}, now_);
   if (!good) return good.error();
-  live->wrote = true;
+  live->wrote = live->motion.written = true;
   return {};
 }
 

@@ -63,7 +63,7 @@ void Wire::write(Waiting next, TimePoint now) {
   const auto& asked = next.asked;
   const std::string bytes = encode({static_cast<std::uint8_t>(asked.opcode), sequence_, asked.payload});
   const std::uint64_t exchange = ++exchanges_;
-  listener_.wire_event(stage::BytesWritten{bytes, exchange, asked.who, asked.lane, {}, false});
+  listener_.wire_event(stage::BytesWritten{bytes, exchange, asked.who, asked.lane, {}, asked.motion, false});
   in_flight_ = InFlight{std::move(next), sequence_, exchange, bytes, now};
   link_.write(bytes);
 }

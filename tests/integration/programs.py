@@ -118,8 +118,12 @@ class Daemon:
     def signal(self, number):
         self._process.send_signal(number)
 
+    def wait(self, seconds):
+        """Raises subprocess.TimeoutExpired."""
+        return self._process.wait(timeout=seconds)
+
     def exit_code(self):
-        return self._process.wait(timeout=LIMIT_S)
+        return self.wait(LIMIT_S)
 
     def kill(self):
         self._process.kill()

@@ -54,6 +54,8 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::not_homed, grpc::FAILED_PRECONDITION},
       {Reason::unexplained, grpc::FAILED_PRECONDITION},
       {Reason::journal_unavailable, grpc::UNAVAILABLE},
+      {Reason::request_id_reused, grpc::ALREADY_EXISTS},
+      {Reason::request_memory_lost, grpc::FAILED_PRECONDITION},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(v1::Reason_ARRAYSIZE));

@@ -32,8 +32,9 @@ Entry moved(std::uint64_t motion, std::string who, WallTime time) {
 class JournalStoreTest : public testing::Test {
  protected:
   JournalStoreTest() {
-    const std::array night{moved(1, "unix anna", kNight), moved(2, "unix bert", kNight + hours(1)),
-                           moved(3, "unix anna", kNight + hours(2))};
+    const std::array<Record, 3> night{{{moved(1, "unix anna", kNight)},
+                                       {moved(2, "unix bert", kNight + hours(1))},
+                                       {moved(3, "unix anna", kNight + hours(2))}}};
     Store store = *Store::open(path_);
     EXPECT_TRUE(store.append(night));
   }
@@ -128,9 +129,9 @@ TEST_F(JournalStoreTest, WhoComputesAllHashesIsFoundOutByAHeadThatWasNoted) {
   const Head noted = *Store::open_to_read(path_)->head();
   const auto rows = *Store::open_to_read(path_)->read({}, 100);
   tamper("DELETE FROM entry");
-  std::vector<Entry> forged;
-  for (auto row = rows.rbegin(); row != rows.rend(); ++row) forged.push_back(row->entry);
-  forged[1].body = R"({"outcome":"FAILED"})";
+  std::vector<Record> forged;
+  for (auto row = rows.rbegin(); row != rows.rend(); ++row) forged.push_back({row->entry});
+  forged[1].entry.body = R"({"outcome":"FAILED"})";
   ASSERT_TRUE(Store::open(path_)->append(forged));
   EXPECT_FALSE(verdict().first_bad) << "the chain alone shows nothing";
   EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
@@ -154,7 +155,7 @@ TEST_F(JournalStoreTest, ErasingANameLeavesTheChain) {
 TEST_F(JournalStoreTest, AnEntryThatIsNoTextIsKeptAsItIs) {
   Entry odd = moved(4, "unix anna", kNight);
   odd.device = std::string("a\0b", 3);
-  ASSERT_TRUE(Store::open(path_)->append(std::array{odd}));
+  ASSERT_TRUE(Store::open(path_)->append(std::array{Record{odd}}));
   const std::vector<StoredEntry> newest = *Store::open(path_)->read({}, 1);
   EXPECT_EQ(newest.at(0).entry.device, odd.device);
   EXPECT_FALSE(verdict().first_bad);

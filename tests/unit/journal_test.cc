@@ -14,6 +14,7 @@
 
 #include "device/link/clock.h"
 #include "server/journal/device_entries.h"
+#include "server/journal/request_memory.h"
 #include "tests/unit/link_fixtures.h"
 
 namespace axisgate::server::journal {
@@ -46,7 +47,7 @@ TEST_F(JournalTest, WhatIsAppendedByManyThreadsIsOnTheDiskAtItsEnd) {
     for (int thread = 0; thread < kThreads; ++thread) {
       threads.emplace_back([&] {
         for (std::uint64_t i = 1; i <= kEach; ++i) {
-          journal->append({.kind = EntryKind::motion_started, .device = "stage", .motion = i});
+          journal->append({{.kind = EntryKind::motion_started, .device = "stage", .motion = i}});
         }
       });
     }
@@ -59,23 +60,24 @@ TEST_F(JournalTest, WhatIsAppendedByManyThreadsIsOnTheDiskAtItsEnd) {
 TEST_F(JournalTest, ARefusingDiskIsReportedAndTriedAgain) {
   const auto journal = *Journal::open(path_);
   run("ALTER TABLE entry RENAME TO away");
-  journal->append({.kind = EntryKind::stop_requested, .device = "stage"});
+  journal->append({{.kind = EntryKind::stop_requested, .device = "stage"}});
   EXPECT_TRUE(comes_true([&] { return journal->failure().has_value(); }));
   EXPECT_THAT(journal->failure()->message, testing::HasSubstr(path_));
   run("ALTER TABLE away RENAME TO entry");
   EXPECT_TRUE(comes_true([&] { return !journal->failure(); }));
-  ASSERT_EQ(kept().size(), 1u);
-  EXPECT_EQ(kept()[0].entry.kind, EntryKind::stop_requested);
+  ASSERT_EQ(kept().size(), 2u);
+  EXPECT_EQ(kept()[1].entry.kind, EntryKind::stop_requested);
+  EXPECT_EQ(kept()[0].entry.kind, EntryKind::journal_failed);
 }
 
 TEST_F(JournalTest, WhatWasLeftOutIsCounted) {
   const auto journal = *Journal::open(path_);
   run("ALTER TABLE entry RENAME TO away");
-  journal->append({.kind = EntryKind::stop_requested});
+  journal->append({{.kind = EntryKind::stop_requested}});
   ASSERT_TRUE(comes_true([&] { return journal->failure().has_value(); }));
-  for (std::size_t i = 0; i < Journal::kWaitingMax + 7; ++i) journal->append({.kind = EntryKind::stop_requested});
+  for (std::size_t i = 0; i < Journal::kWaitingMax + 7; ++i) journal->append({{.kind = EntryKind::stop_requested}});
   run("ALTER TABLE away RENAME TO entry");
-  ASSERT_TRUE(comes_true([&] { return kept().size() == Journal::kWaitingMax + 2; }));
+  ASSERT_TRUE(comes_true([&] { return kept().size() == Journal::kWaitingMax + 3; }));
   EXPECT_EQ(kept()[0].entry.kind, EntryKind::entries_left_out);
   EXPECT_EQ(kept()[0].entry.body, R"({"count":7})");
 }
@@ -104,7 +106,8 @@ class DeviceEntriesTest : public JournalTest {
   std::vector<std::string> left_by(const std::vector<stage::Event>& events) {
     {
       const auto journal = *Journal::open(path_);
-      DeviceEntries entries("stage", *journal);
+      RequestMemory requests({}, "epoch", Duration::zero());
+      DeviceEntries entries("stage", journal.get(), requests);
       for (const stage::Event& event : events) entries.on_event(event, TimePoint(std::chrono::seconds(5)));
     }
     std::vector<std::string> texts;

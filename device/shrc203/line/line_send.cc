@@ -174,17 +174,19 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
   // What is saved may take long, and that is no sign of a restart.
   const Duration saving = cause ? cause->command.row->reply_limit : Duration::zero();
   continuity_.wrote(line, timing_.time_of(bytes.size() + LineTiming::kReplyBytesMax) + saving, now_);
-  link_.write(bytes);
   BytesWritten written;
-  written.bytes = std::move(bytes);
+  written.bytes = bytes;
   written.exchange = exchange;
   if (cause) {
     written.who = cause->caller;
     written.lane = cause->lane;
     written.completes = cause->completes;
+    written.motion = cause->motion;
     written.closed = cause->closed;
   }
+  // Before the bytes: who keeps what was written must not be killed in between.
   listener_.line_event(written, now_);
+  link_.write(bytes);
 }
 
 }  // namespace axisgate::shrc203

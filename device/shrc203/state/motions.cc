@@ -84,6 +84,11 @@ Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   co_return Result<void>();
 }
 
+void Motions::written(LiveMotion& live) {
+  live.motion.written = true;
+  change(live, MotionEvent::written);
+}
+
 void Motions::started(LiveMotion& live) {
   if (!live.life.unstarted()) return;
   live.motion.started = tasks_.now();

@@ -34,7 +34,7 @@ class Motions {
   // has its own. queue_full, deadline_passed, what Rights refuse, stopped, not_sent.
   Task<Result<void>> enter(LiveMotionPtr live, bool prebuffer);
   // A line of its own goes out.
-  void written(LiveMotion& live) { change(live, MotionEvent::written); }
+  void written(LiveMotion& live);
   // Its start was accepted, or its axes were seen to move. Nothing where it is running already.
   void started(LiveMotion& live);
   void jog_changed(LiveMotion& live, JogEvent event);

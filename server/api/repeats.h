@@ -1,0 +1,62 @@
+// How a request is answered that came before under the same id; and how the first answer is remembered for that.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "device/core/problem.h"
+#include "server/api/call.h"
+#include "server/api/motion_watch.h"
+#include "server/api/mutations.h"
+#include "server/devices/stage.h"
+#include "server/journal/answers.h"
+
+namespace axisgate::api {
+
+using Known = server::journal::RequestMemory::Known;
+
+// A motion that has started. Nothing: it was to be checked only.
+using StartedMotion = std::optional<CurrentMotion>;
+
+// Answers a repeat with what the first request came to. From any thread.
+template <class Outcome>
+using Repeat = std::function<void(server::Stage& device, const Result<Known>& known, const Answer<Outcome>& answer)>;
+
+// Where the device's line is closed meanwhile, the answer is dropped, as any other.
+void repeat_motion(server::Stage& device, const Result<Known>& known, const Answer<StartedMotion>& answer);
+void repeat_done(server::Stage& device, const Result<Known>& known, const Answer<void>& answer);
+
+// Of outcomes that can be remembered as they are.
+template <class Outcome>
+Repeat<Outcome> usual_repeat();
+template <>
+inline Repeat<StartedMotion> usual_repeat() {
+  return repeat_motion;
+}
+template <>
+inline Repeat<void> usual_repeat() {
+  return repeat_done;
+}
+
+// Nothing, of a motion: its end is its answer.
+template <class Outcome>
+std::optional<std::string> remembered(const Result<Outcome>&) {
+  return server::journal::answer_done();
+}
+template <>
+inline std::optional<std::string> remembered(const Result<StartedMotion>&) {
+  return std::nullopt;
+}
+
+// The same answer, which is remembered before it is given.
+template <class Outcome>
+Answer<Outcome> settling(MutationPtr mutation, Answer<Outcome> answer) {
+  return [mutation = std::move(mutation), answer = std::move(answer)](Result<Outcome> outcome) {
+    outcome ? mutation->acted(remembered(outcome)) : mutation->failed(outcome.error());
+    answer(std::move(outcome));
+  };
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,26 @@
+#include "server/config/journal.h"
+
+#include "server/config/words.h"
+
+namespace axisgate::server {
+namespace {
+
+constexpr int kHoursMax = 24 * 366, kRequestsMax = 1'000'000;
+
+}  // namespace
+
+void read_journal(const toml::table& source, std::string_view file, std::vector<ConfigError>& errors,
+                  JournalConfig& journal) {
+  ConfigTable table(source, "journal", file, errors);
+  journal.kept = table.flag("kept").value_or(journal.kept);
+  if (const auto act = table.choice<bool>("unavailable", kUnavailable)) journal.act_without = *act;
+  if (const auto hours = table.integer("remember_hours", 1, kHoursMax)) {
+    journal.remember_hours = static_cast<int>(*hours);
+  }
+  if (const auto requests = table.integer("remember_requests", 1, kRequestsMax)) {
+    journal.remember_requests = static_cast<int>(*requests);
+  }
+  table.refuse_unknown();
+}
+
+}  // namespace axisgate::server

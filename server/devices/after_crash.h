@@ -1,0 +1,23 @@
+// What became of the requests and motions that a run before this one left without an end.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "server/devices/motion_record.h"
+#include "server/journal/journal.h"
+#include "server/journal/request_memory.h"
+
+namespace axisgate::server {
+
+// Of a device of the run before, those motions of which a line was written; nothing: any may have been.
+using StartedBefore = std::function<std::optional<std::vector<StartedMotion>>(std::string_view device)>;
+
+// Before anybody asks. A motion that was not started ends with not_sent, and its request's id is free. What may have
+// been started or changed ends with outcome_unknown, unless its outcome is on record; it never acts again. `journal`
+// may be null.
+void settle_what_was_left(journal::Journal* journal, journal::RequestMemory& requests, const StartedBefore& started);
+
+}  // namespace axisgate::server

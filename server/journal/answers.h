@@ -1,0 +1,29 @@
+// What a request was answered, as text that outlives the daemon.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/problem.h"
+#include "device/stage/motion.h"
+#include "device/stage/requests.h"
+
+namespace axisgate::server::journal {
+
+// With names and messages, so that it is for the memory of requests, and not for the chain.
+std::string answer_of(const stage::Motion& motion);
+std::string answer_of(const Problem& problem);
+std::string answer_of(const std::vector<stage::ExecuteEvent>& events);
+// Of one that was done, and answered nothing.
+std::string answer_done();
+
+// Nothing, where the text is no motion.
+std::optional<stage::Motion> motion_in(std::string_view answer);
+// None, where the text has none.
+std::vector<stage::ExecuteEvent> events_in(std::string_view answer);
+// Nothing, where the text is no problem.
+std::optional<Problem> problem_in(std::string_view answer);
+
+}  // namespace axisgate::server::journal
