@@ -30,6 +30,11 @@ Statement& Statement::bind(int parameter, std::string_view text) {
   return *this;
 }
 
+Statement& Statement::bind(int parameter, WallTime time) {
+  const auto since = std::chrono::floor<std::chrono::microseconds>(time.time_since_epoch());
+  return bind(parameter, std::int64_t{since.count()});
+}
+
 Statement& Statement::bind_bytes(int parameter, std::string_view bytes) {
   sqlite3_bind_blob64(statement_.get(), parameter, bytes.data(), bytes.size(), SQLITE_TRANSIENT);
   return *this;
@@ -51,15 +56,16 @@ std::string_view Statement::bytes(int column) const {
   return {begin, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 
-tl::expected<Database, Unopened> Database::open(const std::string& path, Access access) {
-  if (access == Access::write) {
+tl::expected<Database, Unopened> Database::open(const std::string& path, Access access, const char* vfs) {
+  if (access == Access::write && vfs == nullptr) {
     // SQLite would follow a link, and make a file that others may read.
     const Result<Descriptor> file = open_state_file(path, O_RDWR | O_CREAT);
     if (!file) return tl::unexpected(Unopened{file.error()});
   }
-  const int flags = access == Access::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY;
+  const int create = vfs == nullptr ? 0 : SQLITE_OPEN_CREATE;
+  const int flags = access == Access::write ? SQLITE_OPEN_READWRITE | create : SQLITE_OPEN_READONLY;
   sqlite3* opened = nullptr;
-  const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, nullptr);
+  const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, vfs);
   Database database(opened);
   if (code != SQLITE_OK) return tl::unexpected(Unopened{failed(opened, "opening it").value()});
   sqlite3_busy_timeout(opened, kBusyMilliseconds);

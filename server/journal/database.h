@@ -9,15 +9,18 @@
 #include <string_view>
 
 #include "device/core/problem.h"
+#include "server/events/wall_time.h"
 
 namespace axisgate::server::journal {
 
 // One query of one Database, which outlives it. Not thread safe.
 class Statement {
  public:
-  // Counts from 1, as SQLite's parameters. What is bound stays until it is bound again.
+  // Counts from 1, as SQLite's parameters. What is bound stays until it is bound again. Times are microseconds since
+  // 1970.
   Statement& bind(int parameter, std::int64_t value);
   Statement& bind(int parameter, std::string_view text);
+  Statement& bind(int parameter, WallTime time);
   Statement& bind_bytes(int parameter, std::string_view bytes);
 
   // Whether there is a row. internal, with SQLite's own words.
@@ -25,6 +28,7 @@ class Statement {
   // Of the row; columns count from 0. The views hold until the next step().
   std::int64_t integer(int column) const { return sqlite3_column_int64(statement_.get(), column); }
   std::string_view bytes(int column) const;
+  WallTime time(int column) const { return WallTime(std::chrono::microseconds(integer(column))); }
 
   // Ready to run again.
   void reset() { sqlite3_reset(statement_.get()); }
@@ -51,8 +55,8 @@ class Database {
   enum class Access { write, read };
 
   // With Access::write, made where it is missing: for the daemon's user alone, and each commit is on the disk when it
-  // has returned.
-  static tl::expected<Database, Unopened> open(const std::string& path, Access access);
+  // has returned. `vfs`: the name of a registered sqlite3_vfs that has the file; null: the system's.
+  static tl::expected<Database, Unopened> open(const std::string& path, Access access, const char* vfs = nullptr);
 
   // Of a statement that answers nothing, or several of them.
   Result<void> run(const char* sql);

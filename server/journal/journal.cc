@@ -190,11 +190,13 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
   std::erase_if(batch, [](const Waiting& one) { return one.done != nullptr; });
 }
 
+void Journal::catch_up() const {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
+}
+
 Result<Store> Journal::reader() const {
-  {
-    std::unique_lock lock(mutex_);
-    changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
-  }
+  catch_up();
   return Store::open_to_read(path_);
 }
 
@@ -216,6 +218,13 @@ Result<Verdict> Journal::verify(const std::optional<Head>& noted) const {
 
 Result<Head> Journal::head() const {
   return reader().and_then([](Store store) { return store.head(); });
+}
+
+Result<Summary> Journal::summarize(const Span& span) const {
+  catch_up();
+  auto database = Database::open(path_, Database::Access::read);
+  if (!database) return tl::unexpected(database.error().problem);
+  return journal::summarize(*database, span);
 }
 
 }  // namespace axisgate::server::journal

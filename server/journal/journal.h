@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "server/journal/store.h"
+#include "server/journal/summary.h"
 
 namespace axisgate::server::journal {
 
@@ -59,6 +60,7 @@ class Journal {
   Result<std::uint64_t> last_motion(std::string_view device) const;
   Result<Verdict> verify(const std::optional<Head>& noted) const;
   Result<Head> head() const;
+  Result<Summary> summarize(const Span& span) const;
 
  private:
   struct Waiting {
@@ -70,6 +72,7 @@ class Journal {
   Journal(std::string path, Store store);
 
   static Result<std::unique_ptr<Journal>> start(std::string path, Store store, std::string_view boot);
+  void catch_up() const;
   Result<Store> reader() const;
   void run();
   Batch wait_for_records();

@@ -14,6 +14,7 @@ namespace axisgate::server::journal {
 namespace {
 
 constexpr std::int64_t kSchema = 2, kWithoutRequests = 1;
+static_assert(static_cast<int>(EntryKind::link_changed) == 30, "the index entry_of_line is of these");
 constexpr const char* kMakeSchema = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
 CREATE TABLE person(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
@@ -23,6 +24,7 @@ CREATE TABLE entry(
 CREATE INDEX entry_by_time ON entry(time_us);
 CREATE INDEX entry_by_motion ON entry(device, motion);
 )";
+constexpr const char* kMakeLineIndex = "CREATE INDEX entry_of_line ON entry(kind, device) WHERE kind = 30;";
 constexpr std::string_view kColumns =
     "SELECT number, time_us, boot_time_us, kind, device, person, motion, body, hash, "
     "coalesce((SELECT name FROM person WHERE id = person), '') FROM entry ";
@@ -102,13 +104,22 @@ Conditions conditions_of(const Filter& filter) {
   if (filter.motion != 0) all.add("motion = ?", static_cast<std::int64_t>(filter.motion));
   if (!filter.kinds.empty()) all.add_any_of(filter.kinds);
   if (filter.before != 0) all.add("number < ?", filter.before);
+  if (filter.after != 0) all.add("number > ?", filter.after);
+  if (filter.axis != 0) {
+    all.add(fmt::format("EXISTS (SELECT 1 FROM json_each({}, '$.axes') WHERE value = ?)", kJsonBody), filter.axis);
+  }
+  if (!filter.outcome.empty()) {
+    all.add_any_of({EntryKind::motion_ended});
+    all.add(fmt::format("json_extract({}, '$.outcome') = ?", kJsonBody), filter.outcome);
+  }
+  if (!filter.text.empty()) all.add("instr(body, ?) > 0", filter.text);
   return all;
 }
 
 }  // namespace
 
-tl::expected<Store, Unopened> Store::open(const std::string& path) {
-  auto database = Database::open(path, Database::Access::write);
+tl::expected<Store, Unopened> Store::open(const std::string& path, const char* vfs) {
+  auto database = Database::open(path, Database::Access::write, vfs);
   if (!database) return tl::unexpected(database.error());
   Store store(*std::move(database));
   if (const auto good = store.check_schema(path); !good) {
@@ -140,14 +151,14 @@ Result<void> Store::check_schema(const std::string& path) {
 
 Result<void> Store::make_schema() {
   const std::string sql =
-      fmt::format("BEGIN IMMEDIATE; {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
-                  kMakeSchema, RequestTable::kMake, random_epoch(), kSchema);
+      fmt::format("BEGIN IMMEDIATE; {} {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
+                  kMakeSchema, kMakeLineIndex, RequestTable::kMake, random_epoch(), kSchema);
   return database_.run(sql.c_str());
 }
 
 Result<void> Store::upgrade() {
-  const std::string sql =
-      fmt::format("BEGIN IMMEDIATE; {} PRAGMA user_version = {}; COMMIT;", RequestTable::kMake, kSchema);
+  const std::string sql = fmt::format("BEGIN IMMEDIATE; {} {} PRAGMA user_version = {}; COMMIT;", kMakeLineIndex,
+                                      RequestTable::kMake, kSchema);
   return database_.run(sql.c_str());
 }
 
@@ -200,7 +211,8 @@ Result<std::int64_t> Store::person(std::string_view name) {
 
 Result<std::vector<StoredEntry>> Store::read(const Filter& filter, std::size_t limit) {
   const Conditions conditions = conditions_of(filter);
-  auto rows = database_.prepare(fmt::format("{}{}ORDER BY number DESC LIMIT {}", kColumns, conditions.sql(), limit));
+  auto rows = database_.prepare(fmt::format("{}{}ORDER BY number {} LIMIT {}", kColumns, conditions.sql(),
+                                            filter.oldest_first ? "ASC" : "DESC", limit));
   if (!rows) return tl::unexpected(rows.error());
   conditions.bind(*rows);
   return all_of(*rows);

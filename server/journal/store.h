@@ -27,7 +27,15 @@ struct Filter {
   std::uint64_t motion = 0;
   std::vector<EntryKind> kinds{};
   std::int64_t before = 0;  // numbers below this one: where the page before ended
+  std::int64_t after = 0;   // numbers above this one
+  int axis = 0;             // that the body names; 0: all
+  std::string outcome{};    // of an end of a motion: "FAILED"; empty: all entries
+  std::string text{};       // a part of the body; capital and small letters differ
+  bool oldest_first = false;
 };
+
+// SQL: the body of an entry. A file that was changed may have text there that is no JSON.
+inline constexpr std::string_view kJsonBody = "iif(json_valid(body), body, '{}')";
 
 // The end of the chain. Noted outside, it shows that nothing up to there was changed.
 struct Head {
@@ -46,13 +54,14 @@ struct Verdict {
 class Store {
  public:
   // To write; made where it is missing. internal: the file cannot be opened, or a newer version has written it.
-  static tl::expected<Store, Unopened> open(const std::string& path);
+  // `vfs`: as of Database::open().
+  static tl::expected<Store, Unopened> open(const std::string& path, const char* vfs = nullptr);
   static Result<Store> open_to_read(const std::string& path);
 
   // All of them are on the disk when it returns, or none.
   Result<void> append(std::span<const Record> records);
 
-  // Newest first, at most `limit`.
+  // At most `limit`, in the order of their numbers.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit);
   Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
   // What, added to the time since this boot, gives a clock that continues over boots. `boot` names this one.

@@ -78,6 +78,34 @@ TEST_F(JournalStoreTest, EachFilterCounts) {
   EXPECT_THAT(found({.before = 3}, 1), ElementsAre(2)) << "a page of one";
 }
 
+TEST_F(JournalStoreTest, OldestFirstIsTheOtherOrder) {
+  using testing::ElementsAre;
+  EXPECT_THAT(found({.oldest_first = true}), ElementsAre(1, 2, 3));
+  EXPECT_THAT(found({.after = 1, .oldest_first = true}, 1), ElementsAre(2)) << "a page of one";
+  EXPECT_THAT(found({.after = 3}), ElementsAre());
+}
+
+TEST_F(JournalStoreTest, WhatABodySaysIsFound) {
+  using testing::ElementsAre;
+  Entry failed = moved(4, "unix anna", kNight);
+  failed.body = R"({"axes":[2,3],"outcome":"FAILED","reason":"LIMIT_DETECTED"})";
+  Entry started = moved(5, "unix anna", kNight);
+  started.kind = EntryKind::motion_started;
+  started.body = R"({"axes":[2],"outcome":"FAILED"})";
+  Entry odd = moved(6, "unix anna", kNight);
+  odd.body = "no JSON: axes 2";
+  ASSERT_TRUE(Store::open(path_)->append(std::vector<Record>{{failed}, {started}, {odd}}));
+  EXPECT_THAT(found({.axis = 2}), ElementsAre(5, 4));
+  EXPECT_THAT(found({.axis = 3}), ElementsAre(4));
+  EXPECT_THAT(found({.axis = 1}), ElementsAre());
+  EXPECT_THAT(found({.outcome = "FAILED"}), ElementsAre(4)) << "of an end alone";
+  EXPECT_THAT(found({.kinds = {EntryKind::motion_started}, .outcome = "FAILED"}), ElementsAre());
+  EXPECT_THAT(found({.text = "LIMIT_"}), ElementsAre(4));
+  EXPECT_THAT(found({.text = "limit_"}), ElementsAre());
+  EXPECT_THAT(found({.text = "axes 2"}), ElementsAre(6));
+  EXPECT_THAT(found({.text = "%"}), ElementsAre()) << "no pattern";
+}
+
 TEST_F(JournalStoreTest, MotionsAreNumberedOverRestarts) {
   EXPECT_EQ(*Store::open(path_)->last_motion("stage"), 3u);
   EXPECT_EQ(*Store::open(path_)->last_motion("mill"), 0u);
