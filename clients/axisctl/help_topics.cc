@@ -104,8 +104,22 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
      "axisctl clear\naxisctl motor 1,2,3 on"},
     {"exec", "Each LINE is a command of the manual. `axisctl commands` lists them.", "axisctl exec 'M:1+P1000' 'G:1'"},
     {"watch", "", "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C"},
-    {"history", "The daemon keeps it in its state directory, also over restarts.",
-     "axisctl history --hours 12\naxisctl history --who 'unix anna' --limit 20\naxisctl history --motion 12"},
+    {"history",
+     R"(The daemon keeps it in its state directory, also over restarts. --night sums up who moved what, who stopped what, when a
+link was lost, and when the daemon started. The conditions of the other options must all be fulfilled. Details are those
+of --json; in --text capital and small letters differ.)",
+     R"(axisctl history --night
+axisctl history --hours 12 --axis 1 --outcome failed
+axisctl history --who 'unix anna' --limit 20
+axisctl history --text LIMIT_DETECTED
+axisctl history --motion 1
+axisctl history --hours 12 --limit 100000 --csv
+axisctl history --follow   # until Ctrl-C)"},
+    {"motions", "The daemon has the motions since its start; `axisctl history` also shows older ones.",
+     "axisctl motions\naxisctl --json motions --all"},
+    {"cancel",
+     "Needs no lease. After a cancel by somebody else, motions are refused until their caller types `axisctl rearm`.",
+     "axisctl cancel 1"},
     {"audit",
      R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added.
 Who can write the file could compute all hashes again. So note the head that it prints, and check it later.)",

@@ -1,20 +1,55 @@
-// The options of history and audit.
+// The options of history, motions, cancel and audit.
 #include <CLI/CLI.hpp>
 
 #include "clients/axisctl/help_topics.h"
 #include "clients/axisctl/verb_options.h"
 
 namespace axisgate::axisctl {
+namespace {
+
+void add_history(CLI::App& app, Options& options) {
+  CLI::App* history = add_verb(app, options, Verb::history, "history", "show what has happened, newest first");
+  CLI::Option* hours = history->add_option("--hours", options.hours, "only the last N hours");
+  hours->check(CLI::Range(1, 100'000))->type_name("N");
+  CLI::Option* who = history->add_option("--who", options.who, "only what this caller did, e.g. 'unix anna'");
+  CLI::Option* motion = history->add_option("--motion", options.motion,
+                                            "only the motion with this number, oldest first, and how it ended");
+  CLI::Option* axis = history->add_option("--axis", options.axis, "only what names this axis: a number or a name");
+  CLI::Option* outcome = history->add_option("--outcome", options.outcome, "only motions that ended so")
+                             ->check(CLI::IsMember({"succeeded", "stopped", "failed", "unknown"}));
+  CLI::Option* text = history->add_option("--text", options.text, "only entries with this text in their details");
+  CLI::Option* limit = history->add_option("--limit", options.limit, "at most N entries");
+  limit->check(CLI::Range(1, 1'000'000))->capture_default_str();
+  CLI::Option* follow =
+      history->add_flag("--follow", options.follow, "oldest first, then each new entry, until Ctrl-C");
+  CLI::Option* csv = history->add_flag("--csv", options.csv, "as a table for other programs, times in UTC");
+  CLI::Option* night = history->add_flag("--night", options.night,
+                                         "who moved what, and what went wrong, since 18:00 yesterday or in --hours N");
+  who->type_name("WHO");
+  motion->type_name("NUMBER");
+  axis->type_name("AXIS");
+  outcome->type_name("OUTCOME");
+  text->type_name("TEXT");
+  limit->type_name("N");
+  for (CLI::Option* other : {who, motion, axis, outcome, text, limit, follow, csv}) night->excludes(other);
+  // Its outcome would be missing.
+  for (CLI::Option* other : {hours, who, axis, outcome, text, limit, follow}) motion->excludes(other);
+  csv->excludes(app.get_option("--json"));
+}
+
+void add_motions(CLI::App& app, Options& options) {
+  CLI::App* motions =
+      add_verb(app, options, Verb::motions, "motions", "show the motions that run, and the 20 newest others");
+  motions->add_flag("--all", options.all, "all motions that the daemon has: the 1,000 newest");
+  CLI::App* cancel = add_verb(app, options, Verb::cancel, "cancel", "stop one motion, or drop it if it waits");
+  cancel->add_option("MOTION", options.name, "its number, as `axisctl motions` shows it")->required()->type_name("");
+}
+
+}  // namespace
 
 void add_history_verbs(CLI::App& app, Options& options) {
-  CLI::App* history = add_verb(app, options, Verb::history, "history", "show what has happened, newest first");
-  history->add_option("--hours", options.hours, "only the last N hours")->check(CLI::Range(1, 100'000))->type_name("N");
-  history->add_option("--who", options.who, "only what this caller did, e.g. 'unix anna'")->type_name("WHO");
-  history->add_option("--motion", options.motion, "only the motion with this number")->type_name("NUMBER");
-  history->add_option("--limit", options.limit, "at most N entries")
-      ->check(CLI::Range(1, 1'000'000))
-      ->capture_default_str()
-      ->type_name("N");
+  add_history(app, options);
+  add_motions(app, options);
   CLI::App* audit = app.add_subcommand("audit", "for the journal behind `history`: verify");
   audit->require_subcommand(1);
   audit->fallthrough();

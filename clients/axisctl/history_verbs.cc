@@ -3,14 +3,20 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <chrono>
 #include <ctime>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/history_csv.h"
+#include "clients/axisctl/history_reader.h"
+#include "clients/axisctl/night.h"
+#include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
 
@@ -22,7 +28,6 @@ using Json = nlohmann::json;
 
 // All of a journal is read.
 constexpr std::chrono::seconds kVerifyLimit{600};
-constexpr int kPage = 1000;
 
 std::string axes_text(const Json& details) {
   std::string text;
@@ -64,6 +69,14 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return "the daemon ended";
     case v1::HISTORY_KIND_ENTRIES_LEFT_OUT:
       return fmt::format("{} entries were left out: the disk refused them", details.value("count", 0));
+    case v1::HISTORY_KIND_JOURNAL_FAILED:
+      return "the disk refused the journal";
+    case v1::HISTORY_KIND_REQUEST_MADE:
+      return "requested: " + details.value("what", "?");
+    case v1::HISTORY_KIND_REQUEST_REFUSED:
+      return fmt::format("refused: {}, {}", details.value("request", "a request"), details.value("reason", "?"));
+    case v1::HISTORY_KIND_REQUEST_ENDED:
+      return fmt::format("{}: {}", details.value("request", "a request"), details.value("outcome", "?"));
     case v1::HISTORY_KIND_MOTION_REQUESTED:
     case v1::HISTORY_KIND_MOTION_STARTED:
     case v1::HISTORY_KIND_MOTION_ENDED:
@@ -90,6 +103,34 @@ std::string line_of(const v1::HistoryEntry& entry) {
   return entry.who().empty() ? line : line + ", by " + entry.who();
 }
 
+// When it ended and where; after its entries, oldest first.
+std::string life_text(std::uint64_t number, const std::vector<v1::HistoryEntry>& entries) {
+  const auto newest = [&](v1::HistoryKind kind) {
+    const auto found =
+        std::find_if(entries.rbegin(), entries.rend(), [&](const auto& one) { return one.kind() == kind; });
+    return found == entries.rend() ? nullptr : &*found;
+  };
+  if (entries.empty()) return fmt::format("the journal has no motion {}", number);
+  const v1::HistoryEntry* const ended = newest(v1::HISTORY_KIND_MOTION_ENDED);
+  const v1::HistoryEntry* const started = newest(v1::HISTORY_KIND_MOTION_STARTED);
+  if (ended == nullptr) {
+    return fmt::format("motion {} has no outcome: it has not ended, or the daemon was killed before", number);
+  }
+  const Json details = Json::parse(ended->details(), nullptr, false);
+  if (!details.is_object()) return fmt::format("motion {}: {}", number, ended->details());
+  const std::string when =
+      started == nullptr ? "before it started" : duration_text(started->time(), ended->time()) + " after its start";
+  return fmt::format("motion {}: {} {}{}", number, details.value("outcome", "?"), when, results_text(details));
+}
+
+// "failed" as an option has it; empty: none.
+v1::MotionState outcome_of(std::string text) {
+  std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  v1::MotionState outcome = v1::MOTION_STATE_UNSPECIFIED;
+  v1::MotionState_Parse("MOTION_STATE_" + text, &outcome);
+  return outcome;
+}
+
 v1::ListHistoryRequest request_of(const Session& session) {
   const Options& options = session.options;
   v1::ListHistoryRequest request;
@@ -97,7 +138,15 @@ v1::ListHistoryRequest request_of(const Session& session) {
   request.set_who(options.who);
   if (options.motion) {
     request.set_motion(fmt::format("{}/motions/{}", chosen_device(session).name(), *options.motion));
+    request.set_order(v1::ListHistoryRequest::ORDER_OLDEST_FIRST);
   }
+  if (!options.axis.empty()) {
+    const v1::Device device = chosen_device(session);
+    request.set_device(device.name());
+    request.set_axis(find_axis(device, options.axis).number());
+  }
+  request.set_outcome(outcome_of(options.outcome));
+  request.set_text(options.text);
   if (options.hours)
     *request.mutable_start_time() = TimeUtil::SecondsToTimestamp(std::time(nullptr) - *options.hours * 3600L);
   return request;
@@ -136,19 +185,19 @@ v1::JournalHead head_of(const std::string& text) {
 }  // namespace
 
 int history(const Session& session) {
-  v1::ListHistoryRequest request = request_of(session);
-  int left = session.options.limit;
-  while (left > 0) {
-    request.set_page_size(std::min(left, kPage));
-    const v1::ListHistoryResponse page = session.connection.call(
-        session.connection.history, &v1::HistoryService::Stub::ListHistory, request, kQuestionLimit);
-    for (const v1::HistoryEntry& entry : page.entries()) {
-      session.options.json ? print_json(entry) : print_line(line_of(entry));
-    }
-    left -= page.entries_size();
-    if (page.next_page_token().empty()) break;
-    request.set_page_token(page.next_page_token());
-  }
+  const Options& options = session.options;
+  if (options.night) return show_night(session);
+  const v1::ListHistoryRequest request = request_of(session);
+  std::vector<v1::HistoryEntry> life;
+  const auto show = [&](const v1::HistoryEntry& entry) {
+    if (options.json) return print_json(entry);
+    print_line(options.csv ? csv_row(entry) : line_of(entry));
+    if (options.motion) life.push_back(entry);
+  };
+  if (options.csv) print_line(kCsvHeader);
+  if (options.follow) follow_history(session, request, show);
+  list_history(session, request, show);
+  if (options.motion && !options.json && !options.csv) print_line(life_text(*options.motion, life));
   return kDone;
 }
 

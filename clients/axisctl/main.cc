@@ -73,6 +73,8 @@ constexpr Row kRows[] = {
     {Verb::go, go_to_position, true},
     {Verb::forget, forget_position, true},
     {Verb::history, history},
+    {Verb::motions, motions},
+    {Verb::cancel, cancel},
     {Verb::audit_verify, audit_verify},
     {Verb::mill_check, nullptr, false, mill_check},
     {Verb::mill_preview, nullptr, false, mill_preview},

@@ -284,9 +284,9 @@ void set_groups(CLI::App& app) {
     std::vector<std::string> verbs;
   };
   const Group groups[] = {
-      {"Looking", {"devices", "status", "position", "watch", "history", "audit", "whoami"}},
+      {"Looking", {"devices", "status", "position", "watch", "motions", "history", "audit", "whoami"}},
       {"Moving", {"home", "move", "path", "line", "arc", "scan", "jog", "save", "positions", "go", "forget"}},
-      {"Stopping and sharing", {"stop", "estop", "rearm", "clear", "lease", "token"}},
+      {"Stopping and sharing", {"stop", "cancel", "estop", "rearm", "clear", "lease", "token"}},
       {"Settings",
        {"settings", "speed", "motor", "loop", "divisions", "settle", "sleep", "wake", "display", "beep", "mode",
         "dialect", "reset", "zero", "unzero", "preset", "outputs", "inputs", "trigger"}},

@@ -64,6 +64,8 @@ enum class Verb {
   go,
   forget,
   history,
+  motions,
+  cancel,
   audit_verify,
   mill_check,
   mill_preview
@@ -111,22 +113,22 @@ struct Options {
   int divisions = 0;                // divisions
   std::vector<int> outputs;         // outputs: those to be switched
   std::string interval;             // trigger every
-  std::string axis, scale;          // trigger every: whose pulses, and the scale's in direction "+" or "-"; scan: axis
-  bool relative = false;            // move
-  bool absolute = false;            // path, line, arc
-  bool logical = false;             // home
-  bool no_wait = false;             // motions
-  bool no_follow = false;           // record
-  bool only_new = false;            // record
-  std::optional<int> seconds;       // record, jog
+  std::string axis, scale;     // scan, history; trigger every: whose pulses, and the scale's in direction "+" or "-"
+  bool relative = false;       // move
+  bool absolute = false;       // path, line, arc
+  bool logical = false;        // home
+  bool no_wait = false;        // motions
+  bool no_follow = false;      // record
+  bool only_new = false;       // record
+  std::optional<int> seconds;  // record, jog
   std::optional<std::uint64_t> from_revision;  // watch
   std::optional<int> wait_s;                   // motions, lease run: for a lease that another holds
   bool take_over = false;                      // lease run
-  bool follow = false;                         // lease list
+  bool follow = false;                         // lease list, history
   std::string at_loss = "stop";                // lease run
   std::string purpose;                         // lease run
   std::string holder;                          // lease hand-over: to whom
-  std::string name;                            // token create, token revoke, save, go, forget
+  std::string name;                            // token create, token revoke, save, go, forget; cancel: a motion
   bool coordinates = false;                    // save
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
@@ -134,7 +136,11 @@ struct Options {
   std::string who;                             // history: of this caller only
   std::optional<std::uint64_t> motion;         // history: of this motion only
   std::optional<int> hours;                    // history: of the last hours only
+  std::string outcome, text;                   // history: of motions that ended so; with this in the details
   int limit = 100;                             // history: lines at most
+  bool night = false;                          // history: a summary
+  bool csv = false;                            // history
+  bool all = false;                            // motions: also older ones
   std::string head;                            // audit verify: that was noted before
   MillOptions mill;
 };

@@ -17,27 +17,18 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollEvery{200};
 
-std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
-  std::vector<std::string> ends;
-  for (const v1::AxisResult& result : motion.results()) {
-    if (!result.has_command_pulses()) continue;
-    const v1::Axis& axis = find_axis(device, std::to_string(result.axis()));
-    ends.push_back(place_text(axis, result.command_pulses()));
-  }
-  return fmt::format("{}", fmt::join(ends, ", "));
-}
-
 // "; axis x ran from ..." of a scan that has started.
-std::string scan_of(const Session& session, const v1::Device& device, const v1::Motion& motion) {
-  return motion.has_scan() ? "; " + scan_text(find_axis(device, session.options.axis), motion.scan()) : "";
+std::string scan_of(const v1::Device& device, const v1::Motion& motion) {
+  if (!motion.has_scan()) return "";
+  return "; " + scan_text(find_axis(device, std::to_string(motion.axes(0))), motion.scan());
 }
 
-Failure to_failure(const Session& session, const v1::Device& device, const v1::Motion& motion) {
+Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
   Failure failure = axisctl::to_failure(motion.problem());
   failure.exit_code = kFailed;
   if (!motion.has_problem()) failure = {kFailed, state_name(motion.state()), "the motion did not succeed", ""};
   if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now " + ends;
-  failure.message += scan_of(session, device, motion);
+  failure.message += scan_of(device, motion);
   return failure;
 }
 
@@ -74,6 +65,16 @@ v1::Motion outcome_by_calls(const Session& session, const std::string& motion) {
 
 }  // namespace
 
+std::string ends_text(const v1::Device& device, const v1::Motion& motion) {
+  std::vector<std::string> ends;
+  for (const v1::AxisResult& result : motion.results()) {
+    if (!result.has_command_pulses()) continue;
+    const v1::Axis& axis = find_axis(device, std::to_string(result.axis()));
+    ends.push_back(place_text(axis, result.command_pulses()));
+  }
+  return fmt::format("{}", fmt::join(ends, ", "));
+}
+
 v1::Motion await_outcome(const Session& session, const std::string& motion) {
   grpc::ClientContext context;
   v1::WatchMotionRequest request;
@@ -96,8 +97,8 @@ int report_outcome(const Session& session, const v1::Device& device, const v1::M
     *outcome.mutable_motion() = motion;
     print_json(outcome);
   }
-  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(session, device, motion);
-  if (!session.options.json) print_line("done: " + ends_text(device, motion) + scan_of(session, device, motion));
+  if (motion.state() != v1::MOTION_STATE_SUCCEEDED) throw to_failure(device, motion);
+  if (!session.options.json) print_line("done: " + ends_text(device, motion) + scan_of(device, motion));
   return kDone;
 }
 

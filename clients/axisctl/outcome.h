@@ -12,6 +12,9 @@ namespace axisgate::axisctl {
 // Waits for the outcome; throws Failure when the daemon can no longer be asked.
 v1::Motion await_outcome(const Session& session, const std::string& motion);
 
+// "axis x at 2.5 mm, axis y at 0 mm": where the axes are whose ends are known; may be empty.
+std::string ends_text(const v1::Device& device, const v1::Motion& motion);
+
 // Prints where the axes are, or throws the Failure that the outcome is.
 int report_outcome(const Session& session, const v1::Device& device, const v1::Motion& motion);
 

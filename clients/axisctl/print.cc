@@ -32,12 +32,6 @@ std::string without_prefix(const std::string& name, std::string_view prefix, int
   return name.empty() ? fmt::format("({})", number) : name.substr(prefix.size());
 }
 
-std::string kind_name(v1::MotionKind kind) {
-  std::string name = without_prefix(v1::MotionKind_Name(kind), "MOTION_KIND_", kind);
-  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c == '_' ? '-' : char(std::tolower(c)); });
-  return name;
-}
-
 std::string describe_motion(const v1::Motion& motion) {
   std::string text =
       fmt::format("motion {} ({}) {}", last_part(motion.name()), kind_name(motion.kind()), state_name(motion.state()));
@@ -246,6 +240,12 @@ std::string describe(const v1::Event& event) {
   return "an event that this axisctl does not know";
 }
 
+std::string kind_name(v1::MotionKind kind) {
+  std::string name = without_prefix(v1::MotionKind_Name(kind), "MOTION_KIND_", kind);
+  std::transform(name.begin(), name.end(), name.begin(), [](char c) { return c == '_' ? '-' : char(std::tolower(c)); });
+  return name;
+}
+
 std::string state_name(v1::MotionState state) {
   return without_prefix(v1::MotionState_Name(state), "MOTION_STATE_", state);
 }
@@ -261,6 +261,18 @@ std::string time_text(const google::protobuf::Timestamp& time) {
   char text[32];
   std::strftime(text, sizeof text, "%F %T", &local);
   return text;
+}
+
+std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to) {
+  using google::protobuf::util::TimeUtil;
+  constexpr std::int64_t minute = 60, hour = 60 * minute, day = 24 * hour;
+  const std::int64_t ms = std::max<std::int64_t>(0, TimeUtil::DurationToMilliseconds(to - from));
+  const std::int64_t tenths = (ms + 50) / 100, s = (ms + 500) / 1000;
+  if (tenths < 100 && tenths % 10 != 0) return fmt::format("{}.{} s", tenths / 10, tenths % 10);
+  if (s < minute) return fmt::format("{} s", s);
+  if (s < hour) return fmt::format("{} min {} s", s / minute, s % minute);
+  if (s < day) return fmt::format("{} h {} min", s / hour, s % hour / minute);
+  return fmt::format("{} d {} h", s / day, s % day / hour);
 }
 
 }  // namespace axisgate::axisctl

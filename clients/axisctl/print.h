@@ -60,12 +60,18 @@ std::string positions_text(const v1::Device& device);
 // "segment 3 sent: OK_D", "axis 1 completed", "motion 5 (move) RUNNING" ...
 std::string describe(const v1::Event& event);
 
+// "return-to-origin".
+std::string kind_name(v1::MotionKind kind);
+
 // "RUNNING" of MOTION_STATE_RUNNING: an enum value without the name of its enum.
 std::string state_name(v1::MotionState state);
 std::string link_name(v1::LinkState state);
 
 // "2026-11-21 16:00:00", the local time.
 std::string time_text(const google::protobuf::Timestamp& time);
+
+// "1.5 s", "3 min 20 s", "2 h 5 min", "3 d 4 h". Of a clock that was set back in between: "0 s".
+std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to);
 
 // "5" of "devices/stage/motions/5".
 std::string_view last_part(std::string_view resource);

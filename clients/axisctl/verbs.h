@@ -59,6 +59,8 @@ int list_positions(const Session& session);
 int go_to_position(const Session& session);
 int forget_position(const Session& session);
 int history(const Session& session);
+int motions(const Session& session);
+int cancel(const Session& session);
 int audit_verify(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.

@@ -16,8 +16,9 @@
 namespace axisgate::api {
 
 struct HistoryPage {
-  std::vector<server::journal::StoredEntry> entries;  // newest first
-  std::int64_t next_before = 0;                       // where the next page begins; 0: there is none
+  std::vector<server::journal::StoredEntry> entries;
+  bool more = false;        // the next page begins after the last of them
+  std::int64_t newest = 0;  // the number of the journal's newest entry, wanted or not; 0: none
 };
 
 struct JournalVerdict {
@@ -37,7 +38,10 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
+  // invalid_request.
   void list(const Call& call, Result<server::journal::Filter> filter, int page_size, Answer<HistoryPage> answer) const;
+  // invalid_request: the span ends before it begins.
+  void summarize(const Call& call, Result<server::journal::Span> span, Answer<server::journal::Summary> answer) const;
   void verify(const Call& call, Result<std::optional<server::journal::Head>> noted,
               Answer<JournalVerdict> answer) const;
 

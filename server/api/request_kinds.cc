@@ -33,6 +33,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::get_support_report, "get support report",   Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::watch_events,       "watch events",         Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::list_history,       "list history",         Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::summarize_history,  "summarize history",    Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::verify_journal,     "verify journal",       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::save_position,      "save position",        Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},
     {Kind::list_positions,     "list positions",       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},

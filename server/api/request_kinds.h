@@ -31,6 +31,7 @@ enum class RequestKind {
   get_support_report,
   watch_events,
   list_history,
+  summarize_history,
   verify_journal,
   save_position,
   list_positions,

@@ -13,6 +13,9 @@ class HistoryService final : public v1::HistoryService::CallbackService {
 
   grpc::ServerUnaryReactor* ListHistory(grpc::CallbackServerContext* context, const v1::ListHistoryRequest* request,
                                         v1::ListHistoryResponse* response) override;
+  grpc::ServerUnaryReactor* SummarizeHistory(grpc::CallbackServerContext* context,
+                                             const v1::SummarizeHistoryRequest* request,
+                                             v1::SummarizeHistoryResponse* response) override;
   grpc::ServerUnaryReactor* VerifyJournal(grpc::CallbackServerContext* context, const v1::VerifyJournalRequest* request,
                                           v1::VerifyJournalResponse* response) override;
 

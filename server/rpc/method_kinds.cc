@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 44> kKinds = {{
+constexpr std::array<MethodKind, 45> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -34,6 +34,7 @@ constexpr std::array<MethodKind, 44> kKinds = {{
     {"DiagnosticsService/GetSupportReport", Kind::get_support_report},
     {"EventService/Watch", Kind::watch_events},
     {"HistoryService/ListHistory", Kind::list_history},
+    {"HistoryService/SummarizeHistory", Kind::summarize_history},
     {"HistoryService/VerifyJournal", Kind::verify_journal},
     {"PositionService/SavePosition", Kind::save_position},
     {"PositionService/ListPositions", Kind::list_positions},

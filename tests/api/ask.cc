@@ -242,13 +242,19 @@ Reason ask_tokens(World& world, RequestKind kind, const Call& call) {
 }
 
 Reason ask_history(World& world, RequestKind kind, const Call& call) {
+  const History& history = world.api->history;
   if (kind == RequestKind::list_history) {
     Asking<HistoryPage> page;
-    world.api->history.list(call, server::journal::Filter(), 10, page.answer());
+    history.list(call, server::journal::Filter(), 10, page.answer());
     return page.reason();
   }
+  if (kind == RequestKind::summarize_history) {
+    Asking<server::journal::Summary> summary;
+    history.summarize(call, server::journal::Span(), summary.answer());
+    return summary.reason();
+  }
   Asking<JournalVerdict> verdict;
-  world.api->history.verify(call, std::nullopt, verdict.answer());
+  history.verify(call, std::nullopt, verdict.answer());
   return verdict.reason();
 }
 
@@ -299,6 +305,7 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::watch_events:
       return ask_readers(world, kind, call);
     case Kind::list_history:
+    case Kind::summarize_history:
     case Kind::verify_journal:
       return ask_history(world, kind, call);
     case Kind::save_position:

@@ -60,6 +60,8 @@ const std::vector<Row> kRows = {
     {Kind::watch_events, "watch_events", Role::observer, "stream", Asks::nothing},
     {Kind::list_history, "list_history", Role::observer, "request", Asks::nothing, Reason::journal_unavailable,
      Reason::journal_unavailable},
+    {Kind::summarize_history, "summarize_history", Role::observer, "request", Asks::nothing,
+     Reason::journal_unavailable, Reason::journal_unavailable},
     {Kind::verify_journal, "verify_journal", Role::observer, "request", Asks::nothing, Reason::journal_unavailable,
      Reason::journal_unavailable},
     {Kind::save_position, "save_position", Role::operator_, "request", Asks::nothing, Reason::invalid_request,

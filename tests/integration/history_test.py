@@ -1,14 +1,17 @@
 #!/usr/bin/env python3
 """What the daemon keeps of what happened, and finds again when it was killed or restarted."""
 
+import contextlib
+import csv
 import json
 import os
 import re
 import sqlite3
 import tempfile
+import time
 import unittest
 
-from programs import Daemon
+from programs import LIMIT_S, Daemon
 
 CONFIG = """
 listen = "127.0.0.1:0"
@@ -55,8 +58,18 @@ class History(unittest.TestCase):
         self.assertNotIn("the daemon ended", shown, "it was killed")
         motions = {entry["motion"] for entry in self.history()} - {""}
         self.assertEqual(motions, {"devices/stage/motions/1", "devices/stage/motions/2"}, "a number is not used twice")
+
+    def test_a_motion_from_its_request_to_its_end(self):
+        self.run_well("move", "1=+100pulse", "--relative")
         self.assertEqual([entry["kind"] for entry in self.history("--motion", "1")],
-                         ["HISTORY_KIND_MOTION_ENDED", "HISTORY_KIND_MOTION_STARTED", "HISTORY_KIND_MOTION_REQUESTED"])
+                         ["HISTORY_KIND_MOTION_REQUESTED", "HISTORY_KIND_MOTION_STARTED", "HISTORY_KIND_MOTION_ENDED"])
+        lines = self.run_well("history", "--motion", "1").splitlines()
+        self.assertEqual(len(lines), 4, lines)
+        self.assertRegex(lines[3], r"^motion 1: SUCCEEDED \d+(\.\d)? s after its start; axis 1 at 100 pulses$")
+        self.assertEqual(self.run_well("history", "--motion", "99"), "the journal has no motion 99\n")
+        self.run_well("move", "1=15mm", "--speed", "10um/s", "--no-wait")
+        self.assertRegex(self.run_well("history", "--motion", "2"), r"(?m)^motion 2 has no outcome: ")
+        self.run_well("stop")
 
     def test_filters_and_limits(self):
         self.run_well("move", "1=+100pulse", "--relative")
@@ -66,6 +79,137 @@ class History(unittest.TestCase):
         everything = self.history("--limit", "5000")
         numbers = [int(entry["number"]) for entry in everything]
         self.assertEqual(numbers, list(range(len(numbers), 0, -1)))
+
+    def test_what_details_say(self):
+        self.run_well("move", "1=+100pulse", "--relative")
+        self.run_well("home", "2", "3")
+        self.assertEqual({entry["motion"] for entry in self.history("--axis", "3")}, {"devices/stage/motions/2"})
+        self.assertEqual(self.history("--outcome", "failed"), [])
+        self.assertEqual([entry["motion"] for entry in self.history("--outcome", "succeeded")],
+                         ["devices/stage/motions/2", "devices/stage/motions/1"])
+        self.assertEqual([entry["motion"] for entry in self.history("--text", '"kind":"home"', "--outcome", "succeeded")],
+                         ["devices/stage/motions/2"])
+        self.assertEqual(self.daemon.run("history", "--axis", "7").returncode, 2)
+        self.assertEqual(self.daemon.run("history", "--outcome", "done").returncode, 2)
+
+    def test_a_table_for_other_programs(self):
+        self.run_well("move", "1=+100pulse", "--relative")
+        rows = list(csv.DictReader(self.run_well("history", "--csv").splitlines()))
+        entries = self.history()
+        self.assertEqual(len(rows), len(entries))
+        self.assertEqual(list(rows[0]), ["number", "time", "kind", "device", "who", "motion", "details"])
+        ended, entry = rows[0], entries[0]
+        self.assertEqual((ended["number"], ended["time"], ended["kind"]), (entry["number"], entry["time"], "MOTION_ENDED"))
+        self.assertEqual((ended["device"], ended["motion"], ended["who"]), ("stage", "1", entry["who"]))
+        self.assertEqual(ended["details"], entry["details"], "quotation marks and commas, too")
+        for words in (("--json", "history", "--csv"), ("history", "--csv", "--night"), ("history", "--night", "--axis", "1"),
+                      ("history", "--motion", "1", "--limit", "1")):
+            refused = self.daemon.run(*words)
+            self.assertEqual(refused.returncode, 2, words)
+            self.assertIn("excludes", refused.stderr)
+
+    def test_new_entries_are_followed_over_restarts(self):
+        follow = self.daemon.start("history", "--follow")
+        self.addCleanup(follow.kill)
+        self.assertIn("the daemon started", follow.next())
+        self.run_well("move", "1=+100pulse", "--relative")
+        self.assertIn("motion 1 (move of axis 1) SUCCEEDED", follow.until("motion 1 .*SUCCEEDED"))
+        self.daemon.stop()
+        self.start()
+        self.assertIn("the daemon ended", follow.until("the daemon "))
+        self.assertIn("the daemon started", follow.until("the daemon "))
+        self.daemon.stop()
+        for suffix in ("", "-wal", "-shm"):
+            with contextlib.suppress(FileNotFoundError):
+                os.remove(self.journal + suffix)
+        self.start()
+        follow.until("the daemon started")  # the first entry of a new journal
+        self.run_well("home", "2")
+        follow.until("home of axis 2.*SUCCEEDED")
+
+    def test_what_is_followed_is_filtered(self):
+        follow = self.daemon.start("--json", "history", "--follow", "--outcome", "succeeded")
+        self.addCleanup(follow.kill)
+        for number in (1, 2):
+            self.run_well("move", "1=+100pulse", "--relative")
+            self.assertEqual(json.loads(follow.next())["motion"], f"devices/stage/motions/{number}")
+
+    def lose_the_line(self):
+        self.run_well("sim", "unplug", "3600")
+        self.wait_for_link("DOWN")
+        self.run_well("sim", "unplug", "0")
+        self.wait_for_link("UP")
+
+    def wait_for_link(self, state):
+        deadline = time.monotonic() + LIMIT_S
+        while f"  {state}" not in self.run_well("devices"):
+            self.assertLess(time.monotonic(), deadline, f"the link does not get {state}")
+            time.sleep(0.02)  # between two looks; the deadline above decides
+
+    def test_a_night_on_one_screen(self):
+        self.run_well("move", "1=+100pulse", "--relative")
+        self.run_well("move", "1=+100pulse", "--relative")
+        self.run_well("home", "2")
+        self.assertEqual(self.daemon.run("move", "3=1000mm").returncode, 1)
+        self.run_well("stop")
+        self.lose_the_line()
+        self.daemon.kill()
+        self.start()
+        night = self.run_well("history", "--night")
+        clock = r"(\d\d-\d\d )?\d\d:\d\d"
+        who = r"unix \S+"
+        self.assertRegex(night, r"^since \d{4}-\d\d-\d\d 18:00:00\n")
+        self.assertRegex(night, rf"(?m)^{clock}( to {clock})? {who}: 3 moves \(1 FAILED\), 1 homing$")
+        self.assertRegex(night, rf"(?m)^stop of stage by {who} at {clock}$")
+        self.assertRegex(night, rf"(?m)^stage: link lost at {clock} for \d+(\.\d)? s$")
+        self.assertRegex(night, rf"(?m)^the daemon started at {clock}\n(.*\n)*"
+                                rf"the daemon was killed; it started again at {clock}$")
+        night, = (json.loads(line) for line in self.run_well("--json", "history", "--night", "--hours", "1").splitlines())
+        self.assertEqual([start["after_unclean_end"] for start in night["daemon_starts"]], [False, True])
+        self.assertEqual(len(night["link_losses"]), 1)
+
+    def test_a_night_without_anything(self):
+        with sqlite3.connect(self.journal) as database:
+            database.execute("UPDATE entry SET time_us = time_us - 3 * 86400 * 1000000")
+        database.close()
+        self.assertEqual(self.run_well("history", "--night", "--hours", "1").splitlines()[1:], ["nothing happened"])
+
+    def rows_of_motions(self, *words):
+        head, *rows = self.run_well("motions", *words).splitlines()
+        self.assertEqual(head.split(), ["number", "kind", "axes", "state", "who", "started", "ended"])
+        return rows
+
+    def test_the_motions_that_the_daemon_has(self):
+        self.assertEqual(self.run_well("motions"), "no motions\n")
+        for _ in range(21):
+            self.run_well("move", "2=+1pulse", "--relative")
+        self.run_well("move", "1=15mm", "--speed", "10um/s", "--no-wait")
+        rows = self.rows_of_motions()
+        self.assertEqual([row.split()[0] for row in rows], [str(number) for number in range(2, 23)])
+        self.assertRegex(rows[0], r"^2 +move +2 +SUCCEEDED +unix \S+ +\S+ \S+ +\d{4}-\S+ \S+$")
+        self.assertRegex(rows[-1], r"^22 +move +1 +RUNNING +unix \S+ +\S+ \S+ +for \d+(\.\d)? s$")
+        self.assertEqual(len(self.rows_of_motions("--all")), 22)
+        motions = [json.loads(line) for line in self.run_well("--json", "motions").splitlines()]
+        self.assertEqual(len(motions), 21)
+        self.assertEqual(motions[-1]["state"], "MOTION_STATE_RUNNING")
+
+    def test_a_motion_is_cancelled(self):
+        for name in ("1", "devices/stage/motions/2"):
+            self.run_well("move", "1=15mm", "--speed", "10um/s", "--no-wait")
+            self.assertRegex(self.run_well("cancel", name), r"^motion [12] \(move\) STOPPED; axis 1 at \d+(\.\d+)? um$")
+        self.assertRegex(self.run_well("cancel", "2"), r"^motion 2 \(move\) had ended before: STOPPED; axis 1 at ")
+        self.assertEqual(json.loads(self.run_well("--json", "cancel", "2"))["motion"]["state"], "MOTION_STATE_STOPPED")
+        self.assertEqual(self.daemon.run("cancel", "99").returncode, 3)
+        refused = self.daemon.run("cancel", "x")
+        self.assertEqual(refused.returncode, 2)
+        self.assertIn("'x' is no motion", refused.stderr)
+
+    def test_a_cancelled_motion_whose_end_is_not_seen(self):
+        self.run_well("move", "1=15mm", "--speed", "10um/s", "--no-wait")
+        self.run_well("sim", "unplug", "3600")
+        cancelled = self.daemon.run("cancel", "1")
+        self.assertEqual(cancelled.returncode, 1, cancelled.stdout)
+        self.assertIn("UNKNOWN", cancelled.stderr)
 
     def test_a_changed_entry_is_found_out(self):
         self.run_well("move", "1=+100pulse", "--relative")

@@ -37,7 +37,7 @@ class RpcTest : public ::testing::Test {
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
     config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
     configure(config);
-    gateway_ = std::make_unique<server::Gateway>(config, 1);
+    gateway_ = std::make_unique<server::Gateway>(config, 1, "", journal_.get());
     access_ = std::make_unique<server::Access>(config.access, server::caller_name(::geteuid()),
                                                *server::Tokens::open(directory_ + ".tokens"));
     positions_ = *server::SavedPositions::open(directory_ + ".positions");
@@ -170,6 +170,7 @@ class RpcTest : public ::testing::Test {
 
   server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
+  std::unique_ptr<server::journal::Journal> journal_;  // before SetUp(); null: none is kept
   std::unique_ptr<server::Access> access_;
   std::unique_ptr<server::SavedPositions> positions_;
   std::unique_ptr<server::Gateway> gateway_;

@@ -1,0 +1,177 @@
+#include "clients/axisctl/night.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <map>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+using google::protobuf::Timestamp;
+using google::protobuf::util::TimeUtil;
+
+// Every entry of a long time is read.
+constexpr std::chrono::seconds kSummaryLimit{60};
+constexpr int kEvening = 18;  // o'clock
+
+std::tm local_time(std::time_t time) {
+  std::tm local{};
+  ::localtime_r(&time, &local);
+  return local;
+}
+
+std::time_t evening_before(std::time_t now) {
+  std::tm evening = local_time(now);
+  --evening.tm_mday;
+  evening.tm_hour = kEvening;
+  evening.tm_min = evening.tm_sec = 0;
+  evening.tm_isdst = -1;
+  return std::mktime(&evening);
+}
+
+// "23:10" of last night, "11-24 23:10" of another day.
+class NightClock {
+ public:
+  NightClock(std::time_t from, std::time_t to) : from_(from), unambiguous_(to - from <= 24 * 3600) {}
+
+  std::string text(const Timestamp& time) const {
+    const std::time_t seconds = TimeUtil::TimestampToTimeT(time);
+    const std::tm local = local_time(seconds);
+    char text[32];
+    std::strftime(text, sizeof text, unambiguous_ && seconds >= from_ ? "%H:%M" : "%m-%d %H:%M", &local);
+    return text;
+  }
+
+ private:
+  std::time_t from_;
+  bool unambiguous_;
+};
+
+std::string_view plural_of(v1::MotionKind kind) {
+  switch (kind) {
+    case v1::MOTION_KIND_MOVE:
+      return "moves";
+    case v1::MOTION_KIND_HOME:
+      return "homings";
+    case v1::MOTION_KIND_RETURN_TO_ORIGIN:
+      return "returns to origin";
+    case v1::MOTION_KIND_PATH:
+      return "paths";
+    case v1::MOTION_KIND_EXECUTE:
+      return "raw commands";
+    case v1::MOTION_KIND_JOG:
+      return "jogs";
+    case v1::MOTION_KIND_SCAN:
+      return "scans";
+    default:
+      return "other motions";
+  }
+}
+
+std::string_view singular_of(v1::MotionKind kind) {
+  if (kind == v1::MOTION_KIND_RETURN_TO_ORIGIN) return "return to origin";
+  return plural_of(kind).substr(0, plural_of(kind).size() - 1);
+}
+
+// "412 moves (2 FAILED, 1 STOPPED)". The others succeeded.
+std::string motions_text(v1::MotionKind kind, const std::map<v1::MotionState, std::int64_t>& outcomes) {
+  std::int64_t all = 0;
+  std::vector<std::string> bad;
+  for (const auto& [outcome, count] : outcomes) {
+    all += count;
+    if (outcome != v1::MOTION_STATE_SUCCEEDED) bad.push_back(fmt::format("{} {}", count, state_name(outcome)));
+  }
+  const std::string text = fmt::format("{} {}", all, all == 1 ? singular_of(kind) : plural_of(kind));
+  return bad.empty() ? text : fmt::format("{} ({})", text, fmt::join(bad, ", "));
+}
+
+// "23:10 to 06:42 unix anna: 412 moves, 1 scan; 3 refused".
+std::string person_text(const v1::PersonSummary& person, const NightClock& clock) {
+  const std::string first = clock.text(person.first_time()), last = clock.text(person.last_time());
+  std::map<v1::MotionKind, std::map<v1::MotionState, std::int64_t>> by_kind;
+  for (const v1::MotionCount& one : person.motions()) by_kind[one.kind()][one.outcome()] += one.count();
+  std::vector<std::string> motions;
+  for (const auto& [kind, outcomes] : by_kind) motions.push_back(motions_text(kind, outcomes));
+  const std::string when = first == last ? first : first + " to " + last;
+  const std::string refused = person.refused() == 0 ? "" : fmt::format("; {} refused", person.refused());
+  return fmt::format("{} {}: {}{}", when, person.who().empty() ? "an unknown caller" : person.who(),
+                     motions.empty() ? "no motion" : fmt::format("{}", fmt::join(motions, ", ")), refused);
+}
+
+std::string stop_text(const v1::StopSummary& stop, const NightClock& clock) {
+  return fmt::format("{} of {} by {} at {}", stop.emergency() ? "emergency stop" : "stop", last_part(stop.device()),
+                     stop.who().empty() ? "an unknown caller" : stop.who(), clock.text(stop.time()));
+}
+
+std::string loss_text(const v1::LinkLoss& loss, const NightClock& clock) {
+  const std::string text = fmt::format("{}: link lost at {}", last_part(loss.device()), clock.text(loss.down_time()));
+  return text + (loss.has_up_time() ? " for " + duration_text(loss.down_time(), loss.up_time()) : ", not up again");
+}
+
+std::string start_text(const v1::DaemonStart& start, const NightClock& clock) {
+  return fmt::format("the daemon {} {}", start.after_unclean_end() ? "was killed; it started again at" : "started at",
+                     clock.text(start.time()));
+}
+
+// What is not of one person, by its time.
+std::vector<std::string> happenings(const v1::SummarizeHistoryResponse& night, const NightClock& clock) {
+  std::vector<std::pair<std::int64_t, std::string>> timed;
+  const auto add = [&](const Timestamp& time, std::string text) {
+    timed.emplace_back(TimeUtil::TimestampToMicroseconds(time), std::move(text));
+  };
+  for (const v1::StopSummary& stop : night.stops()) add(stop.time(), stop_text(stop, clock));
+  for (const v1::LinkLoss& loss : night.link_losses()) add(loss.down_time(), loss_text(loss, clock));
+  for (const v1::DaemonStart& start : night.daemon_starts()) add(start.time(), start_text(start, clock));
+  std::ranges::stable_sort(timed, {}, &std::pair<std::int64_t, std::string>::first);
+  std::vector<std::string> lines;
+  for (auto& [time, line] : timed) lines.push_back(std::move(line));
+  return lines;
+}
+
+void print_more(std::int64_t count, std::string_view what) {
+  if (count > 0) print_line(fmt::format("{} more {}", count, what));
+}
+
+void print_night(const v1::SummarizeHistoryResponse& night, const NightClock& clock) {
+  for (const v1::PersonSummary& person : night.persons()) print_line(person_text(person, clock));
+  print_more(night.more_persons(), "callers");
+  const std::vector<std::string> others = happenings(night, clock);
+  for (const std::string& line : others) print_line(line);
+  print_more(night.more_stops(), "stops");
+  print_more(night.more_link_losses(), "losses of a link");
+  print_more(night.more_daemon_starts(), "starts of the daemon");
+  if (night.persons().empty() && others.empty()) print_line("nothing happened");
+}
+
+}  // namespace
+
+int show_night(const Session& session) {
+  const std::time_t now = std::time(nullptr);
+  const std::time_t from = session.options.hours ? now - *session.options.hours * 3600L : evening_before(now);
+  v1::SummarizeHistoryRequest request;
+  *request.mutable_start_time() = TimeUtil::SecondsToTimestamp(from);
+  request.set_device(session.options.device);
+  const v1::SummarizeHistoryResponse night = session.connection.call(
+      session.connection.history, &v1::HistoryService::Stub::SummarizeHistory, request, kSummaryLimit);
+  if (session.options.json) {
+    print_json(night);
+    return kDone;
+  }
+  print_line(fmt::format("since {}", time_text(request.start_time())));
+  print_night(night, NightClock(from, now));
+  return kDone;
+}
+
+}  // namespace axisgate::axisctl
