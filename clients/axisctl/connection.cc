@@ -13,6 +13,7 @@
 
 #include "clients/axisctl/bearer.h"
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -83,8 +84,9 @@ std::optional<std::string> token_in(std::string_view text) {
 
 }  // namespace
 
-Connection::Connection(const Target& target)
+Connection::Connection(const Target& target, std::string request_id)
     : target_(target.address),
+      request_id_(std::move(request_id)),
       channel_(open_channel(target)),
       devices(v1::DeviceService::NewStub(channel_)),
       stage(v1::StageService::NewStub(channel_)),
@@ -97,6 +99,21 @@ Connection::Connection(const Target& target)
       simulators(v1::SimulatorService::NewStub(channel_)),
       positions(v1::PositionService::NewStub(channel_)),
       history(v1::HistoryService::NewStub(channel_)) {}
+
+void Connection::repeat_by(const v1::ListDevicesResponse& there) const {
+  if (there.requests_kept()) request_memory_ = there.request_memory();
+}
+
+// A daemon that ends says so, with a problem; of one that was killed nothing comes.
+bool Connection::asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const {
+  const bool lost = status.error_code() == grpc::StatusCode::UNAVAILABLE ||
+                    status.error_code() == grpc::StatusCode::CANCELLED ||
+                    status.error_code() == grpc::StatusCode::INTERNAL;
+  if (!lost || request_memory_.empty() || problem_of(status).reason() != v1::REASON_UNSPECIFIED) return false;
+  if (std::chrono::system_clock::now() >= deadline) return false;
+  print_note("the connection broke; requesting again, with the same request id");
+  return true;
+}
 
 void Connection::check(const grpc::Status& status) const {
   if (status.ok()) return;
@@ -130,8 +147,9 @@ v1::CallContext new_stop_context() {
   return context;
 }
 
-v1::CallContext new_call_context() {
+v1::CallContext Connection::new_call_context() const {
   v1::CallContext context = new_stop_context();
+  if (!request_id_.empty()) context.set_request_id(request_id_);
   const char* const lease = std::getenv(kLeaseVariable);
   if (lease && context.lease_token().empty()) {
     throw usage(fmt::format("{} is not the token of a lease", kLeaseVariable),

@@ -34,19 +34,40 @@ inline constexpr std::chrono::seconds kStopLimit{30};
 class Connection {
  public:
   // Calls as the token in AXISGATE_TOKEN, if there is one. Shares nothing with other connections of this process, so
-  // that a stop never waits behind a stream. Throws Failure where a certificate cannot be read.
-  explicit Connection(const Target& target);
+  // that a stop never waits behind a stream. Throws Failure where a certificate cannot be read. `request_id` is that of
+  // what is changed; empty: a new one for each.
+  explicit Connection(const Target& target, std::string request_id = {});
 
-  // A call with a deadline. Throws Failure.
+  // A context with the request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no token.
+  v1::CallContext new_call_context() const;
+
+  // From now on what changes something is repeated where its answer is lost, if the daemon keeps what became of it.
+  void repeat_by(const v1::ListDevicesResponse& there) const;
+
+  bool repeats() const { return !request_memory_.empty(); }
+
+  // A call with a deadline, over all attempts. Throws Failure.
   template <class Stub, class Request, class Response>
   Response call(const std::unique_ptr<Stub>& stub,
                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), const Request& request,
                 std::chrono::seconds limit) const {
-    grpc::ClientContext context;
-    context.set_deadline(std::chrono::system_clock::now() + limit);
-    Response response;
-    check((stub.get()->*method)(&context, request, &response));
-    return response;
+    const auto deadline = std::chrono::system_clock::now() + limit;
+    Request repeatable = request;
+    if constexpr (requires { repeatable.mutable_context(); }) {
+      repeatable.mutable_context()->set_request_memory(request_memory_);
+    }
+    for (bool again = false;; again = true) {
+      grpc::ClientContext context;
+      context.set_deadline(deadline);
+      context.set_wait_for_ready(again);
+      Response response;
+      const grpc::Status status = (stub.get()->*method)(&context, repeatable, &response);
+      if constexpr (requires { repeatable.mutable_context(); }) {
+        if (asks_again(status, deadline)) continue;
+      }
+      check(status);
+      return response;
+    }
   }
 
   // Throws Failure unless the call ended well.
@@ -55,7 +76,11 @@ class Connection {
   const std::string& target() const { return target_; }  // its address
 
  private:
-  const std::string target_;
+  // Whether the answer was lost, and it is worth another attempt.
+  bool asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const;
+
+  const std::string target_, request_id_;
+  mutable std::string request_memory_;  // empty: nothing is repeated
   const std::shared_ptr<grpc::Channel> channel_;
 
  public:
@@ -83,8 +108,5 @@ std::string lease_text(std::string_view token);
 
 // A context with a new request id, and with the token in AXISGATE_LEASE if that is one: nothing holds a stop up.
 v1::CallContext new_stop_context();
-
-// A context with a new request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no token.
-v1::CallContext new_call_context();
 
 }  // namespace axisgate::axisctl

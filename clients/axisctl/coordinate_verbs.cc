@@ -7,7 +7,7 @@ namespace axisgate::axisctl {
 namespace {
 
 int set_coordinates(const Session& session, v1::SetCoordinatesRequest request, const v1::Device& device) {
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   return report_done(
       session, session.connection.call(session.connection.settings, &v1::SettingService::Stub::SetCoordinates, request,

@@ -128,7 +128,7 @@ int position(const Session& session) {
 int clear(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::ClearErrorsRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(device.name());
   for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
   const v1::ClearErrorsResponse response = session.connection.call(

@@ -28,7 +28,7 @@ void show(const v1::ExecuteResponse& response, bool json) {
 
 int execute(const Session& session) {
   v1::ExecuteRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(chosen_device(session).name());
   for (const std::string& line : session.options.lines) request.add_lines(line);
   *request.mutable_timeout() = google::protobuf::util::TimeUtil::SecondsToDuration(kWait.count());

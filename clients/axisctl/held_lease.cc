@@ -30,7 +30,7 @@ v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std
 
 v1::Lease take_over(const Session& session, const v1::Device& device, const v1::LeaseTerms& wanted) {
   v1::TakeOverLeaseRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   *request.mutable_terms() = wanted;
   return session.connection
@@ -40,7 +40,7 @@ v1::Lease take_over(const Session& session, const v1::Device& device, const v1::
 
 v1::Lease acquire(const Session& session, const v1::Device& device, const v1::LeaseTerms& wanted) {
   v1::AcquireLeaseRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   *request.mutable_terms() = wanted;
   const auto ask = [&](std::chrono::seconds limit) {

@@ -91,9 +91,9 @@ class Renewals {
   std::thread renewer_;
 };
 
-v1::JogRequest make_request(const Options& options, const v1::Device& device) {
+v1::JogRequest make_request(const Options& options, const v1::CallContext& context, const v1::Device& device) {
   v1::JogRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = context;
   request.set_device(device.name());
   for (const std::string& place : options.places) {
     v1::AxisJog& one = *request.add_axes() = parse_direction(device, place);
@@ -137,7 +137,7 @@ v1::Motion run(const Session& session, const v1::Device& device, const v1::JogRe
 
 int jog(const Session& session) {
   const v1::Device device = chosen_device(session);
-  const v1::JogRequest request = make_request(session.options, device);
+  const v1::JogRequest request = make_request(session.options, session.connection.new_call_context(), device);
   MotionFollower follower(session, device);
   grpc::ClientContext context;
   const auto stream = session.connection.stage->Jog(&context);

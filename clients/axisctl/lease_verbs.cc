@@ -125,7 +125,7 @@ int lease_list(const Session& session) {
 
 int lease_hand_over(const Session& session) {
   v1::HandOverLeaseRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   if (request.context().lease_token().empty())
     throw usage("this is not inside `axisctl lease run`", "only the holder can hand a lease over");
   request.set_device(chosen_device(session).name());
@@ -138,7 +138,7 @@ int lease_hand_over(const Session& session) {
 
 int rearm(const Session& session) {
   v1::RearmRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(chosen_device(session).name());
   const v1::RearmResponse response =
       session.connection.call(session.connection.control, &v1::ControlService::Stub::Rearm, request, kQuestionLimit);

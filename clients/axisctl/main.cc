@@ -91,7 +91,7 @@ static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::m
 int run(const Options& options) {
   const Row& row = kRows[static_cast<std::size_t>(options.verb)];
   if (row.without_daemon != nullptr) return row.without_daemon(options);
-  const Session session{options, Connection(options.target)};
+  const Session session{options, Connection(options.target, options.request_id)};
   return row.waits ? with_lease(session, row.run) : row.run(session);
 }
 

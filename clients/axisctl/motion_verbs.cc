@@ -12,7 +12,7 @@ namespace {
 template <class Request, class Method>
 v1::Motion start_on_axes(const Session& session, const v1::Device& device, Method method) {
   Request request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   for (const int axis : find_axes(device, session.options.axes)) request.add_axes(axis);
   return session.connection.call(session.connection.stage, method, request, kStartLimit).motion();
@@ -50,7 +50,7 @@ int home(const Session& session) {
 int move(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::MoveRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   request.set_relative(session.options.relative);
   for (const std::string& place : session.options.places) *request.add_targets() = target(session, device, place);
@@ -65,7 +65,7 @@ int scan(const Session& session) {
   const v1::Device device = chosen_device(session);
   const v1::Axis& axis = find_axis(device, options.axis);
   v1::ScanRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   request.set_axis(axis.number());
   *request.mutable_from() = parse_amount_for(axis, options.from);

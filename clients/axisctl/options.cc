@@ -347,6 +347,9 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   add_target(app, options.target);
   app.add_option("--device", options.device, "name of the device (default: the only one; needed if there are several)")
       ->type_name("NAME");
+  app.add_option("--request-id", options.request_id,
+                 "id of the request; if it comes again with the same id, it does not act again (default: a new one)")
+      ->type_name("ID");
   app.add_flag("--json", options.json, "print one JSON object per line");
   app.group("Commands");  // the heading that verbs of verbs inherit
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");

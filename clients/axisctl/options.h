@@ -93,6 +93,7 @@ struct Options {
   Target target;
   std::string device;  // "devices/stage"; empty: the only one
   bool json = false;
+  std::string request_id;  // of what is changed; empty: a new one
   Verb verb = Verb::devices;
 
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names

@@ -113,13 +113,34 @@ int report_started(const Session& session, const v1::Motion& motion) {
   return kDone;
 }
 
+namespace {
+
+// Of a daemon that was killed and has started again: the same request is answered with what it came to.
+v1::Motion outcome_of(const Session& session, v1::Motion motion, const std::function<v1::Motion()>& start) {
+  while (motion.state() < v1::MOTION_STATE_SUCCEEDED) {
+    try {
+      return await_outcome(session, motion.name());
+    } catch (const Failure& lost) {
+      if (!session.connection.repeats()) throw;
+      try {
+        motion = start();
+      } catch (const Failure&) {
+        throw lost;
+      }
+    }
+  }
+  return motion;
+}
+
+}  // namespace
+
 int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start) {
   if (session.options.no_wait) return report_started(session, start());
   MotionFollower follower(session, device);
   const v1::Motion started = start();
   say_on_interrupt_that_motion_continues();
   follower.follow(started.name());
-  const v1::Motion outcome = await_outcome(session, started.name());
+  const v1::Motion outcome = outcome_of(session, started, start);
   follower.finish();
   return report_outcome(session, device, outcome);
 }

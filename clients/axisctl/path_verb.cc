@@ -27,9 +27,10 @@ std::vector<v1::Segment> read_segments(const Options& options, const v1::Device&
   return parse_path(device, path_options(options), file, options.file);
 }
 
-void send_path(PathStream& stream, const v1::Device& device, const std::vector<v1::Segment>& segments) {
+void send_path(PathStream& stream, const v1::CallContext& context, const v1::Device& device,
+               const std::vector<v1::Segment>& segments) {
   v1::RunPathRequest request;
-  *request.mutable_header()->mutable_context() = new_call_context();
+  *request.mutable_header()->mutable_context() = context;
   request.mutable_header()->set_device(device.name());
   bool open = stream.Write(request);
   for (const v1::Segment& segment : segments) {
@@ -53,7 +54,7 @@ bool read_motion(PathStream& stream, v1::Motion& motion) {
 
 v1::Motion start_path(const Session& session, PathStream& stream, const v1::Device& device,
                       const std::vector<v1::Segment>& segments) {
-  send_path(stream, device, segments);
+  send_path(stream, session.connection.new_call_context(), device, segments);
   v1::Motion motion;
   if (read_motion(stream, motion)) return motion;
   session.connection.check(stream.Finish());

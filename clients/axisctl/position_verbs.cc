@@ -39,7 +39,7 @@ std::string whole_text(const v1::Device& device, const v1::Position& position) {
 int save_position(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::SavePositionRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(position_name(session, device));
   request.set_kind(session.options.coordinates ? v1::POSITION_KIND_COORDINATES : v1::POSITION_KIND_PLACE);
   request.set_keep_existing(session.options.keep);
@@ -69,7 +69,7 @@ int list_positions(const Session& session) {
 int go_to_position(const Session& session) {
   const v1::Device device = chosen_device(session);
   v1::MoveToPositionRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(position_name(session, device));
   return start_and_wait(session, device, [&] {
     return session.connection
@@ -80,7 +80,7 @@ int go_to_position(const Session& session) {
 
 int forget_position(const Session& session) {
   v1::DeletePositionRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(position_name(session, chosen_device(session)));
   return report_done(session,
                      session.connection.call(session.connection.positions, &v1::PositionService::Stub::DeletePosition,

@@ -25,6 +25,7 @@ v1::Device chosen_device(const Session& session) {
   // The one question that the daemon answers even when it has no connection left but for a stop.
   const v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
                                                         v1::ListDevicesRequest(), kQuestionLimit);
+  connection.repeat_by(there);
   if (session.options.device.empty()) return only_device(there);
   for (const v1::Device& device : there.devices()) {
     if (device.name() == session.options.device) return device;

@@ -18,7 +18,7 @@ v1::Settings settings_of(const Session& session, const v1::Device& device) {
 
 int change_settings(const Session& session, const v1::Device& device, const v1::Settings& wanted) {
   v1::ChangeSettingsRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(device.name());
   *request.mutable_settings() = wanted;
   return report_done(

@@ -183,7 +183,7 @@ int change_dialect(const Session& session) {
 
 int reset_controller(const Session& session) {
   v1::ResetDeviceRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(chosen_device(session).name());
   return report_done(session, session.connection.call(session.connection.settings,
                                                       &v1::SettingService::Stub::ResetDevice, request, kSettingLimit));

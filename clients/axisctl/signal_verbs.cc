@@ -143,7 +143,7 @@ int trigger_off(const Session& session) {
 
 int trigger_fire(const Session& session) {
   v1::FireTriggerRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_device(chosen_device(session).name());
   return report_done(session, session.connection.call(session.connection.settings,
                                                       &v1::SettingService::Stub::FireTrigger, request, kSettingLimit));

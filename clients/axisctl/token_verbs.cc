@@ -49,7 +49,7 @@ int who_am_i(const Session& session) {
 
 int token_create(const Session& session) {
   v1::CreateTokenRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(session.options.name);
   request.set_role(role_named(session.options.role));
   request.mutable_time_to_live()->set_seconds(std::int64_t{86'400} * session.options.days);
@@ -79,7 +79,7 @@ int token_list(const Session& session) {
 
 int token_revoke(const Session& session) {
   v1::RevokeTokenRequest request;
-  *request.mutable_context() = new_call_context();
+  *request.mutable_context() = session.connection.new_call_context();
   request.set_name(session.options.name);
   session.connection.call(session.connection.access, &v1::AccessService::Stub::RevokeToken, request, kQuestionLimit);
   print_line(fmt::format("{} is revoked", session.options.name));

@@ -59,6 +59,29 @@ class History(unittest.TestCase):
         motions = {entry["motion"] for entry in self.history()} - {""}
         self.assertEqual(motions, {"devices/stage/motions/1", "devices/stage/motions/2"}, "a number is not used twice")
 
+    def test_a_move_with_an_id_is_made_once(self):
+        for _ in range(2):
+            self.run_well("--request-id", "night-17", "move", "1=+100pulse", "--relative")
+        self.daemon.kill()
+        self.start()
+        self.assertIn("done: axis 1 at", self.run_well("--request-id", "night-17", "move", "1=+100pulse", "--relative"))
+        ended = [one for one in self.history() if one["kind"] == "HISTORY_KIND_MOTION_ENDED"]
+        self.assertEqual(len(ended), 1)
+        refused = self.daemon.run("--request-id", "night-17", "move", "1=+200pulse", "--relative")
+        self.assertIn("REQUEST_ID_REUSED", refused.stderr)
+
+    def test_a_move_whose_daemon_is_killed_and_started_again_is_reported(self):
+        self.run_well("move", "1=+1pulse", "--relative")
+        move = self.daemon.start("move", "1=+900000pulse", "--relative", "--speed", "100000pulse/s")
+        move.until("RUNNING")
+        self.daemon.kill()
+        self.start()
+        self.assertNotEqual(move.end(), 0)
+        self.assertIn("requesting again, with the same request id", move.errors)
+        self.assertIn("OUTCOME_UNKNOWN", move.errors)
+        motions = {one["motion"] for one in self.history()} - {""}
+        self.assertEqual(len(motions), 2, "it was not sent a second time")
+
     def test_a_motion_from_its_request_to_its_end(self):
         self.run_well("move", "1=+100pulse", "--relative")
         self.assertEqual([entry["kind"] for entry in self.history("--motion", "1")],
