@@ -33,6 +33,7 @@
 #include "server/kinds.h"
 #include "server/logging.h"
 #include "server/metrics/certificate_metrics.h"
+#include "server/metrics/journal_metrics.h"
 #include "server/rpc/server.h"
 #include "server/service_manager.h"
 #include "server/spare_memory.h"
@@ -151,6 +152,7 @@ int serve(const server::Config& config) {
     gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
     spdlog::info("gRPC with TLS on {}", to_string(*(*server)->network()));
   }
+  if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(journal.get()));
   spdlog::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
     spdlog::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());

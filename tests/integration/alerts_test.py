@@ -23,6 +23,7 @@ FIRING = {
                               "10m15s"),
     "AxisgateCertificateExpires": ({"__name__": "axisgate_certificate_expiry_timestamp_seconds"},
                                    f"{14 * 86400 + 130}x40", "2m", "2m15s"),
+    "AxisgateJournalUnavailable": ({"__name__": "axisgate_journal_available"}, "1x4 0x40", "2m", "2m15s"),
     "AxisgateRefusals": ({"__name__": "axisgate_refusals_total", "reason": "NOT_ALLOWED"}, "0x8 30x40", "2m", "2m15s"),
     "AxisgateConnectionsRefused": ({"__name__": "axisgate_connections_refused_total"}, "0x8 3x40", "2m", "2m15s"),
 }
@@ -34,6 +35,7 @@ QUIET = {
     "AxisgateLineInDoubt": ({"__name__": "axisgate_barriers_total", "device": "stage"}, "0x8 1x8 2x8 3x8 4x8"),
     "AxisgateLineSaturated": ({"__name__": "axisgate_line_busy_seconds_total", "device": "stage"}, "0+12.8x40"),
     "AxisgateCertificateExpires": ({"__name__": "axisgate_certificate_expiry_timestamp_seconds"}, f"{90 * 86400}x40"),
+    "AxisgateJournalUnavailable": ({"__name__": "axisgate_journal_available"}, "1x4 0x3 1x40"),
     "AxisgateRefusals": ({"__name__": "axisgate_refusals_total", "reason": "NOT_ALLOWED"}, "0x8 1x8 2x8 3x8 4x8"),
     "AxisgateConnectionsRefused": ({"__name__": "axisgate_connections_refused_total"}, "3x40"),
 }

@@ -1,0 +1,32 @@
+#include "server/metrics/journal_metrics.h"
+
+#include <prometheus/metric_family.h>
+
+#include <chrono>
+#include <string>
+
+namespace axisgate::server {
+namespace {
+
+prometheus::MetricFamily gauge(std::string name, std::string help, double value) {
+  prometheus::ClientMetric metric;
+  metric.gauge.value = value;
+  return {std::move(name), std::move(help), prometheus::MetricType::Gauge, {metric}};
+}
+
+}  // namespace
+
+std::vector<prometheus::MetricFamily> JournalMetrics::Collect() const {
+  const bool available = journal_ != nullptr && !journal_->failure();
+  const std::chrono::duration<double> commit = journal_ == nullptr ? Duration::zero() : journal_->last_commit();
+  return {
+      gauge("axisgate_journal_available",
+            "1 if the disk takes the journal; 0 if none is kept, or the disk refuses it or hangs, so that motions and "
+            "changes are refused.",
+            available ? 1 : 0),
+      gauge("axisgate_journal_commit_seconds",
+            "How long the newest commit to the journal took, which each motion waits for; of one that hangs, so far.",
+            commit.count())};
+}
+
+}  // namespace axisgate::server

@@ -1,0 +1,23 @@
+// Whether the disk takes the journal, on the metrics page.
+#pragma once
+
+#include <prometheus/collectable.h>
+
+#include <vector>
+
+#include "server/journal/journal.h"
+
+namespace axisgate::server {
+
+class JournalMetrics final : public prometheus::Collectable {
+ public:
+  // Null: none is kept. It outlives this.
+  explicit JournalMetrics(const journal::Journal* journal) : journal_(journal) {}
+
+  std::vector<prometheus::MetricFamily> Collect() const override;
+
+ private:
+  const journal::Journal* const journal_;
+};
+
+}  // namespace axisgate::server
