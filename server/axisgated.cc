@@ -115,8 +115,10 @@ server::journal::Entry entry_of_daemon(server::journal::EntryKind kind) {
 }
 
 // Without it the daemon serves, and says so.
-std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state) {
-  auto opened = server::journal::Journal::open(state.file("journal.sqlite"), server::boot_id());
+std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state,
+                                                       const server::JournalConfig& config) {
+  const server::journal::StoreBounds bounds{std::chrono::hours(24 * config.days), std::int64_t{config.megabytes} << 20};
+  auto opened = server::journal::Journal::open(state.file("journal.sqlite"), server::boot_id(), bounds);
   if (opened) return *std::move(opened);
   spdlog::error("no journal is kept: {}", server::explain(opened.error()));
   return nullptr;
@@ -136,7 +138,8 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  const std::unique_ptr<server::journal::Journal> journal = config.journal.kept ? open_journal(*state) : nullptr;
+  const std::unique_ptr<server::journal::Journal> journal =
+      config.journal.kept ? open_journal(*state, config.journal) : nullptr;
   server::Gateway gateway(config, *generation, state->path(), journal.get());
   if (journal) journal->append({entry_of_daemon(server::journal::EntryKind::daemon_started)});
   const Result<int> metrics_port = gateway.metrics().expose(config.metrics);

@@ -71,6 +71,8 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return fmt::format("{} entries were left out: the disk refused them", details.value("count", 0));
     case v1::HISTORY_KIND_JOURNAL_FAILED:
       return "the disk refused the journal";
+    case v1::HISTORY_KIND_ENTRIES_DROPPED:
+      return fmt::format("entries up to {} are no longer kept", details.value("through", std::int64_t{}));
     case v1::HISTORY_KIND_REQUEST_MADE:
       return "requested: " + details.value("what", "?");
     case v1::HISTORY_KIND_REQUEST_REFUSED:

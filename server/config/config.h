@@ -59,9 +59,10 @@ struct NetworkConfig {
 
 // What has happened, and what requests have become (journal/).
 struct JournalConfig {
-  bool kept = true;          // false: request ids are remembered in memory only
-  bool act_without = false;  // what moves and changes is done also where the disk refuses the journal
-  int remember_hours = 24;   // request ids; less long, where there are more than:
+  bool kept = true;                  // false: request ids are remembered in memory only
+  bool act_without = false;          // what moves and changes is done also where the disk refuses the journal
+  int days = 366, megabytes = 1024;  // of the history; what is older is dropped
+  int remember_hours = 24;           // request ids; less long, where there are more than:
   int remember_requests = 20'000;
 };
 

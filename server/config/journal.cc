@@ -5,6 +5,8 @@
 namespace axisgate::server {
 namespace {
 
+// A segment (journal::Store::kSegment) takes some megabytes.
+constexpr int kDaysMax = 36'600, kMegabytesMin = 16, kMegabytesMax = 1'000'000;
 constexpr int kHoursMax = 24 * 366, kRequestsMax = 1'000'000;
 
 }  // namespace
@@ -14,6 +16,10 @@ void read_journal(const toml::table& source, std::string_view file, std::vector<
   ConfigTable table(source, "journal", file, errors);
   journal.kept = table.flag("kept").value_or(journal.kept);
   if (const auto act = table.choice<bool>("unavailable", kUnavailable)) journal.act_without = *act;
+  if (const auto days = table.integer("days", 1, kDaysMax)) journal.days = static_cast<int>(*days);
+  if (const auto size = table.integer("megabytes", kMegabytesMin, kMegabytesMax)) {
+    journal.megabytes = static_cast<int>(*size);
+  }
   if (const auto hours = table.integer("remember_hours", 1, kHoursMax)) {
     journal.remember_hours = static_cast<int>(*hours);
   }

@@ -85,6 +85,8 @@ void write(TomlWriter& out, const JournalConfig& journal) {
   out.table("[journal]");
   out.key("kept", journal.kept ? "true" : "false");
   out.key("unavailable", word(kUnavailable, journal.act_without));
+  out.number("days", journal.days);
+  out.number("megabytes", journal.megabytes);
   out.number("remember_hours", journal.remember_hours);
   out.number("remember_requests", journal.remember_requests);
 }

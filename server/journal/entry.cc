@@ -14,6 +14,8 @@ std::string name(EntryKind kind) {
       return "entries left out";
     case EntryKind::journal_failed:
       return "journal failed";
+    case EntryKind::entries_dropped:
+      return "entries dropped";
     case EntryKind::motion_requested:
       return "motion requested";
     case EntryKind::motion_started:

@@ -16,7 +16,8 @@ enum class EntryKind {
   daemon_started = 1,
   daemon_ended = 2,
   entries_left_out = 3,
-  journal_failed = 4,  // the disk refused it, from then on until this entry
+  journal_failed = 4,   // the disk refused it, from then on until this entry
+  entries_dropped = 5,  // by age or size, up to a number
   motion_requested = 10,
   motion_started = 11,
   motion_ended = 12,

@@ -13,6 +13,7 @@
 namespace axisgate::server::journal {
 namespace {
 
+constexpr auto kDropPause = std::chrono::minutes(10);
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr auto kCatchingUp = std::chrono::seconds(1);  // a disk that hangs keeps no reader longer
 
@@ -45,17 +46,19 @@ Result<void> move_aside(const std::string& path) {
 
 }  // namespace
 
-Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, std::string_view boot) {
+Result<std::unique_ptr<Journal>> Journal::open(const std::string& path, std::string_view boot,
+                                               const StoreBounds& bounds) {
   auto store = Store::open(path);
   if (!store && store.error().damaged) {
     if (auto moved = move_aside(path); !moved) return tl::unexpected(moved.error());
     store = Store::open(path);
   }
   if (!store) return tl::unexpected(store.error().problem);
-  return start(path, *std::move(store), boot);
+  return start(path, *std::move(store), boot, bounds);
 }
 
-Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, std::string_view boot) {
+Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, std::string_view boot,
+                                                const StoreBounds& bounds) {
   auto epoch = store.epoch();
   if (!epoch) return tl::unexpected(epoch.error());
   const auto offset = store.boot_offset(boot, monotonic_now());
@@ -65,6 +68,7 @@ Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, s
   std::unique_ptr<Journal> journal(new Journal(std::move(path), std::move(store)));
   journal->epoch_ = *std::move(epoch);
   journal->boot_offset_ = *offset;
+  journal->bounds_ = bounds;
   journal->requests_ = *std::move(requests);
   journal->thread_ = std::thread([&self = *journal] { self.run(); });
   return journal;
@@ -138,6 +142,7 @@ void Journal::run() {
   while (true) {
     Batch batch = wait_for_records();
     if (batch.empty() || !write(std::move(batch))) return;
+    drop_old();
   }
 }
 
@@ -149,6 +154,14 @@ Journal::Batch Journal::wait_for_records() {
   if (const auto count = std::exchange(left_out_, 0); count > 0) batch.push_back({{left_out(count)}, {}});
   if (!batch.empty()) writing_since_ = monotonic_now();
   return batch;
+}
+
+// One segment at a time, so that nobody waits long for it. What fails here fails in write(), too, and is said there.
+void Journal::drop_old() {
+  const TimePoint now = monotonic_now();
+  if (now < next_drop_) return;
+  const Result<bool> dropped = store_.drop_old(bounds_, own_entry(EntryKind::entries_dropped, ""));
+  if (!dropped.value_or(false)) next_drop_ = now + kDropPause;
 }
 
 bool Journal::write(Batch batch) {

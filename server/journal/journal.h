@@ -27,7 +27,8 @@ class Journal {
 
   // As Store::open(). A damaged file is moved aside, with a warning that names it, and a new one begins. `boot` names
   // this boot of the machine; empty: not known.
-  static Result<std::unique_ptr<Journal>> open(const std::string& path, std::string_view boot = {});
+  static Result<std::unique_ptr<Journal>> open(const std::string& path, std::string_view boot = {},
+                                               const StoreBounds& bounds = {});
   // Writes what waits, if the disk takes it.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -71,19 +72,23 @@ class Journal {
 
   Journal(std::string path, Store store);
 
-  static Result<std::unique_ptr<Journal>> start(std::string path, Store store, std::string_view boot);
+  static Result<std::unique_ptr<Journal>> start(std::string path, Store store, std::string_view boot,
+                                                const StoreBounds& bounds);
   void catch_up() const;
   Result<Store> reader() const;
   void run();
   Batch wait_for_records();
   // Until it is written; false where the daemon ends before.
   bool write(Batch batch);
+  void drop_old();
   void answer(const OnCommitted& done, const Result<void>& written);
   void note_failure(Batch& batch, const Problem& problem);
   std::optional<Problem> unavailable() const;  // under mutex_
 
   const std::string path_;
-  Store store_;  // of the thread
+  Store store_;  // of the thread, as are the next two
+  StoreBounds bounds_;
+  TimePoint next_drop_{};
   std::string epoch_;
   Duration boot_offset_{};
   RequestsOnFile requests_;

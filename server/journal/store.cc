@@ -1,14 +1,16 @@
 #include "server/journal/store.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
 #include <random>
 #include <utility>
-#include <variant>
 
 #include "server/journal/chain.h"
+#include "server/journal/conditions.h"
 
 namespace axisgate::server::journal {
 namespace {
@@ -54,6 +56,21 @@ Hash stored_hash(const Statement& row) {
   return hash;
 }
 
+std::string text_of(const Hash& hash) { return fmt::format("{:02x}", fmt::join(hash, "")); }
+
+// All zeros where the text is no hash.
+Hash hash_in(std::string_view text) {
+  Hash hash{};
+  for (std::size_t i = 0; i < hash.size() && 2 * i + 2 <= text.size(); ++i) {
+    std::from_chars(text.data() + 2 * i, text.data() + 2 * i + 2, hash[i], 16);
+  }
+  return hash;
+}
+
+std::string body_of_dropped(const Head& through) {
+  return fmt::format(R"({{"through":{},"hash":"{}"}})", through.number, text_of(through.hash));
+}
+
 StoredEntry entry_of(const Statement& row) {
   StoredEntry stored{.number = row.integer(0), .entry = {}, .hash = stored_hash(row)};
   stored.entry.time = WallTime(std::chrono::microseconds(row.integer(1)));
@@ -64,56 +81,6 @@ StoredEntry entry_of(const Statement& row) {
   stored.entry.body = row.bytes(7);
   stored.entry.who = row.bytes(9);
   return stored;
-}
-
-// The conditions of a filter, each with what is bound to it.
-class Conditions {
- public:
-  void add(std::string_view condition, std::int64_t value) { add(condition), values_.emplace_back(value); }
-  void add(std::string_view condition, std::string_view value) {
-    add(condition), values_.emplace_back(std::string(value));
-  }
-  void add_any_of(const std::vector<EntryKind>& kinds) {
-    std::string list;
-    for (const EntryKind kind : kinds) list += fmt::format("{}{}", list.empty() ? "" : ",", static_cast<int>(kind));
-    add(fmt::format("kind IN ({})", list));
-  }
-
-  std::string sql() const { return sql_; }
-  void bind(Statement& statement) const {
-    int parameter = 0;
-    for (const auto& value : values_) {
-      ++parameter;
-      std::visit([&](const auto& one) { statement.bind(parameter, one); }, value);
-    }
-  }
-
- private:
-  void add(std::string_view condition) { sql_ += fmt::format("{}{} ", sql_.empty() ? "WHERE " : "AND ", condition); }
-
-  std::string sql_;
-  std::vector<std::variant<std::int64_t, std::string>> values_;
-};
-
-Conditions conditions_of(const Filter& filter) {
-  Conditions all;
-  if (filter.from) all.add("time_us >= ?", micros(*filter.from));
-  if (filter.to) all.add("time_us < ?", micros(*filter.to));
-  if (!filter.device.empty()) all.add("device = ?", filter.device);
-  if (!filter.who.empty()) all.add("person = (SELECT id FROM person WHERE name = ?)", filter.who);
-  if (filter.motion != 0) all.add("motion = ?", static_cast<std::int64_t>(filter.motion));
-  if (!filter.kinds.empty()) all.add_any_of(filter.kinds);
-  if (filter.before != 0) all.add("number < ?", filter.before);
-  if (filter.after != 0) all.add("number > ?", filter.after);
-  if (filter.axis != 0) {
-    all.add(fmt::format("EXISTS (SELECT 1 FROM json_each({}, '$.axes') WHERE value = ?)", kJsonBody), filter.axis);
-  }
-  if (!filter.outcome.empty()) {
-    all.add_any_of({EntryKind::motion_ended});
-    all.add(fmt::format("json_extract({}, '$.outcome') = ?", kJsonBody), filter.outcome);
-  }
-  if (!filter.text.empty()) all.add("instr(body, ?) > 0", filter.text);
-  return all;
 }
 
 }  // namespace
@@ -209,6 +176,59 @@ Result<std::int64_t> Store::person(std::string_view name) {
   return find->bind(1, name).step().map([&](bool) { return find->integer(0); });
 }
 
+// The last that was dropped; number 0: none was, and the hash is that before the first.
+Result<Head> Store::dropped() {
+  auto epoch = this->epoch();
+  if (!epoch) return tl::unexpected(epoch.error());
+  const auto text = meta("dropped");
+  if (!text) return tl::unexpected(text.error());
+  Head head{*epoch, 0, hash_of_epoch(*epoch)};
+  const std::size_t space = text->find(' ');
+  if (space == std::string::npos) return head;
+  head.number = std::strtoll(text->c_str(), nullptr, 10);
+  head.hash = hash_in(std::string_view(*text).substr(space + 1));
+  return head;
+}
+
+Result<bool> Store::is_beyond(const StoreBounds& bounds, WallTime newest_in_segment, WallTime now) {
+  if (now - newest_in_segment > bounds.age) return true;
+  auto used = database_.prepare(
+      "SELECT (p.page_count - f.freelist_count) * s.page_size FROM pragma_page_count p, pragma_freelist_count f, "
+      "pragma_page_size s");
+  if (!used) return tl::unexpected(used.error());
+  return used->step().map([&](bool) { return used->integer(0) > bounds.bytes; });
+}
+
+Result<bool> Store::drop_old(const StoreBounds& bounds, const Entry& as_of) {
+  const auto before = dropped();
+  if (!before) return tl::unexpected(before.error());
+  const auto newest = head();
+  if (!newest) return tl::unexpected(newest.error());
+  const std::int64_t end = before->number + kSegment;
+  if (newest->number < end + kSegment) return false;
+  const auto last = read({.before = end + 1}, 1);
+  if (!last) return tl::unexpected(last.error());
+  if (last->empty() || last->front().number != end) return false;  // verify() says what is wrong
+  const auto beyond = is_beyond(bounds, last->front().entry.time, as_of.time);
+  if (!beyond || !*beyond) return beyond;
+  return drop({before->epoch, end, last->front().hash}, as_of).map([] { return true; });
+}
+
+Result<void> Store::drop(const Head& through, const Entry& as_of) {
+  Entry entry = as_of;
+  entry.kind = EntryKind::entries_dropped;
+  entry.body = body_of_dropped(through);
+  if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
+  Result<void> done = set_meta("dropped", fmt::format("{} {}", through.number, text_of(through.hash)));
+  Result<Head> last = head();
+  if (done && !last) done = tl::unexpected(last.error());
+  if (done) done = add(entry, *last);
+  if (done) done = database_.run(fmt::format("DELETE FROM entry WHERE number <= {}", through.number).c_str());
+  if (done) done = database_.run("COMMIT");
+  if (!done) (void)database_.run("ROLLBACK");
+  return done;
+}
+
 Result<std::vector<StoredEntry>> Store::read(const Filter& filter, std::size_t limit) {
   const Conditions conditions = conditions_of(filter);
   auto rows = database_.prepare(fmt::format("{}{}ORDER BY number {} LIMIT {}", kColumns, conditions.sql(),
@@ -287,33 +307,45 @@ Result<Head> Store::head() {
 }
 
 Result<Verdict> Store::verify(const std::optional<Head>& noted) {
-  const auto epoch = this->epoch();
-  if (!epoch) return tl::unexpected(epoch.error());
+  const auto begin = dropped();
+  if (!begin) return tl::unexpected(begin.error());
   auto rows = database_.prepare(fmt::format("{}ORDER BY number", kColumns));
   if (!rows) return tl::unexpected(rows.error());
   Verdict verdict;
-  Hash hash = hash_of_epoch(*epoch);
+  Hash hash = begin->hash;
+  std::int64_t expected = begin->number + 1;
+  std::string said_dropped;
   const auto bad = [&](std::int64_t number, std::string fault) {
     verdict.first_bad = number;
     verdict.fault = std::move(fault);
     return verdict;
   };
-  if (noted && noted->epoch != *epoch) return bad(1, "the head is of another journal: a new one has begun since");
+  if (noted && noted->epoch != begin->epoch) return bad(1, "the head is of another journal: a new one has begun since");
+  if (noted && noted->number < begin->number) {
+    return bad(noted->number, "it is no longer kept, so that the noted head shows nothing: note a new one");
+  }
+  if (noted && noted->number == begin->number && noted->hash != begin->hash) {
+    return bad(noted->number, "it was changed before it was dropped, since the head was noted");
+  }
   while (true) {
     const auto there = rows->step();
     if (!there) return tl::unexpected(there.error());
     if (!*there) break;
     const Row row = row_of(*rows);
-    if (row.number != verdict.rows + 1) return bad(verdict.rows + 1, "it is missing");
+    if (row.number != expected) return bad(expected, "it is missing");
     hash = hash_of(hash, row);
     if (hash != stored_hash(*rows)) return bad(row.number, "it or its place was changed");
     if (noted && noted->number == row.number && noted->hash != hash) {
       return bad(row.number, "it or a row before it was changed since the head was noted, and all hashes with it");
     }
+    if (row.kind == static_cast<std::int64_t>(EntryKind::entries_dropped)) said_dropped = row.body;
     ++verdict.rows;
+    ++expected;
   }
-  if (noted && noted->number > verdict.rows)
-    return bad(verdict.rows + 1, "it is missing: the noted head lies behind it");
+  if (begin->number != 0 && said_dropped != body_of_dropped(*begin)) {
+    return bad(begin->number, "it was removed, and no entry says that it was dropped");
+  }
+  if (noted && noted->number >= expected) return bad(expected, "it is missing: the noted head lies behind it");
   return verdict;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/journal/conditions.h"
 #include "server/journal/database.h"
 #include "server/journal/entry.h"
 #include "server/journal/request_table.h"
@@ -20,22 +21,11 @@ struct Record {
   RequestChange requests{};
 };
 
-// Which entries are wanted. All, where nothing is said.
-struct Filter {
-  std::optional<WallTime> from{}, to{};  // from <= time < to
-  std::string device{}, who{};
-  std::uint64_t motion = 0;
-  std::vector<EntryKind> kinds{};
-  std::int64_t before = 0;  // numbers below this one: where the page before ended
-  std::int64_t after = 0;   // numbers above this one
-  int axis = 0;             // that the body names; 0: all
-  std::string outcome{};    // of an end of a motion: "FAILED"; empty: all entries
-  std::string text{};       // a part of the body; capital and small letters differ
-  bool oldest_first = false;
+// How much is kept; what is older is dropped in whole segments.
+struct StoreBounds {
+  std::chrono::hours age = std::chrono::hours(24 * 366);
+  std::int64_t bytes = std::int64_t{1} << 30;
 };
-
-// SQL: the body of an entry. A file that was changed may have text there that is no JSON.
-inline constexpr std::string_view kJsonBody = "iif(json_valid(body), body, '{}')";
 
 // The end of the chain. Noted outside, it shows that nothing up to there was changed.
 struct Head {
@@ -61,6 +51,13 @@ class Store {
   // All of them are on the disk when it returns, or none.
   Result<void> append(std::span<const Record> records);
 
+  // So many entries are a segment.
+  static constexpr std::int64_t kSegment = 10'000;
+  // Drops the oldest segment, if it is too old or the file too large; whether it did. Its last hash stays, in the
+  // entry that says so, and the chain begins there. The newest segment is never dropped. `as_of`: when, and by which
+  // clocks.
+  Result<bool> drop_old(const StoreBounds& bounds, const Entry& as_of);
+
   // At most `limit`, in the order of their numbers.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit);
   Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
@@ -83,6 +80,9 @@ class Store {
   Result<void> make_schema();
   Result<void> upgrade();
   Result<void> add(const Entry& entry, Head& head);
+  Result<Head> dropped();
+  Result<void> drop(const Head& through, const Entry& as_of);
+  Result<bool> is_beyond(const StoreBounds& bounds, WallTime newest_in_segment, WallTime now);
   Result<std::int64_t> person(std::string_view name);
   static Result<std::vector<StoredEntry>> all_of(Statement& rows);
   Result<std::string> meta(std::string_view key);

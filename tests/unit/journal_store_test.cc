@@ -167,6 +167,55 @@ TEST_F(JournalStoreTest, WhoComputesAllHashesIsFoundOutByAHeadThatWasNoted) {
   EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
 }
 
+// A file of three segments and a little more; the first rows are a year older.
+class DroppedSegmentsTest : public JournalStoreTest {
+ protected:
+  DroppedSegmentsTest() {
+    Store store = *Store::open(path_);
+    std::vector<Record> rows;
+    for (std::int64_t i = 4; i <= 3 * Store::kSegment + 10; ++i) {
+      const auto time = i <= Store::kSegment ? kNight : kNight + hours(24 * 365);
+      rows.push_back({moved(static_cast<std::uint64_t>(i), "unix anna", time)});
+    }
+    EXPECT_TRUE(store.append(rows));
+  }
+  bool drop(const StoreBounds& bounds) {
+    return Store::open(path_)->drop_old(bounds, moved(0, "", kNight + hours(24 * 365))).value();
+  }
+};
+
+TEST_F(DroppedSegmentsTest, WhatIsTooOldIsDroppedInWholeSegments) {
+  const StoreBounds month{.age = hours(24 * 30)};
+  EXPECT_TRUE(drop(month));
+  EXPECT_FALSE(drop(month)) << "the next segment is not too old";
+  EXPECT_FALSE(verdict().first_bad) << verdict().fault;
+  EXPECT_EQ(verdict().rows, 2 * Store::kSegment + 11) << "with the entry that says so";
+}
+
+TEST_F(DroppedSegmentsTest, OfAFileThatIsTooLargeTheNewestSegmentStays) {
+  const StoreBounds small{.bytes = 1};
+  EXPECT_TRUE(drop(small));
+  EXPECT_TRUE(drop(small));
+  EXPECT_FALSE(drop(small));
+  EXPECT_FALSE(verdict().first_bad) << verdict().fault;
+}
+
+TEST_F(DroppedSegmentsTest, ABeginningThatNobodyDroppedIsFound) {
+  EXPECT_TRUE(drop({.bytes = 1}));
+  tamper("DELETE FROM entry WHERE number = 10001");
+  EXPECT_EQ(verdict().first_bad, 10'001) << verdict().fault;
+  tamper(
+      "UPDATE meta SET value = '10001 ' || (SELECT lower(hex(hash)) FROM entry WHERE number = 10002) WHERE key = "
+      "'dropped'");
+  EXPECT_TRUE(verdict().first_bad) << "who moves the beginning is found out by the entry that says where it is";
+}
+
+TEST_F(DroppedSegmentsTest, AHeadFromBeforeShowsNothing) {
+  const Head noted{Store::open_to_read(path_)->epoch().value(), 3, {}};
+  EXPECT_TRUE(drop({.bytes = 1}));
+  EXPECT_EQ(verdict(noted).first_bad, 3) << verdict(noted).fault;
+}
+
 TEST_F(JournalStoreTest, AHeadOfAnotherFileIsNoneOfThisChain) {
   Head noted = *Store::open_to_read(path_)->head();
   noted.epoch = "0123";
