@@ -50,9 +50,7 @@ v1::Lease acquire(const Session& session, const v1::Device& device, const v1::Le
   try {
     return ask(kQuestionLimit);
   } catch (const Failure& held) {
-    // Nobody may hold them, and something that was started without a lease moves yet.
-    const bool later = held.reason == "LEASE_HELD" || held.reason == "DEADLINE_PASSED";
-    if (!later || !session.options.wait_s) throw;
+    if (held.reason != "LEASE_HELD" || !session.options.wait_s) throw;
     print_note(held.message + "; waiting");
   }
   const std::chrono::seconds wait{*session.options.wait_s};

@@ -157,13 +157,16 @@ enum class Guard {
 
   // Every queue is bounded, every wait has a limit
   lanes_bounded,
+  shares_bounded,
   waiting_lines_expire,
   waiting_motions_expire,
   unread_lines_bounded,
   lanes_starve_not,
   callers_take_turns,
+  motions_not_overtaken,
+  questions_have_turns,
 };
-inline constexpr int kGuards = static_cast<int>(Guard::callers_take_turns) + 1;
+inline constexpr int kGuards = static_cast<int>(Guard::questions_have_turns) + 1;
 
 #ifdef AXISGATE_REMOVABLE_GUARDS
 inline std::optional<Guard> removed_guard;

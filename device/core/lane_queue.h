@@ -1,6 +1,7 @@
 // Waiting work in lanes: a stop before everything, polls last, and nobody waits for ever.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -9,11 +10,17 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "device/core/guard.h"
 #include "device/core/lane.h"
+#include "device/core/problem.h"
 
 namespace axisgate {
+
+// Why a lane takes nothing more: queue_full, with when to try again.
+tl::unexpected<Problem> lane_full(Lane lane, std::size_t waiting);
+tl::unexpected<Problem> share_full(Lane lane, const std::string& caller, std::size_t waiting);
 
 // Policy, in this order:
 // - at most every second take is a stop while anything else waits;
@@ -24,14 +31,19 @@ template <class Work>
 class LaneQueue {
  public:
   static constexpr std::size_t kLaneMax = 1024;
+  static constexpr std::size_t kShareMax = kLaneMax / 4;  // of what one caller may have waiting in a lane
   static constexpr int kPassesMax = 8;
 
-  // False: the lane is full, and `work` was not taken.
-  bool push(Lane lane, std::string caller, Work work) {
-    auto& queue = lanes_[index(lane)];
-    if (guarded(Guard::lanes_bounded) && queue.waiting.size() >= kLaneMax) return false;
-    queue.waiting.push_back({std::move(caller), std::move(work)});
-    return true;
+  // `work` is not taken where the lane is full, or holds `share` of this caller's already: queue_full.
+  Result<void> push(Lane lane, std::string caller, Work work, std::size_t share = kLaneMax) {
+    auto& waiting = lanes_[index(lane)].waiting;
+    if (guarded(Guard::lanes_bounded) && waiting.size() >= kLaneMax) return lane_full(lane, waiting.size());
+    if (share < kLaneMax && guarded(Guard::shares_bounded)) {
+      const auto own = static_cast<std::size_t>(std::ranges::count(waiting, caller, &Entry::caller));
+      if (own >= share) return share_full(lane, caller, own);
+    }
+    waiting.push_back({std::move(caller), std::move(work)});
+    return {};
   }
 
   // The next work for which admissible(work) holds.
@@ -73,6 +85,17 @@ class LaneQueue {
     }
   }
 
+  // In the order in which take() would hand it over if all of it was admissible now: by the last turn of each caller.
+  template <class Visit>
+  void for_each_in_turn(Lane number, Visit visit) const {
+    const auto& lane = lanes_[index(number)];
+    std::vector<std::pair<std::uint64_t, const Work*>> order;
+    for (const auto& entry : lane.waiting) order.emplace_back(lane.last_turn(entry.caller), &entry.work);
+    const auto turn_of = [](const auto& one) { return one.first; };
+    if (guarded(Guard::callers_take_turns)) std::ranges::stable_sort(order, {}, turn_of);
+    for (const auto& [turn, work] : order) visit(*work);
+  }
+
   // Whether a stop would not have to let others go first.
   bool stops_turn() const { return !last_was_stop_ || !guarded(Guard::stops_by_turns); }
 
@@ -87,6 +110,11 @@ class LaneQueue {
     std::deque<Entry> waiting;
     std::map<std::string, std::uint64_t> served;  // when each caller had its last turn
     int passes = 0;
+
+    std::uint64_t last_turn(const std::string& caller) const {  // 0: none since the lane was empty
+      const auto found = served.find(caller);
+      return found == served.end() ? 0 : found->second;
+    }
   };
   static std::size_t index(Lane lane) { return static_cast<std::size_t>(lane); }
 
@@ -97,8 +125,7 @@ class LaneQueue {
     std::uint64_t chosen_served = 0;
     for (auto entry = lane.waiting.begin(); entry != lane.waiting.end(); ++entry) {
       if (!admissible(entry->work)) continue;
-      const auto served = lane.served.find(entry->caller);
-      const auto when = served == lane.served.end() ? 0 : served->second;
+      const auto when = lane.last_turn(entry->caller);
       if (chosen == lane.waiting.end() || when < chosen_served) {
         chosen = entry;
         chosen_served = when;

@@ -58,7 +58,7 @@ struct Controller::Rooms {
         line(profile, link, tasks.executor(), session),
         rights(keeper, store, tasks),
         non_host(session),
-        motions(store, registers, rights, tasks, session) {}
+        motions(store, line, registers, rights, tasks, session) {}
 
   const Profile profile;
   Permission& permission;
@@ -127,11 +127,14 @@ Controller::Controller(Profile profile, ByteLink& link, EventSink& events, Permi
     : rooms_(std::make_unique<Rooms>(std::move(profile), link, events, permission)) {}
 Controller::~Controller() = default;
 
-// Every call from outside begins with the time and ends by letting the tasks go on.
+// Every call from outside begins with the time and ends by letting the tasks go on, and the motions that have waited
+// for a question which may have been sent now.
 template <class Call>
 void Controller::at(TimePoint now, Call call) {
   rooms_->tasks.now_is(now);
   call();
+  rooms_->tasks.executor().run();
+  rooms_->motions.gate().admit();
   rooms_->tasks.executor().run();
 }
 
@@ -150,7 +153,7 @@ void Controller::receive(std::string_view bytes, TimePoint now) {
 void Controller::advance(TimePoint now) {
   at(now, [&] {
     rooms_->line.advance(now);
-    rooms_->motions.gate().expire(now);
+    rooms_->motions.expire_waiting();
     rooms_->lease_orders.carry_out();
     rooms_->tasks.executor().advance(now);
   });

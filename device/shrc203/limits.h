@@ -56,6 +56,12 @@ inline constexpr Duration kStepWriteLimit = std::chrono::seconds(30);
 // ?:SLEEP only explains a refusal, and its answer is a bare number: nobody waits long for that.
 inline constexpr Duration kSleepQuestionLimit = std::chrono::seconds(1);
 
+// What has waited so long has its turn: a question while motions follow one another, a motion of several axes while
+// others use them in turn.
+inline constexpr Duration kTurnAfter = std::chrono::seconds(2);
+// A question keeps motions out no longer than this: less than kMotionStartLimit, so that none is refused for its sake.
+inline constexpr Duration kTurnLimit = std::chrono::seconds(4);
+
 // What must not be misread is asked until two answers in a row agree, so often at most.
 inline constexpr int kAgreeingAnswerTries = 4;
 // A question whose answer may be a completion is asked until two answers agree, so often at most.

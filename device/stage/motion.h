@@ -48,11 +48,15 @@ struct Motion {
   std::string who;                  // the caller
   std::string request_id;
   TimePoint created{}, started{}, ended{};
-  int segments_total = 0;  // a path's
+  std::optional<TimePoint> due;  // it should be over by then; nothing where that is not known
+  int segments_total = 0;        // a path's
   int segments_done = 0;
   int underruns = 0;
   std::optional<ScanResult> scan;
 };
+
+// "axis 1 is in motion 1312 (move by unix bert, 4 s left)", for those who wait for its axes.
+std::string occupation_by(const Motion& motion, TimePoint now);
 
 std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog", "scan"
 std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...

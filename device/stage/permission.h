@@ -48,8 +48,9 @@ class Permission {
   // lease_held, lease_lost or stopped_by, where the caller may not use all of these axes now.
   virtual Result<void> authorize(const Use& use, TimePoint now) = 0;
 
-  // The motion has its turn on its axes; and has left them, whatever became of it.
-  virtual void begin(const Use& use, TimePoint now) = 0;
+  // The motion has its turn on its axes; should be over by then; and has left them, whatever became of it.
+  virtual void begin(const Use& use, const Motion& motion, TimePoint now) = 0;
+  virtual void due(MotionId motion, TimePoint over) = 0;
   virtual void end(MotionId motion, TimePoint now) = 0;
 
   // A stop of these axes was requested. `waiting`: motions on them that have not had their turn, and never will.

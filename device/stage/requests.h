@@ -30,6 +30,9 @@ struct RequestContext {
   std::uint64_t frame_epoch = 0;         // the same of State::frame_epoch
   std::string role{};                    // a word of the configuration, "operator": for the travel envelope
   std::optional<TimePoint> answer_by{};  // of a stop: its report is made by then, of what is known
+  std::string identity{};                // as whom `who` takes turns with others; empty: as `who`
+
+  const std::string& takes_turns_as() const { return identity.empty() ? who : identity; }
 };
 
 // S, F and R of an axis (manual 89) D:): speeds 1 to 1,000,000 pulses/s, S <= F, R 1 to 1,000 ms.

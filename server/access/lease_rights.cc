@@ -5,9 +5,9 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/core/spans.h"
 #include "server/access/access.h"
 #include "server/access/leases.h"
-#include "server/access/spans.h"
 
 namespace axisgate::server {
 namespace {

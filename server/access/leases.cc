@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "device/core/guard.h"
+#include "device/core/spans.h"
 #include "server/access/access.h"
-#include "server/access/spans.h"
 
 namespace axisgate::server {
 namespace {
@@ -43,9 +43,9 @@ bool Leases::runs(LeaseToken token) const {
 std::uint64_t Leases::acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after,
                               TimePoint now, OnLease answer) {
   expire(now);
-  const auto in_the_way = held_problem(terms.axes, now);
-  if (!wait && in_the_way) {
-    answer(tl::unexpected(*in_the_way));
+  const auto problem = in_the_way(terms.axes, now);
+  if (!wait && problem) {
+    answer(tl::unexpected(*problem));
     return 0;
   }
   if (waiting_.size() >= kWaitingMax) {
@@ -201,7 +201,26 @@ std::optional<Problem> Leases::held_problem(AxisSet axes, TimePoint now) const {
   return {};
 }
 
-void Leases::begin(const Use& use, TimePoint) { running_[use.motion] = {use, false}; }
+// What keeps a lease from being granted.
+std::optional<Problem> Leases::in_the_way(AxisSet axes, TimePoint now) const {
+  if (auto held = held_problem(axes, now)) return held;
+  for (const auto& [id, running] : running_) {
+    if (!running.use.axes.touches(axes)) continue;
+    return Problem{.reason = Reason::lease_held,
+                   .message = occupation_by(running.motion, now),
+                   .hint = "to wait until it has ended, add --wait SECONDS; or stop it"};
+  }
+  return {};
+}
+
+void Leases::begin(const Use& use, const stage::Motion& motion, TimePoint) {
+  running_[use.motion] = {use, motion, false};
+}
+
+void Leases::due(MotionId motion, TimePoint over) {
+  const auto found = running_.find(motion);
+  if (found != running_.end()) found->second.motion.due = over;
+}
 
 void Leases::end(MotionId motion, TimePoint now) {
   const auto found = running_.find(motion);
@@ -254,7 +273,7 @@ void Leases::expire(TimePoint now) {
     waiting = waiting_.erase(waiting);
   }
   for (const Waiting& waiting : late) {
-    auto problem = held_problem(waiting.lease.terms.axes, now);
+    const auto problem = in_the_way(waiting.lease.terms.axes, now);
     waiting.answer(fail(Reason::deadline_passed, "the lease was not free in the time allowed" +
                                                      (problem ? ": " + problem->message : std::string())));
   }

@@ -74,7 +74,8 @@ class Leases : public stage::Permission {
   explicit Leases(LeaseTokens& tokens) : tokens_(tokens) {}
 
   // Answers once: with the lease, or with lease_held where `wait` is false, deadline_passed, queue_full, or not_sent
-  // when withdrawn. The id is that of the waiting one, 0 when it was answered at once.
+  // when withdrawn. The first two name what is in the way: a holder, one who waits, or a motion without a lease. The id
+  // is that of the waiting one, 0 when it was answered at once.
   using OnLease = std::function<void(Result<Lease>)>;
   std::uint64_t acquire(LeaseTerms terms, const std::string& holder, bool wait, TimePoint not_after, TimePoint now,
                         OnLease answer);
@@ -114,7 +115,8 @@ class Leases : public stage::Permission {
   std::function<void(TimePoint now)> on_change;
 
   Result<void> authorize(const stage::Use& use, TimePoint now) override;
-  void begin(const stage::Use& use, TimePoint now) override;
+  void begin(const stage::Use& use, const stage::Motion& motion, TimePoint now) override;
+  void due(MotionId motion, TimePoint over) override;
   void end(MotionId motion, TimePoint now) override;
   void stop_asked(const stage::Use& stop, const std::vector<stage::Use>& waiting, TimePoint now) override;
   void device_restarted(TimePoint now) override;
@@ -139,6 +141,7 @@ class Leases : public stage::Permission {
   };
   struct Running {
     stage::Use use;
+    stage::Motion motion;  // as it began
     bool revoked = false;  // taken over: not a byte more
   };
   struct Mover {  // moved something a moment ago
@@ -154,6 +157,7 @@ class Leases : public stage::Permission {
   void note_mover(stage::Use use, TimePoint now);
   void hold_back(const std::string& who, const Latch& latch);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
+  std::optional<Problem> in_the_way(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
   void end_lease(Held& held, std::string why, bool continues);
   void end_unkept(Held& held, std::string why);

@@ -103,8 +103,10 @@ Result<void> Admission::check_request_id(const Call& call) {
 Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call, const Caller& caller) const {
   const Rule& rule = rule_of(kind);
   if (rule.patience == Patience::stop) return context_of_stop(call);
-  RequestContext context{
-      .who = caller.who, .not_after = until(rule.patience, call), .role = std::string(name(caller.role))};
+  RequestContext context{.who = caller.who,
+                         .not_after = until(rule.patience, call),
+                         .role = std::string(name(caller.role)),
+                         .identity = server::identity_of(caller.who)};
   if (rule.use != Use::nothing) {
     const auto lease = lease_tokens_.open(call.lease_token);
     // A line of Execute may be a stop, which nothing refuses; other lines are refused where the right is asked.

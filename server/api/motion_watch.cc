@@ -20,6 +20,7 @@ Result<stage::Motion> find_motion(const stage::StageController& controller, stag
 Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& known,
                                 const stage::StageController& controller) {
   if (known.open) return find_motion(controller, known.motion);
+  if (auto motion = controller.find_motion(known.motion)) return *std::move(motion);
   if (auto problem = server::journal::problem_in(known.answer)) return tl::unexpected(*std::move(problem));
   if (auto motion = server::journal::motion_in(known.answer)) return *std::move(motion);
   return fail(Reason::internal, "what became of the request cannot be read", "look at `axisctl history`");
@@ -94,7 +95,7 @@ void MotionSubscription::read_changes() {
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
     const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
     if (change != nullptr && change->motion.id == followed_ && record.device == device_->name()) {
-      set_due(CurrentMotion(*device_, change->motion, record.revision));
+      set_due(CurrentMotion(*device_, change->motion, record.revision, record.clock));
     }
   }
 }

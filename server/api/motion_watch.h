@@ -21,14 +21,19 @@ namespace axisgate::api {
 struct CurrentMotion {
   // On the device's strand.
   CurrentMotion(server::Stage& its_device, stage::Motion its_motion)
-      : device(its_device.name()), motion(std::move(its_motion)), revision(its_device.motion_revision(motion.id)) {}
+      : device(its_device.name()),
+        motion(std::move(its_motion)),
+        revision(its_device.motion_revision(motion.id)),
+        clock(its_device.motion_clock(motion.id)) {}
   // As a fact had it.
-  CurrentMotion(const server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact)
-      : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact) {}
+  CurrentMotion(const server::Stage& its_device, stage::Motion its_motion, std::uint64_t of_fact,
+                const server::Moment& its_clock)
+      : device(its_device.name()), motion(std::move(its_motion)), revision(of_fact), clock(its_clock) {}
 
-  // Of a request that came before.
+  // Of a request that came before. Likewise on the strand.
   static CurrentMotion repeated(const server::Stage& its_device, stage::Motion its_motion) {
-    CurrentMotion current(its_device, std::move(its_motion), 0);
+    const server::Moment its_clock = its_device.motion_clock(its_motion.id);
+    CurrentMotion current(its_device, std::move(its_motion), 0, its_clock);
     current.is_repeated = true;
     return current;
   }
@@ -37,6 +42,7 @@ struct CurrentMotion {
   stage::Motion motion;
   std::uint64_t revision = 0;  // of the newest fact about it; 0: not known
   bool is_repeated = false;    // the answer to a request that came before
+  server::Moment clock;        // by which its times are shown
 };
 
 // The motion, or not_found. On the device's strand.

@@ -242,7 +242,7 @@ void Path::set_due(const server::FactRecord& record) {
     if (progress->motion == motion_) due_ = PathStep{device_->name(), *progress};
   } else if (const auto* change = std::get_if<stage::MotionChanged>(&record.fact)) {
     if (change->motion.id != motion_ || !stage::is_outcome(change->motion.state)) return;
-    due_ = PathStep{device_->name(), CurrentMotion(*device_, change->motion, record.revision)};
+    due_ = PathStep{device_->name(), CurrentMotion(*device_, change->motion, record.revision, record.clock)};
     end_ = StreamEnd{};
   }
 }

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "device/core/escape.h"
-#include "server/access/spans.h"
+#include "device/core/spans.h"
 
 namespace axisgate::api {
 namespace {
@@ -69,9 +69,9 @@ Problem refusal_of(Problem problem, const server::SavedPosition& position, const
   if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
   problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);
   if (was_interrupted(position, state)) {
-    problem.message += fmt::format("; the controller came back {} ago, and may have restarted{}",
-                                   server::for_people(now - state.epoch_began),
-                                   position.place ? ", which deletes its saved positions" : "");
+    problem.message +=
+        fmt::format("; the controller came back {} ago, and may have restarted{}", for_people(now - state.epoch_began),
+                    position.place ? ", which deletes its saved positions" : "");
   }
   problem.hint = again(position);
   return problem;

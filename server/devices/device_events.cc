@@ -46,14 +46,20 @@ void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
 }
 
 std::uint64_t DeviceEvents::motion_revision(stage::MotionId motion) const {
-  const auto found = revisions_.find(motion);
-  return found == revisions_.end() ? 0 : found->second;
+  const auto found = motions_.find(motion);
+  return found == motions_.end() ? 0 : found->second.revision;
+}
+
+Moment DeviceEvents::motion_clock(stage::MotionId motion) const {
+  const auto found = motions_.find(motion);
+  return found == motions_.end() ? moment_of(monotonic_now()) : found->second.clock;
 }
 
 void DeviceEvents::tell(const stage::MotionChanged& change, TimePoint now) {
   const stage::Motion& motion = change.motion;
-  revisions_[motion.id] = publish(change, now);
-  if (revisions_.size() > kMotionsRemembered) revisions_.erase(revisions_.begin());
+  Known& known = motions_.try_emplace(motion.id, Known{0, moment_of(now)}).first->second;
+  known.revision = bus_.publish(device_, change, to_wall(now), known.clock);
+  if (motions_.size() > kMotionsRemembered) motions_.erase(motions_.begin());
   if (motion.state == stage::MotionState::queued || motion.state == stage::MotionState::stopping) return;
   const bool well = motion.state == stage::MotionState::running || motion.state == stage::MotionState::succeeded;
   spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({}, asked by {}) is {}{}", device_,
@@ -148,8 +154,6 @@ void DeviceEvents::tell(const stage::IllegalTransition& fault, TimePoint) {
       device_, fault.event, fault.machine, fault.state, device_);
 }
 
-std::uint64_t DeviceEvents::publish(Fact fact, TimePoint now) {
-  return bus_.publish(device_, std::move(fact), to_wall(now), now);
-}
+void DeviceEvents::publish(Fact fact, TimePoint now) { bus_.publish(device_, std::move(fact), to_wall(now)); }
 
 }  // namespace axisgate::server

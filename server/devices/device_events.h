@@ -35,9 +35,16 @@ class DeviceEvents : public stage::EventSink {
 
   // The revision of the newest fact about a motion; 0 when there is none or it is long ago.
   std::uint64_t motion_revision(stage::MotionId motion) const;
+  // By which the times of that motion are shown: fixed at its first fact, so that they are the same in every reading,
+  // also where the calendar was set meanwhile.
+  Moment motion_clock(stage::MotionId motion) const;
 
  private:
-  // Revisions of this many motions are remembered; more than the controller keeps motions.
+  struct Known {
+    std::uint64_t revision = 0;
+    Moment clock;
+  };
+  // So many motions are remembered; more than the controller keeps.
   static constexpr std::size_t kMotionsRemembered = 4096;
 
   void tell(const stage::MotionChanged& change, TimePoint now);
@@ -59,7 +66,7 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::ExchangeEnded&, TimePoint) { due_(Due::queues); }
   void tell(const stage::StateChanged&, TimePoint) { due_(Due::state); }
 
-  std::uint64_t publish(Fact fact, TimePoint now);
+  void publish(Fact fact, TimePoint now);
 
   const std::string device_;
   EventBus& bus_;
@@ -69,7 +76,7 @@ class DeviceEvents : public stage::EventSink {
   const OnDue due_;
   MotionRecord* const record_;
   journal::DeviceEntries* const entries_;
-  std::map<stage::MotionId, std::uint64_t> revisions_;
+  std::map<stage::MotionId, Known> motions_;
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.

@@ -37,6 +37,7 @@ class Stage final : public Device {
 
   // On the strand only: from within a posted request or a callback of the controller.
   std::uint64_t motion_revision(stage::MotionId motion) const { return events_.motion_revision(motion); }
+  Moment motion_clock(stage::MotionId motion) const { return events_.motion_clock(motion); }
 
   // Of the run before: MotionRecord::started_before(). Nothing, where nothing is known of it. Before start().
   std::optional<std::vector<StartedMotion>> started_before() const;

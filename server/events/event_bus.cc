@@ -8,8 +8,8 @@ namespace axisgate::server {
 EventBus::EventBus(Executor executor, std::size_t facts_kept)
     : facts_kept_(facts_kept), wake_ups_(std::move(executor)) {}
 
-std::uint64_t EventBus::publish(std::string device, Fact fact, WallTime time, TimePoint monotonic) {
-  auto record = std::make_shared<FactRecord>(FactRecord{0, std::move(device), time, monotonic, std::move(fact)});
+std::uint64_t EventBus::publish(std::string device, Fact fact, WallTime time, Moment clock) {
+  auto record = std::make_shared<FactRecord>(FactRecord{0, std::move(device), time, std::move(fact), clock});
   std::uint64_t revision = 0;
   {
     const std::lock_guard lock(mutex_);

@@ -25,8 +25,8 @@ struct FactRecord {
   std::uint64_t revision = 0;  // counts from 1 as long as the daemon runs, over all devices
   std::string device;
   WallTime time{};
-  TimePoint monotonic{};
   Fact fact;
+  Moment clock{};  // of a motion's fact: that of all facts of the motion, by which its times are shown
 };
 
 // Thread safe. Publishing never waits for a reader.
@@ -36,7 +36,8 @@ class EventBus {
 
   explicit EventBus(Executor executor, std::size_t facts_kept = kFactsKept);
 
-  std::uint64_t publish(std::string device, Fact fact, WallTime time, TimePoint monotonic);
+  // `clock`: of a motion's fact, as in FactRecord.
+  std::uint64_t publish(std::string device, Fact fact, WallTime time, Moment clock = {});
 
   // 0 before the first fact.
   std::uint64_t newest_revision() const;

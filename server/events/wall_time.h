@@ -17,6 +17,17 @@ inline WallTime to_wall(TimePoint time) {
   return std::chrono::system_clock::now() + std::chrono::duration_cast<WallTime::duration>(time - monotonic_now());
 }
 
+// One moment on both clocks. By it all times of one thing keep their distances, and are the same whenever they are
+// read.
+struct Moment {
+  TimePoint monotonic{};
+  WallTime wall{};
+
+  WallTime at(TimePoint time) const { return wall + std::chrono::duration_cast<WallTime::duration>(time - monotonic); }
+};
+
+inline Moment moment_of(TimePoint time) { return {time, to_wall(time)}; }
+
 // Whole seconds, for what outlives the daemon.
 inline std::chrono::sys_seconds calendar_now() {
   return std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());

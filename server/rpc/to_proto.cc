@@ -103,7 +103,7 @@ struct EventFiller {
   v1::Event& event;
 
   void operator()(const stage::MotionChanged& change) const {
-    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision);
+    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision, record.clock);
   }
   void operator()(const stage::CompletionSeen& seen) const {
     event.mutable_completion()->set_axis(seen.axis);
@@ -189,16 +189,6 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   return proto;
 }
 
-// One moment on both clocks. A fact carries its own, so that every receiver of it gets the same times.
-struct Moment {
-  TimePoint monotonic;
-  server::WallTime wall;
-
-  server::WallTime at(TimePoint time) const {
-    return wall - std::chrono::duration_cast<server::WallTime::duration>(monotonic - time);
-  }
-};
-
 v1::Scan to_proto(const stage::ScanResult& scan) {
   v1::Scan proto;
   proto.set_run_from_pulses(scan.run_from);
@@ -209,13 +199,14 @@ v1::Scan to_proto(const stage::ScanResult& scan) {
   return proto;
 }
 
-void set_times(v1::Motion& proto, const stage::Motion& motion, const Moment& moment) {
-  *proto.mutable_create_time() = to_proto(moment.at(motion.created));
-  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(moment.at(motion.started));
-  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(moment.at(motion.ended));
+void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Moment& clock) {
+  *proto.mutable_create_time() = to_proto(clock.at(motion.created));
+  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(clock.at(motion.started));
+  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(clock.at(motion.ended));
 }
 
-v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision) {
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
+                    const server::Moment& clock) {
   v1::Motion proto;
   proto.set_name(api::motion_name(device, motion.id));
   proto.set_kind(to_motion_kind(motion.kind));
@@ -230,7 +221,7 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
   }
   if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
   proto.set_revision(revision);
-  set_times(proto, motion, {monotonic_now(), server::to_wall(monotonic_now())});
+  set_times(proto, motion, clock);
   proto.set_who(motion.who);
   proto.set_request_id(motion.request_id);
   proto.set_segments_total(motion.segments_total);
@@ -241,7 +232,7 @@ v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::u
 }
 
 v1::Motion to_proto(const api::CurrentMotion& motion) {
-  v1::Motion proto = to_proto(motion.device, motion.motion, motion.revision);
+  v1::Motion proto = to_proto(motion.device, motion.motion, motion.revision, motion.clock);
   proto.set_repeated(motion.is_repeated);
   return proto;
 }
@@ -265,9 +256,6 @@ v1::Event to_proto(const server::FactRecord& record, const std::string& run) {
   event.set_device(api::device_name(record.device));
   event.set_run(run);
   std::visit(EventFiller{record, event}, record.fact);
-  if (const auto* changed = std::get_if<stage::MotionChanged>(&record.fact)) {
-    set_times(*event.mutable_motion(), changed->motion, {record.monotonic, record.time});
-  }
   return event;
 }
 

@@ -27,8 +27,9 @@ void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
 
 v1::Device to_proto(const server::Stage& device, const stage::State& state);
 
-// `revision` is that of the newest fact about the motion, 0 when not known.
-v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision);
+// `revision` is that of the newest fact about the motion, 0 when not known; its times are shown by `clock`.
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
+                    const server::Moment& clock);
 v1::Motion to_proto(const api::CurrentMotion& motion);
 
 v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);

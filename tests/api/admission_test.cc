@@ -73,6 +73,17 @@ TEST_F(AdmissionTest, LeaseAndEpochsReachWhatUsesAxes) {
   EXPECT_EQ(context(RequestKind::get_device)->request_id, "");
 }
 
+TEST_F(AdmissionTest, CallersWhomNothingNamesTakeTurnsAsOne) {
+  const auto turns_of = [this](const std::string& who) {
+    const auto context = world_.api->admission.context_of(RequestKind::move, call_, {who, server::Role::operator_});
+    EXPECT_EQ(context->who, who) << "for people";
+    return context->takes_turns_as();
+  };
+  EXPECT_EQ(turns_of("tcp 127.0.0.1:39482"), turns_of("tcp 127.0.0.1:39483"));
+  EXPECT_NE(turns_of("tcp 127.0.0.1:39482"), turns_of(kAnna));
+  EXPECT_EQ(turns_of(kAnna), kAnna);
+}
+
 // A guess holds back nobody who needs no lease, and least of all a stop.
 TEST_F(AdmissionTest, AGuessedLeaseTokenIsRefused) {
   call_.lease_token = world_.sealed(5);

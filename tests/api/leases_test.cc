@@ -105,6 +105,22 @@ TEST_F(LeasesOfApi, NoAxesAreAll) {
   EXPECT_EQ((**seeker->lease())->holder, kAnna);
 }
 
+TEST_F(LeasesOfApi, WhileSomethingMovesTheRefusalNamesIt) {
+  world_.on_strand([&](stage::StageController&, TimePoint now) {
+    stage::Motion motion;
+    motion.id = 7;
+    motion.axes = stage::AxisSet::of(1);
+    motion.who = "unix bert";
+    world_.device().leases().begin({motion.who, 0, motion.axes, motion.id}, motion, now);
+  });
+  const auto seeker = std::make_shared<WaitingSeeker>();
+  world_.api->leases.acquire(World::by(kAnna), kDevice, LeaseWish(), {}, seeker);
+  ASSERT_TRUE(comes_true([&] { return seeker->lease().has_value(); }));
+  ASSERT_FALSE(*seeker->lease());
+  EXPECT_EQ(seeker->lease()->error().reason, Reason::lease_held);
+  EXPECT_EQ(seeker->lease()->error().message, "axis 1 is in motion 7 (move by unix bert)");
+}
+
 TEST_F(LeasesOfApi, AWaitingCallerWhoGoesLeavesItsPlace) {
   (void)world_.lease_of("unix eve");
   const auto seeker = wait_for_lease();

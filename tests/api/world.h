@@ -183,7 +183,7 @@ class World {
     on_strand([&](stage::StageController&, TimePoint now) {
       constexpr stage::MotionId kNobodysMotion = 1'000'000;
       const auto axes = stage::AxisSet::all();
-      device().leases().begin({who, 0, axes, kNobodysMotion}, now);
+      device().leases().begin({who, 0, axes, kNobodysMotion}, {}, now);
       device().leases().stop_asked({"unix eve", 0, axes, 0}, {}, now);
       device().leases().end(kNobodysMotion, now);
     });

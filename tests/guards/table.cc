@@ -269,6 +269,8 @@ constexpr Row kTable[] = {
              "... and those of a motion with it, also where the line was lost",
              "Hazard.H28_SpeedsOfAMotionWhoseLineWasLost"),
     by_tests(Guard::lanes_bounded, "lanes-bounded", "lanes are bounded", "Hazard.H37_TheQueueIsBounded"),
+    by_tests(Guard::shares_bounded, "shares-bounded", "... and so is what one caller has waiting there",
+             "LaneQueue.OneCallersShareOfALaneIsBounded"),
     by_tests(Guard::waiting_lines_expire, "waiting-lines-expire", "a line that waits has a limit",
              "Line.AQuestionThatWaitsIsToldWhenItsTimeIsOver"),
     by_tests(Guard::waiting_motions_expire, "waiting-motions-expire", "a motion that waits has a limit",
@@ -279,6 +281,11 @@ constexpr Row kTable[] = {
              "LaneQueue.ALaneIsPassedOverAFewTimesOnly"),
     by_tests(Guard::callers_take_turns, "callers-take-turns", "within a lane callers take turns",
              "LaneQueue.CallersTakeTurns"),
+    by_tests(Guard::motions_not_overtaken, "motions-not-overtaken",
+             "a motion of several axes is not overtaken for ever by others of one each",
+             "Turns.AMotionOfSeveralAxesAmidOthersOfOneEach"),
+    by_tests(Guard::questions_have_turns, "questions-have-turns",
+             "a question has its turn amid motions that follow one another", "Turns.AQuestionAmidMotionsWithoutAPause"),
 };
 
 }  // namespace

@@ -103,6 +103,13 @@ class Leases(unittest.TestCase):
         self.assertEqual(moved.returncode, 0, moved.stderr)
         self.assertIn("; waiting", moved.stderr)
 
+    def test_a_lease_that_is_not_to_wait_names_what_moves(self):
+        self.assertEqual(self.daemon.run("move", "1=0.5mm", "--no-wait").returncode, 0)
+        refused = self.daemon.run("lease", "run", "--axes", "1", "--", "true")
+        self.assertEqual(refused.returncode, 3)
+        self.assertRegex(refused.stderr, rf"\Aaxisctl: LEASE_HELD: axis 1 is in motion 1 \(move by "
+                                         rf"{re.escape(self.own_name())}(, \d+ s left)?\) \(to wait until it has ended, ")
+
     def test_ctrl_c_leaves_a_motion_running_also_with_wait(self):
         moving = self.daemon.start("move", "1=1mm", "--wait", "60")
         moving.until("RUNNING")

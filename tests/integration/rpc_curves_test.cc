@@ -210,9 +210,9 @@ TEST(Scans, WhatIsMissingIsNamed) {
 TEST(Scans, AreToldWithWhatIsKnown) {
   stage::Motion motion;
   motion.kind = stage::MotionKind::scan;
-  EXPECT_FALSE(to_proto("stage", motion, 1).has_scan());
+  EXPECT_FALSE(to_proto("stage", motion, 1, server::Moment()).has_scan());
   motion.scan = stage::ScanResult{-200, 1300, 16, 11, {}};
-  const v1::Motion running = to_proto("stage", motion, 1);
+  const v1::Motion running = to_proto("stage", motion, 1, server::Moment());
   EXPECT_EQ(running.kind(), v1::MOTION_KIND_SCAN);
   EXPECT_EQ(running.scan().run_from_pulses(), -200);
   EXPECT_EQ(running.scan().run_to_pulses(), 1300);
@@ -220,7 +220,7 @@ TEST(Scans, AreToldWithWhatIsKnown) {
   EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
   EXPECT_FALSE(running.scan().has_observed_triggers());
   motion.scan = stage::ScanResult{0, 0, {}, {}, 0};
-  const v1::Motion ended = to_proto("stage", motion, 1);
+  const v1::Motion ended = to_proto("stage", motion, 1, server::Moment());
   EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
   EXPECT_TRUE(ended.scan().has_observed_triggers());
 }

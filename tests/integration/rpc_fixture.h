@@ -117,6 +117,15 @@ class RpcTest : public ::testing::Test {
     return response.motion();
   }
 
+  v1::Motion motion_now(const std::string& name) {
+    grpc::ClientContext context;
+    limit(context);
+    v1::GetMotionRequest request;
+    request.set_name(name);
+    v1::GetMotionResponse response;
+    EXPECT_TRUE(stage_->GetMotion(&context, request, &response).ok());
+    return response.motion();
+  }
   int motion_count() {
     grpc::ClientContext context;
     limit(context);

@@ -67,7 +67,7 @@ class RpcMetricsTest : public RpcTest {
   void publish(std::size_t facts) {
     const TimePoint now = monotonic_now();
     const stage::StopRequested fact{stage::AxisSet::all(), false, std::string(4096, 'x')};
-    for (std::size_t i = 0; i < facts; ++i) gateway_->events().publish("nobody", fact, server::to_wall(now), now);
+    for (std::size_t i = 0; i < facts; ++i) gateway_->events().publish("nobody", fact, server::to_wall(now));
   }
 
   // What becomes of a watcher from this revision on.

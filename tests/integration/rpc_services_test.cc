@@ -126,6 +126,19 @@ TEST_F(RpcTest, ThreeWatchersSeeTheSameRevisionsAndOneThatComesBackMissesNone) {
   EXPECT_EQ(watch(*events_, 3), rest);
 }
 
+TEST_F(RpcTest, TheTimesOfAMotionAreTheSameInEachAnswer) {
+  v1::Motion moved;
+  ASSERT_TRUE(move(move_request(1, "1"), &moved).ok());
+  const v1::Motion over = outcome(moved.name());
+  ASSERT_TRUE(moved.has_start_time() && over.has_end_time());
+  for (int reading = 0; reading < 10; ++reading) {
+    const v1::Motion now = motion_now(moved.name());
+    EXPECT_EQ(now.create_time().SerializeAsString(), moved.create_time().SerializeAsString());
+    EXPECT_EQ(now.start_time().SerializeAsString(), moved.start_time().SerializeAsString());
+    EXPECT_EQ(now.end_time().SerializeAsString(), over.end_time().SerializeAsString());
+  }
+}
+
 TEST_F(RpcTest, ARevisionOfAnotherRunIsCompacted) {
   grpc::ClientContext context;
   limit(context);

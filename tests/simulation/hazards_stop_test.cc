@@ -28,7 +28,7 @@ std::size_t place_of(World& world, std::string_view prefix, std::size_t first) {
 TEST(Hazard, H37_StopAfterAThousandQueuedMoves) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
-  for (int i = 0; i < 1000; ++i) move_by(world, {{1 + i % 3, 500000}});
+  for (int i = 0; i < 1000; ++i) move_for(world, fmt::format("caller-{}", i % 4), {{1 + i % 3, 500000}});
   EXPECT_GE(world.controller().queued(Lane::motion), 990u);
   world.run_for(milliseconds(500));
   ASSERT_EQ(world.device().starts(1), 1) << world.replay();
@@ -48,7 +48,9 @@ TEST(Hazard, H37_TheQueueIsBounded) {
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   int full = 0;
   for (int i = 0; i < 1100; ++i) {
-    world.controller().move(move_of(world, {{1, 500000}}, true), world.now(), [&](const Result<Motion>& motion) {
+    MoveRequest request = move_of(world, {{1, 500000}}, true);
+    request.context.who = fmt::format("caller-{}", i % 5);
+    world.controller().move(std::move(request), world.now(), [&](const Result<Motion>& motion) {
       if (!motion && motion.error().reason == Reason::queue_full) ++full;
     });
   }

@@ -24,8 +24,12 @@ MoveRequest move_of(const World& world, const Ways& ways, bool relative) {
   return request;
 }
 
-void move_by(World& world, const Ways& ways) {
-  world.controller().move(move_of(world, ways, true), world.now(), [](Result<Motion>) {});
+void move_by(World& world, const Ways& ways) { move_for(world, "tester", ways); }
+
+void move_for(World& world, const std::string& who, const Ways& ways) {
+  MoveRequest request = move_of(world, ways, true);
+  request.context.who = who;
+  world.controller().move(std::move(request), world.now(), [](Result<Motion>) {});
 }
 
 PathRequest line_of(const World& world, int segments) {

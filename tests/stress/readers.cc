@@ -14,7 +14,7 @@ constexpr std::size_t kPortion = 200;
 
 std::uint64_t publish_fact(server::EventBus& bus) {
   const TimePoint now = monotonic_now();
-  return bus.publish("nobody", stage::StopRequested{}, server::to_wall(now), now);
+  return bus.publish("nobody", stage::StopRequested{}, server::to_wall(now));
 }
 
 void take_a_breath() { std::this_thread::sleep_for(std::chrono::microseconds(100)); }

@@ -82,6 +82,22 @@ TEST_F(DeviceEventsTest, AMotionsNewestRevisionIsKnown) {
   EXPECT_EQ(events_.motion_revision(2), 2u);
 }
 
+// However often they are read, and however long after the event: its clock is fixed once.
+TEST_F(DeviceEventsTest, TheTimesOfAMotionAreTheSameInAllItsFacts) {
+  tell(motion(1, stage::MotionState::queued));
+  const Moment clock = events_.motion_clock(1);
+  EXPECT_EQ(clock.monotonic, now_);
+  tell(motion(1, stage::MotionState::running));
+  tell(motion(1, stage::MotionState::succeeded));
+  EXPECT_EQ(events_.motion_clock(1).wall, clock.wall);
+  const auto facts = bus_.read(1, 10).facts;
+  ASSERT_EQ(facts.size(), 3u);
+  for (const auto& fact : facts) {
+    EXPECT_EQ(fact->clock.at(now_), clock.wall);
+    EXPECT_EQ(fact->clock.at(now_ + std::chrono::nanoseconds(7)), clock.wall + std::chrono::nanoseconds(7));
+  }
+}
+
 TEST_F(DeviceEventsTest, TheSameNewsOfTheLinkIsToldOnce) {
   const stage::LinkChanged down{stage::LinkState::down, "no such device"};
   tell(down);

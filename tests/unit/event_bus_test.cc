@@ -36,15 +36,15 @@ std::vector<std::uint64_t> revisions(const EventBus::Reading& reading) {
 }
 
 void publish(EventBus& bus, int count) {
-  for (int i = 0; i < count; ++i) bus.publish("stage", stage::CompletionSeen{1, 7}, {}, {});
+  for (int i = 0; i < count; ++i) bus.publish("stage", stage::CompletionSeen{1, 7}, {});
 }
 
 TEST(EventBus, RevisionsCountFromOneOverAllDevices) {
   HeldTasks tasks;
   EventBus bus(tasks.executor());
   EXPECT_EQ(bus.newest_revision(), 0u);
-  EXPECT_EQ(bus.publish("a", stage::CompletionSeen{1, 7}, WallTime(std::chrono::seconds(3)), {}), 1u);
-  EXPECT_EQ(bus.publish("b", stage::LinkChanged{stage::LinkState::up, "why"}, {}, {}), 2u);
+  EXPECT_EQ(bus.publish("a", stage::CompletionSeen{1, 7}, WallTime(std::chrono::seconds(3))), 1u);
+  EXPECT_EQ(bus.publish("b", stage::LinkChanged{stage::LinkState::up, "why"}, {}), 2u);
   const EventBus::Reading reading = bus.read(1, 10);
   EXPECT_THAT(revisions(reading), ElementsAre(1, 2));
   EXPECT_EQ(reading.next, 3u);

@@ -85,6 +85,30 @@ TEST(LaneQueue, IsBoundedByLane) {
   EXPECT_TRUE(queue.push(Lane::question, "q", 1));
 }
 
+TEST(LaneQueue, OneCallersShareOfALaneIsBounded) {
+  Queue queue;
+  for (std::size_t i = 0; i < Queue::kShareMax; ++i) ASSERT_TRUE(queue.push(Lane::motion, "m", 1, Queue::kShareMax));
+  const auto refused = queue.push(Lane::motion, "m", 1, Queue::kShareMax);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, Reason::queue_full);
+  EXPECT_EQ(refused.error().message, "m has 256 requests waiting in the motion lane, as many as one caller may have");
+  EXPECT_EQ(refused.error().hint, "wait for some of them, and try again in 1 s");
+  EXPECT_TRUE(queue.push(Lane::question, "m", 1, Queue::kShareMax));
+  EXPECT_TRUE(queue.push(Lane::motion, "n", 1, Queue::kShareMax));
+  EXPECT_TRUE(queue.push(Lane::motion, "m", 1)) << "what has no share";
+}
+
+TEST(LaneQueue, VisitsWorkInTheOrderOfTurns) {
+  Queue queue;
+  for (int work = 1; work <= 3; ++work) queue.push(Lane::motion, "busy", work);
+  queue.push(Lane::motion, "rare", 100);
+  queue.take(kAny);
+  std::vector<int> seen;
+  queue.for_each_in_turn(Lane::motion, [&](int work) { seen.push_back(work); });
+  EXPECT_THAT(seen, ElementsAre(100, 2, 3));
+  EXPECT_EQ(queue.take(kAny), 100);
+}
+
 TEST(LaneQueue, DrainHandsOverTheChosenAndKeepsTheOthersOrder) {
   Queue queue;
   for (int work = 1; work <= 5; ++work) queue.push(Lane::motion, "m", work);

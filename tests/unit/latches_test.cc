@@ -96,7 +96,7 @@ TEST_F(LatchesTest, WhomAStopHoldsBack) {
   };
   for (const Row& row : rows) {
     Leases leases(tokens_);
-    leases.begin({row.moved, 0, kOne, 1}, now_);
+    leases.begin({row.moved, 0, kOne, 1}, {}, now_);
     leases.stop_asked({row.stopped, 0, kOne, 0}, {}, now_);
     leases.end(1, now_);
     std::vector<std::string> held_back;

@@ -42,7 +42,11 @@ class LeaseFixture : public testing::Test {
     return allowed ? Reason::unspecified : allowed.error().reason;
   }
   void begin(MotionId motion, const std::string& who, LeaseToken lease, AxisSet axes) {
-    leases_.begin({who, lease, axes, motion}, now_);
+    stage::Motion what;
+    what.id = motion;
+    what.axes = axes;
+    what.who = who;
+    leases_.begin({who, lease, axes, motion}, what, now_);
   }
   void pass(Duration time) {
     now_ += time;

@@ -135,6 +135,39 @@ TEST_F(LeasesTest, OneWhoWaitsNoLongerIsForgotten) {
   EXPECT_EQ(may("carl", 0, kOne), kAllowed);
 }
 
+TEST_F(LeasesTest, WhoWillNotWaitLearnsWhoMoves) {
+  begin(7, "bert", 0, kOne);
+  const auto refused = acquire("anna", kBoth);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, Reason::lease_held);
+  EXPECT_EQ(refused.error().message, "axis 1 is in motion 7 (move by bert)");
+  EXPECT_THAT(refused.error().hint, HasSubstr("--wait SECONDS"));
+  leases_.due(7, now_ + std::chrono::milliseconds(3500));
+  EXPECT_EQ(acquire("anna", kOne).error().message, "axis 1 is in motion 7 (move by bert, 4 s left)");
+  EXPECT_TRUE(acquire("anna", kTwo));
+  EXPECT_EQ(may("carl", 0, kOne), kAllowed) << "a motion waits for its turn instead";
+}
+
+TEST_F(LeasesTest, WhoHasWaitedInVainLearnsWhoMoved) {
+  begin(7, "bert", 0, kOne);
+  Problem problem;
+  leases_.acquire({.axes = kOne}, "anna", true, now_ + seconds(3), now_,
+                  [&](const Result<Lease>& lease) { problem = lease ? Problem() : lease.error(); });
+  pass(seconds(4));
+  EXPECT_EQ(problem.reason, Reason::deadline_passed);
+  EXPECT_THAT(problem.message, HasSubstr("axis 1 is in motion 7 (move by bert)"));
+}
+
+// However many of them wait already: each asks again when its turn has come.
+TEST_F(LeasesTest, NoMotionWithoutALeaseOvertakesALeaseThatWaits) {
+  begin(1, "bert", 0, kOne);
+  wait_for("anna", kBoth);
+  EXPECT_EQ(may("bert", 0, kOne, 2), Reason::lease_held);
+  EXPECT_EQ(may("bert", 0, kTwo, 3), Reason::lease_held);
+  leases_.end(1, now_);
+  EXPECT_THAT(answers_, ElementsAre("anna has it"));
+}
+
 TEST_F(LeasesTest, ALeaseWaitsForAMotionWithoutOne) {
   begin(1, "bert", 0, kOne);
   wait_for("anna", kOne);

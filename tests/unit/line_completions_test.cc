@@ -46,6 +46,41 @@ TEST_F(LineCompletionsTest, ANumberThatIsExpectedIsACompletionAndOthersAreDoubtf
   EXPECT_THAT(news(), ElementsAre("unexpected 0", "unexpected 4"));
 }
 
+TEST_F(LineCompletionsTest, TheQuestionThatHasWaitedLongestForThemIsKnown) {
+  EXPECT_FALSE(line.held_question());
+  home(1);
+  ask("?:V");
+  const TimePoint asked = now;
+  ask("?:AXIS");
+  script({{"?:V\r\n", "V2.00.000\r\n"}});
+  ask("?:BEEP");
+  const auto held = line.held_question();
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->line, "?:AXIS");
+  EXPECT_EQ(held->caller, "somebody");
+  EXPECT_EQ(held->since, asked);
+  receive("1\r\n");
+  pass(kReadyOutdatedMax);
+  line.ready(AxisSet::all(), now);
+  pass(kCompletionAfterReadyMax);
+  EXPECT_TRUE(line.held_question()) << "until nothing can come any more";
+  script({{"?:CMD\r\n", "?:V\r\n"}, {"?:AXIS\r\n", "6\r\n"}});
+  EXPECT_FALSE(line.held_question());
+  script({{"?:BEEP\r\n", "1\r\n"}});
+}
+
+TEST_F(LineCompletionsTest, WhatTheLineHasLostIsHeldBackNoLonger) {
+  home(1);
+  ask("?:AXIS");
+  ASSERT_TRUE(line.held_question());
+  link_down("unplugged");
+  EXPECT_FALSE(line.held_question());
+  link_up();
+  ask("?:AXIS");
+  EXPECT_FALSE(line.held_question()) << "the handshake has not passed";
+  forget();
+}
+
 TEST_F(LineCompletionsTest, AfterAConnectAnyMayCome) {
   link_down("unplugged");
   link_up();

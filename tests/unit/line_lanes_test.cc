@@ -237,6 +237,38 @@ TEST_F(LineLanesTest, AFullLaneTakesNoMore) {
   EXPECT_FALSE(ask("?:V")->ended()) << "another lane";
 }
 
+// What a motion sends is bounded by its turn, and must not fail because its caller asks for much else.
+TEST_F(LineLanesTest, ACallersOwnLinesHaveAShareOfALane) {
+  keep_the_line_busy();
+  ExchangeRequest own = request("O:1");
+  own.identity = "somebody over TCP";
+  for (std::size_t i = 0; i < LaneQueue<int>::kShareMax; ++i) ask(own);
+  const auto one_more = ask(own);
+  EXPECT_FALSE(one_more->written());
+  EXPECT_EQ(one_more->reason(), Reason::queue_full);
+  EXPECT_EQ(one_more->result->problem->sent, "O:1");
+  ExchangeRequest of_a_motion = request("M:1+P1000");
+  of_a_motion.motion = 7;
+  EXPECT_FALSE(ask(of_a_motion)->ended());
+}
+
+// The connections differ, and so do their names.
+TEST_F(LineLanesTest, ThoseOfOneIdentityTakeTurnsAsOne) {
+  keep_the_line_busy();
+  const auto ask_as = [this](const std::string& caller, const std::string& identity, std::string_view text) {
+    ExchangeRequest one = request(text);
+    one.caller = caller;
+    one.identity = identity;
+    return ask(std::move(one));
+  };
+  ask_as("tcp 127.0.0.1:1", "tcp", "O:1");
+  ask_as("tcp 127.0.0.1:2", "tcp", "O:2");
+  ask_as("unix anna", "unix anna", "O:3");
+  let_go();
+  script({{"O:1\r\n", "OK\r\n"}, {"O:3\r\n", "OK\r\n"}, {"O:2\r\n", "OK\r\n"}});
+  EXPECT_EQ(listener.exchanges.back().who, "tcp 127.0.0.1:2") << "for people";
+}
+
 TEST_F(LineLanesTest, TheRightIsAskedForAsTheLineIsWritten) {
   keep_the_line_busy();
   ExchangeRequest setting = request("M:1+P1000"), start = request("G:1"), tidying = request("GC:1");

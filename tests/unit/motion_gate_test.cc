@@ -3,18 +3,23 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203::motion_gate_test {
 namespace {
 
 using std::chrono::milliseconds;
+using std::chrono::seconds;
 using testing::ElementsAre;
+using testing::HasSubstr;
 
 const AxisSet kLower = AxisSet::of(1), kUpper = AxisSet::of(2);
-constexpr TimePoint kLater = TimePoint{} + milliseconds(1000);
+constexpr TimePoint kLater = TimePoint{} + seconds(1000);
 
 class MotionGateTest : public testing::Test {
  protected:
@@ -22,19 +27,30 @@ class MotionGateTest : public testing::Test {
     const auto wait = [](OneShot<Result<void>> answer, MotionId number, std::vector<std::string>& news) -> Task<void> {
       const auto entered = co_await answer;
       news.push_back(std::to_string(number) + (entered ? " in" : " " + std::string(name(entered.error().reason))));
+      if (!entered && entered.error().reason == Reason::deadline_passed) news.push_back(entered.error().message);
     };
-    executor_.spawn(wait(gate.enter(id, axes, caller, not_after), id, heard_));
+    tasks_.spawn(wait(gate.enter(id, axes, caller, not_after), id, heard_));
   }
   std::vector<std::string> heard() {
-    executor_.run();
+    tasks_.executor().run();
     return std::exchange(heard_, {});
   }
-  Executor executor_;
+  MotionGate gate_of(Scope scope) {
+    return {tasks_, scope, [this] { return question_; }};
+  }
+  // As the controller does when time has passed.
+  void pass(MotionGate& gate, Duration time, const std::string& inside = {}) {
+    tasks_.now_is(tasks_.now() + time);
+    gate.expire([inside](AxisSet) { return inside; });
+  }
+
+  Tasks tasks_;
+  std::optional<HeldQuestion> question_;
   std::vector<std::string> heard_;
 };
 
 TEST_F(MotionGateTest, OneMotionAtATimeWhereOneBusyAxisRefusesTheOthers) {
-  MotionGate gate(executor_, Scope::controller);
+  MotionGate gate = gate_of(Scope::controller);
   enter(gate, 1, kLower);
   enter(gate, 2, kUpper);
   EXPECT_THAT(heard(), ElementsAre("1 in"));
@@ -44,7 +60,7 @@ TEST_F(MotionGateTest, OneMotionAtATimeWhereOneBusyAxisRefusesTheOthers) {
 }
 
 TEST_F(MotionGateTest, DifferentAxesTogetherWhereEachIsBusyForItself) {
-  MotionGate gate(executor_, Scope::axis);
+  MotionGate gate = gate_of(Scope::axis);
   enter(gate, 1, kLower);
   EXPECT_FALSE(gate.others_inside(1));
   enter(gate, 2, kUpper);
@@ -58,7 +74,7 @@ TEST_F(MotionGateTest, DifferentAxesTogetherWhereEachIsBusyForItself) {
 }
 
 TEST_F(MotionGateTest, AMotionHasItsAxesToItself) {
-  MotionGate each(executor_, Scope::axis), whole(executor_, Scope::controller);
+  MotionGate each = gate_of(Scope::axis), whole = gate_of(Scope::controller);
   enter(each, 1, kLower);
   enter(each, 2, kUpper);
   enter(whole, 1, kLower);
@@ -68,7 +84,7 @@ TEST_F(MotionGateTest, AMotionHasItsAxesToItself) {
 }
 
 TEST_F(MotionGateTest, CallersTakeTurns) {
-  MotionGate gate(executor_, Scope::controller);
+  MotionGate gate = gate_of(Scope::controller);
   enter(gate, 1, kLower, "busy");
   enter(gate, 2, kLower, "busy");
   enter(gate, 3, kLower, "busy");
@@ -79,7 +95,7 @@ TEST_F(MotionGateTest, CallersTakeTurns) {
 }
 
 TEST_F(MotionGateTest, WithdrawTurnsTheChosenAway) {
-  MotionGate gate(executor_, Scope::controller);
+  MotionGate gate = gate_of(Scope::controller);
   enter(gate, 1, kLower);
   enter(gate, 2, kLower);
   enter(gate, 3, kLower);
@@ -90,24 +106,170 @@ TEST_F(MotionGateTest, WithdrawTurnsTheChosenAway) {
 }
 
 TEST_F(MotionGateTest, NobodyWaitsLongerThanAllowed) {
-  MotionGate gate(executor_, Scope::controller);
+  MotionGate gate = gate_of(Scope::controller);
   enter(gate, 1, kLower);
   enter(gate, 2, kLower, "a", TimePoint{} + milliseconds(100));
-  EXPECT_GT(*gate.next_deadline(), TimePoint{} + milliseconds(100));
-  gate.expire(TimePoint{} + milliseconds(100));
+  EXPECT_EQ(*gate.next_deadline(), TimePoint{} + milliseconds(100) + Duration(1));
+  pass(gate, milliseconds(100));
   EXPECT_THAT(heard(), ElementsAre("1 in"));
-  gate.expire(*gate.next_deadline());
-  EXPECT_THAT(heard(), ElementsAre("2 DEADLINE_PASSED"));
+  pass(gate, Duration(1), "axis 1 is in motion 1 (move by a)");
+  EXPECT_THAT(heard(), ElementsAre("2 DEADLINE_PASSED",
+                                   "the time allowed passed before the motion had its turn: axis 1 is in motion 1 "
+                                   "(move by a)"));
   EXPECT_EQ(gate.next_deadline(), std::nullopt);
 }
 
 TEST_F(MotionGateTest, IsBounded) {
-  MotionGate gate(executor_, Scope::controller);
+  MotionGate gate = gate_of(Scope::controller);
   enter(gate, 1, kLower);
-  for (MotionId id = 2; id < 2 + 1024; ++id) enter(gate, id, kLower);
+  for (MotionId id = 0; id < 1024; ++id) enter(gate, 2 + id, kLower, std::to_string(id % 4));
+  EXPECT_THAT(heard(), ElementsAre("1 in"));
+  enter(gate, 5000, kLower, "other");
+  EXPECT_THAT(heard(), ElementsAre("5000 QUEUE_FULL"));
+}
+
+TEST_F(MotionGateTest, ACallerWaitsWithAQuarterOfThatAtMost) {
+  MotionGate gate = gate_of(Scope::controller);
+  for (MotionId id = 1; id <= 1 + 256; ++id) enter(gate, id, kLower);
   EXPECT_THAT(heard(), ElementsAre("1 in"));
   enter(gate, 5000, kLower);
+  enter(gate, 5001, kLower, "other");
   EXPECT_THAT(heard(), ElementsAre("5000 QUEUE_FULL"));
+}
+
+// Two motions at a time, of one axis each, one after the other; and one that needs both axes.
+class OvertakingTest : public MotionGateTest {
+ protected:
+  OvertakingTest() {
+    enter(gate_, 1, kLower);
+    enter(gate_, 2, kUpper);
+    enter(gate_, 3, kLower | kUpper, "rare");
+    EXPECT_THAT(heard(), ElementsAre("1 in", "2 in"));
+  }
+  MotionGate gate_ = gate_of(Scope::axis);
+};
+
+TEST_F(OvertakingTest, WhoNeedsFewerAxesGoesFirstForTwoSeconds) {
+  enter(gate_, 4, kLower);
+  pass(gate_, kTurnAfter - milliseconds(1));
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre("4 in"));
+}
+
+TEST_F(OvertakingTest, ThenNobodyOvertakes) {
+  enter(gate_, 4, kLower);
+  enter(gate_, 5, AxisSet::of(3));
+  EXPECT_THAT(heard(), ElementsAre("5 in"));
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  enter(gate_, 6, AxisSet::of(3));
+  gate_.leave(5);
+  EXPECT_THAT(heard(), ElementsAre("6 in")) << "of an axis that it does not need";
+  gate_.leave(2);
+  EXPECT_THAT(heard(), ElementsAre("3 in"));
+  gate_.leave(3);
+  EXPECT_THAT(heard(), ElementsAre("4 in"));
+}
+
+TEST_F(OvertakingTest, ItsOwnCallersTurnDoesNotComeTwice) {
+  enter(gate_, 4, kLower | kUpper, "rare");
+  pass(gate_, kTurnAfter);
+  enter(gate_, 5, kLower, "new");
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre());
+  gate_.leave(2);
+  EXPECT_THAT(heard(), ElementsAre("3 in"));
+  gate_.leave(3);
+  EXPECT_THAT(heard(), ElementsAre("5 in")) << "the caller's second is behind one that had no turn yet";
+}
+
+TEST_F(OvertakingTest, WhoIsTurnedAwayKeepsNobodyOut) {
+  enter(gate_, 4, kLower);
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre());
+  gate_.withdraw([](MotionId id) { return id == 3; }, Problem{Reason::stopped, "by somebody", {}, {}, {}, {}});
+  EXPECT_THAT(heard(), ElementsAre("3 STOPPED", "4 in"));
+}
+
+TEST_F(OvertakingTest, WhoseTimeHasPassedMeanwhileLearnsWhoGoesFirst) {
+  enter(gate_, 4, kLower, "a", tasks_.now() + seconds(3));
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  pass(gate_, *gate_.next_deadline() - tasks_.now());
+  EXPECT_THAT(heard(), ElementsAre("4 DEADLINE_PASSED",
+                                   HasSubstr("motion 3 of rare has waited for axes 1 and 2 for 3 s and goes first")));
+}
+
+TEST_F(OvertakingTest, NorDoesOneWhoseTimeHasPassed) {
+  gate_.withdraw([](MotionId id) { return id == 3; }, Problem{Reason::stopped, "by somebody", {}, {}, {}, {}});
+  enter(gate_, 4, kLower | kUpper, "rare", tasks_.now() + seconds(5));
+  enter(gate_, 5, kLower);
+  pass(gate_, seconds(3));
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre("3 STOPPED"));
+  pass(gate_, *gate_.next_deadline() - tasks_.now());
+  EXPECT_THAT(heard(), ElementsAre("4 DEADLINE_PASSED", HasSubstr("had its turn"), "5 in"));
+}
+
+// A question that waits for motions to end keeps others out.
+class AfterAQuestionTest : public MotionGateTest {
+ protected:
+  AfterAQuestionTest() {
+    enter(gate_, 1, kLower);
+    question_ = HeldQuestion{"?:AXIS", "rare", tasks_.now()};
+    enter(gate_, 2, kLower);
+    EXPECT_THAT(heard(), ElementsAre("1 in"));
+  }
+  MotionGate gate_ = gate_of(Scope::controller);
+};
+
+TEST_F(AfterAQuestionTest, MotionsEnterWhenItWasSent) {
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre());
+  EXPECT_EQ(gate_.next_deadline(), tasks_.now() + kTurnLimit);
+  pass(gate_, milliseconds(300));
+  question_.reset();
+  gate_.admit();
+  EXPECT_THAT(heard(), ElementsAre("2 in"));
+}
+
+TEST_F(AfterAQuestionTest, NotBeforeItHasWaitedForTwoSeconds) {
+  pass(gate_, kTurnAfter - milliseconds(1));
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre("2 in"));
+}
+
+TEST_F(AfterAQuestionTest, WhatIsInsideMayStay) {
+  pass(gate_, seconds(60));
+  EXPECT_EQ(gate_.next_deadline(), kLater + Duration(1)) << "its limit begins when a motion could enter";
+  gate_.leave(1);
+  EXPECT_THAT(heard(), ElementsAre());
+}
+
+TEST_F(AfterAQuestionTest, ItsTurnHasALimit) {
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  pass(gate_, kTurnLimit - milliseconds(1));
+  EXPECT_THAT(heard(), ElementsAre());
+  pass(gate_, milliseconds(1));
+  EXPECT_THAT(heard(), ElementsAre("2 in"));
+  enter(gate_, 3, kLower);
+  gate_.leave(2);
+  EXPECT_THAT(heard(), ElementsAre("3 in")) << "the next turn is 2 s later";
+  enter(gate_, 4, kLower);
+  pass(gate_, kTurnAfter);
+  gate_.leave(3);
+  EXPECT_THAT(heard(), ElementsAre());
+}
+
+TEST_F(AfterAQuestionTest, WhoseTimeHasPassedMeanwhileLearnsWhatItWas) {
+  enter(gate_, 3, kLower, "b", tasks_.now() + seconds(3));
+  pass(gate_, kTurnAfter);
+  gate_.leave(1);
+  pass(gate_, *gate_.next_deadline() - tasks_.now());
+  EXPECT_THAT(heard(), ElementsAre("3 DEADLINE_PASSED", HasSubstr("\"?:AXIS\" of rare has waited for 3 s")));
 }
 
 }  // namespace

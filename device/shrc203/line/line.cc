@@ -132,16 +132,16 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
       return answer;
     }
   }
-  const Lane lane = request.lane;
-  const std::string caller = request.caller;
+  const Lane lane = guarded(Guard::stop_lane) || !is_stop ? request.lane : Lane::poll;
+  const bool shares = !request.identity.empty();  // what a motion sends is bounded by the gate, and must not fail here
+  const std::string turn = shares ? request.identity : request.caller;
   auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}, now});
-  if (!queue_.push(guarded(Guard::stop_lane) || !is_stop ? lane : Lane::poll, caller, waiting)) {
-    const Problem full{
-        .reason = Reason::queue_full,
-        .message = fmt::format("the {} lane already holds {} requests", name(lane), LaneQueue<WaitingPtr>::kLaneMax),
-        .hint = "try again when fewer wait",
-        .sent = waiting->request.command.line};
-    answer.deliver({.written = false, .problem = full});
+  using Queue = LaneQueue<WaitingPtr>;
+  const auto queued = queue_.push(lane, turn, waiting, shares ? Queue::kShareMax : Queue::kLaneMax);
+  if (!queued) {
+    Problem full = queued.error();
+    full.sent = waiting->request.command.line;
+    answer.deliver({.written = false, .problem = std::move(full)});
     return answer;
   }
   if (is_stop && state_.phase() == LinkPhase::closed) {

@@ -31,6 +31,7 @@ struct ExchangeRequest {
   Command command;
   Lane lane = Lane::question;
   std::string caller;
+  std::string identity{};   // of a caller's own line: whose turn it is, with a share of the lane; empty: the caller's
   TimePoint not_after{};    // not written later than this
   MotionId motion = 0;      // the motion it belongs to
   std::uint64_t lease = 0;  // of one that belongs to none: the lease of its request,
@@ -55,6 +56,12 @@ struct ExchangeResult {
   bool refused() const { return reply && reply->kind == Reply::Kind::ng; }
   // Written, and nobody knows what the controller made of it.
   bool in_doubt() const { return written && problem.has_value(); }
+};
+
+// A question that waits until no completion could be taken for its answer.
+struct HeldQuestion {
+  std::string line, caller;
+  TimePoint since{};
 };
 
 class LineListener {
@@ -96,6 +103,9 @@ class Line {
 
   // Ends all waiting exchanges for which chosen(request) holds, unwritten, with `problem`.
   void withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem);
+
+  // The one that has waited longest; nothing where none does. Before the handshake has passed none counts.
+  std::optional<HeldQuestion> held_question() const;
 
   // Nothing but a stop is written from now on: what waits ends unwritten with `problem`, and so does what comes.
   void seal(const Problem& problem);

@@ -38,6 +38,17 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
   return earliest;
 }
 
+std::optional<HeldQuestion> Line::held_question() const {
+  std::optional<HeldQuestion> oldest;
+  if (!state_.trusted() || sealed_) return oldest;
+  queue_.for_each([&](const WaitingPtr& waiting) {
+    const ExchangeRequest& request = waiting->request;
+    if (request.handshake || (oldest && oldest->since <= waiting->asked) || conflicts(request).empty()) return;
+    oldest = HeldQuestion{request.command.line, request.caller, waiting->asked};
+  });
+  return oldest;
+}
+
 bool Line::may_send(const ExchangeRequest& request) const {
   const bool certain = state_.trusted() && !continuity_.open();
   if (sealed_ && request.lane != Lane::stop) return false;

@@ -116,7 +116,7 @@ Task<void> Moves::set_go_watch(LiveMotionPtr live, MovePlan plan, bool by_prebuf
   }
   if (const auto travel = travel_time(plan, from, store_.speeds(live->motion.axes));
       travel && *start == Start::accepted) {
-    live->due_at = tasks_.now() + *travel;
+    motions_.due(*live, tasks_.now() + *travel);
   }
   co_await watch_.run(live, *start);
 }

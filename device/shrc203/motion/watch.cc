@@ -114,9 +114,9 @@ Duration Watch::pause_after(const LiveMotion& live, Seen& seen, bool hinted) con
 // An axis number reports the end. The positions on the way are for who follows them, and for a number that is lost.
 Duration Watch::pause_on_the_way(const LiveMotion& live) const {
   const Duration moving_poll = store_.profile().moving_poll;
-  if (store_.followed() || !live.due_at || live.life.stop_asked()) return moving_poll;
+  if (store_.followed() || !live.motion.due || live.life.stop_asked()) return moving_poll;
   const Duration longest = std::max(moving_poll, kUnfollowedPoll);
-  return std::clamp(*live.due_at + moving_poll - tasks_.now(), moving_poll, longest);
+  return std::clamp(*live.motion.due + moving_poll - tasks_.now(), moving_poll, longest);
 }
 
 // The positions, and what else may tell why the axes are stationary.

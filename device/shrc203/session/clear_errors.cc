@@ -30,6 +30,7 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   request.uses = named;
   request.lane = Lane::motion;
   request.caller = context.who;
+  request.identity = context.takes_turns_as();
   request.not_after = context.not_after == TimePoint{} ? tasks_.now() + kCallerWriteLimit : context.not_after;
   auto pending = dialogue_.exchange(std::move(request));
   const auto result = co_await pending;

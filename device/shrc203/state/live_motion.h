@@ -52,7 +52,6 @@ struct LiveMotion {
   Signal changed;    // a completion of its axes, a stop, the loss of the line
   int wake_ups = 0;  // how often all its axis numbers had come, or a stop
   StageController::OnStarted on_started;
-  std::optional<TimePoint> due_at;  // it should be over by then; nothing where that is not known
   AxisSet uses;     // what it needs the right to: its axes, or all for a command that concerns the whole controller
   AxisSet excited;  // the axes whose motors must be on
   Goal goal = Goal::targets;

@@ -1,17 +1,23 @@
 #include "device/shrc203/state/motion_gate.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <utility>
 
 #include "device/core/guard.h"
+#include "device/core/spans.h"
+#include "device/shrc203/limits.h"
 
 namespace axisgate::shrc203 {
 
 OneShot<Result<void>> MotionGate::enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after) {
-  OneShot<Result<void>> answer(executor_);
+  OneShot<Result<void>> answer(tasks_.executor());
   const AxisSet wanted = busy_scope_ == Scope::controller ? AxisSet::all() : axes;
-  if (!queue_.push(Lane::motion, caller, Entry{id, wanted, not_after, answer})) {
-    answer.deliver(fail(Reason::queue_full, "too many motions wait for this controller already",
-                        "try again when some have ended"));
+  const auto queued = queue_.push(Lane::motion, caller, Entry{id, wanted, caller, not_after, tasks_.now(), answer},
+                                  LaneQueue<Entry>::kShareMax);
+  if (!queued) {
+    answer.deliver(queued);
     return answer;
   }
   admit();
@@ -41,19 +47,42 @@ void MotionGate::let_go(AxisSet axes) {
 void MotionGate::withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem) {
   queue_.drain([&](const Entry& entry) { return chosen(entry.id); },
                [&](Entry entry) { entry.answer.deliver(tl::unexpected<Problem>(problem)); });
+  admit();  // what they kept out
 }
 
-void MotionGate::expire(TimePoint now) {
-  queue_.drain([now](const Entry& entry) { return entry.not_after < now && guarded(Guard::waiting_motions_expire); },
-               [](Entry entry) {
-                 entry.answer.deliver(fail(Reason::deadline_passed,
-                                           "other motions kept the stage busy until the time allowed had passed",
-                                           "allow more time (not_after), or try again"));
-               });
+void MotionGate::expire(const std::function<std::string(AxisSet)>& inside) {
+  const auto late = [now = tasks_.now()](const Entry& entry) {
+    return entry.not_after < now && guarded(Guard::waiting_motions_expire);
+  };
+  queue_.drain(late, [&](Entry entry) {
+    const std::string had_them = inside(entry.axes);
+    entry.answer.deliver(fail(Reason::deadline_passed,
+                              "the time allowed passed before the motion had its turn: " +
+                                  (had_them.empty() ? what_goes_first(entry) : had_them),
+                              "to wait longer, add --wait SECONDS (in the API: not_after); or stop it"));
+  });
+  admit();
+}
+
+// Where no motion has its axes. For people.
+std::string MotionGate::what_goes_first(const Entry& entry) const {
+  if (held().touches(entry.axes)) return fmt::format("a stop of {} is not over yet", to_string(held()));
+  const auto waited = [now = tasks_.now()](TimePoint since) { return for_people(now - since); };
+  if (const auto question = question_turn_.question()) {
+    return fmt::format("\"{}\" of {} has waited for {} and goes first", question->line, question->caller,
+                       waited(question->since));
+  }
+  std::string first = "others had theirs";
+  queue_.for_each([&](const Entry& other) {
+    if (!other.axes.touches(entry.axes) || !is_overdue(other)) return;
+    first = fmt::format("motion {} of {} has waited for {} for {} and goes first", other.id, other.caller,
+                        to_string(other.axes), waited(other.since));
+  });
+  return first;
 }
 
 std::optional<TimePoint> MotionGate::next_deadline() const {
-  std::optional<TimePoint> next;
+  std::optional<TimePoint> next = question_turn_.limit();
   queue_.for_each([&](const Entry& entry) {
     if (entry.not_after == TimePoint::max()) return;
     const TimePoint at = entry.not_after + Duration(1);
@@ -62,15 +91,48 @@ std::optional<TimePoint> MotionGate::next_deadline() const {
   return next;
 }
 
+AxisSet MotionGate::held() const {
+  AxisSet axes;
+  for (const AxisSet one : held_) axes = axes | one;
+  return axes;
+}
+
+AxisSet MotionGate::busy() const {
+  AxisSet axes = held();
+  if (!guarded(Guard::one_motion_at_a_time)) return axes;
+  for (const auto& [id, one] : inside_) axes = axes | one;
+  return axes;
+}
+
+bool MotionGate::is_overdue(const Entry& entry) const {
+  return tasks_.now() - entry.since >= kTurnAfter && guarded(Guard::motions_not_overtaken);
+}
+
+// Those that need an axis for which another has waited so long, and whose turn comes after that one's.
+std::set<MotionId> MotionGate::overtaking(AxisSet busy) const {
+  bool any = false;
+  queue_.for_each([&](const Entry& entry) { any = any || (busy.touches(entry.axes) && is_overdue(entry)); });
+  std::set<MotionId> later;
+  if (!any) return later;
+  AxisSet kept;
+  queue_.for_each_in_turn(Lane::motion, [&](const Entry& entry) {
+    const bool after = kept.touches(entry.axes);
+    if (after) later.insert(entry.id);
+    if ((after || busy.touches(entry.axes)) && is_overdue(entry)) kept = kept | entry.axes;
+  });
+  return later;
+}
+
 void MotionGate::admit() {
   while (true) {
-    AxisSet taken;
-    if (guarded(Guard::one_motion_at_a_time)) {
-      for (const auto& [id, axes] : inside_) taken = taken | axes;
-    }
-    for (const AxisSet axes : held_) taken = taken | axes;
-    auto entry = queue_.take([taken](const Entry& waiting) { return !taken.touches(waiting.axes); });
-    if (!entry) return;
+    const AxisSet taken = busy();
+    const std::set<MotionId> later = overtaking(taken);
+    const auto may_enter = [&](const Entry& entry) { return !taken.touches(entry.axes) && !later.contains(entry.id); };
+    bool any = false;
+    queue_.for_each([&](const Entry& entry) { any = any || may_enter(entry); });
+    if (!any) return question_turn_.keeps_nobody_out();
+    if (question_turn_.keeps_out(tasks_.now())) return;
+    auto entry = queue_.take(may_enter);
     inside_[entry->id] = entry->axes;
     entry->answer.deliver({});
   }

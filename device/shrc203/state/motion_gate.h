@@ -4,24 +4,29 @@
 
 #include <functional>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "device/core/lane_queue.h"
 #include "device/core/problem.h"
-#include "device/core/task.h"
+#include "device/core/tasks.h"
 #include "device/shrc203/command/axes.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"
+#include "device/shrc203/state/question_turn.h"
 
 namespace axisgate::shrc203 {
 
 class MotionGate {
  public:
-  MotionGate(Executor& executor, Scope busy_scope) : executor_(executor), busy_scope_(busy_scope) {}
+  // `question`: for whose sake motions wait (question_turn.h).
+  MotionGate(Tasks& tasks, Scope busy_scope, QuestionTurn::Waiting question)
+      : tasks_(tasks), busy_scope_(busy_scope), question_turn_(std::move(question)) {}
 
   // `not_after` may be TimePoint::max(), for ever. co_await yields nothing once entered, or the problem that kept it
-  // out: queue_full, deadline_passed, or what withdraw() was given. Callers take turns.
+  // out: queue_full, deadline_passed, or what withdraw() was given. Callers take turns. A motion that needs axes which
+  // are never free at once, since others use them in turn, is not overtaken there once it has waited kTurnAfter.
   OneShot<Result<void>> enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after);
   void leave(MotionId id);
   // What no other motion may set meanwhile: the axes of one inside, or all where one at a time goes through.
@@ -35,8 +40,11 @@ class MotionGate {
 
   // Turns away the waiting ones for which chosen(id) holds.
   void withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem);
-
-  void expire(TimePoint now);
+  // Turns away those whose time has passed. inside(axes) says which motions inside have these axes, for people; empty
+  // where none has.
+  void expire(const std::function<std::string(AxisSet)>& inside);
+  // To be called after whatever may have let a question go that keeps motions out.
+  void admit();
   std::optional<TimePoint> next_deadline() const;
   std::size_t waiting() const { return queue_.size(Lane::motion); }
 
@@ -44,13 +52,19 @@ class MotionGate {
   struct Entry {
     MotionId id = 0;
     AxisSet axes;
-    TimePoint not_after{};
+    std::string caller;
+    TimePoint not_after{}, since{};
     OneShot<Result<void>> answer;
   };
-  void admit();
+  AxisSet held() const;
+  AxisSet busy() const;
+  bool is_overdue(const Entry& entry) const;
+  std::set<MotionId> overtaking(AxisSet busy) const;
+  std::string what_goes_first(const Entry& entry) const;
 
-  Executor& executor_;
+  Tasks& tasks_;
   Scope busy_scope_;
+  QuestionTurn question_turn_;
   std::map<MotionId, AxisSet> inside_;
   std::vector<AxisSet> held_;
   LaneQueue<Entry> queue_;

@@ -10,13 +10,14 @@
 
 namespace axisgate::shrc203 {
 
-Motions::Motions(StateStore& store, Registers& registers, Rights& rights, Tasks& tasks, Violations& violations)
+Motions::Motions(StateStore& store, const Line& line, Registers& registers, Rights& rights, Tasks& tasks,
+                 Violations& violations)
     : store_(store),
       registers_(registers),
       rights_(rights),
       tasks_(tasks),
       violations_(violations),
-      gate_(tasks.executor(), store.profile().busy_scope),
+      gate_(tasks, store.profile().busy_scope, [&line] { return line.held_question(); }),
       pace_changed_(tasks.executor()) {}
 
 void Motions::change(LiveMotion& live, MotionEvent event) {
@@ -67,8 +68,8 @@ LiveMotionPtr Motions::create(MotionKind kind, AxisSet axes, RequestContext cont
 Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   const bool alone =
       prebuffer && guarded(Guard::path_owns_prebuffers) && store_.profile().prebuffer_scope == Scope::controller;
-  auto entry =
-      gate_.enter(live->motion.id, alone ? AxisSet::all() : live->uses, live->context.who, live->context.not_after);
+  auto entry = gate_.enter(live->motion.id, alone ? AxisSet::all() : live->uses, live->context.takes_turns_as(),
+                           live->context.not_after);
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   change(*live, MotionEvent::entered);
@@ -76,7 +77,7 @@ Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   const auto allowed = rights_.still_authorized(use);
   if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
   const auto meant = rights_.check_epochs(live->context);
-  rights_.begin(use);
+  rights_.begin(use, live->motion);
   if (!meant) co_return meant;
   if (live->life.stop_asked() && guarded(Guard::stop_before_preparing)) {
     co_return fail(Reason::stopped, "a stop by " + live->life.stopped_by() + " came before the motion was sent");
@@ -98,6 +99,11 @@ void Motions::started(LiveMotion& live) {
   pace_changed_.notify();
   if (live.jog) live.jog->changed.notify();
   if (auto reported = std::exchange(live.on_started, {})) reported(live.motion);
+}
+
+void Motions::due(LiveMotion& live, TimePoint over) {
+  live.motion.due = over;
+  rights_.due(live.motion.id, over);
 }
 
 void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> problem) {
@@ -187,6 +193,20 @@ void Motions::line_lost(const std::string& why) {
                  {.reason = Reason::not_sent,
                   .message = "the line to the controller was lost before the motion was sent: " + why,
                   .hint = "try again when the device is up"});
+}
+
+void Motions::expire_waiting() {
+  gate_.expire([this](AxisSet axes) { return occupation_of(axes); });
+}
+
+// By the motions inside, for people; empty where none has any of them.
+std::string Motions::occupation_of(AxisSet axes) const {
+  std::string text;
+  for (const auto& [id, live] : live_) {
+    if (!gate_.axes_of(id).touches(axes)) continue;
+    text += (text.empty() ? "" : ", ") + occupation_by(live->motion, tasks_.now());
+  }
+  return text;
 }
 
 void Motions::completion_seen(int axis, bool doubtful, bool deduced) {

@@ -10,6 +10,7 @@
 
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
+#include "device/shrc203/line/line.h"
 #include "device/shrc203/state/live_motion.h"
 #include "device/shrc203/state/motion_gate.h"
 #include "device/shrc203/state/registers.h"
@@ -24,7 +25,8 @@ class Motions {
   using OnStarted = StageController::OnStarted;
   using Live = std::map<MotionId, LiveMotionPtr>;
 
-  Motions(StateStore& store, Registers& registers, Rights& rights, Tasks& tasks, Violations& violations);
+  Motions(StateStore& store, const Line& line, Registers& registers, Rights& rights, Tasks& tasks,
+          Violations& violations);
 
   // Before the first: the next has the number behind this one.
   void number_after(MotionId last) { last_ = last; }
@@ -37,6 +39,8 @@ class Motions {
   void written(LiveMotion& live);
   // Its start was accepted, or its axes were seen to move. Nothing where it is running already.
   void started(LiveMotion& live);
+  // It should be over by then.
+  void due(LiveMotion& live, TimePoint over);
   void jog_changed(LiveMotion& live, JogEvent event);
 
   // The jog must end: `why`, or nothing where its caller wants it. Not where it must already, or was stopped.
@@ -76,12 +80,15 @@ class Motions {
   bool any_chain() const;
 
   MotionGate& gate() { return gate_; }
+  // Those that have waited for their turn as long as they may end.
+  void expire_waiting();
   // Notified when the pace of the polls may be another.
   Signal& pace_changed() { return pace_changed_; }
 
  private:
   void change(LiveMotion& live, MotionEvent event);
   void show(LiveMotion& live, MotionState state);
+  std::string occupation_of(AxisSet axes) const;
 
   StateStore& store_;
   Registers& registers_;

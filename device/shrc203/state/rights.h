@@ -24,8 +24,9 @@ class Rights {
   // What the keeper alone refuses.
   Result<void> still_authorized(const Use& use) { return permission_.authorize(use, tasks_.now()); }
 
-  // A motion has its turn, or has left its axes.
-  void begin(const Use& use) { permission_.begin(use, tasks_.now()); }
+  // A motion has its turn, should be over by then, or has left its axes.
+  void begin(const Use& use, const Motion& motion) { permission_.begin(use, motion, tasks_.now()); }
+  void due(MotionId motion, TimePoint over) { permission_.due(motion, over); }
   void end(MotionId motion) { permission_.end(motion, tasks_.now()); }
   void stop_asked(const Use& stop, const std::vector<Use>& waiting) {
     permission_.stop_asked(stop, waiting, tasks_.now());

@@ -39,6 +39,7 @@ ExchangeRequest TransactionLines::request_for(const Transaction& transaction, co
   }
   request.motion = live ? live->motion.id : 0;
   if (!live) {
+    request.identity = transaction.request.context.takes_turns_as();
     request.lease = transaction.request.context.lease;
     request.uses = axes_used({command}, store_.controllable());
   }

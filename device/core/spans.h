@@ -5,9 +5,9 @@
 
 #include "device/core/time.h"
 
-namespace axisgate::server {
+namespace axisgate {
 
 // "2 h 13 min", "45 s"; whole seconds, cut off.
 std::string for_people(Duration time);
 
-}  // namespace axisgate::server
+}  // namespace axisgate
