@@ -2,9 +2,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/shrc203/limits.h"
 #include "tests/simulation/scenario.h"
@@ -117,6 +121,45 @@ TEST_F(Turns, AQuestionAmidMotionsWithoutAPause) {
       AxisSet::of(1), [] { return false; }, seconds(2));
   EXPECT_GE(ended(), before + 4) << "the motions did not continue";
   for (const Motion& motion : world().outcomes()) EXPECT_EQ(motion.state, MotionState::succeeded);
+}
+
+// One moves without a pause, a second at a time; sixteen ask each of these again as soon as they have their answer.
+TEST_F(Turns, SixteenAskersOfEachQuestionAmidMotionsWithoutAPause) {
+  constexpr std::array<const char*, 4> kQuestions = {"?:AXIS", "?:BEEP", "I:", "Q:"};
+  begin();
+  way_ = 20'000;
+  struct Asker {
+    const char* question;
+    TimePoint asked;
+    AnsweredPtr answered;
+  };
+  std::vector<Asker> askers;
+  for (int i = 0; i < 64; ++i) askers.push_back({kQuestions.at(static_cast<std::size_t>(i) % 4), {}, nullptr});
+  std::map<std::string, Duration> longest;
+  std::map<std::string, int> answers;
+  busy_until(
+      AxisSet::of(1),
+      [&] {
+        for (Asker& one : askers) {
+          if (one.answered && !one.answered->at) continue;
+          if (one.answered) {
+            EXPECT_FALSE(one.answered->problem) << one.question << ": " << one.answered->problem->message;
+            longest[one.question] = std::max(longest[one.question], *one.answered->at - one.asked);
+            ++answers[one.question];
+          }
+          one.asked = world().now();
+          one.answered = ask(world(), one.question);
+        }
+        return false;
+      },
+      seconds(60));
+  for (const auto& [question, wait] : longest) {
+    EXPECT_LE(wait, seconds(5)) << question << world().replay();
+    RecordProperty(question, std::to_string(wait / milliseconds(1)) + " ms at most, of " +
+                                 std::to_string(answers[question]) + " answers");
+  }
+  EXPECT_EQ(longest.size(), kQuestions.size());
+  EXPECT_GE(ended(), 20u) << "the motions did not continue";
 }
 
 TEST_F(Turns, NobodyIsHeldUpByAQuestionThatIsAnsweredSoon) {
