@@ -22,7 +22,7 @@ std::size_t motions_of(World& world) {
   return asking.get()->size();
 }
 
-TEST(RepeatsTest, AMoveThatComesAgainIsTheSameMotion) {
+TEST(RepeatsTest, H34_AMoveThatComesAgainIsTheSameMotion) {
   World world;
   const StartedMotion first = world.move(call_with("align-17"), 10);
   ASSERT_TRUE(first);
@@ -57,7 +57,7 @@ TEST(RepeatsTest, ManyAtOnceAreOneMotion) {
   EXPECT_EQ(motions_of(world), 1u);
 }
 
-TEST(RepeatsTest, WithAnotherContentItIsRefused) {
+TEST(RepeatsTest, H34_WithAnotherContentItIsRefused) {
   World world;
   ASSERT_TRUE(world.move(call_with("align-17"), 10));
   EXPECT_EQ(world.reason_of_move(call_with("align-17", "by 20"), 20), Reason::request_id_reused);

@@ -57,7 +57,7 @@ TEST_F(JournalTest, WhatIsAppendedByManyThreadsIsOnTheDiskAtItsEnd) {
   EXPECT_EQ(Store::open_to_read(path_)->verify({})->first_bad, std::nullopt);
 }
 
-TEST_F(JournalTest, ARefusingDiskIsReportedAndTriedAgain) {
+TEST_F(JournalTest, H45_ARefusingDiskIsReportedAndTriedAgain) {
   const auto journal = *Journal::open(path_);
   run("ALTER TABLE entry RENAME TO away");
   journal->append({{.kind = EntryKind::stop_requested, .device = "stage"}});
