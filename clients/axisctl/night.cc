@@ -145,7 +145,10 @@ void print_more(std::int64_t count, std::string_view what) {
 }
 
 void print_night(const v1::SummarizeHistoryResponse& night, const NightClock& clock) {
-  for (const v1::PersonSummary& person : night.persons()) print_line(person_text(person, clock));
+  for (const v1::PersonSummary& person : night.persons()) {
+    const bool only_stopped = person.motions().empty() && person.refused() == 0;
+    if (!only_stopped) print_line(person_text(person, clock));
+  }
   print_more(night.more_persons(), "callers");
   const std::vector<std::string> others = happenings(night, clock);
   for (const std::string& line : others) print_line(line);

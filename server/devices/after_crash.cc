@@ -109,7 +109,9 @@ void settle_what_was_left(Journal* journal, RequestMemory& requests, const Start
     auto change = settle(requests, request, started);
     if (journal == nullptr || !change) continue;
     const EntryKind kind = change->forget ? EntryKind::request_refused : EntryKind::request_ended;
-    const Json body{{"request_id", request.id},
+    const auto motion = journal::motion_in(request.answer);
+    const Json body{{"request", motion ? name(motion->kind) : "request"},
+                    {"request_id", request.id},
                     {change->forget ? "reason" : "outcome", change->forget ? "NOT_SENT" : "UNKNOWN"}};
     journal->append({entry_of(kind, request.device, request.identity, request.motion, body), *std::move(change)});
   }

@@ -72,7 +72,7 @@ class History(unittest.TestCase):
 
     def test_a_move_whose_daemon_is_killed_and_started_again_is_reported(self):
         self.run_well("move", "1=+1pulse", "--relative")
-        move = self.daemon.start("move", "1=+900000pulse", "--relative", "--speed", "100000pulse/s")
+        move = self.daemon.start("move", "1=+90000000pulse", "--relative", "--speed", "100000pulse/s")  # nine seconds
         move.until("RUNNING")
         self.daemon.kill()
         self.start()
