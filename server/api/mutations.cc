@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <atomic>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -40,7 +41,7 @@ bool is_refusal(Reason reason) {
 }
 
 // The first answer counts: of the disk, or that it has taken too long.
-class Waiting : public std::enable_shared_from_this<Waiting> {
+class Waiting {
  public:
   explicit Waiting(Mutation::Then then) : then_(std::move(then)) {}
 

@@ -1,7 +1,6 @@
 // Requests that change something: each acts once, also when it comes again, and is in the journal before it acts.
 #pragma once
 
-#include <atomic>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -17,7 +16,7 @@
 namespace axisgate::api {
 
 // One of them, from its coming to what became of it. Thread safe; its members are called in their order.
-class Mutation : public std::enable_shared_from_this<Mutation> {
+class Mutation {
  public:
   // `gateway` outlives it. `begun`: what the memory of requests keeps of it; nothing without a request_id.
   Mutation(server::Gateway& gateway, const server::Stage& device, RequestKind kind, std::string who,
@@ -37,7 +36,6 @@ class Mutation : public std::enable_shared_from_this<Mutation> {
   void refused(const Problem& problem);
   void ended(std::string answer, std::string_view outcome);
   void write(server::journal::EntryKind kind, std::string body, std::optional<server::journal::RequestChange> change);
-  Result<void> unavailable(Problem problem) const;
 
   server::Gateway& gateway_;
   const std::string device_;
