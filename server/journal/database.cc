@@ -70,8 +70,9 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   if (code != SQLITE_OK) return tl::unexpected(Unopened{failed(opened, "opening it").value()});
   sqlite3_busy_timeout(opened, kBusyMilliseconds);
   if (access == Access::read) return database;
-  // In WAL mode only FULL syncs at each commit.
-  if (auto set = database.run("PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"); !set) {
+  // In WAL mode only FULL syncs at each commit. What is appended touches few pages, so half a MiB of them is enough.
+  constexpr const char* kSettings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA cache_size = -512;";
+  if (auto set = database.run(kSettings); !set) {
     return tl::unexpected(Unopened{set.error(), database.is_damaged()});
   }
   return database;
