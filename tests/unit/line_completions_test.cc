@@ -69,6 +69,18 @@ TEST_F(LineCompletionsTest, TheQuestionThatHasWaitedLongestForThemIsKnown) {
   script({{"?:BEEP\r\n", "1\r\n"}});
 }
 
+// Where others are before it once no number can come, a motion that began then would hold it back again.
+TEST_F(LineCompletionsTest, AQuestionCountsAsHeldBackUntilItIsWritten) {
+  ask("?:V");
+  ask("?:AXIS");
+  const auto held = line.held_question();
+  ASSERT_TRUE(held);
+  EXPECT_EQ(held->line, "?:AXIS");
+  script({{"?:V\r\n", "V2.00.000\r\n"}});
+  EXPECT_FALSE(line.held_question());
+  script({{"?:AXIS\r\n", "6\r\n"}});
+}
+
 TEST_F(LineCompletionsTest, WhatTheLineHasLostIsHeldBackNoLonger) {
   home(1);
   ask("?:AXIS");

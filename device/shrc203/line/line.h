@@ -104,7 +104,8 @@ class Line {
   // Ends all waiting exchanges for which chosen(request) holds, unwritten, with `problem`.
   void withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem);
 
-  // The one that has waited longest; nothing where none does. Before the handshake has passed none counts.
+  // The question that has waited longest of those which motions hold back; nothing where none does. Before the
+  // handshake has passed none counts.
   std::optional<HeldQuestion> held_question() const;
 
   // Nothing but a stop is written from now on: what waits ends unwritten with `problem`, and so does what comes.
@@ -170,6 +171,7 @@ class Line {
   WaitingPtr take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now);
   bool leaves_refills_alone(const ExchangeRequest& request, TimePoint now) const;
   bool may_settle(TimePoint now) const;
+  AxisSet ambiguous(const ExchangeRequest& request, AxisSet axes) const;
   AxisSet conflicts(const ExchangeRequest& request) const;
   std::optional<TimePoint> conflicts_settle_from() const;
   void expire(TimePoint now);

@@ -12,8 +12,8 @@ bool is_line_before(const ExchangeRequest& request) { return request.command.row
 
 }  // namespace
 
-// The axes whose numbers could not be distinguished from the answer.
-AxisSet Line::conflicts(const ExchangeRequest& request) const {
+// Those of the axes whose numbers could not be distinguished from the answer.
+AxisSet Line::ambiguous(const ExchangeRequest& request, AxisSet axes) const {
   const CommandRow& row = *request.command.row;
   if (request.closed || !guarded(Guard::number_questions_wait)) return {};
   const bool asked_alone = row.separation == Separation::all_axes && controllable_.count() <= 1;
@@ -21,11 +21,13 @@ AxisSet Line::conflicts(const ExchangeRequest& request) const {
   if (!asked_whole && !asked_alone) return {};
   const auto range = bare_number_range(row);
   AxisSet found;
-  for (const int axis : completions_.possible().list()) {
+  for (const int axis : axes.list()) {
     if (range && axis >= range->minimum && axis <= range->maximum) found.add(axis);
   }
   return found;
 }
+
+AxisSet Line::conflicts(const ExchangeRequest& request) const { return ambiguous(request, completions_.possible()); }
 
 // When to ask !: on behalf of a question that waits for the last number to have come.
 std::optional<TimePoint> Line::conflicts_settle_from() const {
@@ -38,12 +40,14 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
   return earliest;
 }
 
+// Until it is written: where others are before it when it may be, the next motion would hold it back again.
 std::optional<HeldQuestion> Line::held_question() const {
   std::optional<HeldQuestion> oldest;
   if (!state_.trusted() || sealed_) return oldest;
   queue_.for_each([&](const WaitingPtr& waiting) {
     const ExchangeRequest& request = waiting->request;
-    if (request.handshake || (oldest && oldest->since <= waiting->asked) || conflicts(request).empty()) return;
+    if (request.handshake || (oldest && oldest->since <= waiting->asked)) return;
+    if (ambiguous(request, controllable_).empty()) return;
     oldest = HeldQuestion{request.command.line, request.caller, waiting->asked};
   });
   return oldest;
