@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The proofs that take too long for every change: seeds never run before, a paced path of ten minutes, both fuzzers.
+# The proofs that take too long for every change: seeds never run before, the journal's log damaged at
+# every byte, a paced path of ten minutes, both fuzzers.
 # usage: tests/long.sh [HOURS]     virtual hours of hostile seeds, 100 without
 set -euo pipefail
 
@@ -19,6 +20,7 @@ main() {
   printf '== seeds from %s on\n' "$first"
   build/bin/axisgate-explore --seed "$first" --seeds "$((hours * 6))" --hours "$hours"
   build/bin/axisgate-explore --seed "$((first + 5000))" --seeds "$((hours * 2))" --hours "$((hours / 3))" --shapes
+  AXISGATE_EVERY_BYTE=1 build/bin/unit_tests --gtest_filter='JournalDamage.ALog*'
   "$root/tests/paced-path.sh" "$paced_segments"
   "$root/tests/fuzz.sh" "$fuzz_seconds"
 }
