@@ -73,6 +73,11 @@ server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::
   };
 }
 
+// What was stopped since stays stopped.
+void repeat_rearm(server::Stage&, const Result<Known>& known, const Answer<std::vector<server::Latch>>& answer) {
+  known ? answer(std::vector<server::Latch>()) : answer(tl::unexpected(known.error()));
+}
+
 class LeaseWatch final : public Subscription<Board> {
  public:
   LeaseWatch(server::Stage& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
@@ -128,24 +133,26 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
 }
 
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {
-  pipeline_.ask({RequestKind::release_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                [](const Turn& turn, const Answer<void>& respond) {
-                  respond(turn.device.leases().release(turn.context.lease, turn.now));
-                });
+  pipeline_.once({RequestKind::release_lease, call, find_stage(gateway_, device)}, std::move(answer),
+                 [](const Turn& turn, const Answer<void>& respond) {
+                   respond(turn.device.leases().release(turn.context.lease, turn.now));
+                 });
 }
 
 void Leases::hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const {
-  pipeline_.ask({RequestKind::hand_over_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                [to](const Turn& turn, const Answer<void>& respond) {
-                  respond(turn.device.leases().hand_over(turn.context.lease, to, turn.now));
-                });
+  pipeline_.once({RequestKind::hand_over_lease, call, find_stage(gateway_, device)}, std::move(answer),
+                 [to](const Turn& turn, const Answer<void>& respond) {
+                   respond(turn.device.leases().hand_over(turn.context.lease, to, turn.now));
+                 });
 }
 
 void Leases::rearm(const Call& call, std::string_view device, Answer<std::vector<server::Latch>> answer) const {
-  pipeline_.ask({RequestKind::rearm, call, find_stage(gateway_, device)}, std::move(answer),
-                [](const Turn& turn, const Answer<std::vector<server::Latch>>& respond) {
-                  respond(turn.device.leases().rearm(turn.context.lease, turn.context.who, turn.now));
-                });
+  pipeline_.once(
+      {RequestKind::rearm, call, find_stage(gateway_, device)}, std::move(answer),
+      [](const Turn& turn, const Answer<std::vector<server::Latch>>& respond) {
+        respond(turn.device.leases().rearm(turn.context.lease, turn.context.who, turn.now));
+      },
+      repeat_rearm);
 }
 
 Result<std::shared_ptr<LeaseKeeping>> Leases::keep_alive(const Call& call) const {

@@ -118,10 +118,10 @@ Opened<CurrentMotion> Motions::watch(const Call& call, std::string_view motion) 
 
 void Motions::cancel(const Call& call, std::string_view motion, Answer<void> answer) const {
   const Result<MotionName> name = find_motion_name(gateway_, motion);
-  pipeline_.ask({RequestKind::cancel_motion, call, device_of(name)}, std::move(answer),
-                [id = name ? name->id : 0](const Turn& turn, const Answer<void>& respond) {
-                  turn.controller.cancel_motion(id, turn.context, turn.now, respond);
-                });
+  pipeline_.once({RequestKind::cancel_motion, call, device_of(name)}, std::move(answer),
+                 [id = name ? name->id : 0](const Turn& turn, const Answer<void>& respond) {
+                   turn.controller.cancel_motion(id, turn.context, turn.now, respond);
+                 });
 }
 
 }  // namespace axisgate::api

@@ -79,7 +79,7 @@ Mutation::Mutation(server::Gateway& gateway, const server::Stage& device, Reques
 
 bool Mutation::intend(const stage::RequestContext& context, std::string_view what, Then then) {
   Journal* const journal = gateway_.journal();
-  if (journal == nullptr) return false;
+  if (journal == nullptr || !uses_axes(kind_)) return false;
   server::journal::Record record{{.kind = EntryKind::request_made,
                                   .time = std::chrono::system_clock::now(),
                                   .boot_time = monotonic_now(),

@@ -80,6 +80,12 @@ class Pipeline {
   template <class Ready, class Begin, class Refuse, class Again>
   void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const;
 
+  // The same for what moves and changes nothing on the device: it waits for no journal, and has no validate_only.
+  //   void begin(const Turn&, const Answer<Outcome>&)
+  template <class Outcome, class Begin>
+  void once(const Asked& asked, Answer<Outcome> answer, Begin begin,
+            std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Outcome>()) const;
+
   // For what has nothing to check there, and no validate_only.
   //   void begin(const Turn&, const Answer<Outcome>&)
   template <class Outcome, class Begin>
@@ -168,6 +174,16 @@ void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, 
         auto prepared = prepare(turn);
         prepared ? begin(turn, *std::move(prepared), respond) : respond(tl::unexpected(prepared.error()));
       },
+      [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
+      [repeat, answer](server::Stage& device, const auto& known) { repeat(device, known, answer); });
+}
+
+template <class Outcome, class Begin>
+void Pipeline::once(const Asked& asked, Answer<Outcome> answer, Begin begin,
+                    std::type_identity_t<Repeat<Outcome>> repeat) const {
+  act(
+      asked, [](const Turn&) { return Result<std::string>(""); },
+      [begin, answer](const Turn& turn, const MutationPtr& mutation) { begin(turn, settling(mutation, answer)); },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
       [repeat, answer](server::Stage& device, const auto& known) { repeat(device, known, answer); });
 }

@@ -78,4 +78,9 @@ std::string_view name(RequestKind kind) { return rule_of(kind).name; }
 
 const Rule& rule_of(RequestKind kind) { return kRules[static_cast<std::size_t>(kind)]; }
 
+bool uses_axes(RequestKind kind) {
+  const Use use = rule_of(kind).use;
+  return use == Use::axes || use == Use::all_axes;
+}
+
 }  // namespace axisgate::api

@@ -98,6 +98,7 @@ struct Rule {
 };
 
 const Rule& rule_of(RequestKind kind);
+bool uses_axes(RequestKind kind);
 
 std::string_view name(RequestKind kind);
 

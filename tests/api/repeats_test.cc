@@ -141,5 +141,37 @@ TEST(RepeatsTest, AJogNeverStartsTwice) {
   EXPECT_EQ(motions_of(world), 1u);
 }
 
+// The latch of a stop that came after the first one stays.
+TEST(RepeatsTest, ARearmIsDoneOnce) {
+  World world;
+  world.latch(kAnna);
+  const auto rearm = [&] {
+    Asking<std::vector<server::Latch>> asking;
+    world.api->leases.rearm(call_with("rearm-1"), kDevice, asking.answer());
+    return asking.get();
+  };
+  EXPECT_EQ(rearm()->size(), 1u);
+  EXPECT_EQ(world.reason_of_move(call_with("")), Reason::unspecified);
+  world.latch(kAnna);
+  EXPECT_TRUE(rearm()->empty());
+  EXPECT_EQ(world.reason_of_move(call_with("")), Reason::stopped_by);
+}
+
+// The answer was lost; the lease has gone, as was requested.
+TEST(RepeatsTest, AReleaseIsDoneOnce) {
+  World world;
+  Call call = call_with("release-1");
+  call.lease_token = world.sealed(world.lease_of(kAnna));
+  for (int i = 0; i < 2; ++i) {
+    Asking<void> asking;
+    world.api->leases.release(call, kDevice, asking.answer());
+    EXPECT_EQ(asking.reason(), Reason::unspecified);
+  }
+  call.request_id = "release-2";
+  Asking<void> asking;
+  world.api->leases.release(call, kDevice, asking.answer());
+  EXPECT_EQ(asking.reason(), Reason::lease_lost);
+}
+
 }  // namespace
 }  // namespace axisgate::api
