@@ -107,7 +107,8 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
     {"history",
      R"(The daemon keeps it in its state directory, also over restarts. --night sums up who moved what, who stopped what, when a
 link was lost, and when the daemon started. The conditions of the other options must all be fulfilled. Details are those
-of --json; in --text capital and small letters differ.)",
+of --json; in --text capital and small letters differ. `others_seen_by` in the configuration may let you read only your
+own entries; a note says so.)",
      R"(axisctl history --night
 axisctl history --hours 12 --axis 1 --outcome failed
 axisctl history --who 'unix anna' --limit 20
@@ -122,7 +123,11 @@ axisctl history --follow   # until Ctrl-C)"},
      "axisctl cancel 1"},
     {"audit",
      R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added.
-Who can write the file could compute all hashes again. So note the head that it prints, and check it later.)",
+Who can write the file could compute all hashes again. So note the head that it prints, and check it later.
+
+For administrators: `audit erase 'unix anna' --yes` puts "erased N" in the place of a name, in every entry and in the
+bytes of the file. The chain of hashes is unchanged. The name may also be in the log of the daemon, in recordings, in
+requests that the daemon remembers for a day, and in other files: docs/sharing.md lists them.)",
      "axisctl audit verify"},
     {"whoami", "", "axisctl whoami"},
     {"lease", "`axisctl help leases` explains them.",

@@ -50,7 +50,7 @@ void add_motions(CLI::App& app, Options& options) {
 void add_history_verbs(CLI::App& app, Options& options) {
   add_history(app, options);
   add_motions(app, options);
-  CLI::App* audit = app.add_subcommand("audit", "for the journal behind `history`: verify");
+  CLI::App* audit = app.add_subcommand("audit", "for the journal behind `history`: verify, erase");
   audit->require_subcommand(1);
   audit->fallthrough();
   audit->footer(help_text("audit"));
@@ -60,6 +60,10 @@ void add_history_verbs(CLI::App& app, Options& options) {
       ->add_option("--head", options.head,
                    "a head that was printed before: checks that nothing up to there was changed")
       ->type_name("HEAD");
+  CLI::App* erase = add_verb(*audit, options, Verb::audit_erase, "erase",
+                             "for administrators: erase the name of a caller from the journal, for ever");
+  erase->add_option("NAME", options.who, "as `history` shows it, e.g. 'unix anna'")->required()->type_name("");
+  erase->add_flag("--yes", options.yes, "do it: nothing brings the name back");
 }
 
 }  // namespace axisgate::axisctl

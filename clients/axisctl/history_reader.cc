@@ -86,11 +86,16 @@ class HistoryFollower {
 
 }  // namespace
 
+void note_own_only(bool own_only) {
+  if (own_only) print_note("only your own entries: your role may not read those of other callers");
+}
+
 void list_history(const Session& session, v1::ListHistoryRequest request, const OnEntry& show) {
   int left = session.options.limit;
   while (left > 0) {
     request.set_page_size(std::min(left, kPage));
     const v1::ListHistoryResponse page = page_of(session, request);
+    if (request.page_token().empty()) note_own_only(page.own_only());
     for (const v1::HistoryEntry& entry : page.entries()) show(entry);
     left -= page.entries_size();
     if (page.next_page_token().empty()) return;

@@ -8,6 +8,9 @@
 
 namespace axisgate::axisctl {
 
+// Notes that entries of other callers are left out, if they are: `own_only` of an answer.
+void note_own_only(bool own_only);
+
 using OnEntry = std::function<void(const v1::HistoryEntry&)>;
 
 // At most --limit of them, in the order of the request. Throws Failure.

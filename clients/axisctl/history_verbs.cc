@@ -1,4 +1,4 @@
-// history, audit: what has happened, and whether the journal is as it was written.
+// history, audit: what has happened, whether the journal is as it was written, and erasing a name from it.
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -27,7 +27,7 @@ using google::protobuf::util::TimeUtil;
 using Json = nlohmann::json;
 
 // All of a journal is read.
-constexpr std::chrono::seconds kVerifyLimit{600};
+constexpr std::chrono::seconds kJournalLimit{600};
 
 std::string axes_text(const Json& details) {
   std::string text;
@@ -79,6 +79,8 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return fmt::format("refused: {}, {}", details.value("request", "a request"), details.value("reason", "?"));
     case v1::HISTORY_KIND_REQUEST_ENDED:
       return fmt::format("{}: {}", details.value("request", "a request"), details.value("outcome", "?"));
+    case v1::HISTORY_KIND_PERSON_ERASED:
+      return fmt::format("the name of caller {} was erased", details.value("person", std::int64_t{}));
     case v1::HISTORY_KIND_MOTION_REQUESTED:
     case v1::HISTORY_KIND_MOTION_STARTED:
     case v1::HISTORY_KIND_MOTION_ENDED:
@@ -207,7 +209,7 @@ int audit_verify(const Session& session) {
   v1::VerifyJournalRequest request;
   if (!session.options.head.empty()) *request.mutable_noted() = head_of(session.options.head);
   const v1::VerifyJournalResponse verdict = session.connection.call(
-      session.connection.history, &v1::HistoryService::Stub::VerifyJournal, request, kVerifyLimit);
+      session.connection.history, &v1::HistoryService::Stub::VerifyJournal, request, kJournalLimit);
   if (session.options.json) {
     print_json(verdict);
   } else if (verdict.first_bad() == 0) {
@@ -217,6 +219,26 @@ int audit_verify(const Session& session) {
     print_line(fmt::format("entry {}: {}", verdict.first_bad(), verdict.fault()));
   }
   return verdict.first_bad() == 0 ? kDone : kFailed;
+}
+
+int audit_erase(const Session& session) {
+  const std::string& who = session.options.who;
+  if (!session.options.yes)
+    throw usage("nothing was erased: nothing could bring the name back", "to erase it, add --yes");
+  v1::ErasePersonRequest request;
+  request.set_who(who);
+  const v1::ErasePersonResponse erased = session.connection.call(
+      session.connection.history, &v1::HistoryService::Stub::ErasePerson, request, kJournalLimit);
+  if (session.options.json) {
+    print_json(erased);
+    return kDone;
+  }
+  print_line(fmt::format("{} is now \"{}\"; entries: {}", who, erased.erased_as(), erased.entries()));
+  if (erased.requests() > 0) {
+    print_line(fmt::format("remembered requests that have the name until they are forgotten: {}", erased.requests()));
+  }
+  print_line("other files may have the name: `axisctl help audit` lists them");
+  return kDone;
 }
 
 }  // namespace axisgate::axisctl

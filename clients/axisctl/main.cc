@@ -76,6 +76,7 @@ constexpr Row kRows[] = {
     {Verb::motions, motions},
     {Verb::cancel, cancel},
     {Verb::audit_verify, audit_verify},
+    {Verb::audit_erase, audit_erase},
     {Verb::mill_check, nullptr, false, mill_check},
     {Verb::mill_preview, nullptr, false, mill_preview},
 };

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/history_reader.h"
 #include "clients/axisctl/print.h"
 
 namespace axisgate::axisctl {
@@ -172,6 +173,7 @@ int show_night(const Session& session) {
     print_json(night);
     return kDone;
   }
+  note_own_only(night.own_only());
   print_line(fmt::format("since {}", time_text(request.start_time())));
   print_night(night, NightClock(from, now));
   return kDone;

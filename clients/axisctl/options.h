@@ -67,6 +67,7 @@ enum class Verb {
   motions,
   cancel,
   audit_verify,
+  audit_erase,
   mill_check,
   mill_preview
 };
@@ -130,11 +131,12 @@ struct Options {
   std::string purpose;                         // lease run
   std::string holder;                          // lease hand-over: to whom
   std::string name;                            // token create, token revoke, save, go, forget; cancel: a motion
+  bool yes = false;                            // audit erase
   bool coordinates = false;                    // save
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
   int days = 90;                               // token create: until it expires
-  std::string who;                             // history: of this caller only
+  std::string who;                             // history: of this caller only; audit erase: whose name
   std::optional<std::uint64_t> motion;         // history: of this motion only
   std::optional<int> hours;                    // history: of the last hours only
   std::string outcome, text;                   // history: of motions that ended so; with this in the details

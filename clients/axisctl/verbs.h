@@ -62,6 +62,7 @@ int history(const Session& session);
 int motions(const Session& session);
 int cancel(const Session& session);
 int audit_verify(const Session& session);
+int audit_erase(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

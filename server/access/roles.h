@@ -9,9 +9,9 @@ namespace axisgate::server {
 // Each may do what those before it may.
 enum class Role {
   nobody,     // nothing
-  observer,   // read everything, and stop
+  observer,   // read everything but what the configuration keeps for higher roles, and stop
   operator_,  // move what the leases allow
-  admin,      // what changes a controller for all, take-over, tokens
+  admin,      // what changes a controller for all, take-over, tokens, erasing names
 };
 
 // "observer", "operator", "admin"; "nobody" is none of them.

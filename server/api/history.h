@@ -19,6 +19,12 @@ struct HistoryPage {
   std::vector<server::journal::StoredEntry> entries;
   bool more = false;        // the next page begins after the last of them
   std::int64_t newest = 0;  // the number of the journal's newest entry, wanted or not; 0: none
+  bool own_only = false;    // without the entries of other callers: `others_seen_by` of the configuration
+};
+
+struct HistorySummary {
+  server::journal::Summary summary;
+  bool own_only = false;  // likewise
 };
 
 struct JournalVerdict {
@@ -26,8 +32,9 @@ struct JournalVerdict {
   server::journal::Head head;
 };
 
-// Thread safe. Each answers with unauthenticated, not_allowed, or journal_unavailable: none is kept, or the disk
-// refuses.
+// Thread safe. A caller whose role is lower than `others_seen_by` reads the entries of their own identity
+// (access/access.h), and those of nobody. Each answers with unauthenticated, not_allowed, or journal_unavailable: none
+// is kept, or the disk refuses.
 class History {
  public:
   static constexpr int kPageMax = 1000;
@@ -38,15 +45,24 @@ class History {
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  // invalid_request.
+  // invalid_request; not_allowed also where the filter is for another caller's entries, which this one may not read.
   void list(const Call& call, Result<server::journal::Filter> filter, int page_size, Answer<HistoryPage> answer) const;
   // invalid_request: the span ends before it begins.
-  void summarize(const Call& call, Result<server::journal::Span> span, Answer<server::journal::Summary> answer) const;
+  void summarize(const Call& call, Result<server::journal::Span> span, Answer<HistorySummary> answer) const;
   void verify(const Call& call, Result<std::optional<server::journal::Head>> noted,
               Answer<JournalVerdict> answer) const;
+  // As Journal::erase(); also in the log, without the name. not_found: no entry names this caller.
+  void erase(const Call& call, std::string who, Answer<server::journal::NamedPerson> answer) const;
 
  private:
-  Result<const server::journal::Journal*> journal_for(RequestKind kind, const Call& call) const;
+  struct Reader {
+    server::journal::Journal* journal;
+    server::Caller caller;
+    std::string only;  // the identity whose entries alone this caller reads, beside nobody's; empty: all
+  };
+
+  Result<Reader> let_read(RequestKind kind, const Call& call) const;
+  Result<void> check_who(const Reader& reader, const std::string& wanted) const;
 
   server::Gateway& gateway_;
   const Admission& admission_;

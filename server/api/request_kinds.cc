@@ -35,6 +35,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::list_history,       "list history",         Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::summarize_history,  "summarize history",    Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::verify_journal,     "verify journal",       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
+    {Kind::erase_person,       "erase person",         Role::admin,     Kept::none,         Quota::request, Patience::question, Use::nothing,   true},
     {Kind::save_position,      "save position",        Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},
     {Kind::list_positions,     "list positions",       Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::delete_position,    "delete position",      Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::all_axes,  true},

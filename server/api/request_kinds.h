@@ -33,6 +33,7 @@ enum class RequestKind {
   list_history,
   summarize_history,
   verify_journal,
+  erase_person,
   save_position,
   list_positions,
   delete_position,

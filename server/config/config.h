@@ -64,6 +64,7 @@ struct JournalConfig {
   int days = 366, megabytes = 1024;  // of the history; what is older is dropped
   int remember_hours = 24;           // request ids; less long, where there are more than:
   int remember_requests = 20'000;
+  Role others_seen_by = Role::observer;  // who has a lower role reads only their own entries
 };
 
 struct Config {

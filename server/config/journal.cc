@@ -1,5 +1,7 @@
 #include "server/config/journal.h"
 
+#include <span>
+
 #include "server/config/words.h"
 
 namespace axisgate::server {
@@ -26,6 +28,8 @@ void read_journal(const toml::table& source, std::string_view file, std::vector<
   if (const auto requests = table.integer("remember_requests", 1, kRequestsMax)) {
     journal.remember_requests = static_cast<int>(*requests);
   }
+  const auto roles = std::span(kRoles).subspan(1);  // nobody reads anything
+  journal.others_seen_by = table.choice<Role>("others_seen_by", roles).value_or(journal.others_seen_by);
   table.refuse_unknown();
 }
 

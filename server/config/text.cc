@@ -89,6 +89,7 @@ void write(TomlWriter& out, const JournalConfig& journal) {
   out.number("megabytes", journal.megabytes);
   out.number("remember_hours", journal.remember_hours);
   out.number("remember_requests", journal.remember_requests);
+  out.key("others_seen_by", word(kRoles, journal.others_seen_by));
 }
 
 void write(TomlWriter& out, const SerialSettings& serial, const stage::Profile& profile) {

@@ -28,6 +28,7 @@ Conditions conditions_of(const Filter& filter) {
   if (filter.to) all.add("time_us < ?", *filter.to);
   if (!filter.device.empty()) all.add("device = ?", filter.device);
   if (!filter.who.empty()) all.add("person = (SELECT id FROM person WHERE name = ?)", filter.who);
+  if (!filter.identity.empty()) all.add(kOfIdentity, filter.identity);
   if (filter.motion != 0) all.add("motion = ?", static_cast<std::int64_t>(filter.motion));
   if (!filter.kinds.empty()) all.add_any_of(filter.kinds);
   if (filter.before != 0) all.add("number < ?", filter.before);

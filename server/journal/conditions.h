@@ -17,6 +17,7 @@ namespace axisgate::server::journal {
 struct Filter {
   std::optional<WallTime> from{}, to{};  // from <= time < to
   std::string device{}, who{};
+  std::string identity{};  // only entries by callers of this identity (access/access.h), and by nobody
   std::uint64_t motion = 0;
   std::vector<EntryKind> kinds{};
   std::int64_t before = 0;  // numbers below this one: where the page before ended
@@ -29,6 +30,10 @@ struct Filter {
 
 // SQL: the body of an entry. A file that was changed may have text there that is no JSON.
 inline constexpr std::string_view kJsonBody = "iif(json_valid(body), body, '{}')";
+
+// SQL: the entry is by a caller of one identity, which is bound to it, or by nobody.
+inline constexpr std::string_view kOfIdentity =
+    "(person = 0 OR person IN (SELECT id FROM person WHERE identity_of(name) = ?))";
 
 // The conditions of a filter, each with what is bound to it.
 class Conditions {

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include "server/access/access.h"
 #include "server/access/synced_file.h"
 
 namespace axisgate::server::journal {
@@ -16,6 +17,12 @@ tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
   return fail(Reason::internal,
               fmt::format("journal {}: {} failed: {}", path == nullptr ? "" : path, what, sqlite3_errmsg(database)),
               "look at the disk's free space and rights");
+}
+
+void identity_function(sqlite3_context* context, int, sqlite3_value** arguments) {
+  const auto* text = reinterpret_cast<const char*>(sqlite3_value_text(arguments[0]));
+  const std::string identity = identity_of(text == nullptr ? "" : text);
+  sqlite3_result_text64(context, identity.data(), identity.size(), SQLITE_TRANSIENT, SQLITE_UTF8);
 }
 
 }  // namespace
@@ -69,10 +76,14 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   Database database(opened);
   if (code != SQLITE_OK) return tl::unexpected(Unopened{failed(opened, "opening it").value()});
   sqlite3_busy_timeout(opened, kBusyMilliseconds);
+  sqlite3_create_function_v2(opened, "identity_of", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, identity_function,
+                             nullptr, nullptr, nullptr);
   if (access == Access::read) return database;
-  // In WAL mode only FULL syncs at each commit. What is appended touches few pages, so half a MiB of them is enough.
-  constexpr const char* kSettings = "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA cache_size = -512;";
-  if (auto set = database.run(kSettings); !set) {
+  // In WAL mode only FULL syncs at each commit. Without secure_delete the bytes of what was deleted stay in the file. What
+  // is appended touches few pages, so half a MiB of them is enough.
+  constexpr const char* kPragmas =
+      "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON; PRAGMA cache_size = -512;";
+  if (auto set = database.run(kPragmas); !set) {
     return tl::unexpected(Unopened{set.error(), database.is_damaged()});
   }
   return database;
@@ -85,6 +96,14 @@ bool Database::is_damaged() const {
 
 Result<void> Database::run(const char* sql) {
   if (sqlite3_exec(database_.get(), sql, nullptr, nullptr, nullptr) != SQLITE_OK) return failed(database_.get(), sql);
+  return {};
+}
+
+Result<void> Database::empty_log() {
+  sqlite3_busy_timeout(database_.get(), 0);
+  const int code = sqlite3_wal_checkpoint_v2(database_.get(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr, nullptr);
+  sqlite3_busy_timeout(database_.get(), kBusyMilliseconds);
+  if (code != SQLITE_OK) return failed(database_.get(), "emptying its log");
   return {};
 }
 

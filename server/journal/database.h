@@ -60,7 +60,11 @@ class Database {
 
   // Of a statement that answers nothing, or several of them.
   Result<void> run(const char* sql);
+  // SQL has one function more: identity_of(TEXT), as server::identity_of().
   Result<Statement> prepare(std::string_view sql);
+  // Leaves nothing in the file `-wal`, which has all that was written lately. Does not wait: internal where somebody
+  // reads meanwhile.
+  Result<void> empty_log();
 
   // Whether that is why the last of these failed.
   bool is_damaged() const;

@@ -38,6 +38,8 @@ std::string name(EntryKind kind) {
       return "request refused";
     case EntryKind::request_ended:
       return "request ended";
+    case EntryKind::person_erased:
+      return "person erased";
   }
   return fmt::format("kind {}", static_cast<int>(kind));
 }

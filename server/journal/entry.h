@@ -29,6 +29,7 @@ enum class EntryKind {
   request_made = 50,     // what somebody wants to change or move; on the disk before it is done
   request_refused = 51,  // nothing was sent
   request_ended = 52,    // of one that is no motion
+  person_erased = 80,    // the name of a caller
 };
 // "motion ended" and the like; "kind 77" of a number that this program does not know.
 std::string name(EntryKind kind);

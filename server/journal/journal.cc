@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
+#include <future>
+#include <memory>
 #include <utility>
 
 #include "device/link/clock.h"
@@ -16,6 +19,7 @@ namespace {
 constexpr auto kDropPause = std::chrono::minutes(10);
 constexpr auto kRetry = std::chrono::seconds(1);
 constexpr auto kCatchingUp = std::chrono::seconds(1);  // a disk that hangs keeps no reader longer
+constexpr auto kErasing = std::chrono::seconds(10);    // nor who erases, so that the daemon can end
 
 Entry own_entry(EntryKind kind, std::string body) {
   return {
@@ -176,7 +180,8 @@ bool Journal::write(Batch batch) {
       failure_.reset();
       last_commit_ = monotonic_now() - *std::exchange(writing_since_, {});
       lock.unlock();
-      for (const Waiting& one : batch) answer(one.done, {});
+      const Result<void> emptied = empty_log(batch);
+      for (const Waiting& one : batch) answer(one.done, one.record.erased_person == 0 ? Result<void>() : emptied);
       changed_.notify_all();
       return true;
     }
@@ -201,6 +206,35 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
   }
   for (const Waiting& one : batch) answer(one.done, tl::unexpected(*refusal));
   std::erase_if(batch, [](const Waiting& one) { return one.done != nullptr; });
+}
+
+// Where somebody reads, it is tried again after the next commit.
+Result<void> Journal::empty_log(const Batch& written) {
+  const auto erases = [](const Waiting& one) { return one.record.erased_person != 0; };
+  log_has_names_ = log_has_names_ || std::ranges::any_of(written, erases);
+  if (!log_has_names_) return {};
+  const Result<void> emptied = store_.empty_log();
+  log_has_names_ = !emptied;
+  if (emptied) return {};
+  return fail(Reason::journal_unavailable,
+              fmt::format("the name is erased, but it stays in {}-wal: {}", path_, emptied.error().message),
+              "end what reads the file; the daemon empties it with one of its next entries");
+}
+
+Result<std::optional<NamedPerson>> Journal::erase(const std::string& name, const std::string& by) {
+  auto person = reader().and_then([&](Store store) { return store.find_person(name); });
+  if (!person || !*person) return person;
+  Entry entry = own_entry(EntryKind::person_erased, fmt::format(R"({{"person":{}}})", (*person)->number));
+  entry.who = by;
+  const auto written = std::make_shared<std::promise<Result<void>>>();
+  commit({std::move(entry), {}, (*person)->number}, [written](Result<void> result) { written->set_value(result); });
+  auto answer = written->get_future();
+  if (answer.wait_for(kErasing) != std::future_status::ready) {
+    return fail(Reason::journal_unavailable, fmt::format("the disk of {} does not answer", path_),
+                "the name is erased when it does, unless the daemon ends before");
+  }
+  if (const Result<void> done = answer.get(); !done) return tl::unexpected(done.error());
+  return person;
 }
 
 void Journal::catch_up() const {

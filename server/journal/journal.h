@@ -41,6 +41,10 @@ class Journal {
   // disk that hangs the answer comes late.
   using OnCommitted = std::function<void(Result<void>)>;
   void commit(Record record, OnCommitted done);
+  // Erases the name of a caller: it becomes erased_name(), and an entry by `by` says so. Nothing: no entry names this
+  // caller. journal_unavailable: the disk refuses it; or the name is erased, but stays in the file's log while another
+  // program reads the file. For threads that may wait, before answer_nobody(); nothing else should read meanwhile.
+  Result<std::optional<NamedPerson>> erase(const std::string& name, const std::string& by);
   // From now on nobody is answered any more. Before that goes which they would call.
   void answer_nobody();
   // Why nothing is written now; nothing while the disk takes what comes.
@@ -81,14 +85,16 @@ class Journal {
   // Until it is written; false where the daemon ends before.
   bool write(Batch batch);
   void drop_old();
+  Result<void> empty_log(const Batch& written);
   void answer(const OnCommitted& done, const Result<void>& written);
   void note_failure(Batch& batch, const Problem& problem);
   std::optional<Problem> unavailable() const;  // under mutex_
 
   const std::string path_;
-  Store store_;  // of the thread, as are the next two
+  Store store_;  // of the thread, as are the next three
   StoreBounds bounds_;
   TimePoint next_drop_{};
+  bool log_has_names_ = false;  // that were erased
   std::string epoch_;
   Duration boot_offset_{};
   RequestsOnFile requests_;

@@ -19,7 +19,6 @@ constexpr std::int64_t kSchema = 2, kWithoutRequests = 1;
 static_assert(static_cast<int>(EntryKind::link_changed) == 30, "the index entry_of_line is of these");
 constexpr const char* kMakeSchema = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
-CREATE TABLE person(id INTEGER PRIMARY KEY, name TEXT NOT NULL UNIQUE) STRICT;
 CREATE TABLE entry(
   number INTEGER PRIMARY KEY, time_us INTEGER NOT NULL, boot_time_us INTEGER NOT NULL, kind INTEGER NOT NULL,
   device TEXT NOT NULL, person INTEGER NOT NULL, motion INTEGER NOT NULL, body TEXT NOT NULL, hash BLOB NOT NULL) STRICT;
@@ -117,9 +116,9 @@ Result<void> Store::check_schema(const std::string& path) {
 }
 
 Result<void> Store::make_schema() {
-  const std::string sql =
-      fmt::format("BEGIN IMMEDIATE; {} {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
-                  kMakeSchema, kMakeLineIndex, RequestTable::kMake, random_epoch(), kSchema);
+  const std::string sql = fmt::format(
+      "BEGIN IMMEDIATE; {} {} {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
+      PersonTable::kMake, kMakeSchema, kMakeLineIndex, RequestTable::kMake, random_epoch(), kSchema);
   return database_.run(sql.c_str());
 }
 
@@ -138,6 +137,7 @@ Result<void> Store::append(std::span<const Record> records) {
   for (const Record& record : records) {
     if (done) done = add(record.entry, *last);
     if (done) done = requests.change(record.requests);
+    if (done && record.erased_person != 0) done = PersonTable(database_).erase(record.erased_person);
   }
   if (done) done = database_.run("COMMIT");
   if (!done) (void)database_.run("ROLLBACK");
@@ -145,7 +145,7 @@ Result<void> Store::append(std::span<const Record> records) {
 }
 
 Result<void> Store::add(const Entry& entry, Head& head) {
-  const auto who = person(entry.who);
+  const auto who = PersonTable(database_).number_of(entry.who);
   if (!who) return tl::unexpected(who.error());
   const Row row{head.number + 1,
                 micros(entry.time),
@@ -163,17 +163,6 @@ Result<void> Store::add(const Entry& entry, Head& head) {
   insert->bind(6, row.person).bind(7, row.motion).bind(8, row.body);
   insert->bind_bytes(9, {reinterpret_cast<const char*>(head.hash.data()), head.hash.size()});
   return insert->step().map([](bool) {});
-}
-
-// Made with the first entry that names it. 0: nobody.
-Result<std::int64_t> Store::person(std::string_view name) {
-  if (name.empty()) return 0;
-  auto insert = database_.prepare("INSERT OR IGNORE INTO person(name) VALUES(?)");
-  if (!insert) return tl::unexpected(insert.error());
-  if (const auto done = insert->bind(1, name).step(); !done) return tl::unexpected(done.error());
-  auto find = database_.prepare("SELECT id FROM person WHERE name = ?");
-  if (!find) return tl::unexpected(find.error());
-  return find->bind(1, name).step().map([&](bool) { return find->integer(0); });
 }
 
 // The last that was dropped; number 0: none was, and the hash is that before the first.

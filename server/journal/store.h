@@ -11,6 +11,7 @@
 #include "server/journal/conditions.h"
 #include "server/journal/database.h"
 #include "server/journal/entry.h"
+#include "server/journal/person_table.h"
 #include "server/journal/request_table.h"
 
 namespace axisgate::server::journal {
@@ -19,6 +20,7 @@ namespace axisgate::server::journal {
 struct Record {
   Entry entry;
   RequestChange requests{};
+  std::int64_t erased_person = 0;  // whose name is erased after the entry is written; 0: nobody's
 };
 
 // How much is kept; what is older is dropped in whole segments.
@@ -60,6 +62,9 @@ class Store {
 
   // At most `limit`, in the order of their numbers.
   Result<std::vector<StoredEntry>> read(const Filter& filter, std::size_t limit);
+  Result<std::optional<NamedPerson>> find_person(std::string_view name) { return PersonTable(database_).find(name); }
+  // As Database::empty_log().
+  Result<void> empty_log() { return database_.empty_log(); }
   Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
   // What, added to the time since this boot, gives a clock that continues over boots. `boot` names this one.
   Result<Duration> boot_offset(std::string_view boot, TimePoint now);
@@ -83,7 +88,6 @@ class Store {
   Result<Head> dropped();
   Result<void> drop(const Head& through, const Entry& as_of);
   Result<bool> is_beyond(const StoreBounds& bounds, WallTime newest_in_segment, WallTime now);
-  Result<std::int64_t> person(std::string_view name);
   static Result<std::vector<StoredEntry>> all_of(Statement& rows);
   Result<std::string> meta(std::string_view key);
   Result<void> set_meta(std::string_view key, std::string_view value);

@@ -6,6 +6,7 @@
 #include <map>
 #include <string_view>
 
+#include "server/journal/conditions.h"
 #include "server/journal/entry.h"
 #include "server/journal/store.h"
 
@@ -64,16 +65,18 @@ std::string Pass::sql() {
   return fmt::format(
       "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, "
       "iif({}, (SELECT name FROM person WHERE id = person), NULL) FROM entry "
-      "WHERE time_us >= ? AND time_us < ? AND (? = '' OR device = ? OR {} OR {}) ORDER BY time_us",
+      "WHERE time_us >= ? AND time_us < ? AND (? = '' OR device = ? OR {} OR {}) AND (? = '' OR {}) "
+      "ORDER BY time_us",
       fact_of(EntryKind::motion_ended, "kind"), fact_of(EntryKind::motion_ended, "outcome"),
       fact_of(EntryKind::stop_requested, "emergency"), fact_of(EntryKind::link_changed, "link"),
-      is(EntryKind::stop_requested), is(EntryKind::daemon_started), is(EntryKind::daemon_ended));
+      is(EntryKind::stop_requested), is(EntryKind::daemon_started), is(EntryKind::daemon_ended), kOfIdentity);
 }
 
 Result<void> Pass::run(Database& database, const Span& span) {
   auto rows = database.prepare(sql());
   if (!rows) return tl::unexpected(rows.error());
   rows->bind(1, span.from).bind(2, span.to).bind(3, span.device).bind(4, span.device);
+  rows->bind(5, span.identity).bind(6, span.identity);
   while (true) {
     const auto there = rows->step();
     if (!there) return tl::unexpected(there.error());

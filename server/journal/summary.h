@@ -15,7 +15,8 @@ namespace axisgate::server::journal {
 // from <= time < to.
 struct Span {
   WallTime from = WallTime::min(), to = WallTime::max();
-  std::string device{};  // empty: all
+  std::string device{};    // empty: all
+  std::string identity{};  // only entries by callers of this identity (access/access.h), and by nobody; empty: all
 };
 
 // The texts are those of the entries.

@@ -24,7 +24,6 @@ using server::journal::Filter;
 using server::journal::Head;
 using server::journal::Span;
 using server::journal::StoredEntry;
-using server::journal::Summary;
 
 static_assert(static_cast<int>(EntryKind::entries_left_out) == v1::HISTORY_KIND_ENTRIES_LEFT_OUT);
 static_assert(static_cast<int>(EntryKind::motion_ended) == v1::HISTORY_KIND_MOTION_ENDED);
@@ -32,6 +31,7 @@ static_assert(static_cast<int>(EntryKind::stop_requested) == v1::HISTORY_KIND_ST
 static_assert(static_cast<int>(EntryKind::foreign_motion) == v1::HISTORY_KIND_FOREIGN_MOTION);
 static_assert(static_cast<int>(EntryKind::switches_changed) == v1::HISTORY_KIND_SWITCHES_CHANGED);
 static_assert(static_cast<int>(EntryKind::request_ended) == v1::HISTORY_KIND_REQUEST_ENDED);
+static_assert(static_cast<int>(EntryKind::person_erased) == v1::HISTORY_KIND_PERSON_ERASED);
 
 constexpr int kPageUsual = 100;
 
@@ -122,7 +122,9 @@ v1::DaemonStart message_of(const server::journal::DaemonStart& start) {
   return proto;
 }
 
-void fill(v1::SummarizeHistoryResponse& proto, const Summary& summary) {
+void fill(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer) {
+  const server::journal::Summary& summary = answer.summary;
+  proto.set_own_only(answer.own_only);
   for (const auto& person : summary.persons.items) *proto.add_persons() = message_of(person);
   proto.set_more_persons(summary.persons.more);
   for (const auto& stop : summary.stops.items) *proto.add_stops() = message_of(stop);
@@ -223,6 +225,7 @@ grpc::ServerUnaryReactor* HistoryService::ListHistory(grpc::CallbackServerContex
                   for (const StoredEntry& stored : page.entries) *answer.add_entries() = message_of(stored);
                   if (page.more) answer.set_next_page_token(fmt::format("{}", page.entries.back().number));
                   answer.set_newest(page.newest);
+                  answer.set_own_only(page.own_only);
                 }));
   return call.get();
 }
@@ -231,7 +234,7 @@ grpc::ServerUnaryReactor* HistoryService::SummarizeHistory(grpc::CallbackServerC
                                                            const v1::SummarizeHistoryRequest* request,
                                                            v1::SummarizeHistoryResponse* response) {
   const auto call = UnaryCall<v1::SummarizeHistoryResponse>::start(response);
-  history_.summarize(to_call(*context), to_span(gateway_, *request), answering<Summary>(call, fill));
+  history_.summarize(to_call(*context), to_span(gateway_, *request), answering<api::HistorySummary>(call, fill));
   return call.get();
 }
 
@@ -247,6 +250,20 @@ grpc::ServerUnaryReactor* HistoryService::VerifyJournal(grpc::CallbackServerCont
         answer.set_fault(verdict.verdict.fault);
         *answer.mutable_head() = message_of(verdict.head);
       }));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* HistoryService::ErasePerson(grpc::CallbackServerContext* context,
+                                                      const v1::ErasePersonRequest* request,
+                                                      v1::ErasePersonResponse* response) {
+  const auto call = UnaryCall<v1::ErasePersonResponse>::start(response);
+  history_.erase(to_call(*context), request->who(),
+                 answering<server::journal::NamedPerson>(
+                     call, [](v1::ErasePersonResponse& answer, const server::journal::NamedPerson& person) {
+                       answer.set_entries(person.entries);
+                       answer.set_erased_as(server::journal::erased_name(person.number));
+                       answer.set_requests(person.requests);
+                     }));
   return call.get();
 }
 

@@ -18,6 +18,8 @@ class HistoryService final : public v1::HistoryService::CallbackService {
                                              v1::SummarizeHistoryResponse* response) override;
   grpc::ServerUnaryReactor* VerifyJournal(grpc::CallbackServerContext* context, const v1::VerifyJournalRequest* request,
                                           v1::VerifyJournalResponse* response) override;
+  grpc::ServerUnaryReactor* ErasePerson(grpc::CallbackServerContext* context, const v1::ErasePersonRequest* request,
+                                        v1::ErasePersonResponse* response) override;
 
  private:
   const api::History& history_;

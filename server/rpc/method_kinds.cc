@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 45> kKinds = {{
+constexpr std::array<MethodKind, 46> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -36,6 +36,7 @@ constexpr std::array<MethodKind, 45> kKinds = {{
     {"HistoryService/ListHistory", Kind::list_history},
     {"HistoryService/SummarizeHistory", Kind::summarize_history},
     {"HistoryService/VerifyJournal", Kind::verify_journal},
+    {"HistoryService/ErasePerson", Kind::erase_person},
     {"PositionService/SavePosition", Kind::save_position},
     {"PositionService/ListPositions", Kind::list_positions},
     {"PositionService/DeletePosition", Kind::delete_position},

@@ -249,9 +249,14 @@ Reason ask_history(World& world, RequestKind kind, const Call& call) {
     return page.reason();
   }
   if (kind == RequestKind::summarize_history) {
-    Asking<server::journal::Summary> summary;
+    Asking<HistorySummary> summary;
     history.summarize(call, server::journal::Span(), summary.answer());
     return summary.reason();
+  }
+  if (kind == RequestKind::erase_person) {
+    Asking<server::journal::NamedPerson> person;
+    history.erase(call, kAnna, person.answer());
+    return person.reason();
   }
   Asking<JournalVerdict> verdict;
   history.verify(call, std::nullopt, verdict.answer());
@@ -307,6 +312,7 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::list_history:
     case Kind::summarize_history:
     case Kind::verify_journal:
+    case Kind::erase_person:
       return ask_history(world, kind, call);
     case Kind::save_position:
     case Kind::list_positions:

@@ -64,6 +64,8 @@ const std::vector<Row> kRows = {
      Reason::journal_unavailable, Reason::journal_unavailable},
     {Kind::verify_journal, "verify_journal", Role::observer, "request", Asks::nothing, Reason::journal_unavailable,
      Reason::journal_unavailable},
+    {Kind::erase_person, "erase_person", Role::admin, "request", Asks::nothing, Reason::journal_unavailable,
+     Reason::journal_unavailable},
     {Kind::save_position, "save_position", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
     {Kind::list_positions, "list_positions", Role::observer, "request", Asks::nothing},

@@ -135,7 +135,7 @@ class Reader {
 // With local callers as operators, and one observer, "unix olaf".
 class World {
  public:
-  // `configure` sets access_config, limits and device_text.
+  // `configure` sets access_config, limits, journal_config and device_text.
   explicit World(const std::function<void(World&)>& configure = {}) {
     access_config.admin_commands = server::admin_commands(kinds());
     access_config.roles = {{"unix olaf", server::Role::observer}};
@@ -144,6 +144,7 @@ class World {
   }
   ~World() {
     gateway.reset();
+    journal.reset();
     std::filesystem::remove_all(directory);
   }
   World(const World&) = delete;
@@ -224,9 +225,11 @@ class World {
   const std::string directory = ::testing::TempDir() + "axisgate-api-" + std::to_string(::getpid());
   server::AccessConfig access_config;
   server::LimitsConfig limits;
+  server::JournalConfig journal_config{.kept = false};
   std::string device_text = "speed = 20\n";  // how much faster than life
   std::unique_ptr<server::Access> access;
   std::unique_ptr<server::SavedPositions> positions;
+  std::unique_ptr<server::journal::Journal> journal;  // null: none is kept
   std::unique_ptr<server::Gateway> gateway;
   std::unique_ptr<Api> api;
 
@@ -242,9 +245,11 @@ class World {
     auto config = server::parse_config(text, "api.toml", kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
     config->limits = limits;
+    config->journal = journal_config;
+    if (journal_config.kept) journal = *server::journal::Journal::open(directory + "/journal.sqlite");
     access = std::make_unique<server::Access>(access_config, kAdmin, *server::Tokens::open(directory + "/tokens"));
     positions = *server::SavedPositions::open(directory + "/positions");
-    gateway = std::make_unique<server::Gateway>(*config, 1);
+    gateway = std::make_unique<server::Gateway>(*config, 1, "", journal.get());
     api = std::make_unique<Api>(*gateway, *access, *positions);
     gateway->start();
     ASSERT_TRUE(comes_true([this] { return state().link == stage::LinkState::up; }));

@@ -59,7 +59,8 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "PositionService/MoveToPosition"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
                                       "AccessService/RevokeToken", "ControlService/TakeOverLease",
-                                      "DeviceService/ClearErrors", "SettingService/ResetDevice"};
+                                      "DeviceService/ClearErrors", "SettingService/ResetDevice",
+                                      "HistoryService/ErasePerson"};
 
 Role needed(const std::string& method) {
   return kObserver.contains(method) ? Role::observer : kOperator.contains(method) ? Role::operator_ : Role::admin;

@@ -78,6 +78,19 @@ TEST_F(JournalStoreTest, EachFilterCounts) {
   EXPECT_THAT(found({.before = 3}, 1), ElementsAre(2)) << "a page of one";
 }
 
+TEST_F(JournalStoreTest, OneIdentityIsReadWithWhatIsNobodys) {
+  using testing::ElementsAre;
+  ASSERT_TRUE(Store::open(path_)->append(std::vector<Record>{{moved(4, "", kNight)},
+                                                             {moved(5, "tcp 127.0.0.1:39482", kNight)},
+                                                             {moved(6, "tcp [::1]:39483", kNight)},
+                                                             {moved(7, "unix anna2", kNight)}}));
+  EXPECT_THAT(found({.identity = "unix anna"}), ElementsAre(4, 3, 1));
+  EXPECT_THAT(found({.identity = "unix anna"}, 2), ElementsAre(4, 3)) << "a page is full";
+  EXPECT_THAT(found({.who = "unix bert", .identity = "unix anna"}), ElementsAre());
+  EXPECT_THAT(found({.identity = "tcp"}), ElementsAre(6, 5, 4)) << "all anonymous callers are one";
+  EXPECT_THAT(found({.identity = "unix carl"}), ElementsAre(4));
+}
+
 TEST_F(JournalStoreTest, OldestFirstIsTheOtherOrder) {
   using testing::ElementsAre;
   EXPECT_THAT(found({.oldest_first = true}), ElementsAre(1, 2, 3));

@@ -97,6 +97,17 @@ TEST_F(SummaryTest, NothingHappenedInAnEmptyJournal) {
   EXPECT_THAT(summary.starts.items, IsEmpty());
 }
 
+TEST_F(SummaryTest, OneIdentityIsSummedUpWithWhatIsNobodys) {
+  write({daemon(kEvening, EntryKind::daemon_started), ended(kEvening + hours(1), "unix anna", "move", "SUCCEEDED"),
+         ended(kEvening + hours(2), "unix bert", "move", "SUCCEEDED"), stop(kEvening + hours(3), "unix bert"),
+         stop(kEvening + hours(4), "unix anna"), link(kEvening + hours(5), "DOWN")});
+  const Summary summary = night({.from = kEvening, .to = kMorning, .identity = "unix anna"});
+  EXPECT_THAT(summary.persons.items, ElementsAre(person("unix anna", kEvening + hours(1), kEvening + hours(4))));
+  EXPECT_THAT(summary.stops.items, ElementsAre(testing::Field(&StopSummary::who, "unix anna")));
+  EXPECT_THAT(summary.losses.items, ElementsAre(loss("stage", kEvening + hours(5), std::nullopt)));
+  EXPECT_THAT(summary.starts.items, ElementsAre(start(kEvening, false)));
+}
+
 TEST_F(SummaryTest, CountsTheMotionsOfEachPersonByKindAndOutcome) {
   write({ended(kEvening - seconds(1), "unix anna", "move", "SUCCEEDED"),
          stop(kEvening, "unix bert"),
