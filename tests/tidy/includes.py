@@ -8,7 +8,7 @@ _CLOCK = re.compile(
     r"\b\w*[cC]lock\s*::\s*now\b|\bclock_gettime\s*\(|\bgettimeofday\s*\("
     r"|\btime\s*\(\s*(?:nullptr|NULL|0)\s*\)"
 )
-_CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/")
+_CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/", "tests/clock/")
 _ASIO_FOLDERS = ("device/link/", "server/", "clients/")
 _DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
 _SIMULATOR = "device/shrc203/simulator/"

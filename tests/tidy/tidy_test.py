@@ -198,7 +198,8 @@ class Time(Tree):
 
     def test_the_shell_may(self):
         for read in self.READS:
-            for path in ("device/link/a.cc", "server/a.cc", "clients/axisctl/a.cc", "tests/bench/a.cc"):
+            for path in ("device/link/a.cc", "server/a.cc", "clients/axisctl/a.cc", "tests/bench/a.cc",
+                         "tests/clock/a.cc"):
                 self.assert_clean(path, f"auto a = {read};\n")
 
     def test_speaking_of_clocks_is_no_reading(self):
