@@ -107,8 +107,9 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
     {"history",
      R"(The daemon keeps it in its state directory, also over restarts. --night sums up who moved what, who stopped what, when a
 link was lost, and when the daemon started. The conditions of the other options must all be fulfilled. Details are those
-of --json; in --text capital and small letters differ. `others_seen_by` in the configuration may let you read only your
-own entries; a note says so.)",
+of --json; in --text capital and small letters differ. --motion also shows the lines that were sent, with their answers,
+and how to get the recording around them while the daemon has it. `others_seen_by` in the configuration may let you read
+only your own entries; a note says so.)",
      R"(axisctl history --night
 axisctl history --hours 12 --axis 1 --outcome failed
 axisctl history --who 'unix anna' --limit 20
@@ -122,7 +123,8 @@ axisctl history --follow   # until Ctrl-C)"},
      "Needs no lease. After a cancel by somebody else, motions are refused until their caller types `axisctl rearm`.",
      "axisctl cancel 1"},
     {"audit",
-     R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added.
+     R"(The entries of the journal form a chain of hashes. `audit verify` names the first that was changed, removed or added,
+or says what else of the file is damaged.
 Who can write the file could compute all hashes again. So note the head that it prints, and check it later.
 
 For administrators: `audit erase 'unix anna' --yes` puts "erased N" in the place of a name, in every entry and in the

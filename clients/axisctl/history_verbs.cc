@@ -7,7 +7,6 @@
 #include <charconv>
 #include <chrono>
 #include <ctime>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +14,8 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/history_csv.h"
 #include "clients/axisctl/history_reader.h"
+#include "clients/axisctl/history_text.h"
+#include "clients/axisctl/kept_recording.h"
 #include "clients/axisctl/night.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
@@ -24,108 +25,9 @@ namespace axisgate::axisctl {
 namespace {
 
 using google::protobuf::util::TimeUtil;
-using Json = nlohmann::json;
 
 // All of a journal is read.
 constexpr std::chrono::seconds kJournalLimit{600};
-
-std::string axes_text(const Json& details) {
-  std::string text;
-  for (const Json& axis : details.value("axes", Json::array())) {
-    text += fmt::format("{}{}", text.empty() ? "" : ", ", axis.dump());
-  }
-  return text.empty() ? "no axis" : (text.find(',') == std::string::npos ? "axis " : "axes ") + text;
-}
-
-std::string results_text(const Json& details) {
-  std::string text;
-  for (const Json& result : details.value("results", Json::array())) {
-    if (!result.contains("command_pulses")) continue;
-    text += fmt::format("{}axis {} at {} pulses", text.empty() ? "; " : ", ", result.value("axis", 0),
-                        result.value("command_pulses", std::int64_t{}));
-  }
-  return text;
-}
-
-std::string motion_text(const v1::HistoryEntry& entry, const Json& details) {
-  const std::string motion =
-      fmt::format("motion {} ({} of {})", last_part(entry.motion()), details.value("kind", "?"), axes_text(details));
-  if (entry.kind() == v1::HISTORY_KIND_MOTION_REQUESTED) return motion + " requested";
-  if (entry.kind() == v1::HISTORY_KIND_MOTION_STARTED) return motion + " started";
-  const std::string outcome = details.value("outcome", "?"), reason = details.value("reason", "");
-  return fmt::format("{} {}{}{}", motion, outcome, reason.empty() || reason == outcome ? "" : " " + reason,
-                     results_text(details));
-}
-
-std::string text_of(const v1::HistoryEntry& entry) {
-  const Json details = Json::parse(entry.details(), nullptr, false);
-  if (!details.is_object()) return entry.details();
-  const std::string why = details.value("why", "");
-  const std::string because = why.empty() ? "" : ": " + why;
-  switch (entry.kind()) {
-    case v1::HISTORY_KIND_DAEMON_STARTED:
-      return "the daemon started, version " + details.value("version", "?");
-    case v1::HISTORY_KIND_DAEMON_ENDED:
-      return "the daemon ended";
-    case v1::HISTORY_KIND_ENTRIES_LEFT_OUT:
-      return fmt::format("{} entries were left out: the disk refused them", details.value("count", 0));
-    case v1::HISTORY_KIND_JOURNAL_FAILED:
-      return "the disk refused the journal";
-    case v1::HISTORY_KIND_ENTRIES_DROPPED:
-      return fmt::format("entries up to {} are no longer kept", details.value("through", std::int64_t{}));
-    case v1::HISTORY_KIND_REQUEST_MADE:
-      return "requested: " + details.value("what", "?");
-    case v1::HISTORY_KIND_REQUEST_REFUSED:
-      return fmt::format("refused: {}, {}", details.value("request", "a request"), details.value("reason", "?"));
-    case v1::HISTORY_KIND_REQUEST_ENDED:
-      return fmt::format("{}: {}", details.value("request", "a request"), details.value("outcome", "?"));
-    case v1::HISTORY_KIND_PERSON_ERASED:
-      return fmt::format("the name of caller {} was erased", details.value("person", std::int64_t{}));
-    case v1::HISTORY_KIND_MOTION_REQUESTED:
-    case v1::HISTORY_KIND_MOTION_STARTED:
-    case v1::HISTORY_KIND_MOTION_ENDED:
-      return motion_text(entry, details);
-    case v1::HISTORY_KIND_STOP_REQUESTED:
-      return fmt::format("{} of {}", details.value("emergency", false) ? "emergency stop" : "stop", axes_text(details));
-    case v1::HISTORY_KIND_LINK_CHANGED:
-      return "link " + details.value("link", "?") + because;
-    case v1::HISTORY_KIND_BARRIER_ENTERED:
-      return "replies could not be trusted" + because;
-    case v1::HISTORY_KIND_FOREIGN_MOTION:
-      return axes_text(details) + " moved, and nobody here requested it";
-    case v1::HISTORY_KIND_SWITCHES_CHANGED:
-      return "memory switches changed";
-    default:
-      return fmt::format("kind {}: {}", static_cast<int>(entry.kind()), entry.details());
-  }
-}
-
-std::string line_of(const v1::HistoryEntry& entry) {
-  std::string line = time_text(entry.time());
-  if (!entry.device().empty()) line += fmt::format("  {}", last_part(entry.device()));
-  line += "  " + text_of(entry);
-  return entry.who().empty() ? line : line + ", by " + entry.who();
-}
-
-// When it ended and where; after its entries, oldest first.
-std::string life_text(std::uint64_t number, const std::vector<v1::HistoryEntry>& entries) {
-  const auto newest = [&](v1::HistoryKind kind) {
-    const auto found =
-        std::find_if(entries.rbegin(), entries.rend(), [&](const auto& one) { return one.kind() == kind; });
-    return found == entries.rend() ? nullptr : &*found;
-  };
-  if (entries.empty()) return fmt::format("the journal has no motion {}", number);
-  const v1::HistoryEntry* const ended = newest(v1::HISTORY_KIND_MOTION_ENDED);
-  const v1::HistoryEntry* const started = newest(v1::HISTORY_KIND_MOTION_STARTED);
-  if (ended == nullptr) {
-    return fmt::format("motion {} has no outcome: it has not ended, or the daemon was killed before", number);
-  }
-  const Json details = Json::parse(ended->details(), nullptr, false);
-  if (!details.is_object()) return fmt::format("motion {}: {}", number, ended->details());
-  const std::string when =
-      started == nullptr ? "before it started" : duration_text(started->time(), ended->time()) + " after its start";
-  return fmt::format("motion {}: {} {}{}", number, details.value("outcome", "?"), when, results_text(details));
-}
 
 // "failed" as an option has it; empty: none.
 v1::MotionState outcome_of(std::string text) {
@@ -186,6 +88,21 @@ v1::JournalHead head_of(const std::string& text) {
   return head;
 }
 
+// Of what is no entry, in SQLite's words.
+std::string damage_text(const std::string& fault) {
+  return "the file is damaged elsewhere, mostly in an index, so that `axisctl history` may lack entries: " + fault +
+         " (to make the indices again, end the daemon and type `sqlite3 journal.sqlite REINDEX` in its state "
+         "directory)";
+}
+
+// What one motion was, after its entries, oldest first; and how to get the recording around it.
+void print_life(const Session& session, const std::vector<v1::HistoryEntry>& entries) {
+  print_line(life_text(*session.options.motion, entries));
+  if (entries.empty()) return;
+  const auto at = place_in_recording(session, entries.front().device(), entries.front().time());
+  if (at) print_line(record_text(entries.front(), *at));
+}
+
 }  // namespace
 
 int history(const Session& session) {
@@ -195,13 +112,16 @@ int history(const Session& session) {
   std::vector<v1::HistoryEntry> life;
   const auto show = [&](const v1::HistoryEntry& entry) {
     if (options.json) return print_json(entry);
-    print_line(options.csv ? csv_row(entry) : line_of(entry));
-    if (options.motion) life.push_back(entry);
+    if (options.csv) return print_line(csv_row(entry));
+    print_line(line_of(entry));
+    if (!options.motion) return;
+    for (const std::string& exchanged : exchanges_of(entry)) print_line(exchanged);
+    life.push_back(entry);
   };
   if (options.csv) print_line(kCsvHeader);
   if (options.follow) follow_history(session, request, show);
   list_history(session, request, show);
-  if (options.motion && !options.json && !options.csv) print_line(life_text(*options.motion, life));
+  if (options.motion && !options.json && !options.csv) print_life(session, life);
   return kDone;
 }
 
@@ -214,11 +134,12 @@ int audit_verify(const Session& session) {
     print_json(verdict);
   } else if (verdict.first_bad() == 0) {
     print_line(fmt::format("{} entries are as they were written", verdict.good()));
+    if (!verdict.fault().empty()) print_line(damage_text(verdict.fault()));
     print_line("head " + head_text(verdict.head()));
   } else {
     print_line(fmt::format("entry {}: {}", verdict.first_bad(), verdict.fault()));
   }
-  return verdict.first_bad() == 0 ? kDone : kFailed;
+  return verdict.first_bad() == 0 && verdict.fault().empty() ? kDone : kFailed;
 }
 
 int audit_erase(const Session& session) {

@@ -91,9 +91,11 @@ struct BytesWritten {
   std::uint64_t exchange = 0;
   std::string who;  // who requested it; empty: the line itself
   Lane lane = Lane::question;
-  AxisSet completes{};  // the axes whose numbers may come from now on
-  MotionId motion = 0;  // whose line it is; 0: of none
-  bool closed = false;  // an !:S follows an answer that could be such a number
+  AxisSet completes{};    // the axes whose numbers may come from now on
+  MotionId motion = 0;    // whose line it is; 0: of none
+  bool closed = false;    // an !:S follows an answer that could be such a number
+  bool question = false;  // it changes nothing
+  AxisSet axes{};         // that the line is about; of a question: empty
 };
 
 // What came in, cut as the driver cut it.

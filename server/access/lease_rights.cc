@@ -54,7 +54,7 @@ Result<void> Leases::authorize_leased(const Use& use, TimePoint now) {
   if (held == nullptr) return tl::unexpected(lost_problem(use.lease));
   const Lease& lease = held->lease;
   const bool continues = held->continues && running_.contains(use.motion);
-  if (!lease.ending.empty() && !continues) return tl::unexpected(lost_problem(use.lease));
+  if (lease.ending && !continues) return tl::unexpected(lost_problem(use.lease));
   if (!lease.terms.axes.contains(use.axes) && guarded(Guard::lease_axes)) {
     return fail(
         Reason::outside_lease,
@@ -79,12 +79,13 @@ Result<void> Leases::may_borrow(const Use& use, TimePoint now) {
 
 void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePoint now) {
   expire(now);
+  std::map<std::string, AxisSet> latched, moved;
   for (Held& held : held_) {
     const AxisSet hit = held.lease.terms.axes & stop.axes;
     if (hit.empty() || held.lease.token == stop.lease) continue;
     latch(held.lease, {hit, stop.who, now});
+    latched[held.lease.holder] = latched[held.lease.holder] | hit;
   }
-  std::map<std::string, AxisSet> moved;
   const auto add = [&](const Use& use) {
     const bool by_holder = use.lease != 0 && use.lease == stop.lease;
     if (!by_holder && !is_certainly(use.who, stop.who)) moved[use.who] = moved[use.who] | (use.axes & stop.axes);
@@ -95,8 +96,11 @@ void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePo
     if (now < mover.until) add(mover.use);
   }
   for (const auto& [who, axes] : moved) {
-    if (!axes.empty()) hold_back(who, {axes, stop.who, now});
+    if (axes.empty()) continue;
+    hold_back(who, {axes, stop.who, now});
+    latched[who] = latched[who] | axes;
   }
+  for (const auto& [who, axes] : latched) report(Latched{who, axes}, now);
   changed(now);
 }
 
@@ -142,6 +146,9 @@ std::vector<Latch> Leases::rearm(LeaseToken token, const std::string& who, TimeP
     one.anonymous = false;
   }
   std::erase_if(held_back_, [&](const HeldBack& one) { return is_same_caller(one.who, who); });
+  AxisSet axes;
+  for (const Latch& latch : lifted) axes = axes | latch.axes;
+  if (!lifted.empty()) report(Rearmed{who, axes}, now);
   changed(now);
   return lifted;
 }

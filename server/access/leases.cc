@@ -24,15 +24,16 @@ Leases::Held* Leases::find(LeaseToken token) {
 
 Problem Leases::lost_problem(LeaseToken token) const {
   const auto ended = std::ranges::find_if(ended_, [token](const Ended& one) { return one.token == token; });
-  return {.reason = Reason::lease_lost,
-          .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + ended->why,
-          .hint = "start another one: `axisctl lease run`"};
+  return {
+      .reason = Reason::lease_lost,
+      .message = ended == ended_.end() ? "no lease has this token" : "the lease has ended: " + text_of(ended->ending),
+      .hint = "start another one: `axisctl lease run`"};
 }
 
 Result<Leases::Held*> Leases::find_held(LeaseToken token, TimePoint now) {
   expire(now);
   Held* held = find(token);
-  if (held == nullptr || !held->lease.ending.empty()) return tl::unexpected(lost_problem(token));
+  if (held == nullptr || held->lease.ending) return tl::unexpected(lost_problem(token));
   return held;
 }
 
@@ -54,7 +55,7 @@ std::uint64_t Leases::acquire(LeaseTerms terms, const std::string& holder, bool 
     return 0;
   }
   const std::uint64_t id = ++last_waiting_;
-  waiting_.push_back({{id, holder, std::move(terms), now, 1, {}}, not_after, std::move(answer), 0});
+  waiting_.push_back({{id, holder, std::move(terms), now, 1, {}}, not_after, std::move(answer)});
   settle(now);
   const bool waits = std::ranges::any_of(waiting_, [id](const Waiting& waiting) { return waiting.lease.id == id; });
   return waits ? id : 0;
@@ -82,13 +83,17 @@ void Leases::lost(LeaseToken token, TimePoint now) {
   if (!held || (*held)->lease.terms.at_loss == AtLoss::finish) return;
   const Lease& lease = (*held)->lease;
   if (runs(token)) order_stop(lease.terms.axes, lease.holder);
-  if (lease.terms.at_loss == AtLoss::stop_and_release) end_lease(**held, "its holder was cut off", false);
+  if (lease.terms.at_loss == AtLoss::stop_and_release) {
+    end_lease(**held, {LeaseEnding::Why::cut_off}, false, now);
+  }
   settle(now);
 }
 
-void Leases::cut_off(const std::string& holder, const std::string& why, TimePoint now) {
+void Leases::cut_off(const std::string& holder, const std::string& by, TimePoint now) {
   for (Held& held : held_) {
-    if (held.lease.holder == holder && held.lease.ending.empty()) end_unkept(held, why);
+    if (held.lease.holder == holder && !held.lease.ending) {
+      end_unkept(held, {LeaseEnding::Why::token_revoked, by}, now);
+    }
   }
   std::vector<std::uint64_t> waits;
   for (const Waiting& waiting : waiting_) {
@@ -101,7 +106,7 @@ void Leases::cut_off(const std::string& holder, const std::string& why, TimePoin
 Result<void> Leases::release(LeaseToken token, TimePoint now) {
   const auto held = find_held(token, now);
   if (!held) return tl::unexpected(held.error());
-  end_lease(**held, "it was released", true);
+  end_lease(**held, {LeaseEnding::Why::released}, true, now);
   settle(now);
   return {};
 }
@@ -120,7 +125,7 @@ Result<void> Leases::hand_over(LeaseToken token, const std::string& to, TimePoin
   if (runs(token)) {
     return fail(Reason::axis_busy, "a motion runs under the lease", "hand it over when it has ended, or stop it");
   }
-  end_lease(**held, "it was handed over to " + to, false);
+  end_lease(**held, {LeaseEnding::Why::handed_over, to}, false, now);
   Waiting waiting = std::move(*next);
   waiting_.erase(next);
   waiting.not_after = TimePoint::max();  // granted to them, whenever the settings have been restored
@@ -133,12 +138,15 @@ void Leases::take_over(LeaseTerms terms, const std::string& holder, TimePoint no
   expire(now);
   for (Held& held : held_) {
     if (!held.lease.terms.axes.touches(terms.axes)) continue;
-    end_lease(held, "it was taken over by " + holder, false);
+    end_lease(held, {LeaseEnding::Why::taken_over, holder}, false, now);
   }
   for (auto& [id, running] : running_) running.revoked = running.revoked || running.use.axes.touches(terms.axes);
   order_stop(terms.axes, holder);
-  waiting_.push_front(
-      {{++last_waiting_, holder, std::move(terms), now, 1, {}}, TimePoint::max(), std::move(answer), last_order_});
+  waiting_.push_front({{++last_waiting_, holder, std::move(terms), now, 1, {}},
+                       TimePoint::max(),
+                       std::move(answer),
+                       last_order_,
+                       true});
   settle(now);
 }
 
@@ -232,27 +240,27 @@ void Leases::end(MotionId motion, TimePoint now) {
 
 void Leases::device_restarted(TimePoint now) {
   for (Held& held : held_) {
-    if (held.lease.ending.empty()) end_lease(held, "the controller may have restarted", false);
+    if (!held.lease.ending) end_lease(held, {LeaseEnding::Why::restarted}, false, now);
   }
   settle(now);
 }
 
-void Leases::end_lease(Held& held, std::string why, bool continues) {
-  ended_.push_back({held.lease.token, why});
+void Leases::end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint now) {
+  Lease& lease = held.lease;
+  ended_.push_back({lease.token, ending});
   if (ended_.size() > kEndedKept) ended_.pop_front();
-  held.lease.ending = std::move(why);
-  if (held.lease.latch && !is_certainly(held.lease.holder, held.lease.latch->by)) {
-    hold_back(held.lease.holder, *held.lease.latch);
-  }
+  if (!lease.ending) report(LeaseEnded{lease.token, lease.holder, lease.terms.axes, ending.why}, now);
+  lease.ending = std::move(ending);
+  if (lease.latch && !is_certainly(lease.holder, lease.latch->by)) hold_back(lease.holder, *lease.latch);
   held.continues = continues;
 }
 
 // As its AtLoss says, without a way back.
-void Leases::end_unkept(Held& held, std::string why) {
+void Leases::end_unkept(Held& held, LeaseEnding ending, TimePoint now) {
   const Lease& lease = held.lease;
   const bool finishes = lease.terms.at_loss == AtLoss::finish;
   if (!finishes && runs(lease.token)) order_stop(lease.terms.axes, lease.holder);
-  end_lease(held, std::move(why), finishes);
+  end_lease(held, std::move(ending), finishes, now);
 }
 
 void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.push_back({++last_order_, axes, who}); }
@@ -260,8 +268,8 @@ void Leases::order_stop(AxisSet axes, const std::string& who) { orders_.stops.pu
 void Leases::expire(TimePoint now) {
   for (Held& held : held_) {
     const Lease& lease = held.lease;
-    if (!lease.ending.empty() || now < lease.expires || !guarded(Guard::leases_expire)) continue;
-    end_unkept(held, "it was not kept alive and expired");
+    if (lease.ending || now < lease.expires || !guarded(Guard::leases_expire)) continue;
+    end_unkept(held, {LeaseEnding::Why::expired}, now);
   }
   std::vector<Waiting> late;
   for (auto waiting = waiting_.begin(); waiting != waiting_.end();) {
@@ -291,7 +299,7 @@ bool Leases::drop_ended() {
 }
 
 bool Leases::is_over(Held& held) {
-  if (held.lease.ending.empty() || runs(held.lease.token)) return false;
+  if (!held.lease.ending || runs(held.lease.token)) return false;
   if (held.settings == Settings::changed) {
     held.settings = Settings::being_restored;
     orders_.restoring.push_back({held.lease.token, held.lease.holder});
@@ -316,16 +324,18 @@ bool Leases::grant(TimePoint now) {
     }
     const Waiting next = std::move(*waiting);
     waiting_.erase(waiting);
-    next.answer(start(next.lease, now));
+    next.answer(start(next, now));
     return true;
   }
   return false;
 }
 
-Lease Leases::start(const WaitingLease& waiting, TimePoint now) {
+Lease Leases::start(const Waiting& waiting, TimePoint now) {
   const LeaseToken token = tokens_.next();
-  const TimePoint expires = now + waiting.terms.time_to_live;
-  held_.push_back({{token, tokens_.seal(token), waiting.holder, waiting.terms, now, expires, {}, {}}});
+  const WaitingLease& wanted = waiting.lease;
+  const TimePoint expires = now + wanted.terms.time_to_live;
+  held_.push_back({{token, tokens_.seal(token), wanted.holder, wanted.terms, now, expires, {}, {}}});
+  report(LeaseGranted{token, wanted.holder, wanted.terms, waiting.takes_over}, now);
   return held_.back().lease;
 }
 
@@ -357,7 +367,7 @@ std::optional<TimePoint> Leases::next_deadline() const {
   const auto sooner = [&next](TimePoint at) { next = next ? std::min(*next, at) : at; };
   if (!orders_.stops.empty() || !orders_.restoring.empty()) return TimePoint{};
   for (const Held& held : held_) {
-    if (held.lease.ending.empty()) sooner(held.lease.expires);
+    if (!held.lease.ending) sooner(held.lease.expires);
   }
   for (const Waiting& waiting : waiting_) {
     if (waiting.not_after != TimePoint::max()) sooner(waiting.not_after + Duration(1));

@@ -16,55 +16,12 @@
 #include "device/core/problem.h"
 #include "device/core/time.h"
 #include "device/stage/permission.h"
+#include "server/access/lease.h"
 #include "server/access/lease_tokens.h"
 
 namespace axisgate::server {
 
-using stage::AxisSet;
 using stage::MotionId;
-
-// What becomes of the holder's motion when nobody keeps the lease alive any more.
-enum class AtLoss {
-  finish,            // it continues to its end; the axes are free then
-  stop,              // it is stopped; the lease lasts until it expires, so that its holder may come back
-  stop_and_release,  // it is stopped, and the lease ends with it
-};
-
-struct LeaseTerms {
-  static constexpr Duration kTimeToLive = std::chrono::seconds(10), kTimeToLiveMin = std::chrono::seconds(1),
-                            kTimeToLiveMax = std::chrono::hours(24);
-  AxisSet axes;
-  Duration time_to_live = kTimeToLive;
-  AtLoss at_loss = AtLoss::stop;
-  std::optional<Duration> expected_use{};  // for those who wait
-  std::string purpose{};                   // for people; may be empty
-};
-
-// A stop by another: nothing moves there until the caller who was stopped calls rearm().
-struct Latch {
-  AxisSet axes;
-  std::string by;
-  TimePoint at{};
-};
-
-struct Lease {
-  LeaseToken token = 0;
-  std::string sealed_token;  // for the holder alone
-  std::string holder;
-  LeaseTerms terms;
-  TimePoint since{}, expires{};
-  std::string ending;  // why no motion begins under it any more; empty while it is held
-  std::optional<Latch> latch;
-};
-
-struct WaitingLease {
-  std::uint64_t id = 0;  // 0 is none
-  std::string holder;    // to be
-  LeaseTerms terms;
-  TimePoint since{};
-  int place = 1;                          // counts from 1
-  std::optional<Duration> expected_wait;  // nothing where somebody in front has not said how long
-};
 
 // Not thread safe: lives on its device's strand. It moves nothing itself: what must stop is fetched by advance().
 class Leases : public stage::Permission {
@@ -85,9 +42,9 @@ class Leases : public stage::Permission {
   Result<Lease> keep_alive(LeaseToken token, TimePoint now);
   // The connection over which it was kept alive broke; AtLoss says what follows.
   void lost(LeaseToken token, TimePoint now);
-  // This holder may call no longer: its leases end, and so does its waiting. What moves under them is stopped, except
-  // where a lease lets it finish.
-  void cut_off(const std::string& holder, const std::string& why, TimePoint now);
+  // The token of this holder was revoked by another: its leases end, and so does its waiting. What moves under them is
+  // stopped, except where a lease lets it finish.
+  void cut_off(const std::string& holder, const std::string& by, TimePoint now);
   // What runs under it runs to its end, and the axes are free then. lease_lost.
   Result<void> release(LeaseToken token, TimePoint now);
   // To the first of that name who waits for nothing but these axes, past all others. lease_lost, axis_busy while a
@@ -113,6 +70,8 @@ class Leases : public stage::Permission {
 
   // Called after every change of what the members above tell. Must not call back.
   std::function<void(TimePoint now)> on_change;
+  // Called with each grant, end, latch and rearm, in their order. Must not call back.
+  std::function<void(const LeaseEvent& event, TimePoint now)> on_event;
 
   Result<void> authorize(const stage::Use& use, TimePoint now) override;
   void begin(const stage::Use& use, const stage::Motion& motion, TimePoint now) override;
@@ -138,6 +97,7 @@ class Leases : public stage::Permission {
     TimePoint not_after{};
     OnLease answer;
     std::uint64_t order = 0;  // of a take-over: its stop, until that has been answered
+    bool takes_over = false;
   };
   struct Running {
     stage::Use use;
@@ -159,8 +119,8 @@ class Leases : public stage::Permission {
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   std::optional<Problem> in_the_way(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;
-  void end_lease(Held& held, std::string why, bool continues);
-  void end_unkept(Held& held, std::string why);
+  void end_lease(Held& held, LeaseEnding ending, bool continues, TimePoint now);
+  void end_unkept(Held& held, LeaseEnding ending, TimePoint now);
   void order_stop(AxisSet axes, const std::string& who);
   void expire(TimePoint now);
   void settle(TimePoint now);
@@ -168,10 +128,13 @@ class Leases : public stage::Permission {
   bool is_over(Held& held);
   bool grant(TimePoint now);
   AxisSet taken() const;
-  Lease start(const WaitingLease& waiting, TimePoint now);
+  Lease start(const Waiting& waiting, TimePoint now);
   std::optional<Duration> expected_wait(std::size_t place, TimePoint now) const;
   void changed(TimePoint now) const {
     if (on_change) on_change(now);
+  }
+  void report(const LeaseEvent& event, TimePoint now) const {
+    if (on_event) on_event(event, now);
   }
 
   static constexpr std::size_t kEndedKept = 64, kHeldBackMax = 4096;
@@ -186,7 +149,7 @@ class Leases : public stage::Permission {
   std::vector<HeldBack> held_back_;
   struct Ended {
     LeaseToken token = 0;
-    std::string why;
+    LeaseEnding ending;
   };
   std::deque<Ended> ended_;
   stage::Orders orders_;

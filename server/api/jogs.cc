@@ -51,10 +51,11 @@ bool Jog::start(const Call& call, std::string_view device, const Result<JogAxes>
       {RequestKind::jog, call, found, check_directions(axes)},
       [self = self<Jog>(), axes](const Turn& turn) -> Result<std::string> {
         if (self->is_over()) return tl::unexpected(kBrokenOff);
-        if (const auto good = check_deadline(RequestKind::jog, turn.context, turn.now); !good) {
-          return tl::unexpected(good.error());
-        }
-        return text_of(stage::JogRequest{request_axes(*axes), turn.context});
+        const stage::JogRequest request{request_axes(*axes), turn.context};
+        Result<void> good = check_deadline(RequestKind::jog, turn.context, turn.now);
+        if (good) good = turn.controller.check_use(turn.context, axes_used(request, turn.controller.state()));
+        if (!good) return tl::unexpected(good.error());
+        return text_of(request);
       },
       [self = self<Jog>(), axes](const Turn& turn, const MutationPtr& mutation) {
         self->begin_on(turn, *axes, mutation);

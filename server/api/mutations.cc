@@ -1,7 +1,5 @@
 #include "server/api/mutations.h"
 
-#include <spdlog/spdlog.h>
-
 #include <atomic>
 #include <nlohmann/json.hpp>
 #include <utility>
@@ -10,6 +8,7 @@
 #include "server/access/access.h"
 #include "server/events/wall_time.h"
 #include "server/journal/answers.h"
+#include "server/journal/body.h"
 
 namespace axisgate::api {
 namespace {
@@ -17,28 +16,10 @@ namespace {
 using server::journal::Entry;
 using server::journal::EntryKind;
 using server::journal::Journal;
+using server::journal::json_text;
 using server::journal::RequestChange;
 using server::journal::RequestMemory;
 using Json = nlohmann::json;
-
-// Decided before anything is sent.
-bool is_refusal(Reason reason) {
-  switch (reason) {
-    case Reason::stopped:
-    case Reason::reply_timed_out:
-    case Reason::line_fault:
-    case Reason::device_refused:
-    case Reason::device_error:
-    case Reason::unexplained:
-    case Reason::target_not_reached:
-    case Reason::outcome_unknown:
-    case Reason::completion_outstanding:
-    case Reason::internal:
-      return false;
-    default:
-      return true;
-  }
-}
 
 // The first answer counts: of the disk, or that it has taken too long.
 class Waiting {
@@ -67,8 +48,6 @@ Json body_of(RequestKind kind, const stage::RequestContext& context, std::string
   return body;
 }
 
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
-
 }  // namespace
 
 Mutation::Mutation(server::Gateway& gateway, const server::Stage& device, RequestKind kind, std::string who,
@@ -80,12 +59,8 @@ Mutation::Mutation(server::Gateway& gateway, const server::Stage& device, Reques
 bool Mutation::intend(const stage::RequestContext& context, std::string_view what, Then then) {
   Journal* const journal = gateway_.journal();
   if (journal == nullptr || !uses_axes(kind_)) return false;
-  server::journal::Record record{{.kind = EntryKind::request_made,
-                                  .time = std::chrono::system_clock::now(),
-                                  .boot_time = monotonic_now(),
-                                  .device = device_,
-                                  .who = who_,
-                                  .body = text_of(body_of(kind_, context, what))},
+  intended_ = true;
+  server::journal::Record record{entry(EntryKind::request_made, json_text(body_of(kind_, context, what))),
                                  std::exchange(begun_, {}).value_or(RequestChange{})};
   if (gateway_.config().journal.act_without) {
     then = [then = std::move(then), journal, record](const Result<void>& written) {
@@ -110,7 +85,8 @@ void Mutation::acted(std::optional<std::string> answer) {
 }
 
 void Mutation::failed(const Problem& problem) {
-  if (is_refusal(problem.reason) || rule_of(kind_).patience == Patience::motion) return refused(problem);
+  if (server::journal::is_refusal(problem.reason) || rule_of(kind_).patience == Patience::motion)
+    return refused(problem);
   ended(server::journal::answer_of(problem), name(problem.reason));
   if (key_) gateway_.requests().acted(*key_);
 }
@@ -120,25 +96,30 @@ void Mutation::refused(const Problem& problem) {
   auto change = key_ ? gateway_.requests().refused(*key_, problem) : std::nullopt;
   const bool stays = key_ && !change;
   if (stays) return gateway_.requests().acted(*key_);
-  write(EntryKind::request_refused, text_of({{"request", name(kind_)}, {"reason", name(problem.reason)}}),
-        std::move(change));
+  const std::string body = json_text({{"request", name(kind_)}, {"reason", name(problem.reason)}});
+  if (intended_) return write(EntryKind::request_refused, body, std::move(change));
+  Journal* const journal = gateway_.journal();
+  if (journal != nullptr) journal->append_refusal(entry(EntryKind::request_refused, body));
 }
 
 void Mutation::ended(std::string answer, std::string_view outcome) {
   auto change = key_ ? gateway_.requests().ended(*key_, std::move(answer)) : std::nullopt;
-  write(EntryKind::request_ended, text_of({{"request", name(kind_)}, {"outcome", outcome}}), std::move(change));
+  write(EntryKind::request_ended, json_text({{"request", name(kind_)}, {"outcome", outcome}}), std::move(change));
 }
 
 void Mutation::write(EntryKind kind, std::string body, std::optional<RequestChange> change) {
   Journal* const journal = gateway_.journal();
   if (journal == nullptr) return;
-  journal->append({{.kind = kind,
-                    .time = std::chrono::system_clock::now(),
-                    .boot_time = monotonic_now(),
-                    .device = device_,
-                    .who = who_,
-                    .body = std::move(body)},
-                   std::move(change).value_or(RequestChange{})});
+  journal->append({entry(kind, std::move(body)), std::move(change).value_or(RequestChange{})});
+}
+
+Entry Mutation::entry(EntryKind kind, std::string body) const {
+  return {.kind = kind,
+          .time = std::chrono::system_clock::now(),
+          .boot_time = monotonic_now(),
+          .device = device_,
+          .who = who_,
+          .body = std::move(body)};
 }
 
 Result<std::shared_ptr<Mutation>> Mutations::begin(RequestKind kind, const Call& call, const server::Stage& device,

@@ -35,6 +35,7 @@ class Mutation {
  private:
   void refused(const Problem& problem);
   void ended(std::string answer, std::string_view outcome);
+  server::journal::Entry entry(server::journal::EntryKind kind, std::string body) const;
   void write(server::journal::EntryKind kind, std::string body, std::optional<server::journal::RequestChange> change);
 
   server::Gateway& gateway_;
@@ -43,6 +44,7 @@ class Mutation {
   const std::string who_;
   std::optional<server::journal::RequestMemory::Key> key_;
   std::optional<server::journal::RequestChange> begun_;  // until it is written
+  bool intended_ = false;                                // it is written, or the disk has refused it
 };
 using MutationPtr = std::shared_ptr<Mutation>;  // never null
 

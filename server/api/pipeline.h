@@ -12,6 +12,7 @@
 #include "device/stage/stage_controller.h"
 #include "server/api/admission.h"
 #include "server/api/audit.h"
+#include "server/api/axes_used.h"
 #include "server/api/call.h"
 #include "server/api/mutations.h"
 #include "server/api/repeats.h"
@@ -59,8 +60,8 @@ class Pipeline {
   Result<Admitted> admit(const Asked& asked) const;
 
   // Posts to the device. There `prepare` makes what is to be done of the request and the device's state, or refuses;
-  // `check` does the rest of the checks where validate_only ends the request there; `describe` says what it is, for the
-  // log and the journal; `begin` does it and answers.
+  // `check` does the checks of the device, also where validate_only ends the request there; `describe` says what it is,
+  // for the log and the journal; `begin` does it and answers.
   //   Result<Prepared> prepare(const Turn&), several times
   //   Result<void> check(const Turn&, const Prepared&)
   //   std::string describe(const Prepared&)
@@ -163,10 +164,13 @@ void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, 
   }
   act(
       asked,
-      [kind = asked.kind, prepare, describe](const Turn& turn) -> Result<std::string> {
+      [kind = asked.kind, prepare, check, describe](const Turn& turn) -> Result<std::string> {
         auto prepared = prepare(turn);
         if (!prepared) return tl::unexpected(prepared.error());
-        if (const auto good = check_now(kind, turn); !good) return tl::unexpected(good.error());
+        Result<void> good = check_now(kind, turn);
+        if (good) good = check(turn, *prepared);
+        if (good) good = turn.controller.check_use(turn.context, axes_used(*prepared, turn.controller.state()));
+        if (!good) return tl::unexpected(good.error());
         return describe(*prepared);
       },
       [prepare, begin, answer](const Turn& turn, const MutationPtr& mutation) {

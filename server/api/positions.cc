@@ -43,6 +43,10 @@ struct MoveToPosition {
   stage::GoToPositionRequest request;
 };
 
+stage::AxisSet axes_used(const MoveToPosition& move, const stage::State& state) {
+  return api::axes_used(move.request, state);
+}
+
 }  // namespace
 
 void Positions::save(const Call& call, std::string_view name, const Result<PositionWish>& wish,

@@ -75,9 +75,7 @@ void Tokens::cut_off(const std::string& token, const std::string& by) const {
                          .message = fmt::format("{} revoked the token {}", by, token),
                          .hint = "an administrator makes another one with `axisctl token create`"});
   for (server::Stage* stage : gateway_.stages()) {
-    stage->post([stage, who, by](stage::StageController&, TimePoint now) {
-      stage->leases().cut_off(who, "its token was revoked by " + by, now);
-    });
+    stage->post([stage, who, by](stage::StageController&, TimePoint now) { stage->leases().cut_off(who, by, now); });
   }
 }
 

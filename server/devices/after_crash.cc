@@ -11,6 +11,7 @@
 #include "server/access/access.h"
 #include "server/explain.h"
 #include "server/journal/answers.h"
+#include "server/journal/body.h"
 
 namespace axisgate::server {
 namespace {
@@ -79,7 +80,7 @@ journal::Entry entry_of(EntryKind kind, std::string device, std::string who, std
           .device = std::move(device),
           .who = std::move(who),
           .motion = motion,
-          .body = body.dump(-1, ' ', false, Json::error_handler_t::replace)};
+          .body = journal::json_text(body)};
 }
 
 // As the entry of the request had it, with its end.
@@ -88,6 +89,8 @@ journal::Entry end_of(const journal::StoredEntry& requested, const Ending& endin
   if (!body.is_object()) body = Json::object();
   body["outcome"] = name(ending.state);
   if (ending.problem) body["reason"] = name(ending.problem->reason);
+  // settle_what_was_left() writes so of what has an id.
+  if (ending.state == MotionState::failed && body.contains("request_id")) body["refused"] = true;
   return entry_of(EntryKind::motion_ended, requested.entry.device, requested.entry.who, requested.entry.motion, body);
 }
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/explain.h"
+#include "server/journal/lease_entries.h"
 
 namespace axisgate::server {
 namespace {
@@ -38,8 +39,15 @@ Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread&
           [this](DeviceEvents::Due due) { on_due(due); }, record_.get(), &entries_),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
-  if (journal != nullptr) number_motions_after(*journal);
+  if (journal != nullptr) keep_history(*journal);
   runner().attach(*controller_, [this] { publish_due(); });
+}
+
+void Stage::keep_history(journal::Journal& journal) {
+  leases().on_event = [this, &journal](const LeaseEvent& event, TimePoint now) {
+    journal.append({journal::entry_of(event, name(), now)});
+  };
+  number_motions_after(journal);
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {

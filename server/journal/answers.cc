@@ -3,15 +3,13 @@
 #include <nlohmann/json.hpp>
 
 #include "server/events/wall_time.h"
+#include "server/journal/body.h"
 
 namespace axisgate::server::journal {
 namespace {
 
 using Json = nlohmann::json;
 using std::chrono::microseconds;
-
-// What came from a device may be no UTF-8.
-std::string text_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); }
 
 template <class Value>
 void add(Json& json, const char* key, const std::optional<Value>& value) {
@@ -81,7 +79,7 @@ Json json_of(const stage::Motion& motion) {
   Json json{{"id", motion.id},
             {"kind", static_cast<int>(motion.kind)},
             {"state", static_cast<int>(motion.state)},
-            {"axes", motion.axes.list()},
+            {"axes", axes_of(motion.axes)},
             {"written", motion.written},
             {"who", motion.who},
             {"request_id", motion.request_id},
@@ -161,17 +159,35 @@ std::optional<Value> part(std::string_view answer, const char* name, Value (*of)
 
 }  // namespace
 
-std::string answer_of(const stage::Motion& motion) { return text_of({{"motion", json_of(motion)}}); }
+std::string answer_of(const stage::Motion& motion) { return json_text(Json{{"motion", json_of(motion)}}); }
 
-std::string answer_of(const Problem& problem) { return text_of({{"problem", json_of(problem)}}); }
+std::string answer_of(const Problem& problem) { return json_text(Json{{"problem", json_of(problem)}}); }
 
 std::string answer_of(const std::vector<stage::ExecuteEvent>& events) {
   Json json{{"events", Json::array()}};
   for (const stage::ExecuteEvent& event : events) json["events"].push_back(json_of(event));
-  return text_of(json);
+  return json_text(json);
 }
 
 std::string answer_done() { return "{}"; }
+
+bool is_refusal(Reason reason) {
+  switch (reason) {
+    case Reason::stopped:
+    case Reason::reply_timed_out:
+    case Reason::line_fault:
+    case Reason::device_refused:
+    case Reason::device_error:
+    case Reason::unexplained:
+    case Reason::target_not_reached:
+    case Reason::outcome_unknown:
+    case Reason::completion_outstanding:
+    case Reason::internal:
+      return false;
+    default:
+      return true;
+  }
+}
 
 std::optional<stage::Motion> motion_in(std::string_view answer) {
   return part<stage::Motion>(answer, "motion", motion_of);

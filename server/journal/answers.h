@@ -19,6 +19,9 @@ std::string answer_of(const std::vector<stage::ExecuteEvent>& events);
 // Of one that was done, and answered nothing.
 std::string answer_done();
 
+// Whether it is decided before anything is sent.
+bool is_refusal(Reason reason);
+
 // Nothing, where the text is no motion.
 std::optional<stage::Motion> motion_in(std::string_view answer);
 // None, where the text has none.

@@ -1,20 +1,27 @@
 #include "server/journal/device_entries.h"
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <utility>
 
 #include "server/access/access.h"
 #include "server/journal/answers.h"
+#include "server/journal/body.h"
 
 namespace axisgate::server::journal {
 namespace {
 
 using Json = nlohmann::json;
 
-Json axes_of(stage::AxisSet axes) {
+// [line, answer, microseconds since the motion's request]; [line, answer] of no motion.
+Json json_of(const std::vector<ExchangedLines::Line>& lines) {
   Json list = Json::array();
-  for (const int axis : axes.list()) list.push_back(axis);
+  for (const ExchangedLines::Line& line : lines) {
+    Json one = Json::array({line.text, line.answer ? Json(*line.answer) : Json()});
+    if (line.at) one.push_back(std::chrono::duration_cast<std::chrono::microseconds>(*line.at).count());
+    list.push_back(std::move(one));
+  }
   return list;
 }
 
@@ -35,58 +42,58 @@ EntryKind kind_of(const stage::Motion& motion) {
   return motion.state == stage::MotionState::running ? EntryKind::motion_started : EntryKind::motion_requested;
 }
 
+// Its request has an entry that says so. Of Execute that depends on the reason, since it need not move anything.
+bool is_refused(const stage::Motion& motion) {
+  if (motion.written) return false;
+  return motion.kind != stage::MotionKind::execute || (motion.problem && is_refusal(motion.problem->reason));
+}
+
 Json body_of(const stage::Motion& motion) {
   Json body{{"kind", name(motion.kind)}, {"axes", axes_of(motion.axes)}};
   if (!motion.request_id.empty()) body["request_id"] = motion.request_id;
   if (!stage::is_outcome(motion.state)) return body;
   body["outcome"] = name(motion.state);
   body["results"] = results_of(motion);
+  if (is_refused(motion)) body["refused"] = true;
   if (motion.problem) body["reason"] = name(motion.problem->reason);
   if (motion.segments_total > 0) body["segments_done"] = motion.segments_done;
   return body;
 }
 
-struct Said {
-  EntryKind kind;
-  Json body;
-  std::string who{};
-  std::uint64_t motion = 0;
-};
-
-std::optional<Said> said(const stage::MotionChanged& change) {
+std::optional<Noted> said(const stage::MotionChanged& change) {
   const stage::Motion& motion = change.motion;
   if (motion.state == stage::MotionState::stopping) return std::nullopt;
-  return Said{kind_of(motion), body_of(motion), motion.who, motion.id};
+  return Noted{kind_of(motion), body_of(motion), motion.who, motion.id};
 }
 
-std::optional<Said> said(const stage::StopRequested& stop) {
-  return Said{EntryKind::stop_requested, {{"axes", axes_of(stop.axes)}, {"emergency", stop.emergency}}, stop.who};
+std::optional<Noted> said(const stage::StopRequested& stop) {
+  return Noted{EntryKind::stop_requested, {{"axes", axes_of(stop.axes)}, {"emergency", stop.emergency}}, stop.who};
 }
 
-std::optional<Said> said(const stage::LinkChanged& change) {
+std::optional<Noted> said(const stage::LinkChanged& change) {
   Json body{{"link", name(change.link)}, {"why", change.why}};
   if (!change.serial_number.empty()) body["serial_number"] = change.serial_number;
-  return Said{EntryKind::link_changed, std::move(body)};
+  return Noted{EntryKind::link_changed, std::move(body)};
 }
 
-std::optional<Said> said(const stage::BarrierEntered& barrier) {
-  return Said{EntryKind::barrier_entered, {{"why", barrier.why}}};
+std::optional<Noted> said(const stage::BarrierEntered& barrier) {
+  return Noted{EntryKind::barrier_entered, {{"why", barrier.why}}};
 }
 
-std::optional<Said> said(const stage::ForeignMotion& motion) {
-  return Said{EntryKind::foreign_motion, {{"axes", axes_of(motion.axes)}}};
+std::optional<Noted> said(const stage::ForeignMotion& motion) {
+  return Noted{EntryKind::foreign_motion, {{"axes", axes_of(motion.axes)}}};
 }
 
-std::optional<Said> said(const stage::SwitchesChanged& change) {
+std::optional<Noted> said(const stage::SwitchesChanged& change) {
   Json changes = Json::array();
   for (const auto& one : change.changes) {
     changes.push_back({{"item", one.item}, {"number", one.number}, {"before", one.before}, {"after", one.after}});
   }
-  return Said{EntryKind::switches_changed, {{"changes", std::move(changes)}, {"unknown", change.unknown}}, change.who};
+  return Noted{EntryKind::switches_changed, {{"changes", std::move(changes)}, {"unknown", change.unknown}}, change.who};
 }
 
 template <class Other>
-std::optional<Said> said(const Other&) {
+std::optional<Noted> said(const Other&) {
   return std::nullopt;
 }
 
@@ -104,19 +111,20 @@ std::optional<RequestChange> DeviceEntries::change_of(const stage::Event& event)
 }
 
 void DeviceEntries::on_event(const stage::Event& event, TimePoint now) {
-  const std::optional<RequestChange> change = change_of(event);
+  std::optional<RequestChange> change = change_of(event);
   if (journal_ == nullptr) return;
+  if (const auto lines = lines_.on_event(event, now)) {
+    Json body{{"axes", axes_of(lines->axes)}, {"lines", json_of(lines->lines)}};
+    const Noted apart{EntryKind::lines_exchanged, std::move(body), lines->who, lines->motion};
+    journal_->append({entry_of(apart, device_, now)});
+  }
   auto noted = std::visit([](const auto& what) { return said(what); }, event);
   if (!noted) return;
-  journal_->append({{.kind = noted->kind,
-                     .time = to_wall(now),
-                     .boot_time = now,
-                     .device = device_,
-                     .who = std::move(noted->who),
-                     .motion = noted->motion,
-                     // What came from a device may be no UTF-8.
-                     .body = noted->body.dump(-1, ' ', false, Json::error_handler_t::replace)},
-                    change.value_or(RequestChange{})});
+  if (noted->kind == EntryKind::motion_started || noted->kind == EntryKind::motion_ended) {
+    const auto lines = lines_.take(std::get<stage::MotionChanged>(event).motion);
+    if (!lines.empty()) noted->body["lines"] = json_of(lines);
+  }
+  journal_->append({entry_of(*std::move(noted), device_, now), std::move(change).value_or(RequestChange{})});
 }
 
 }  // namespace axisgate::server::journal

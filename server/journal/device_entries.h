@@ -5,6 +5,7 @@
 #include <string>
 
 #include "device/stage/event.h"
+#include "server/journal/exchanged_lines.h"
 #include "server/journal/journal.h"
 #include "server/journal/request_memory.h"
 
@@ -26,6 +27,7 @@ class DeviceEntries {
   const std::string device_;
   Journal* const journal_;
   RequestMemory& requests_;
+  ExchangedLines lines_;
 };
 
 }  // namespace axisgate::server::journal

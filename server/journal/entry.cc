@@ -38,6 +38,16 @@ std::string name(EntryKind kind) {
       return "request refused";
     case EntryKind::request_ended:
       return "request ended";
+    case EntryKind::lines_exchanged:
+      return "lines exchanged";
+    case EntryKind::lease_granted:
+      return "lease granted";
+    case EntryKind::lease_ended:
+      return "lease ended";
+    case EntryKind::latched:
+      return "latched";
+    case EntryKind::rearmed:
+      return "rearmed";
     case EntryKind::person_erased:
       return "person erased";
   }

@@ -29,6 +29,11 @@ enum class EntryKind {
   request_made = 50,     // what somebody wants to change or move; on the disk before it is done
   request_refused = 51,  // nothing was sent
   request_ended = 52,    // of one that is no motion
+  lines_exchanged = 60,  // of no motion, or more of one than its start and end have
+  lease_granted = 70,
+  lease_ended = 71,
+  latched = 72,  // the caller, by a stop of somebody else
+  rearmed = 73,
   person_erased = 80,    // the name of a caller
 };
 // "motion ended" and the like; "kind 77" of a number that this program does not know.

@@ -92,13 +92,25 @@ Journal::~Journal() {
 void Journal::append(Record record) {
   {
     const std::lock_guard lock(mutex_);
-    if (waiting_.size() >= kWaitingMax) {
-      ++left_out_;
-      return;
-    }
-    waiting_.push_back({std::move(record), {}});
+    put(std::move(record));
   }
   changed_.notify_all();
+}
+
+void Journal::append_refusal(Entry refusal) {
+  {
+    const std::lock_guard lock(mutex_);
+    for (Entry& entry : refusals_.add(std::move(refusal), monotonic_now())) put({std::move(entry)});
+  }
+  changed_.notify_all();
+}
+
+void Journal::put(Record record) {
+  if (waiting_.size() >= kWaitingMax) {
+    ++left_out_;
+  } else {
+    waiting_.push_back({std::move(record), {}});
+  }
 }
 
 void Journal::commit(Record record, OnCommitted done) {
@@ -153,11 +165,23 @@ void Journal::run() {
 // Nothing: the daemon ends, and all is written.
 Journal::Batch Journal::wait_for_records() {
   std::unique_lock lock(mutex_);
-  changed_.wait(lock, [this] { return ending_ || !waiting_.empty(); });
+  while (!ending_ && waiting_.empty()) wait_or_sum_up_refusals(lock);
+  if (ending_) {
+    for (Entry& entry : refusals_.rest()) put({std::move(entry)});
+  }
   Batch batch = std::exchange(waiting_, {});
   if (const auto count = std::exchange(left_out_, 0); count > 0) batch.push_back({{left_out(count)}, {}});
   if (!batch.empty()) writing_since_ = monotonic_now();
   return batch;
+}
+
+void Journal::wait_or_sum_up_refusals(std::unique_lock<std::mutex>& lock) {
+  if (const auto due = refusals_.next_due()) {
+    changed_.wait_for(lock, std::max(*due - monotonic_now(), Duration::zero()));
+  } else {
+    changed_.wait(lock);
+  }
+  for (Entry& entry : refusals_.due(monotonic_now())) put({std::move(entry)});
 }
 
 // One segment at a time, so that nobody waits long for it. What fails here fails in write(), too, and is said there.

@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/journal/refusal_budget.h"
 #include "server/journal/store.h"
 #include "server/journal/summary.h"
 
@@ -36,9 +37,12 @@ class Journal {
 
   // Never waits for the disk. Where the disk refuses, it is tried again each second.
   void append(Record record);
-  // The same, for what must be on the disk before it is done: `done` is called once, from the journal's thread or from
-  // within this call. journal_unavailable, where the disk refuses it, so that it is not written later either. From a
-  // disk that hangs the answer comes late.
+  // A refused request of which nothing else is in the journal: within RefusalBudget it has an entry, beyond it is
+  // counted.
+  void append_refusal(Entry refusal);
+  // The same as append(), for what must be on the disk before it is done: `done` is called once, from the journal's
+  // thread or from within this call. journal_unavailable, where the disk refuses it, so that it is not written later
+  // either. From a disk that hangs the answer comes late.
   using OnCommitted = std::function<void(Result<void>)>;
   void commit(Record record, OnCommitted done);
   // Erases the name of a caller: it becomes erased_name(), and an entry by `by` says so. Nothing: no entry names this
@@ -82,6 +86,8 @@ class Journal {
   Result<Store> reader() const;
   void run();
   Batch wait_for_records();
+  void wait_or_sum_up_refusals(std::unique_lock<std::mutex>& lock);
+  void put(Record record);  // under mutex_
   // Until it is written; false where the daemon ends before.
   bool write(Batch batch);
   void drop_old();
@@ -101,6 +107,7 @@ class Journal {
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
   Batch waiting_;
+  RefusalBudget refusals_;
   std::optional<TimePoint> writing_since_;
   Duration last_commit_{};
   std::uint64_t left_out_ = 0;

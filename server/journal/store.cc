@@ -295,7 +295,27 @@ Result<Head> Store::head() {
   return Head{*std::move(epoch), last->integer(0), stored_hash(*last)};
 }
 
+// The rows first: what is wrong with one of them is named by its number.
 Result<Verdict> Store::verify(const std::optional<Head>& noted) {
+  auto verdict = verify_chain(noted);
+  if (!verdict || verdict->first_bad) return verdict;
+  auto complaint = first_complaint();
+  if (!complaint) return tl::unexpected(complaint.error());
+  verdict->fault = *std::move(complaint);
+  return verdict;
+}
+
+// Of SQLite, about the file; empty: none. A quick_check would not compare indices with rows.
+Result<std::string> Store::first_complaint() {
+  auto check = database_.prepare("PRAGMA integrity_check(1)");
+  if (!check) return tl::unexpected(check.error());
+  return check->step().map([&](bool there) {
+    const std::string_view text = there ? check->bytes(0) : "ok";
+    return text == "ok" ? std::string() : std::string(text);
+  });
+}
+
+Result<Verdict> Store::verify_chain(const std::optional<Head>& noted) {
   const auto begin = dropped();
   if (!begin) return tl::unexpected(begin.error());
   auto rows = database_.prepare(fmt::format("{}ORDER BY number", kColumns));

@@ -38,8 +38,8 @@ struct Head {
 
 struct Verdict {
   std::int64_t rows = 0;                  // that were looked at
-  std::optional<std::int64_t> first_bad;  // its number
-  std::string fault{};                    // what is wrong with it
+  std::optional<std::int64_t> first_bad;  // the number of a row
+  std::string fault{};  // what is wrong with that row, or with what is no row, such as an index; empty: all is good
 };
 
 // Not thread safe; several of one file are.
@@ -75,7 +75,8 @@ class Store {
   // The highest number of a motion of the device; 0: it had none.
   Result<std::uint64_t> last_motion(std::string_view device);
   Result<Head> head();
-  // Computes all hashes again. `noted`: a head of before, that must still be part of the chain.
+  // Computes all hashes again, and looks whether the indices agree with the rows. `noted`: a head of before, that must
+  // still be part of the chain.
   Result<Verdict> verify(const std::optional<Head>& noted);
 
  private:
@@ -88,6 +89,8 @@ class Store {
   Result<Head> dropped();
   Result<void> drop(const Head& through, const Entry& as_of);
   Result<bool> is_beyond(const StoreBounds& bounds, WallTime newest_in_segment, WallTime now);
+  Result<Verdict> verify_chain(const std::optional<Head>& noted);
+  Result<std::string> first_complaint();
   static Result<std::vector<StoredEntry>> all_of(Statement& rows);
   Result<std::string> meta(std::string_view key);
   Result<void> set_meta(std::string_view key, std::string_view value);

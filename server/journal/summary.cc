@@ -53,23 +53,38 @@ class Pass {
   std::vector<DaemonEntry> daemon;
 
  private:
-  enum Column : int { number, time, kind, device, person, motion_kind, outcome, emergency, link, who };
+  enum Column : int {
+    number,
+    time,
+    kind,
+    device,
+    person,
+    motion_kind,
+    outcome,
+    refused,
+    refusals,
+    emergency,
+    link,
+    who
+  };
 
   static std::string sql();
   void take(const Statement& row);
   void count(EntryKind kind, const Statement& row);
 };
 
-// The name is needed of stops alone, which are few.
+// Lines, leases and latches are not summed up. The name is needed of stops alone, which are few.
 std::string Pass::sql() {
   return fmt::format(
-      "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, "
+      "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, {}, {}, "
       "iif({}, (SELECT name FROM person WHERE id = person), NULL) FROM entry "
-      "WHERE time_us >= ? AND time_us < ? AND (? = '' OR device = ? OR {} OR {}) AND (? = '' OR {}) "
+      "WHERE time_us >= ? AND time_us < ? AND kind < {} AND (? = '' OR device = ? OR {} OR {}) AND (? = '' OR {}) "
       "ORDER BY time_us",
       fact_of(EntryKind::motion_ended, "kind"), fact_of(EntryKind::motion_ended, "outcome"),
+      fact_of(EntryKind::motion_ended, "refused"), fact_of(EntryKind::request_refused, "count"),
       fact_of(EntryKind::stop_requested, "emergency"), fact_of(EntryKind::link_changed, "link"),
-      is(EntryKind::stop_requested), is(EntryKind::daemon_started), is(EntryKind::daemon_ended), kOfIdentity);
+      is(EntryKind::stop_requested), static_cast<int>(EntryKind::lines_exchanged), is(EntryKind::daemon_started),
+      is(EntryKind::daemon_ended), kOfIdentity);
 }
 
 Result<void> Pass::run(Database& database, const Span& span) {
@@ -106,8 +121,10 @@ void Pass::take(const Statement& row) {
 void Pass::count(EntryKind what, const Statement& row) {
   Person& caller = persons.try_emplace(row.integer(person), Person{.first = row.time(time)}).first->second;
   caller.last = row.time(time);
-  if (what == EntryKind::request_refused) ++caller.refused;
-  if (what == EntryKind::motion_ended) {
+  // One entry may be of many.
+  if (what == EntryKind::request_refused) caller.refused += std::max<std::int64_t>(row.integer(refusals), 1);
+  // One that was refused before its first line has an entry of that, too.
+  if (what == EntryKind::motion_ended && row.integer(refused) == 0) {
     ++caller.motions[{std::string(row.bytes(motion_kind)), std::string(row.bytes(outcome))}];
   }
 }

@@ -22,8 +22,9 @@ stage::RecordingHeader recording_header(const stage::Profile& profile) {
   header.serial_number = profile.serial_number;
   header.baud = profile.baud;
   header.reply_limit = profile.reply_limit;
-  const auto now = std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now());
-  header.started = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(now));
+  const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
+  header.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), (now - seconds).count());
   return header;
 }
 

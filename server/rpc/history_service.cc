@@ -31,6 +31,9 @@ static_assert(static_cast<int>(EntryKind::stop_requested) == v1::HISTORY_KIND_ST
 static_assert(static_cast<int>(EntryKind::foreign_motion) == v1::HISTORY_KIND_FOREIGN_MOTION);
 static_assert(static_cast<int>(EntryKind::switches_changed) == v1::HISTORY_KIND_SWITCHES_CHANGED);
 static_assert(static_cast<int>(EntryKind::request_ended) == v1::HISTORY_KIND_REQUEST_ENDED);
+static_assert(static_cast<int>(EntryKind::lines_exchanged) == v1::HISTORY_KIND_LINES_EXCHANGED);
+static_assert(static_cast<int>(EntryKind::lease_granted) == v1::HISTORY_KIND_LEASE_GRANTED);
+static_assert(static_cast<int>(EntryKind::rearmed) == v1::HISTORY_KIND_REARMED);
 static_assert(static_cast<int>(EntryKind::person_erased) == v1::HISTORY_KIND_PERSON_ERASED);
 
 constexpr int kPageUsual = 100;

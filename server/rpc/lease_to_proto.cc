@@ -57,7 +57,7 @@ v1::Lease to_proto(const server::Lease& lease) {
   proto.set_at_loss(to_rule(lease.terms.at_loss));
   proto.set_purpose(lease.terms.purpose);
   if (lease.latch) *proto.mutable_latch() = to_proto(*lease.latch);
-  proto.set_ending(lease.ending);
+  if (lease.ending) proto.set_ending(text_of(*lease.ending));
   return proto;
 }
 

@@ -63,7 +63,13 @@ void Wire::write(Waiting next, TimePoint now) {
   const auto& asked = next.asked;
   const std::string bytes = encode({static_cast<std::uint8_t>(asked.opcode), sequence_, asked.payload});
   const std::uint64_t exchange = ++exchanges_;
-  listener_.wire_event(stage::BytesWritten{bytes, exchange, asked.who, asked.lane, {}, asked.motion, false});
+  listener_.wire_event(stage::BytesWritten{.bytes = bytes,
+                                           .exchange = exchange,
+                                           .who = asked.who,
+                                           .lane = asked.lane,
+                                           .motion = asked.motion,
+                                           .question = asked.question(),
+                                           .axes = asked.question() ? stage::AxisSet() : stage::AxisSet::of(1)});
   in_flight_ = InFlight{std::move(next), sequence_, exchange, bytes, now};
   link_.write(bytes);
 }
@@ -107,8 +113,11 @@ void Wire::answered(const Frame& frame, TimePoint now) {
                        frame.opcode == (static_cast<std::uint8_t>(in_flight_->what.asked.opcode) | kAnswerBit);
   if (!awaited) return listener_.wire_event(stage::UnexpectedLine{hex(encode(frame))});
   const InFlight ended = std::move(*std::exchange(in_flight_, {}));
-  const bool question = ended.what.asked.opcode <= Opcode::status;
-  tell_end(ended, question ? Outcome::data : frame.payload == 0 ? Outcome::ok : Outcome::ng, hex(encode(frame)), now);
+  tell_end(ended,
+           ended.what.asked.question() ? Outcome::data
+           : frame.payload == 0        ? Outcome::ok
+                                       : Outcome::ng,
+           hex(encode(frame)), now);
   ended.what.asked.done({frame.payload, true, {}});
 }
 

@@ -38,8 +38,9 @@ struct Asked {
   stage::MotionId motion = 0;  // whose it is; 0: none's
   std::function<void(const Answer&)> done;
 
+  bool question() const { return opcode <= Opcode::status; }
   // Whatever may set the rotor going is written once.
-  bool repeatable() const { return opcode <= Opcode::status || opcode == Opcode::stop; }
+  bool repeatable() const { return question() || opcode == Opcode::stop; }
 };
 
 class Wire {

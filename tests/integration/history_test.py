@@ -6,6 +6,7 @@ import csv
 import json
 import os
 import re
+import shlex
 import sqlite3
 import tempfile
 import time
@@ -86,13 +87,81 @@ class History(unittest.TestCase):
         self.run_well("move", "1=+100pulse", "--relative")
         self.assertEqual([entry["kind"] for entry in self.history("--motion", "1")],
                          ["HISTORY_KIND_MOTION_REQUESTED", "HISTORY_KIND_MOTION_STARTED", "HISTORY_KIND_MOTION_ENDED"])
-        lines = self.run_well("history", "--motion", "1").splitlines()
-        self.assertEqual(len(lines), 4, lines)
-        self.assertRegex(lines[3], r"^motion 1: SUCCEEDED \d+(\.\d)? s after its start; axis 1 at 100 pulses$")
+        shown = self.run_well("history", "--motion", "1")
+        self.assertRegex(shown, r"(?m)^motion 1: SUCCEEDED \d+(\.\d)? s after its start; axis 1 at 100 pulses$")
         self.assertEqual(self.run_well("history", "--motion", "99"), "the journal has no motion 99\n")
         self.run_well("move", "1=15mm", "--speed", "10um/s", "--no-wait")
         self.assertRegex(self.run_well("history", "--motion", "2"), r"(?m)^motion 2 has no outcome: ")
         self.run_well("stop")
+
+    def test_a_motion_with_its_lines_and_their_answers(self):
+        self.run_well("move", "1=+100pulse", "--relative")
+        exchanged = [line for entry in self.history("--motion", "1")
+                     for line in json.loads(entry["details"]).get("lines", [])]
+        self.assertEqual([line[:2] for line in exchanged], [["MP:1+P100", "OK"], ["G:1", "OK"]])
+        self.assertLess(exchanged[0][2], exchanged[1][2])
+        self.assertEqual(len(self.history("--text", "MP:1+P100")), 1, "each line is kept once")
+        shown = self.run_well("history", "--motion", "1").splitlines()
+        self.assertEqual(len(shown), 7, shown)
+        self.assertRegex("\n".join(shown[2:4]), r"\A  MP:1\+P100  OK  \d+ ms\n  G:1  OK  \d+ ms\Z")
+        self.assertRegex(shown[6], r"^the recording still has it, from about \d+ s on: axisctl --device stage record ")
+        command = shlex.split(shown[6].partition(": ")[2])
+        recording = os.path.join(self.folder, command.pop())
+        self.run_well(*command[1:], recording)
+        with open(recording, encoding="ascii") as file:
+            self.assertIn('> "G:1\\r\\n"', file.read())
+        self.daemon.stop()
+        self.start()
+        self.assertEqual(len(self.run_well("history", "--motion", "1").splitlines()), 6, "the recording began again")
+
+    def test_lines_of_no_motion_are_kept_and_questions_are_not(self):
+        self.run_well("exec", "?:N", "O:1")
+        self.run_well("stop", "2")
+        kept = [entry for entry in self.history() if entry["kind"] == "HISTORY_KIND_LINES_EXCHANGED"]
+        self.assertEqual([json.loads(entry["details"])["lines"] for entry in kept], [[["L:2", "OK"]], [["O:1", "OK"]]])
+        self.assertEqual(self.history("--axis", "2", "--text", "L:2"), kept[:1])
+        self.assertRegex(self.run_well("history"), r"(?m)^\S+ \S+  stage  sent: L:2  OK, by unix ")
+        self.assertIn(",LINES_EXCHANGED,stage,", self.run_well("history", "--csv"))
+
+    def test_a_lease_a_latch_and_a_refusal(self):
+        holder = self.daemon.start("lease", "run", "--axes", "1", "--purpose", "for Carl", "--", "sh", "-c",
+                                   "echo held; exec sleep 60")
+        self.addCleanup(holder.kill)
+        holder.until("held")
+        self.run_well("stop", "1")
+        self.assertIn("LEASE_HELD", self.daemon.run("move", "1=+100pulse", "--relative").stderr)
+        self.run_well("rearm")
+        holder.process.terminate()
+        holder.end()
+        entries = [(entry["kind"].removeprefix("HISTORY_KIND_"), json.loads(entry["details"]))
+                   for entry in reversed(self.history()) if "DAEMON" not in entry["kind"] and "LINK" not in entry["kind"]]
+        self.assertEqual([kind for kind, _ in entries], ["LEASE_GRANTED", "LATCHED", "STOP_REQUESTED", "LINES_EXCHANGED",
+                                                         "REQUEST_REFUSED", "REARMED", "LEASE_ENDED"],
+                         "what is refused at first is not written as if it were to be done")
+        details = dict(entries)
+        self.assertEqual(details["LEASE_GRANTED"]["axes"], [1])
+        self.assertEqual(details["LATCHED"], {"axes": [1]})
+        self.assertEqual(details["LEASE_ENDED"], {"axes": [1], "lease": details["LEASE_GRANTED"]["lease"], "why": "released"})
+        shown = self.run_well("history")
+        self.assertNotIn("Carl", shown)
+        for line in (r"lease \d+ of unix \S+ over axis 1 granted", r"unix \S+ is held back from axis 1 until they rearm",
+                     r"unix \S+ rearmed axis 1", r"lease \d+ of unix \S+ over axis 1 ended: released"):
+            self.assertRegex(shown, rf"(?m)^\S+ \S+  stage  {line}$")
+
+    def test_who_is_refused_in_a_loop_does_not_fill_the_history(self):
+        holder = self.daemon.start("lease", "run", "--axes", "1", "--", "sh", "-c", "echo held; exec sleep 60")
+        holder.until("held")
+        for _ in range(63):
+            self.assertIn("LEASE_HELD", self.daemon.run("move", "1=+1pulse", "--relative").stderr)
+        holder.process.terminate()  # passed on to its command
+        holder.end()
+        self.assertEqual(len(self.history("--text", "LEASE_HELD")), 60)
+        self.daemon.stop()
+        self.start()
+        summed_up = json.loads(self.history("--text", "LEASE_HELD")[0]["details"])
+        self.assertEqual(summed_up, {"count": 3, "reason": "LEASE_HELD", "request": "move"})
+        self.assertRegex(self.run_well("history"), r"(?m)  stage  3 requests refused; the last of them refused: move, LEASE_HELD")
+        self.assertRegex(self.run_well("history", "--night", "--hours", "1"), r"63 refused")
 
     def test_filters_and_limits(self):
         self.run_well("move", "1=+100pulse", "--relative")
@@ -246,6 +315,21 @@ class History(unittest.TestCase):
         found = self.daemon.run("audit", "verify")
         self.assertEqual(found.returncode, 1, found.stdout)
         self.assertRegex(found.stdout, r"^entry 2: it or its place was changed")
+
+    def test_a_damaged_index_is_found_out(self):
+        self.run_well("move", "1=+100pulse", "--relative")
+        self.daemon.stop()
+        with sqlite3.connect(self.journal) as database:
+            page, = database.execute("SELECT rootpage FROM sqlite_schema WHERE name = 'entry_by_motion'").fetchone()
+        database.close()
+        with open(self.journal, "r+b") as file:
+            file.seek((page - 1) * 4096 + 3)
+            file.write(b"\0\0")  # the number of its cells
+        self.start()
+        found = self.daemon.run("audit", "verify")
+        self.assertEqual(found.returncode, 1, found.stdout)
+        self.assertRegex(found.stdout, r"\A\d+ entries are as they were written\nthe file is damaged elsewhere, mostly in an index")
+        self.assertIn("sqlite3 journal.sqlite REINDEX", found.stdout)
 
     def test_what_is_no_head_is_refused(self):
         for text in ("x", "a:b:c", "a:1:zz"):

@@ -127,6 +127,20 @@ TEST_F(JournalStoreTest, MotionsAreNumberedOverRestarts) {
 TEST_F(JournalStoreTest, AWholeChainIsGood) {
   EXPECT_EQ(verdict().rows, 3);
   EXPECT_FALSE(verdict().first_bad);
+  EXPECT_EQ(verdict().fault, "");
+}
+
+// Without the newest row the index gives a wrong number of the last motion.
+TEST_F(JournalStoreTest, AnIndexThatLacksARowIsFoundBesideAGoodChain) {
+  tamper(
+      "PRAGMA writable_schema = ON; "
+      "UPDATE sqlite_schema SET sql = sql || ' WHERE number < 3' WHERE name = 'entry_by_motion'; "
+      "PRAGMA writable_schema = RESET; REINDEX entry_by_motion; PRAGMA writable_schema = ON; "
+      "UPDATE sqlite_schema SET sql = replace(sql, ' WHERE number < 3', '') WHERE name = 'entry_by_motion'");
+  EXPECT_EQ(*Store::open(path_)->last_motion("stage"), 2u);
+  EXPECT_EQ(verdict().rows, 3);
+  EXPECT_FALSE(verdict().first_bad);
+  EXPECT_EQ(verdict().fault, "row 3 missing from index entry_by_motion");
 }
 
 struct Tampering {

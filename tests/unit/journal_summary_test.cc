@@ -132,6 +132,39 @@ TEST_F(SummaryTest, CountsTheMotionsOfEachPersonByKindAndOutcome) {
   EXPECT_EQ(summary.persons.items[1].refused, 1);
 }
 
+TEST_F(SummaryTest, AMotionThatWasRefusedBeforeItsFirstLineCountsAsRefusedAlone) {
+  Entry motion = ended(kEvening, "unix anna", "move", "FAILED");
+  motion.body = R"({"kind":"move","outcome":"FAILED","reason":"LEASE_HELD","refused":true})";
+  write({motion,
+         {.kind = EntryKind::request_refused,
+          .time = kEvening,
+          .device = "stage",
+          .who = "unix anna",
+          .body = R"({"reason":"LEASE_HELD"})"}});
+  const Summary summary = night();
+  ASSERT_EQ(summary.persons.items.size(), 1u);
+  EXPECT_THAT(summary.persons.items[0].motions, IsEmpty());
+  EXPECT_EQ(summary.persons.items[0].refused, 1);
+}
+
+TEST_F(SummaryTest, RefusalsThatWereSummedUpCount) {
+  const Entry one{.kind = EntryKind::request_refused, .time = kEvening, .who = "unix anna", .body = "{}"};
+  Entry sum = one;
+  sum.body = R"({"count":17,"reason":"LEASE_HELD"})";
+  write({one, sum});
+  EXPECT_EQ(night().persons.items.at(0).refused, 18);
+}
+
+TEST_F(SummaryTest, LinesLeasesAndLatchesAreNotSummedUp) {
+  std::vector<Entry> entries;
+  for (const EntryKind kind : {EntryKind::lines_exchanged, EntryKind::lease_granted, EntryKind::lease_ended,
+                               EntryKind::latched, EntryKind::rearmed}) {
+    entries.push_back({.kind = kind, .time = kEvening, .device = "stage", .who = "unix anna", .body = "{}"});
+  }
+  write(entries);
+  EXPECT_THAT(night().persons.items, IsEmpty());
+}
+
 TEST_F(SummaryTest, MotionsOfNobodyCountAndOtherEntriesOfNobodyDoNot) {
   write({link(kEvening + hours(1), "UP"), ended(kEvening + hours(2), "", "jog", "STOPPED")});
   EXPECT_THAT(night().persons.items, ElementsAre(person("", kEvening + hours(2), kEvening + hours(2))));

@@ -82,6 +82,19 @@ TEST_F(JournalTest, WhatWasLeftOutIsCounted) {
   EXPECT_EQ(kept()[0].entry.body, R"({"count":7})");
 }
 
+TEST_F(JournalTest, RefusalsBeyondTheirBudgetAreCountedAtTheEndAtTheLatest) {
+  {
+    const auto journal = *Journal::open(path_);
+    for (int i = 0; i < 70; ++i) {
+      journal->append_refusal({.kind = EntryKind::request_refused, .who = "unix anna", .body = "{}"});
+    }
+    EXPECT_EQ(journal->read({}, 100)->size(), 60u);
+  }
+  ASSERT_EQ(kept().size(), 61u);
+  EXPECT_EQ(kept()[0].entry.body, R"({"count":10})");
+  EXPECT_EQ(kept()[0].entry.who, "unix anna");
+}
+
 TEST_F(JournalTest, ADamagedFileIsMovedAsideAndANewOneBegins) {
   std::ofstream(path_) << std::string(8192, 'x');
   const auto journal = Journal::open(path_);
@@ -129,6 +142,7 @@ TEST_F(DeviceEntriesTest, AMotionFromItsRequestToItsOutcome) {
   motion.request_id = "scan-7";
   std::vector<stage::Event> events{stage::MotionChanged{motion}};
   motion.state = stage::MotionState::running;
+  motion.written = true;
   events.emplace_back(stage::MotionChanged{motion});
   motion.state = stage::MotionState::stopping;
   events.emplace_back(stage::MotionChanged{motion});
@@ -143,6 +157,55 @@ TEST_F(DeviceEntriesTest, AMotionFromItsRequestToItsOutcome) {
                   R"(motion ended|unix anna|{"axes":[1],"kind":"move","outcome":"STOPPED","reason":"STOPPED",)"
                   R"("request_id":"scan-7","results":[{"axis":1,"command_pulses":1250,"target_pulses":5000}]})"))
       << "and no name of a person within";
+}
+
+TEST_F(DeviceEntriesTest, TheLinesOfAMotionAreInItsStartAndItsEnd) {
+  using stage::BytesWritten, stage::ExchangeEnded;
+  stage::Motion motion;
+  motion.id = 12;
+  motion.axes = stage::AxisSet::of(1);
+  motion.created = TimePoint(std::chrono::milliseconds(4998));
+  motion.written = true;
+  std::vector<stage::Event> events{stage::MotionChanged{motion}};
+  events.emplace_back(BytesWritten{.bytes = "A:1+P20000\r\n", .exchange = 1, .who = {}, .motion = 12});
+  events.emplace_back(ExchangeEnded{.command = {}, .line = "A:1+P20000", .reply = "O\xFF", .exchange = 1, .who = {}});
+  motion.state = stage::MotionState::running;
+  events.emplace_back(stage::MotionChanged{motion});
+  events.emplace_back(BytesWritten{.bytes = "G:1\r\n", .exchange = 2, .who = {}, .motion = 12});
+  motion.state = stage::MotionState::unknown;
+  events.emplace_back(stage::MotionChanged{motion});
+  EXPECT_THAT(left_by(events),
+              testing::ElementsAre(R"(motion requested||{"axes":[1],"kind":"move"})",
+                                   "motion started||{\"axes\":[1],\"kind\":\"move\",\"lines\":[[\"A:1+P20000\","
+                                   "\"O\xEF\xBF\xBD\",2000]]}",
+                                   R"(motion ended||{"axes":[1],"kind":"move","lines":[["G:1",null,2000]],)"
+                                   R"("outcome":"UNKNOWN","results":[]})"));
+}
+
+TEST_F(DeviceEntriesTest, ALineOfNoMotionHasAnEntryWithItsAxes) {
+  EXPECT_THAT(left_by({stage::BytesWritten{.bytes = "L:2\r\n",
+                                           .exchange = 1,
+                                           .who = "unix bert",
+                                           .lane = Lane::stop,
+                                           .axes = stage::AxisSet::of(2)},
+                       stage::ExchangeEnded{.command = {}, .line = "L:2", .reply = "OK", .exchange = 1, .who = {}}}),
+              testing::ElementsAre(R"(lines exchanged|unix bert|{"axes":[2],"lines":[["L:2","OK"]]})"));
+}
+
+TEST_F(DeviceEntriesTest, AMotionThatWasRefusedBeforeItsFirstLineSaysSo) {
+  stage::Motion motion;
+  motion.state = stage::MotionState::failed;
+  motion.problem = Problem{.reason = Reason::lease_lost};
+  stage::Motion settings = motion, broken = motion;
+  settings.kind = broken.kind = stage::MotionKind::execute;
+  broken.problem->reason = Reason::line_fault;
+  EXPECT_THAT(left_by({stage::MotionChanged{motion}, stage::MotionChanged{settings}, stage::MotionChanged{broken}}),
+              testing::ElementsAre(R"(motion ended||{"axes":[],"kind":"move","outcome":"FAILED",)"
+                                   R"("reason":"LEASE_LOST","refused":true,"results":[]})",
+                                   R"(motion ended||{"axes":[],"kind":"execute","outcome":"FAILED",)"
+                                   R"("reason":"LEASE_LOST","refused":true,"results":[]})",
+                                   R"(motion ended||{"axes":[],"kind":"execute","outcome":"FAILED",)"
+                                   R"("reason":"LINE_FAULT","results":[]})"));
 }
 
 TEST_F(DeviceEntriesTest, StopsTheLinkAndWhatNobodyAskedFor) {

@@ -226,7 +226,7 @@ TEST_F(LeasesTest, WhoIsCutOffForGoodLosesAllLeases) {
   begin(1, "anna", token, kOne);
   wait_for("anna", kTwo);
   wait_for("carl", kOne);
-  leases_.cut_off("anna", "its token was revoked", now_);
+  leases_.cut_off("anna", "chief", now_);
   pass(seconds(0));
   EXPECT_EQ(orders_.size(), 1u);
   EXPECT_EQ(leases_.keep_alive(token, now_).error().reason, Reason::lease_lost);
@@ -240,7 +240,7 @@ TEST_F(LeasesTest, WhoIsCutOffForGoodLosesAllLeases) {
 TEST_F(LeasesTest, WhoIsCutOffForGoodFinishesWhatMayFinish) {
   const LeaseToken token = held_by("anna", kOne, AtLoss::finish);
   begin(1, "anna", token, kOne);
-  leases_.cut_off("anna", "its token was revoked", now_);
+  leases_.cut_off("anna", "chief", now_);
   pass(seconds(0));
   EXPECT_THAT(orders_, IsEmpty());
   EXPECT_EQ(may("anna", token, kOne, 1), kAllowed);

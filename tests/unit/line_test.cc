@@ -21,6 +21,20 @@ TEST_F(LineTest, AnIllegalTransitionIsReportedAndDisconnects) {
               ElementsAre("illegal up, port_opened", "lost: internal error: port_opened while the link was up"));
 }
 
+TEST_F(LineTest, WhatIsWrittenSaysWhetherItAsksAndWhichAxesItIsAbout) {
+  open_and_rest();
+  ask("?:V");
+  script({{"?:V\r\n", "V2.00.000\r\n"}});
+  const BytesWritten question = listener.writes.back();
+  ask("L:2");
+  script({{"L:2\r\n", "OK\r\n"}});
+  const BytesWritten stop = listener.writes.back();
+  EXPECT_TRUE(question.question);
+  EXPECT_EQ(question.axes, AxisSet());
+  EXPECT_FALSE(stop.question);
+  EXPECT_EQ(stop.axes, AxisSet::of(2));
+}
+
 TEST_F(LineTest, AConnectAsksWhoIsThereAndThenWaitsForSilence) {
   link_up();
   script({{"*IDN?\r\n", "SIGMAKOKI,SHRC-203,2106001001,V2.00.000\r\n"}});

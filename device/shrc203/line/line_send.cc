@@ -198,6 +198,8 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
     written.completes = cause->completes;
     written.motion = cause->motion;
     written.closed = cause->closed;
+    written.question = cause->command.row->effect == Effect::question;
+    if (!written.question) written.axes = cause->command.axes(controllable_);
   }
   // Before the bytes: who keeps what was written must not be killed in between.
   listener_.line_event(written, now_);
