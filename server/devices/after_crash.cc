@@ -4,8 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "device/link/clock.h"
 #include "server/access/access.h"
@@ -35,26 +38,56 @@ const Problem kUnknown{.reason = Reason::outcome_unknown,
 struct Ending {
   MotionState state = MotionState::unknown;
   std::optional<Problem> problem{};
+  std::optional<StartedMotion> started{};  // as the record has it
+
+  bool was_not_sent() const { return problem && problem->reason == Reason::not_sent; }
 };
 
-// `started`: nothing, where any motion may have been. null in it: this one was not.
-Ending ending_of(bool known, const StartedMotion* started) {
-  if (!known) return {MotionState::unknown, kUnknown};
-  if (started == nullptr) return {MotionState::failed, kNotSent};
-  if (!stage::is_outcome(started->state)) return {MotionState::unknown, kUnknown};
-  return {started->state, started->state == MotionState::succeeded ? std::nullopt : std::optional(kUnknown)};
+Ending ending_of(const StartedMotion& started) {
+  if (!stage::is_outcome(started.state)) return {MotionState::unknown, kUnknown, started};
+  const bool well = started.state == MotionState::succeeded;
+  return {started.state, well ? std::nullopt : std::optional(kUnknown), started};
 }
 
+// Of a device.
+struct OnRecord {
+  std::optional<StartedMotions> started;  // nothing: any may have been
+  stage::MotionId last_in_journal = 0;
+
+  // Of a motion that is not among those kept. 0: its number is not in the journal, so it is behind all that are.
+  bool may_have_started(stage::MotionId number) const {
+    return !started || (number == 0 ? last_in_journal + 1 : number) <= started->dropped_through;
+  }
+};
+
+// The newest of those chosen.
 template <class Chosen>
-Ending find_ending(const std::optional<std::vector<StartedMotion>>& started, Chosen chosen) {
-  if (!started) return ending_of(false, nullptr);
-  const auto found = std::ranges::find_if(*started, chosen);
-  return ending_of(true, found == started->end() ? nullptr : &*found);
+Ending find_ending(const OnRecord& record, stage::MotionId number, Chosen chosen) {
+  if (record.started) {
+    const auto& kept = record.started->kept;
+    const auto found = std::find_if(kept.rbegin(), kept.rend(), chosen);
+    if (found != kept.rend()) return ending_of(*found);
+  }
+  return record.may_have_started(number) ? Ending{MotionState::unknown, kUnknown}
+                                         : Ending{MotionState::failed, kNotSent};
+}
+
+// By device. To be read before anything is appended.
+std::map<std::string, OnRecord> read_records(const Journal* journal, const std::vector<RememberedRequest>& open,
+                                             const StartedBefore& started) {
+  std::map<std::string, OnRecord> records;
+  for (const RememberedRequest& request : open) {
+    if (records.contains(request.device)) continue;
+    const auto last = journal == nullptr ? 0 : journal->last_motion(request.device).value_or(0);
+    records[request.device] = {started(request.device), last};
+  }
+  return records;
 }
 
 stage::Motion ended(const RememberedRequest& request, const Ending& ending) {
   stage::Motion motion = journal::motion_in(request.answer).value_or(stage::Motion());
-  motion.id = request.motion;
+  motion.id = ending.started ? ending.started->motion : request.motion;
+  if (ending.started) motion.who = ending.started->who;
   motion.state = ending.state;
   motion.problem = ending.problem;
   motion.request_id = request.id;
@@ -62,14 +95,17 @@ stage::Motion ended(const RememberedRequest& request, const Ending& ending) {
   return motion;
 }
 
-std::optional<RequestChange> settle(RequestMemory& requests, const RememberedRequest& request,
-                                    const StartedBefore& started) {
+std::optional<RequestChange> settle(RequestMemory& requests, const RememberedRequest& request, const OnRecord& record) {
   const RequestMemory::Key key{request.identity, request.id};
   if (!request.moves) return requests.ended(key, journal::answer_of(kUnknown));
-  const Ending ending = find_ending(started(request.device), [&](const StartedMotion& motion) {
+  const auto is_its = [&](const StartedMotion& motion) {
+    if (request.motion != 0) return motion.motion == request.motion;
     return identity_of(motion.who) == request.identity && motion.request_id == request.id;
-  });
-  if (ending.state == MotionState::failed) return requests.refused(key, *ending.problem);
+  };
+  const Ending ending = find_ending(record, request.motion, is_its);
+  if (ending.was_not_sent()) return requests.refused(key, *ending.problem);
+  // Its entry may not have been committed any more. Then only the record has its number.
+  if (ending.started) requests.made(key, ending.started->motion, request.answer);
   return requests.ended(key, journal::answer_of(ended(request, ending)));
 }
 
@@ -98,9 +134,9 @@ void end_motions(Journal& journal, const StartedBefore& started) {
   const auto left = journal.unfinished_motions();
   if (!left) return spdlog::warn("{}", explain(left.error()));
   for (const journal::StoredEntry& requested : *left) {
-    const Ending ending = find_ending(started(requested.entry.device), [&](const StartedMotion& motion) {
-      return motion.motion == requested.entry.motion;
-    });
+    const Ending ending =
+        find_ending({started(requested.entry.device)}, requested.entry.motion,
+                    [&](const StartedMotion& motion) { return motion.motion == requested.entry.motion; });
     journal.append({end_of(requested, ending)});
   }
 }
@@ -108,15 +144,18 @@ void end_motions(Journal& journal, const StartedBefore& started) {
 }  // namespace
 
 void settle_what_was_left(Journal* journal, RequestMemory& requests, const StartedBefore& started) {
-  for (const RememberedRequest& request : requests.open()) {
-    auto change = settle(requests, request, started);
+  const std::vector<RememberedRequest> open = requests.open();
+  const auto records = read_records(journal, open, started);
+  for (const RememberedRequest& request : open) {
+    auto change = settle(requests, request, records.at(request.device));
     if (journal == nullptr || !change) continue;
     const EntryKind kind = change->forget ? EntryKind::request_refused : EntryKind::request_ended;
     const auto motion = journal::motion_in(request.answer);
+    const std::uint64_t number = change->request.motion;
     const Json body{{"request", motion ? name(motion->kind) : "request"},
                     {"request_id", request.id},
                     {change->forget ? "reason" : "outcome", change->forget ? "NOT_SENT" : "UNKNOWN"}};
-    journal->append({entry_of(kind, request.device, request.identity, request.motion, body), *std::move(change)});
+    journal->append({entry_of(kind, request.device, request.identity, number, body), *std::move(change)});
   }
   if (journal != nullptr) end_motions(*journal, started);
 }

@@ -4,7 +4,6 @@
 #include <functional>
 #include <optional>
 #include <string_view>
-#include <vector>
 
 #include "server/devices/motion_record.h"
 #include "server/journal/journal.h"
@@ -12,8 +11,8 @@
 
 namespace axisgate::server {
 
-// Of a device of the run before, those motions of which a line was written; nothing: any may have been.
-using StartedBefore = std::function<std::optional<std::vector<StartedMotion>>(std::string_view device)>;
+// Of a device, MotionRecord::started_before(). Nothing: any motion may have been started.
+using StartedBefore = std::function<std::optional<StartedMotions>(std::string_view device)>;
 
 // Before anybody asks. A motion that was not started ends with not_sent, and its request's id is free. What may have
 // been started or changed ends with outcome_unknown, unless its outcome is on record; it never acts again. `journal`

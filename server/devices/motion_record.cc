@@ -100,7 +100,8 @@ struct MotionRecord::File {
 
 struct MotionRecord::Left {
   std::optional<stage::Unfinished> unfinished;
-  std::vector<StartedMotion> started;
+  StartedMotions started;
+  stage::MotionId last_motion = 0;
 };
 
 // Nothing where it is no whole text of this boot.
@@ -123,9 +124,13 @@ std::optional<MotionRecord::Left> MotionRecord::parsed(std::string_view text, st
     if (key == "moving") found.moving = axes_in(value);
     if (key == "jogged") found.jogged = axes_in(value);
     if (key == "motions") found.motions = value;
+    if (key == "last") std::from_chars(value.data(), value.data() + value.size(), left.last_motion);
+    if (key == "dropped") {
+      std::from_chars(value.data(), value.data() + value.size(), left.started.dropped_through);
+    }
     if (key == "sent") found.last_lines.push_back(value);
     if (key != "started") continue;
-    if (auto request = started_in(value)) left.started.push_back(*std::move(request));
+    if (auto request = started_in(value)) left.started.kept.push_back(*std::move(request));
   }
   if (!whole || !same_boot) return std::nullopt;
   if (!found.moving.empty()) left.unfinished = std::move(found);
@@ -154,7 +159,10 @@ MotionRecord::MotionRecord(std::unique_ptr<File> file, std::string boot)
   std::optional<Left> left = parsed(file_->text(), boot_);
   if (!left) return;
   unfinished_ = std::move(left->unfinished);
+  // How they ended may not be in the journal either when this run is killed.
+  started_motions_ = left->started;
   started_before_ = std::move(left->started);
+  last_motion_ = left->last_motion;
 }
 
 MotionRecord::~MotionRecord() = default;
@@ -165,8 +173,9 @@ void MotionRecord::on_event(const stage::Event& event) {
 
 void MotionRecord::note(const stage::MotionChanged& change) {
   const stage::Motion& motion = change.motion;
+  last_motion_ = std::max(last_motion_, motion.id);
   started_ = started_ - motion.axes;
-  for (StartedMotion& request : started_motions_) {
+  for (StartedMotion& request : started_motions_.kept) {
     if (request.motion == motion.id) request.state = motion.state;
   }
   if (stage::is_outcome(motion.state)) {
@@ -188,10 +197,13 @@ void MotionRecord::note(const stage::BytesWritten& bytes) {
 
 void MotionRecord::note_started(stage::MotionId id) {
   const auto motion = motions_.find(id);
-  const bool noted = std::ranges::any_of(started_motions_, [id](const auto& request) { return request.motion == id; });
+  auto& [kept, dropped_through] = started_motions_;
+  const bool noted = std::ranges::any_of(kept, [id](const auto& request) { return request.motion == id; });
   if (noted || motion == motions_.end()) return;
-  started_motions_.push_back({id, motion->second.state, motion->second.who, motion->second.request_id});
-  if (started_motions_.size() > kStartedKept) started_motions_.pop_front();
+  kept.push_back({id, motion->second.state, motion->second.who, motion->second.request_id});
+  if (kept.size() <= kStartedKept) return;
+  dropped_through = std::max(dropped_through, kept.front().motion);
+  kept.erase(kept.begin());
 }
 
 void MotionRecord::note(const stage::LinkChanged& change) {
@@ -218,16 +230,16 @@ std::string MotionRecord::text() const {
     names += fmt::format("{}motion {} ({}, asked by {})", names.empty() ? "" : ", ", id, stage::name(motion.kind),
                          one_line(motion.who));
   }
-  std::string text = fmt::format("{}\nboot {}\nserial {}\nmoving {}\njogged {}\nmotions {}\n", kFirstLine, boot_,
-                                 one_line(serial_number_.empty() ? left.serial_number : serial_number_),
-                                 bits_of(moving), bits_of(jogged), names.substr(0, kNamesMax));
+  std::string text = fmt::format("{}\nboot {}\nserial {}\nlast {}\nmoving {}\njogged {}\nmotions {}\n", kFirstLine,
+                                 boot_, one_line(serial_number_.empty() ? left.serial_number : serial_number_),
+                                 last_motion_, bits_of(moving), bits_of(jogged), names.substr(0, kNamesMax));
   for (const std::string& line : last_lines_) text += fmt::format("sent {}\n", one_line(line).substr(0, kLineMax));
   return text + started_lines() + "end\n";
 }
 
 std::string MotionRecord::started_lines() const {
-  std::string lines;
-  for (const StartedMotion& request : started_motions_) {
+  std::string lines = fmt::format("dropped {}\n", started_motions_.dropped_through);
+  for (const StartedMotion& request : started_motions_.kept) {
     lines += fmt::format("started {}\t{}\t{}\t{}\n", static_cast<int>(request.state), request.motion,
                          one_line(request.who).substr(0, kNameMax), one_line(request.request_id).substr(0, kNameMax));
   }

@@ -23,6 +23,12 @@ struct StartedMotion {
   std::string who, request_id;                            // as in stage::Motion
 };
 
+// Those of this run and of runs before, oldest first: all that run now, and the newest that have ended.
+struct StartedMotions {
+  std::vector<StartedMotion> kept;
+  stage::MotionId dropped_through = 0;  // up to this number, any that is not kept may have been started, too
+};
+
 // On the device's strand. Nothing waits for the disk: the file is mapped, and the kernel keeps what a killed process
 // had written. Only a crash of the machine loses it, and nothing is inherited from before a boot.
 class MotionRecord {
@@ -37,9 +43,13 @@ class MotionRecord {
   // none of this class.
   const std::optional<stage::Unfinished>& unfinished() const { return unfinished_; }
 
-  // Of the run before, those of which a line was written: all that run now, and the newest that have ended. Nothing:
-  // the machine has booted since, or the text is none of this class, so that any may have been started.
-  const std::optional<std::vector<StartedMotion>>& started_before() const { return started_before_; }
+  // As the run before left it. Nothing: the machine has booted since, or the text is none of this class, so that any
+  // may have been started.
+  const std::optional<StartedMotions>& started_before() const { return started_before_; }
+
+  // The highest number of a motion, of all runs since the machine has booted; 0: none. The journal's may be lower: what
+  // waits for its disk is lost with a killed daemon.
+  stage::MotionId last_motion() const { return last_motion_; }
 
   void on_event(const stage::Event& event);
 
@@ -64,12 +74,13 @@ class MotionRecord {
   const std::unique_ptr<File> file_;
   const std::string boot_;
   std::optional<stage::Unfinished> unfinished_;  // until it is known what became of it
-  std::optional<std::vector<StartedMotion>> started_before_;
+  std::optional<StartedMotions> started_before_;
+  stage::MotionId last_motion_ = 0;
   std::string serial_number_;
   std::map<stage::MotionId, stage::Motion> motions_;  // without an outcome
-  std::deque<StartedMotion> started_motions_;         // of this run, oldest first
-  stage::AxisSet started_;                            // by a line that was not answered yet
-  std::deque<std::string> last_lines_;                // newest first
+  StartedMotions started_motions_;
+  stage::AxisSet started_;              // by a line that was not answered yet
+  std::deque<std::string> last_lines_;  // newest first
 };
 
 // Of this boot of the machine; empty where the kernel does not say.

@@ -2,6 +2,7 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <map>
 #include <utility>
 
@@ -51,12 +52,13 @@ void Stage::keep_history(journal::Journal& journal) {
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {
+  const stage::MotionId on_record = record_ ? record_->last_motion() : 0;
   const Result<stage::MotionId> last = journal.last_motion(profile_.name);
-  if (last) return controller_->number_motions_after(*last);
-  spdlog::warn("{}: motions are numbered from 1 again: {}", profile_.name, explain(last.error()));
+  if (!last) spdlog::warn("{}: motions may be numbered from 1 again: {}", profile_.name, explain(last.error()));
+  controller_->number_motions_after(std::max(last.value_or(0), on_record));
 }
 
-std::optional<std::vector<StartedMotion>> Stage::started_before() const {
+std::optional<StartedMotions> Stage::started_before() const {
   return record_ ? record_->started_before() : std::nullopt;
 }
 

@@ -20,7 +20,7 @@ namespace axisgate::server {
 class Stage final : public Device {
  public:
   // `bus`, `metrics`, `thread` and `requests` outlive this. `record` and `journal` may be null. With a journal,
-  // motions are numbered on from its last.
+  // motions are numbered on from the last that it has, or the record.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
         const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
         journal::Journal* journal, journal::RequestMemory& requests);
@@ -40,7 +40,7 @@ class Stage final : public Device {
   Moment motion_clock(stage::MotionId motion) const { return events_.motion_clock(motion); }
 
   // Of the run before: MotionRecord::started_before(). Nothing, where nothing is known of it. Before start().
-  std::optional<std::vector<StartedMotion>> started_before() const;
+  std::optional<StartedMotions> started_before() const;
 
   // `done` comes when every motion has its outcome and the line is closed: StageController::wind_down().
   void wind_down(std::function<void()> done) override;

@@ -79,8 +79,8 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   sqlite3_create_function_v2(opened, "identity_of", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, identity_function,
                              nullptr, nullptr, nullptr);
   if (access == Access::read) return database;
-  // In WAL mode only FULL syncs at each commit. Without secure_delete the bytes of what was deleted stay in the file. What
-  // is appended touches few pages, so half a MiB of them is enough.
+  // In WAL mode only FULL syncs at each commit. Without secure_delete the bytes of what was deleted stay in the file.
+  // What is appended touches few pages, so half a MiB of them is enough.
   constexpr const char* kPragmas =
       "PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL; PRAGMA secure_delete = ON; PRAGMA cache_size = -512;";
   if (auto set = database.run(kPragmas); !set) {

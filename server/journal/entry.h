@@ -34,7 +34,7 @@ enum class EntryKind {
   lease_ended = 71,
   latched = 72,  // the caller, by a stop of somebody else
   rearmed = 73,
-  person_erased = 80,    // the name of a caller
+  person_erased = 80,  // the name of a caller
 };
 // "motion ended" and the like; "kind 77" of a number that this program does not know.
 std::string name(EntryKind kind);

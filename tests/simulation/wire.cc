@@ -98,6 +98,14 @@ void Wire::cut(TimePoint now, Duration until_back) {
   if (opens_at_) opens_at_ = std::max(*opens_at_, now + until_back);
 }
 
+void Wire::change_gateway(LineMachine& gateway, TimePoint now, Duration until_back, bool written_is_lost) {
+  now_ = now;
+  note(now, "   the daemon is killed");
+  gateway_ = &gateway;
+  std::erase_if(in_transit_, [&](const auto& one) { return written_is_lost || !one.second.to_device; });
+  opens_at_ = now + until_back;
+}
+
 void Wire::hold_up(bool to_device, Duration time) {
   TimePoint& free = to_device ? to_device_free_ : to_gateway_free_;
   free = std::max(free, now_) + time;
@@ -301,6 +309,7 @@ void Wire::deliver(const Delivery& delivery, TimePoint now) {
     device_->receive(delivery.bytes, now);
     return;
   }
+  if (opens_at_) return;
   note(now, "< " + escaped(delivery.bytes));
   digest_.add(now);
   digest_.add(delivery.bytes);

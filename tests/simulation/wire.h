@@ -99,6 +99,9 @@ class Wire {
   std::optional<TimePoint> next_event() const;
   void advance(TimePoint now);
   void cut(TimePoint now, Duration until_back);  // unplugged
+  // The daemon was killed: another one opens the line after `until_back`. Until then nobody reads. What was written and
+  // has not passed yet still goes out, or is lost with the old one.
+  void change_gateway(LineMachine& gateway, TimePoint now, Duration until_back, bool written_is_lost);
   // Nothing passes in this direction for so long, not even the rest of a line.
   void hold_up(bool to_device, Duration time);
 

@@ -187,6 +187,14 @@ void World::power_cycle(Duration silence) {
   wire_.device_restarts();
 }
 
+void World::restart_gateway(const Restart& restart) {
+  controller_.reset();
+  Permission& permission = restart.start();
+  controller_ = std::make_unique<Controller>(setup_.profile, wire_.gateway_end(), *this, permission);
+  restart.prepare(*controller_);
+  wire_.change_gateway(*controller_, now_, restart.away, restart.written_is_lost);
+}
+
 void World::swap_unit(const std::string& serial_number, Duration unplugged_for) {
   device_->set_serial_number(serial_number);
   device_->set_boot({.silence = kSwapSilence});

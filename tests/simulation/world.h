@@ -58,6 +58,14 @@ class World : public stage::EventSink {
   // asked, and only a stop may be sent.
   void visit_of_another_unit(const std::string& serial_number, Duration unplugged_for);
   void return_of_the_unit(Duration unplugged_for);
+  // The daemon is killed, and another one is started. To be called between two calls of the controller, as by at().
+  struct Restart {
+    std::function<stage::Permission&()> start;                     // the other daemon, when the controller is gone
+    std::function<void(shrc203::Controller& controller)> prepare;  // before the line is opened
+    Duration away{};                                               // until it is
+    bool written_is_lost = false;                                  // Wire::change_gateway()
+  };
+  void restart_gateway(const Restart& restart);
   void set_faults(const Faults& faults) { wire_.set_faults(faults); }
 
   stage::RequestContext context(std::string who, Duration limit = std::chrono::seconds(20)) const {

@@ -156,4 +156,39 @@ TEST_F(MotionRecordTest, WhatIsNoRegularFileIsRefused) {
 }
 
 }  // namespace
+// The journal may not have it yet. One that waited only was not started, but may have been shown.
+TEST_F(MotionRecordTest, TheHighestNumberOfAMotionOutlivesRuns) {
+  start();
+  EXPECT_EQ(record_->last_motion(), 0u);
+  motion(MotionKind::move, AxisSet::of(1), MotionState::queued, 12);
+  motion(MotionKind::move, AxisSet::of(1), MotionState::failed, 11);
+  start();
+  EXPECT_EQ(record_->last_motion(), 12u);
+  motion(MotionKind::move, AxisSet::of(1), MotionState::queued, 3);
+  start();
+  EXPECT_EQ(record_->last_motion(), 12u);
+}
+
+// The journal may not have their ends, also not of those of a run before the last.
+TEST_F(MotionRecordTest, StartedMotionsOutliveRunsAndTheOldestAreDropped) {
+  const auto run = [this](stage::MotionId id) {
+    motion(MotionKind::move, AxisSet::of(1), MotionState::queued, id);
+    BytesWritten line;
+    line.motion = id;
+    record_->on_event(line);
+    motion(MotionKind::move, AxisSet::of(1), MotionState::succeeded, id);
+  };
+  start();
+  for (stage::MotionId id = 1; id <= 10; ++id) run(id);
+  start();
+  for (stage::MotionId id = 11; id <= 20; ++id) run(id);
+  start();
+  const std::optional<StartedMotions>& before = record_->started_before();
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->dropped_through, 4u);
+  ASSERT_EQ(before->kept.size(), 16u);
+  EXPECT_EQ(before->kept.front().motion, 5u);
+  EXPECT_EQ(before->kept.front().state, MotionState::succeeded);
+}
+
 }  // namespace axisgate::server::motion_record_test
