@@ -124,7 +124,49 @@ std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirect
   return nullptr;
 }
 
+void log_what_is_served(const server::Gateway& gateway, const rpc::Server& server, int metrics_port) {
+  const server::Config& config = gateway.config();
+  const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(metrics_port)};
+  spdlog::info("gRPC on {} and unix:{}", to_string(server.listen()), server.socket());
+  if (config.network) spdlog::info("gRPC with TLS on {}", to_string(*server.network()));
+  spdlog::info("metrics on http://{}/metrics", to_string(metrics));
+  for (const auto& device : gateway.devices()) {
+    spdlog::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
+  }
+  spdlog::default_logger()->flush();
+}
+
+// What is open before the gateway, and outlives it.
+struct Kept {
+  std::unique_ptr<server::Access> access;
+  std::unique_ptr<server::SavedPositions> positions;
+  std::unique_ptr<server::journal::Journal> journal;  // null: none is kept
+};
+
+// Until a signal.
+int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_signals) {
+  const server::Config& config = gateway.config();
+  const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
+  if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
+  const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
+                                        .of_one = static_cast<std::size_t>(config.limits.connections)};
+  const auto server = rpc::Server::start(gateway, *kept.access, *kept.positions, limits);
+  if (!server) return complain(kExitFailed, server::explain(server.error()));
+  if (config.network) {
+    gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
+  }
+  if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(kept.journal.get()));
+  log_what_is_served(gateway, **server, *metrics_port);
+  gateway.start();
+  server::keep_little_spare_memory(gateway.timeouts());
+  const auto watchdog = watch(gateway, **server);
+  server::notify_ready();
+  end_signals.wait(gateway);
+  return 0;
+}
+
 int serve(const server::Config& config) {
+  using server::journal::EntryKind;
   server::EndSignals end_signals;
   // A reader that has gone is an error where it is written to, not the end of the daemon.
   std::signal(SIGPIPE, SIG_IGN);
@@ -132,42 +174,24 @@ int serve(const server::Config& config) {
   // Held until all that writes there has ended.
   const auto state = server::StateDirectory::hold(server::default_state_directory());
   if (!state) return complain(kExitFailed, server::explain(state.error()));
-  const auto access = open_access(config.access, *state);
+  auto access = open_access(config.access, *state);
   if (!access) return complain(kExitFailed, server::explain(access.error()));
-  const auto positions = server::SavedPositions::open(state->file("positions"));
+  auto positions = server::SavedPositions::open(state->file("positions"));
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  const std::unique_ptr<server::journal::Journal> journal =
-      config.journal.kept ? open_journal(*state, config.journal) : nullptr;
-  server::Gateway gateway(config, *generation, state->path(), journal.get());
-  if (journal) journal->append({entry_of_daemon(server::journal::EntryKind::daemon_started)});
-  const Result<int> metrics_port = gateway.metrics().expose(config.metrics);
-  if (!metrics_port) return complain(kExitFailed, server::explain(metrics_port.error()));
-  const server::ConnectionLimits limits{.open = server::raise_descriptor_limit(),
-                                        .of_one = static_cast<std::size_t>(config.limits.connections)};
-  const auto server = rpc::Server::start(gateway, **access, **positions, limits);
-  if (!server) return complain(kExitFailed, server::explain(server.error()));
-
-  const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(*metrics_port)};
-  spdlog::info("gRPC on {} and unix:{}", to_string((*server)->listen()), (*server)->socket());
-  if (config.network) {
-    gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
-    spdlog::info("gRPC with TLS on {}", to_string(*(*server)->network()));
+  const Kept kept{*std::move(access), *std::move(positions),
+                  config.journal.kept ? open_journal(*state, config.journal) : nullptr};
+  server::journal::Journal* const journal = kept.journal.get();
+  int exit_code = 0;
+  {
+    server::Gateway gateway(config, *generation, state->path(), journal);
+    if (journal != nullptr) journal->append({entry_of_daemon(EntryKind::daemon_started)});
+    exit_code = serve(gateway, kept, end_signals);
   }
-  if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(journal.get()));
-  spdlog::info("metrics on http://{}/metrics", to_string(metrics));
-  for (const auto& device : gateway.devices()) {
-    spdlog::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
-  }
-  spdlog::default_logger()->flush();
-  gateway.start();
-  server::keep_little_spare_memory(gateway.timeouts());
-  const auto watchdog = watch(gateway, **server);
-  server::notify_ready();
-  end_signals.wait(gateway);
-  if (journal) journal->append({entry_of_daemon(server::journal::EntryKind::daemon_ended)});
-  return 0;
+  // Nothing is published any more: where this entry is on the disk, all events are.
+  if (journal != nullptr) journal->append({entry_of_daemon(EntryKind::daemon_ended)});
+  return exit_code;
 }
 
 int main_program(int count, char** words) {

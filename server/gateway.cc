@@ -44,6 +44,16 @@ journal::RequestMemory memory_of(const JournalConfig& config, journal::Journal* 
   return {bounds, journal->epoch(), journal->boot_offset(), journal->take_requests()};
 }
 
+FactsBefore facts_before(journal::Journal* journal) {
+  return journal == nullptr ? FactsBefore() : journal->take_facts();
+}
+
+// Empty where nothing can be kept.
+EventBus::Keep keep_in(journal::Journal* journal) {
+  if (journal == nullptr) return {};
+  return [journal](FactPointer fact, std::uint64_t oldest) { journal->keep(std::move(fact), oldest); };
+}
+
 // Asio opens what its timers need with the first of them, and throws without a free descriptor: while it starts a
 // daemon may fail so, later not.
 void open_timers(boost::asio::io_context& context) { const boost::asio::steady_timer first(context); }
@@ -57,9 +67,11 @@ Gateway::Gateway(const Config& config, std::uint32_t generation, const std::stri
       journal_(journal),
       requests_(memory_of(config.journal, journal, run_)),
       lease_tokens_(generation),
-      events_(posting_to(readers_)) {
+      events_(posting_to(readers_), run_, facts_before(journal), keep_in(journal)) {
   open_timers(lines_.context());
   open_timers(readers_);
+  const bool after_unclean_end = journal != nullptr && journal->after_unclean_end();
+  events_.publish("", DaemonStarted{after_unclean_end}, std::chrono::system_clock::now());
   for (const DeviceConfig& device : config.devices) {
     auto line = make_line(device, lines_.new_strand());
     auto stage = std::make_unique<Stage>(device, std::move(line), lines_, events_, metrics_, posting_to(readers_),
@@ -67,7 +79,7 @@ Gateway::Gateway(const Config& config, std::uint32_t generation, const std::stri
     stages_.push_back(stage.get());
     devices_.push_back(std::move(stage));
   }
-  settle_what_was_left(journal, requests_, [this](std::string_view device) {
+  settle_what_was_left(journal, requests_, events_, [this](std::string_view device) {
     const Stage* const stage = find_stage(device);
     return stage == nullptr ? std::nullopt : stage->started_before();
   });

@@ -45,7 +45,7 @@ class Gateway {
   // By then it is over, unless a line hangs in its driver.
   Duration wind_down_limit() const;
 
-  // A different text for every start of the daemon, since revisions and motions then count from 1 again.
+  // A different text for every start of the daemon. Without a journal, revisions and motions count from 1 again.
   const std::string& run() const { return run_; }
 
   const Config& config() const { return config_; }

@@ -14,8 +14,10 @@ class Watchdog::Rounds : public std::enable_shared_from_this<Rounds> {
       : threads_(std::move(threads)), period_(period), later_(std::move(later)), alive_(std::move(alive)) {}
 
   void ask() {
+    const std::lock_guard asking(asking_);
     {
       const std::lock_guard lock(mutex_);
+      if (ended_) return;
       for (std::size_t i = 0; i < threads_.size(); ++i) silent_.insert(i);
       named_ = false;
     }
@@ -28,6 +30,7 @@ class Watchdog::Rounds : public std::enable_shared_from_this<Rounds> {
   }
 
   void end() {
+    const std::lock_guard asking(asking_);
     const std::lock_guard lock(mutex_);
     ended_ = true;
   }
@@ -65,6 +68,7 @@ class Watchdog::Rounds : public std::enable_shared_from_this<Rounds> {
   const Later later_;
   const std::function<void()> alive_;
 
+  std::mutex asking_;  // held while they are asked; before mutex_, which an answer takes
   std::mutex mutex_;
   std::set<std::size_t> silent_;  // of threads_, since they were asked
   bool named_ = false;

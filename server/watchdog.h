@@ -25,7 +25,7 @@ class Watchdog {
   // Asks all of them each `period`, and calls `alive` when all have answered. While one is silent nobody is asked
   // again, and the log names it once.
   Watchdog(std::vector<Thread> threads, Duration period, Later later, std::function<void()> alive);
-  // Nothing is called any more.
+  // Nothing is called any more. Waits while threads are asked.
   ~Watchdog();
   Watchdog(const Watchdog&) = delete;
   Watchdog& operator=(const Watchdog&) = delete;

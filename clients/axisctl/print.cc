@@ -86,6 +86,11 @@ std::string describe_notice(const v1::ProgramNotice& notice) {
   return notice.count() > 1 ? fmt::format("{}, {} times", what, notice.count()) : what;
 }
 
+std::string describe_start(const v1::DaemonStarted& started) {
+  return started.after_unclean_end() ? "started; it had not ended in order, so the events just before may be incomplete"
+                                     : "started";
+}
+
 }  // namespace
 
 void print_line(std::string_view text) { write(stdout, text); }
@@ -234,6 +239,8 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_switches(event.switches_changed()));
     case v1::Event::kProgramNotice:
       return on_one_line(describe_notice(event.program_notice()));
+    case v1::Event::kDaemonStarted:
+      return describe_start(event.daemon_started());
     case v1::Event::FACT_NOT_SET:
       break;
   }

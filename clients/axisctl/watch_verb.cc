@@ -53,8 +53,9 @@ class Watcher {
 
   void show(const v1::Event& event) const {
     if (session_.options.json) return print_json(event);
+    const std::string_view whose = event.device().empty() ? "daemon" : last_part(event.device());
     print_line(fmt::format("{} {} {} {}", event.revision(), google::protobuf::util::TimeUtil::ToString(event.time()),
-                           last_part(event.device()), describe(event)));
+                           whose, describe(event)));
   }
 
   void recover(const grpc::Status& status) {

@@ -16,6 +16,11 @@ class EventWatch final : public Subscription<Event> {
       : Subscription(std::move(place)), bus_(gateway.events()), device_(std::move(device)), reader_(gateway, from) {}
 
  private:
+  // A start of the daemon concerns all.
+  bool concerns(const server::FactRecord& record) const {
+    return device_.empty() || record.device.empty() || record.device == device_;
+  }
+
   void begin() override {
     woken_by(bus_);
     wake();
@@ -27,7 +32,7 @@ class EventWatch final : public Subscription<Event> {
       if (const auto* compacted = std::get_if<FactReader::Compacted>(&reading)) return compacted_at(compacted->resume);
       auto* record = std::get_if<Event>(&reading);
       if (record == nullptr) return Nothing{};
-      if (device_.empty() || (*record)->device == device_) return std::move(*record);
+      if (concerns(**record)) return std::move(*record);
     }
   }
 
@@ -60,12 +65,12 @@ Opened<Event> Events::watch(const Call& call, const EventRange& range) const {
     device = (*found)->name();
   }
   const server::EventBus& bus = gateway_.events();
-  if (!range.run.empty() && range.run != gateway_.run()) {
+  const std::uint64_t from = range.from.value_or(bus.newest_revision() + 1);
+  if (!range.run.empty() && !bus.resumes(range.run, from)) {
     return std::make_shared<EndedWatch>(compacted_at(bus.read(0, 0).next), nullptr);
   }
   Result<Streams::Place> place = streams_.take(RequestKind::watch_events, caller->who);
   if (!place) return tl::unexpected(place.error());
-  const std::uint64_t from = range.from.value_or(bus.newest_revision() + 1);
   return std::make_shared<EventWatch>(gateway_, from, std::move(device), *std::move(place));
 }
 

@@ -18,7 +18,7 @@ namespace axisgate::api {
 // Which events a reader wants.
 struct EventRange {
   std::string device{};                 // "devices/{d}"; empty: of all
-  std::string run{};                    // of which daemon's run `from` is; empty: of this one
+  std::string run{};                    // of which daemon's run the event before `from` is; empty: not checked
   std::optional<std::uint64_t> from{};  // 0: from the oldest that is kept; nothing: from now on
 };
 
@@ -32,11 +32,8 @@ class Events {
       : gateway_(gateway), admission_(admission), streams_(streams) {}
 
   // Each once and in order. Ends with compacted, and where to resume, when the next one is not kept any more, at once
-  // for the revision of another run.
+  // where run and revision do not belong together.
   Opened<Event> watch(const Call& call, const EventRange& range) const;
-
-  // Another text for every start of the daemon.
-  const std::string& run() const { return gateway_.run(); }
 
  private:
   server::Gateway& gateway_;

@@ -10,17 +10,30 @@
 
 namespace axisgate::api {
 
-Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id) {
-  if (std::optional<stage::Motion> motion = controller.find_motion(id)) return *std::move(motion);
+namespace {
+
+tl::unexpected<Problem> not_kept(const stage::StageController& controller, stage::MotionId id) {
   return fail(Reason::not_found, fmt::format("there is no motion {} on {}", id, controller.profile().name),
-              fmt::format("the newest {} since the daemon started are kept; ListMotions shows them",
-                          stage::StageController::kMotionsKept));
+              fmt::format("the newest {} since the daemon started are kept, ListMotions shows them; `axisctl history "
+                          "--motion {}` may have it",
+                          stage::StageController::kMotionsKept, id));
+}
+
+}  // namespace
+
+Result<CurrentMotion> find_motion(const server::EventBus& bus, server::Stage& device,
+                                  const stage::StageController& controller, stage::MotionId id) {
+  if (std::optional<stage::Motion> motion = controller.find_motion(id))
+    return CurrentMotion(device, *std::move(motion));
+  const server::FactPointer newest = bus.find_motion(device.name(), id);
+  if (newest == nullptr) return not_kept(controller, id);
+  return CurrentMotion(device, std::get<stage::MotionChanged>(newest->fact).motion, newest->revision, newest->clock);
 }
 
 Result<stage::Motion> motion_of(const server::journal::RequestMemory::Known& known,
                                 const stage::StageController& controller) {
-  if (known.open) return find_motion(controller, known.motion);
   if (auto motion = controller.find_motion(known.motion)) return *std::move(motion);
+  if (known.open) return not_kept(controller, known.motion);
   if (auto problem = server::journal::problem_in(known.answer)) return tl::unexpected(*std::move(problem));
   if (auto motion = server::journal::motion_in(known.answer)) return *std::move(motion);
   return fail(Reason::internal, "what became of the request cannot be read", "look at `axisctl history`");
@@ -70,7 +83,8 @@ void MotionSubscription::set_due(CurrentMotion motion) {
 void MotionSubscription::look(server::Stage& device, stage::MotionId id) {
   device.post([self = self<MotionSubscription>(), &device, id](stage::StageController& controller, TimePoint) {
     self->follow_from_now();
-    self->show(device, find_motion(controller, id));
+    const auto motion = find_motion(self->gateway_.events(), device, controller, id);
+    motion ? self->follow(device, *motion) : self->end(motion.error());
   });
 }
 

@@ -45,8 +45,10 @@ struct CurrentMotion {
   server::Moment clock;        // by which its times are shown
 };
 
-// The motion, or not_found. On the device's strand.
-Result<stage::Motion> find_motion(const stage::StageController& controller, stage::MotionId id);
+// The motion: of the controller, or else as its newest fact that is kept has it, also of an earlier run; or not_found.
+// On the device's strand.
+Result<CurrentMotion> find_motion(const server::EventBus& bus, server::Stage& device,
+                                  const stage::StageController& controller, stage::MotionId id);
 
 // The motion of a request that came before, as it is or as it ended; or what the request came to instead. On the
 // device's strand.

@@ -89,12 +89,11 @@ void Motions::scan(const Call& call, std::string_view device, Result<stage::Scan
 
 void Motions::get(const Call& call, std::string_view motion, Answer<CurrentMotion> answer) const {
   const Result<MotionName> name = find_motion_name(gateway_, motion);
-  pipeline_.ask({RequestKind::get_motion, call, device_of(name)}, std::move(answer),
-                [id = name ? name->id : 0](const Turn& turn, const Answer<CurrentMotion>& respond) {
-                  Result<stage::Motion> found = find_motion(turn.controller, id);
-                  if (!found) return respond(tl::unexpected(found.error()));
-                  respond(CurrentMotion(turn.device, *std::move(found)));
-                });
+  pipeline_.ask(
+      {RequestKind::get_motion, call, device_of(name)}, std::move(answer),
+      [&bus = gateway_.events(), id = name ? name->id : 0](const Turn& turn, const Answer<CurrentMotion>& respond) {
+        respond(find_motion(bus, turn.device, turn.controller, id));
+      });
 }
 
 void Motions::list(const Call& call, std::string_view device, Answer<std::vector<CurrentMotion>> answer) const {

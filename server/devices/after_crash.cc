@@ -4,10 +4,12 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "device/link/clock.h"
@@ -130,20 +132,86 @@ journal::Entry end_of(const journal::StoredEntry& requested, const Ending& endin
   return entry_of(EntryKind::motion_ended, requested.entry.device, requested.entry.who, requested.entry.motion, body);
 }
 
-void end_motions(Journal& journal, const StartedBefore& started) {
+// Empty where somebody has changed the file.
+std::string text_in(const Json& body, const char* key) {
+  const auto found = body.find(key);
+  return found != body.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+// The value of that name, up to `last`; nothing: none has it.
+template <class Named>
+std::optional<Named> named(std::string_view text, Named last) {
+  for (int value = 0; value <= static_cast<int>(last); ++value) {
+    if (name(static_cast<Named>(value)) == text) return static_cast<Named>(value);
+  }
+  return std::nullopt;
+}
+
+// Nothing: the journal has no end of it.
+std::optional<Ending> ending_on_record(const Journal& journal, const std::string& device, stage::MotionId id) {
+  const auto found = journal.read({.device = device, .motion = id, .kinds = {EntryKind::motion_ended}}, 1);
+  if (!found || found->empty()) return std::nullopt;
+  const Json body = Json::parse(found->front().entry.body, nullptr, false);
+  const auto state = named(text_in(body, "outcome"), MotionState::unknown);
+  if (!state || !stage::is_outcome(*state)) return std::nullopt;
+  if (*state == MotionState::succeeded) return Ending{*state, {}};
+  const Reason reason = named(text_in(body, "reason"), Reason::request_memory_lost).value_or(Reason::outcome_unknown);
+  return Ending{*state, Problem{.reason = reason,
+                                .message = "the daemon ended before it reported this; the details are not on record",
+                                .hint = fmt::format("look at `axisctl history --motion {}`", id)}};
+}
+
+// Of one whose facts were not written: as its request was.
+FactRecord fact_of(const journal::Entry& requested) {
+  stage::Motion motion;
+  motion.id = requested.motion;
+  motion.who = requested.who;
+  motion.created = requested.boot_time;
+  const Json body = Json::parse(requested.body, nullptr, false);
+  motion.kind = named(text_in(body, "kind"), stage::MotionKind::scan).value_or(motion.kind);
+  motion.request_id = text_in(body, "request_id");
+  const auto axes = body.find("axes");
+  for (const Json& axis : axes == body.end() ? Json::array() : *axes) {
+    if (axis.is_number_integer() && axis >= 1 && axis <= stage::kAxisCount) motion.axes.add(axis.get<int>());
+  }
+  const Moment clock{requested.boot_time, requested.time};
+  return {.device = requested.device, .fact = stage::MotionChanged{std::move(motion)}, .clock = clock};
+}
+
+// `newest`: the newest fact about the motion.
+void publish_end(EventBus& bus, const FactRecord& newest, const Ending& ending) {
+  const WallTime now = std::chrono::system_clock::now();
+  stage::MotionChanged change = std::get<stage::MotionChanged>(newest.fact);
+  change.motion.state = ending.state;
+  change.motion.problem = ending.problem;
+  change.motion.ended = newest.clock.of(now);
+  bus.publish(newest.device, std::move(change), now, newest.clock);
+}
+
+void end_unfinished(Journal& journal, EventBus& bus, const StartedBefore& started) {
   const auto left = journal.unfinished_motions();
   if (!left) return spdlog::warn("{}", explain(left.error()));
   for (const journal::StoredEntry& requested : *left) {
-    const Ending ending =
-        find_ending({started(requested.entry.device)}, requested.entry.motion,
-                    [&](const StartedMotion& motion) { return motion.motion == requested.entry.motion; });
+    const journal::Entry& entry = requested.entry;
+    const Ending ending = find_ending({started(entry.device)}, entry.motion,
+                                      [&](const StartedMotion& motion) { return motion.motion == entry.motion; });
     journal.append({end_of(requested, ending)});
+    const FactPointer newest = bus.find_motion(entry.device, entry.motion);
+    publish_end(bus, newest ? *newest : fact_of(entry), ending);
+  }
+}
+
+// A fact is written after the entry of the same: of some motions the journal has the end, but the bus has not.
+void publish_missing_ends(const Journal& journal, EventBus& bus) {
+  for (const FactPointer& newest : bus.open_motions()) {
+    const stage::MotionId id = std::get<stage::MotionChanged>(newest->fact).motion.id;
+    publish_end(bus, *newest, ending_on_record(journal, newest->device, id).value_or(Ending{.problem = kUnknown}));
   }
 }
 
 }  // namespace
 
-void settle_what_was_left(Journal* journal, RequestMemory& requests, const StartedBefore& started) {
+void settle_what_was_left(Journal* journal, RequestMemory& requests, EventBus& bus, const StartedBefore& started) {
   const std::vector<RememberedRequest> open = requests.open();
   const auto records = read_records(journal, open, started);
   for (const RememberedRequest& request : open) {
@@ -157,7 +225,9 @@ void settle_what_was_left(Journal* journal, RequestMemory& requests, const Start
                     {change->forget ? "reason" : "outcome", change->forget ? "NOT_SENT" : "UNKNOWN"}};
     journal->append({entry_of(kind, request.device, request.identity, number, body), *std::move(change)});
   }
-  if (journal != nullptr) end_motions(*journal, started);
+  if (journal == nullptr) return;
+  end_unfinished(*journal, bus, started);
+  publish_missing_ends(*journal, bus);
 }
 
 }  // namespace axisgate::server

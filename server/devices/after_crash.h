@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "server/devices/motion_record.h"
+#include "server/events/event_bus.h"
 #include "server/journal/journal.h"
 #include "server/journal/request_memory.h"
 
@@ -15,8 +16,9 @@ namespace axisgate::server {
 using StartedBefore = std::function<std::optional<StartedMotions>(std::string_view device)>;
 
 // Before anybody asks. A motion that was not started ends with not_sent, and its request's id is free. What may have
-// been started or changed ends with outcome_unknown, unless its outcome is on record; it never acts again. `journal`
-// may be null.
-void settle_what_was_left(journal::Journal* journal, journal::RequestMemory& requests, const StartedBefore& started);
+// been started or changed ends with outcome_unknown, unless its outcome is on record; it never acts again. `bus` gets
+// the outcome of each motion as a fact, for watchers that resume. `journal` may be null.
+void settle_what_was_left(journal::Journal* journal, journal::RequestMemory& requests, EventBus& bus,
+                          const StartedBefore& started);
 
 }  // namespace axisgate::server

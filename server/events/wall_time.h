@@ -24,6 +24,7 @@ struct Moment {
   WallTime wall{};
 
   WallTime at(TimePoint time) const { return wall + std::chrono::duration_cast<WallTime::duration>(time - monotonic); }
+  TimePoint of(WallTime time) const { return monotonic + std::chrono::duration_cast<Duration>(time - wall); }
 };
 
 inline Moment moment_of(TimePoint time) { return {time, to_wall(time)}; }

@@ -69,11 +69,17 @@ Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, s
   if (!offset) return tl::unexpected(offset.error());
   auto requests = store.requests();
   if (!requests) return tl::unexpected(requests.error());
+  const auto unclean = store.ended_uncleanly();
+  if (!unclean) return tl::unexpected(unclean.error());
+  auto facts = store.begin_facts(*unclean);
+  if (!facts) return tl::unexpected(facts.error());
   std::unique_ptr<Journal> journal(new Journal(std::move(path), std::move(store)));
   journal->epoch_ = *std::move(epoch);
   journal->boot_offset_ = *offset;
   journal->bounds_ = bounds;
   journal->requests_ = *std::move(requests);
+  journal->facts_ = *std::move(facts);
+  journal->after_unclean_end_ = *unclean;
   journal->thread_ = std::thread([&self = *journal] { self.run(); });
   return journal;
 }
@@ -124,6 +130,17 @@ void Journal::commit(Record record, OnCommitted done) {
   changed_.notify_all();
 }
 
+void Journal::keep(FactPointer fact, std::uint64_t oldest) {
+  {
+    const std::lock_guard lock(mutex_);
+    FactChange& waiting = facts_waiting_;
+    waiting.added.push_back(std::move(fact));
+    waiting.oldest = oldest;
+    while (waiting.added.front()->revision < oldest) waiting.added.pop_front();
+  }
+  changed_.notify_all();
+}
+
 std::optional<Problem> Journal::unavailable() const {
   const bool hangs = writing_since_ && monotonic_now() - *writing_since_ > kHangs;
   if (!failure_ && !hangs && waiting_.size() < kWaitingMax) return std::nullopt;
@@ -165,12 +182,13 @@ void Journal::run() {
 // Nothing: the daemon ends, and all is written.
 Journal::Batch Journal::wait_for_records() {
   std::unique_lock lock(mutex_);
-  while (!ending_ && waiting_.empty()) wait_or_sum_up_refusals(lock);
+  while (!ending_ && waiting_.empty() && facts_waiting_.added.empty()) wait_or_sum_up_refusals(lock);
+  changed_.wait_for(lock, kFactsWait, [this] { return ending_ || !waiting_.empty(); });
   if (ending_) {
     for (Entry& entry : refusals_.rest()) put({std::move(entry)});
   }
-  Batch batch = std::exchange(waiting_, {});
-  if (const auto count = std::exchange(left_out_, 0); count > 0) batch.push_back({{left_out(count)}, {}});
+  Batch batch{std::exchange(waiting_, {}), std::exchange(facts_waiting_, {})};
+  if (const auto count = std::exchange(left_out_, 0); count > 0) batch.records.push_back({{left_out(count)}, {}});
   if (!batch.empty()) writing_since_ = monotonic_now();
   return batch;
 }
@@ -195,8 +213,8 @@ void Journal::drop_old() {
 bool Journal::write(Batch batch) {
   while (true) {
     std::vector<Record> records;
-    for (const Waiting& one : batch) records.push_back(one.record);
-    const Result<void> written = store_.append(records);
+    for (const Waiting& one : batch.records) records.push_back(one.record);
+    const Result<void> written = store_.append(records, batch.facts);
     if (!written) note_failure(batch, written.error());
     std::unique_lock lock(mutex_);
     if (written) {
@@ -205,7 +223,8 @@ bool Journal::write(Batch batch) {
       last_commit_ = monotonic_now() - *std::exchange(writing_since_, {});
       lock.unlock();
       const Result<void> emptied = empty_log(batch);
-      for (const Waiting& one : batch) answer(one.done, one.record.erased_person == 0 ? Result<void>() : emptied);
+      for (const Waiting& one : batch.records)
+        answer(one.done, one.record.erased_person == 0 ? Result<void>() : emptied);
       changed_.notify_all();
       return true;
     }
@@ -223,19 +242,19 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
     const std::lock_guard lock(mutex_);
     if (!failure_) {
       spdlog::error("{}", explain(problem));
-      batch.push_back({{journal_failed()}, {}});
+      batch.records.push_back({{journal_failed()}, {}});
     }
     failure_ = problem;
     refusal = unavailable();
   }
-  for (const Waiting& one : batch) answer(one.done, tl::unexpected(*refusal));
-  std::erase_if(batch, [](const Waiting& one) { return one.done != nullptr; });
+  for (const Waiting& one : batch.records) answer(one.done, tl::unexpected(*refusal));
+  std::erase_if(batch.records, [](const Waiting& one) { return one.done != nullptr; });
 }
 
 // Where somebody reads, it is tried again after the next commit.
 Result<void> Journal::empty_log(const Batch& written) {
   const auto erases = [](const Waiting& one) { return one.record.erased_person != 0; };
-  log_has_names_ = log_has_names_ || std::ranges::any_of(written, erases);
+  log_has_names_ = log_has_names_ || std::ranges::any_of(written.records, erases);
   if (!log_has_names_) return {};
   const Result<void> emptied = store_.empty_log();
   log_has_names_ = !emptied;

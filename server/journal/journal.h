@@ -25,6 +25,8 @@ class Journal {
   static constexpr Duration kHangs = std::chrono::seconds(2);
   // Beyond so many that wait for the disk, entries are left out, and the journal says how many.
   static constexpr std::size_t kWaitingMax = 10'000;
+  // So long facts wait for an entry, so that a path's many facts do not sync the disk for each of them.
+  static constexpr Duration kFactsWait = std::chrono::milliseconds(100);
 
   // As Store::open(). A damaged file is moved aside, with a warning that names it, and a new one begins. `boot` names
   // this boot of the machine; empty: not known.
@@ -51,6 +53,9 @@ class Journal {
   Result<std::optional<NamedPerson>> erase(const std::string& name, const std::string& by);
   // From now on nobody is answered any more. Before that goes which they would call.
   void answer_nobody();
+  // A fact of the event bus: EventBus::Keep. Never waits; written with the next commit, or after kFactsWait. Where the
+  // disk refuses, the newest wait.
+  void keep(FactPointer fact, std::uint64_t oldest);
   // Why nothing is written now; nothing while the disk takes what comes.
   std::optional<Problem> failure() const;
 
@@ -61,6 +66,8 @@ class Journal {
   const std::string& epoch() const { return epoch_; }
   Duration boot_offset() const { return boot_offset_; }
   RequestsOnFile take_requests() { return std::exchange(requests_, {}); }
+  FactsBefore take_facts() { return std::exchange(facts_, {}); }
+  bool after_unclean_end() const { return after_unclean_end_; }  // of the run before
 
   // Each with a connection of its own, for threads that may wait. What was appended before is found, unless the disk
   // refuses it or is slow.
@@ -76,7 +83,11 @@ class Journal {
     Record record;
     OnCommitted done;  // empty: nobody waits
   };
-  using Batch = std::vector<Waiting>;
+  struct Batch {
+    std::vector<Waiting> records;
+    FactChange facts;
+    bool empty() const { return records.empty() && facts.added.empty(); }
+  };
 
   Journal(std::string path, Store store);
 
@@ -104,9 +115,12 @@ class Journal {
   std::string epoch_;
   Duration boot_offset_{};
   RequestsOnFile requests_;
+  FactsBefore facts_;
+  bool after_unclean_end_ = false;
   mutable std::mutex mutex_;
   mutable std::condition_variable changed_;
-  Batch waiting_;
+  std::vector<Waiting> waiting_;
+  FactChange facts_waiting_;
   RefusalBudget refusals_;
   std::optional<TimePoint> writing_since_;
   Duration last_commit_{};

@@ -15,7 +15,7 @@
 namespace axisgate::server::journal {
 namespace {
 
-constexpr std::int64_t kSchema = 2, kWithoutRequests = 1;
+constexpr std::int64_t kSchema = 3, kWithoutRequests = 1, kWithoutFacts = 2;
 static_assert(static_cast<int>(EntryKind::link_changed) == 30, "the index entry_of_line is of these");
 constexpr const char* kMakeSchema = R"(
 CREATE TABLE meta(key TEXT PRIMARY KEY, value TEXT NOT NULL) STRICT, WITHOUT ROWID;
@@ -108,7 +108,7 @@ Result<void> Store::check_schema(const std::string& path) {
   version->reset();
   if (found == 0) return make_schema();
   if (found == kSchema) return {};
-  if (found == kWithoutRequests) return upgrade();
+  if (found == kWithoutRequests || found == kWithoutFacts) return upgrade(found);
   return fail(Reason::internal,
               fmt::format("journal {}: a newer version of axisgated has written it (schema {}, this one knows {})",
                           path, found, kSchema),
@@ -117,18 +117,20 @@ Result<void> Store::check_schema(const std::string& path) {
 
 Result<void> Store::make_schema() {
   const std::string sql = fmt::format(
-      "BEGIN IMMEDIATE; {} {} {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
-      PersonTable::kMake, kMakeSchema, kMakeLineIndex, RequestTable::kMake, random_epoch(), kSchema);
+      "BEGIN IMMEDIATE; {} {} {} {} {} INSERT INTO meta VALUES('epoch', '{}'); PRAGMA user_version = {}; COMMIT;",
+      PersonTable::kMake, kMakeSchema, kMakeLineIndex, RequestTable::kMake, FactTable::kMake, random_epoch(), kSchema);
   return database_.run(sql.c_str());
 }
 
-Result<void> Store::upgrade() {
-  const std::string sql = fmt::format("BEGIN IMMEDIATE; {} {} PRAGMA user_version = {}; COMMIT;", kMakeLineIndex,
-                                      RequestTable::kMake, kSchema);
+Result<void> Store::upgrade(std::int64_t from) {
+  const std::string requests =
+      from == kWithoutRequests ? fmt::format("{} {}", kMakeLineIndex, RequestTable::kMake) : "";
+  const std::string sql =
+      fmt::format("BEGIN IMMEDIATE; {} {} PRAGMA user_version = {}; COMMIT;", requests, FactTable::kMake, kSchema);
   return database_.run(sql.c_str());
 }
 
-Result<void> Store::append(std::span<const Record> records) {
+Result<void> Store::append(std::span<const Record> records, const FactChange& facts) {
   if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
   Result<void> done;
   Result<Head> last = head();
@@ -137,11 +139,16 @@ Result<void> Store::append(std::span<const Record> records) {
   for (const Record& record : records) {
     if (done) done = add(record.entry, *last);
     if (done) done = requests.change(record.requests);
-    if (done && record.erased_person != 0) done = PersonTable(database_).erase(record.erased_person);
+    if (done && record.erased_person != 0) done = erase(record.erased_person);
   }
+  if (done) done = FactTable(database_).change(facts);
   if (done) done = database_.run("COMMIT");
   if (!done) (void)database_.run("ROLLBACK");
   return done;
+}
+
+Result<void> Store::erase(std::int64_t person) {
+  return FactTable(database_).erase(person).and_then([&] { return PersonTable(database_).erase(person); });
 }
 
 Result<void> Store::add(const Entry& entry, Head& head) {
@@ -246,6 +253,17 @@ Result<std::vector<StoredEntry>> Store::unfinished_motions() {
       kColumns, static_cast<int>(motion_requested), static_cast<int>(daemon_started), static_cast<int>(motion_ended)));
   if (!rows) return tl::unexpected(rows.error());
   return all_of(*rows);
+}
+
+// The start of a run that is old enough has been dropped.
+Result<bool> Store::ended_uncleanly() {
+  using enum EntryKind;
+  auto newest = database_.prepare(fmt::format(
+      "SELECT EXISTS (SELECT 1 FROM entry) AND NOT coalesce((SELECT kind = {1} FROM entry WHERE kind IN ({0}, {1}) "
+      "ORDER BY number DESC LIMIT 1), 0)",
+      static_cast<int>(daemon_started), static_cast<int>(daemon_ended)));
+  if (!newest) return tl::unexpected(newest.error());
+  return newest->step().map([&](bool) { return newest->integer(0) != 0; });
 }
 
 Result<std::uint64_t> Store::last_motion(std::string_view device) {

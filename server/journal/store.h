@@ -11,6 +11,7 @@
 #include "server/journal/conditions.h"
 #include "server/journal/database.h"
 #include "server/journal/entry.h"
+#include "server/journal/fact_table.h"
 #include "server/journal/person_table.h"
 #include "server/journal/request_table.h"
 
@@ -51,7 +52,7 @@ class Store {
   static Result<Store> open_to_read(const std::string& path);
 
   // All of them are on the disk when it returns, or none.
-  Result<void> append(std::span<const Record> records);
+  Result<void> append(std::span<const Record> records, const FactChange& facts = {});
 
   // So many entries are a segment.
   static constexpr std::int64_t kSegment = 10'000;
@@ -66,6 +67,10 @@ class Store {
   // As Database::empty_log().
   Result<void> empty_log() { return database_.empty_log(); }
   Result<RequestsOnFile> requests() { return RequestTable(database_).read(); }
+  // Whether the newest run of the daemon has no end. Of an empty file: no.
+  Result<bool> ended_uncleanly();
+  // Once for each run, before its start is appended: FactTable::begin().
+  Result<FactsBefore> begin_facts(bool after_unclean_end) { return FactTable(database_).begin(after_unclean_end); }
   // What, added to the time since this boot, gives a clock that continues over boots. `boot` names this one.
   Result<Duration> boot_offset(std::string_view boot, TimePoint now);
   // A different text for each new file.
@@ -84,11 +89,12 @@ class Store {
 
   Result<void> check_schema(const std::string& path);
   Result<void> make_schema();
-  Result<void> upgrade();
+  Result<void> upgrade(std::int64_t from);
   Result<void> add(const Entry& entry, Head& head);
   Result<Head> dropped();
   Result<void> drop(const Head& through, const Entry& as_of);
   Result<bool> is_beyond(const StoreBounds& bounds, WallTime newest_in_segment, WallTime now);
+  Result<void> erase(std::int64_t person);
   Result<Verdict> verify_chain(const std::optional<Head>& noted);
   Result<std::string> first_complaint();
   static Result<std::vector<StoredEntry>> all_of(Statement& rows);

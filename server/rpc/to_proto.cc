@@ -141,6 +141,9 @@ struct EventFiller {
     event.mutable_stop_requested()->set_emergency(stop.emergency);
     event.mutable_stop_requested()->set_who(stop.who);
   }
+  void operator()(const server::DaemonStarted& started) const {
+    event.mutable_daemon_started()->set_after_unclean_end(started.after_unclean_end);
+  }
 };
 
 }  // namespace
@@ -249,12 +252,12 @@ v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& pr
   return proto;
 }
 
-v1::Event to_proto(const server::FactRecord& record, const std::string& run) {
+v1::Event to_proto(const server::FactRecord& record) {
   v1::Event event;
   event.set_revision(record.revision);
   *event.mutable_time() = to_proto(record.time);
-  event.set_device(api::device_name(record.device));
-  event.set_run(run);
+  if (!record.device.empty()) event.set_device(api::device_name(record.device));
+  event.set_run(record.run);
   std::visit(EventFiller{record, event}, record.fact);
   return event;
 }

@@ -34,7 +34,7 @@ v1::Motion to_proto(const api::CurrentMotion& motion);
 
 v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
 
-v1::Event to_proto(const server::FactRecord& record, const std::string& run);
+v1::Event to_proto(const server::FactRecord& record);
 
 v1::DeviceStop to_proto(const api::DeviceStop& stop);
 

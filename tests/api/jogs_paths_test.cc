@@ -204,7 +204,7 @@ TEST(RevokedToken, EndsItsStreamsAndItsJog) {
   EXPECT_TRUE(comes_true([&] {
     bool over = false;
     world.on_strand([&](const stage::StageController& controller, TimePoint) {
-      over = find_motion(controller, running->motion.id)->state == MotionState::stopped;
+      over = controller.find_motion(running->motion.id)->state == MotionState::stopped;
     });
     return over;
   }));

@@ -62,8 +62,7 @@ TEST(EventStream, EveryFactOnceInOrderAndFromWhereItIsResumed) {
   ASSERT_GT(newest, 3u);
   for (std::uint64_t revision = 1; revision <= newest; ++revision) EXPECT_EQ((*reader.next())->revision, revision);
   EXPECT_FALSE(reader.has_something());
-  Reader<Event> resumed(
-      *world.api->events.watch(World::by(kAnna), {.run = world.api->events.run(), .from = newest - 1}));
+  Reader<Event> resumed(*world.api->events.watch(World::by(kAnna), {.run = world.gateway->run(), .from = newest - 1}));
   EXPECT_EQ((*resumed.next())->revision, newest - 1);
   Reader<Event> from_now(*world.api->events.watch(World::by(kAnna), {}));
   EXPECT_FALSE(from_now.has_something());

@@ -143,12 +143,18 @@ class World {
     start();
   }
   ~World() {
-    gateway.reset();
-    journal.reset();
+    end();
     std::filesystem::remove_all(directory);
   }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
+
+  // The daemon is started again, on what it keeps; only with a journal. Without `in_order` it had been killed.
+  void restart(bool in_order) {
+    if (in_order) journal->append({{.kind = server::journal::EntryKind::daemon_ended}});
+    end();
+    start();
+  }
 
   static Call by(const std::string& who) { return {.credential = {.who = who}}; }
 
@@ -238,6 +244,11 @@ class World {
     static const std::vector<const stage::Kind*> only = {&rotor::kind()};
     return only;
   }
+  void end() {
+    api.reset();
+    gateway.reset();
+    journal.reset();
+  }
   void start() {
     std::filesystem::create_directories(directory);
     const std::string text =
@@ -250,6 +261,7 @@ class World {
     access = std::make_unique<server::Access>(access_config, kAdmin, *server::Tokens::open(directory + "/tokens"));
     positions = *server::SavedPositions::open(directory + "/positions");
     gateway = std::make_unique<server::Gateway>(*config, 1, "", journal.get());
+    if (journal) journal->append({{.kind = server::journal::EntryKind::daemon_started}});
     api = std::make_unique<Api>(*gateway, *access, *positions);
     gateway->start();
     ASSERT_TRUE(comes_true([this] { return state().link == stage::LinkState::up; }));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <future>
 #include <stdexcept>
 #include <utility>
@@ -67,7 +68,8 @@ Daemon::Daemon(const StateFolder& folder, const MemoryBounds& bounds, std::uint3
 void Daemon::prepare(stage::StageController& controller) {
   if (record_->unfinished()) controller.inherit(*record_->unfinished());
   controller.number_motions_after(std::max(journal_->last_motion(kDevice).value(), record_->last_motion()));
-  server::settle_what_was_left(journal_.get(), requests_,
+  server::EventBus nobody_watches([](std::function<void()>) {});
+  server::settle_what_was_left(journal_.get(), requests_, nobody_watches,
                                [this](std::string_view) { return record_->started_before(); });
   journal_->append({entry_of(EntryKind::daemon_started, {})});
 }

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
@@ -40,7 +41,8 @@ StartedMotion started(stage::MotionId motion, MotionState state, std::string id 
 // What a repeat of `left` is answered after the crash; nothing: it acts.
 std::optional<stage::Motion> answer_to_repeat(const RememberedRequest& left, const Started& started) {
   RequestMemory memory(MemoryBounds{}, "first", Duration::zero(), {{left}, 0});
-  settle_what_was_left(nullptr, memory, [&](std::string_view) { return started; });
+  EventBus bus([](std::function<void()>) {});
+  settle_what_was_left(nullptr, memory, bus, [&](std::string_view) { return started; });
   std::optional<stage::Motion> answer;
   const auto begun = memory.begin(left, "", kMorning, [&](const Result<RequestMemory::Known>& known) {
     answer = journal::motion_in(known->answer);
@@ -113,7 +115,8 @@ TEST(AfterCrash, AMotionThatWasNotSentIsMarkedAsRefusedIfItsRequestIs) {
   {
     const auto journal = *journal::Journal::open(path);
     journal::RequestMemory requests({}, "epoch", Duration::zero());
-    settle_what_was_left(journal.get(), requests, [](std::string_view) { return StartedMotions(); });
+    EventBus bus([](std::function<void()>) {});
+    settle_what_was_left(journal.get(), requests, bus, [](std::string_view) { return StartedMotions(); });
   }
   const std::vector<journal::StoredEntry> kept = *journal::Store::open_to_read(path)->read({}, 10);
   ASSERT_EQ(kept.size(), 5u);

@@ -75,7 +75,7 @@ TEST(EventBus, ReadsInPortionsWithoutALoss) {
 
 TEST(EventBus, AReaderThatFellBehindIsToldWhereToResume) {
   HeldTasks tasks;
-  EventBus bus(tasks.executor(), 3);
+  EventBus bus(tasks.executor(), {}, {}, {}, 3);
   publish(bus, 5);
   EventBus::Reading reading = bus.read(2, 10);
   EXPECT_TRUE(reading.compacted);
@@ -145,6 +145,90 @@ TEST(EventBus, WritersOnSeveralThreadsLeaveNoGap) {
   const EventBus::Reading reading = bus.read(1, 5000);
   ASSERT_EQ(reading.facts.size(), 2000u);
   for (std::size_t i = 0; i < reading.facts.size(); ++i) EXPECT_EQ(reading.facts[i]->revision, i + 1);
+}
+
+FactPointer fact_of_before(std::uint64_t revision, Fact fact = stage::CompletionSeen{1, 7},
+                           std::string run = "before") {
+  return std::make_shared<const FactRecord>(FactRecord{revision, "stage", {}, std::move(fact), {}, std::move(run)});
+}
+
+Fact motion(stage::MotionId id, stage::MotionState state) {
+  stage::Motion changed;
+  changed.id = id;
+  changed.state = state;
+  return stage::MotionChanged{changed};
+}
+
+// The run before published 1 to 3, of which 3 was not written, and 102 is the first of this run.
+class EventBusAfterRestart : public ::testing::Test {
+ protected:
+  HeldTasks tasks_;
+  EventBus bus_{tasks_.executor(), "now", {{fact_of_before(1), fact_of_before(2)}, 102}};
+};
+
+TEST_F(EventBusAfterRestart, RevisionsContinue) {
+  EXPECT_EQ(bus_.newest_revision(), 101u);
+  publish(bus_, 2);
+  const EventBus::Reading reading = bus_.read(0, 10);
+  EXPECT_THAT(revisions(reading), ElementsAre(1, 2, 102, 103));
+  EXPECT_EQ(reading.facts[1]->run, "before");
+  EXPECT_EQ(reading.facts[2]->run, "now");
+  EXPECT_EQ(reading.next, 104u);
+}
+
+TEST_F(EventBusAfterRestart, AReaderResumesOverTheGap) {
+  publish(bus_, 2);
+  EXPECT_THAT(revisions(bus_.read(3, 1)), ElementsAre(102));
+  EXPECT_THAT(revisions(bus_.read(4, 10)), ElementsAre(102, 103)) << "3 was received and not written";
+  EXPECT_TRUE(bus_.read(105, 10).compacted);
+}
+
+TEST_F(EventBusAfterRestart, RunAndRevisionBelongTogether) {
+  publish(bus_, 2);
+  EXPECT_TRUE(bus_.resumes("before", 1));
+  EXPECT_TRUE(bus_.resumes("before", 3));
+  EXPECT_TRUE(bus_.resumes("before", 4)) << "3 was received and not written";
+  EXPECT_TRUE(bus_.resumes("now", 102)) << "as the revision's own run";
+  EXPECT_TRUE(bus_.resumes("now", 104)) << "after the newest";
+  EXPECT_FALSE(bus_.resumes("before", 103));
+  EXPECT_FALSE(bus_.resumes("now", 2));
+  EXPECT_FALSE(bus_.resumes("between", 3)) << "a run that was not kept";
+}
+
+TEST_F(EventBusAfterRestart, WhatIsKeptOfBothRunsIsBounded) {
+  EventBus bus(tasks_.executor(), "now", {{fact_of_before(1), fact_of_before(2)}, 3}, {}, 3);
+  publish(bus, 2);
+  EXPECT_THAT(revisions(bus.read(0, 10)), ElementsAre(2, 3, 4));
+  EXPECT_TRUE(bus.read(1, 10).compacted);
+}
+
+TEST(EventBus, EachFactIsPassedOnWithTheOldestThatIsKept) {
+  std::vector<std::pair<std::uint64_t, std::uint64_t>> passed;
+  EventBus bus([](std::function<void()>) {}, "now", {{fact_of_before(5)}, 6},
+               [&](const FactPointer& fact, std::uint64_t oldest) { passed.emplace_back(fact->revision, oldest); }, 2);
+  publish(bus, 3);
+  EXPECT_THAT(passed, ElementsAre(std::pair(6, 5), std::pair(7, 6), std::pair(8, 7)));
+}
+
+TEST(EventBus, TimesAreInTheMicrosecondsOfTheFile) {
+  EventBus bus([](std::function<void()>) {});
+  bus.publish("stage", stage::CompletionSeen{}, WallTime(std::chrono::nanoseconds(1'999)));
+  EXPECT_EQ(bus.read(0, 1).facts[0]->time, WallTime(std::chrono::microseconds(1)));
+}
+
+TEST(EventBus, TheNewestOfAMotionIsFoundAsLongAsItIsKept) {
+  using stage::MotionState;
+  EventBus bus([](std::function<void()>) {}, "now", {{fact_of_before(1, motion(7, MotionState::running))}, 2}, {}, 3);
+  EXPECT_EQ(bus.find_motion("stage", 7)->revision, 1u);
+  EXPECT_EQ(bus.find_motion("other", 7), nullptr);
+  ASSERT_EQ(bus.open_motions().size(), 1u);
+  bus.publish("stage", motion(7, MotionState::unknown), {});
+  EXPECT_EQ(bus.find_motion("stage", 7)->revision, 2u);
+  EXPECT_TRUE(bus.open_motions().empty());
+  publish(bus, 2);
+  EXPECT_EQ(bus.find_motion("stage", 7)->revision, 2u) << "its older fact is gone, this one is not";
+  publish(bus, 1);
+  EXPECT_EQ(bus.find_motion("stage", 7), nullptr);
 }
 
 TEST(Newest, OnlyTheNewestIsKept) {

@@ -167,6 +167,22 @@ TEST_F(JournalErase, RememberedRequestsWithTheNameAreCounted) {
   EXPECT_EQ((*journal_->erase("unix anna", "unix root"))->requests, 2);
 }
 
+TEST_F(JournalErase, KeptEventsHaveTheNameNoMore) {
+  stage::MotionChanged change;
+  change.motion.who = "unix anna";
+  change.motion.problem = Problem{.reason = Reason::stopped, .message = "stopped by unix anna"};
+  const journal::FactChange facts{{std::make_shared<const FactRecord>(FactRecord{1, "stage", {}, change, {}, "r"})}, 1};
+  const Record record{{.who = "unix anna"}};
+  ASSERT_TRUE(Store::open(path_)->append({&record, 1}, facts));
+  open();
+  ASSERT_TRUE(*journal_->erase("unix anna", "unix root"));
+  EXPECT_EQ(bytes().find("unix anna"), std::string::npos);
+  const auto kept = Store::open(path_)->begin_facts(false);
+  ASSERT_TRUE(kept);
+  ASSERT_EQ(kept->facts.size(), 1u);
+  EXPECT_EQ(std::get<stage::MotionChanged>(kept->facts[0]->fact).motion.who, "erased 1");
+}
+
 TEST_F(JournalErase, WhileAnotherProgramReadsTheLogKeepsTheName) {
   open();
   append("unix anna");

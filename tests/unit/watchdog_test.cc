@@ -6,6 +6,7 @@
 #include <chrono>
 #include <deque>
 #include <functional>
+#include <future>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -73,6 +74,32 @@ TEST_F(WatchdogTest, AnAnswerAtOnceCounts) {
   pass_a_period();
   pass_a_period();
   EXPECT_EQ(alive_, 2);
+}
+
+// What the threads are asked through goes after the watchdog.
+TEST_F(WatchdogTest, ItsEndWaitsWhileThreadsAreAsked) {
+  std::promise<void> asking, ended;
+  std::future<void> end = ended.get_future();
+  bool ended_while_asking = true;
+  int asked = 0;
+  watchdog_.emplace(
+      std::vector<Watchdog::Thread>{{"one",
+                                     [&](const std::function<void()>& answer) {
+                                       answer();
+                                       if (++asked == 1) return;
+                                       asking.set_value();
+                                       // Only a failing test sees it end; the others wait for it here.
+                                       const auto seen = end.wait_for(std::chrono::milliseconds(100));
+                                       ended_while_asking = seen == std::future_status::ready;
+                                     }}},
+      kPeriod, [this](Duration, std::function<void()> task) { later_.push_back(std::move(task)); },
+      [this] { ++alive_; });
+  const auto round = std::async(std::launch::async, [this] { pass_a_period(); });
+  asking.get_future().wait();
+  watchdog_.reset();
+  ended.set_value();
+  round.wait();
+  EXPECT_FALSE(ended_while_asking);
 }
 
 TEST_F(WatchdogTest, NoSignAfterItsEnd) {

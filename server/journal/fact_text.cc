@@ -1,0 +1,200 @@
+#include "server/journal/fact_text.h"
+
+#include <chrono>
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <type_traits>
+#include <utility>
+#include <variant>
+
+#include "server/journal/body.h"
+#include "server/journal/motion_json.h"
+
+namespace axisgate::server::journal {
+namespace {
+
+using Json = nlohmann::json;
+using std::chrono::nanoseconds;
+
+// A motion's times count by its fact's clock, so they are written as they are.
+std::int64_t nanos_of(TimePoint time) { return time.time_since_epoch().count(); }
+TimePoint time_of(const Json& json) { return TimePoint(nanoseconds(json.get<std::int64_t>())); }
+
+stage::AxisSet axes_in(const Json& list) {
+  stage::AxisSet axes;
+  for (const int axis : list) axes.add(axis);
+  return axes;
+}
+
+// How one alternative of Fact is written and read. The numbers of enumerations are in the file.
+template <class What>
+struct Form;
+
+template <>
+struct Form<stage::MotionChanged> {
+  static constexpr const char* key = "motion";
+  static Json write(const stage::MotionChanged& change) {
+    const stage::Motion& motion = change.motion;
+    Json json = json_of(motion);
+    json["created"] = nanos_of(motion.created);
+    json["started"] = nanos_of(motion.started);
+    json["ended"] = nanos_of(motion.ended);
+    if (motion.due) json["due"] = nanos_of(*motion.due);
+    return json;
+  }
+  static stage::MotionChanged read(const Json& json) {
+    stage::Motion motion = motion_of(json);
+    motion.created = time_of(json.at("created"));
+    motion.started = time_of(json.at("started"));
+    motion.ended = time_of(json.at("ended"));
+    if (json.contains("due")) motion.due = time_of(json.at("due"));
+    return {std::move(motion)};
+  }
+};
+
+template <>
+struct Form<stage::CompletionSeen> {
+  static constexpr const char* key = "completion";
+  static Json write(const stage::CompletionSeen& seen) {
+    return {{"axis", seen.axis}, {"motion", seen.motion}, {"deduced", seen.deduced}};
+  }
+  static stage::CompletionSeen read(const Json& json) {
+    return {.axis = json.at("axis"), .motion = json.at("motion"), .deduced = json.at("deduced")};
+  }
+};
+
+template <>
+struct Form<stage::PathProgress> {
+  static constexpr const char* key = "path";
+  static Json write(const stage::PathProgress& progress) {
+    return {{"motion", progress.motion},
+            {"step", static_cast<int>(progress.step)},
+            {"segment", progress.segment},
+            {"wire_reply", progress.wire_reply}};
+  }
+  static stage::PathProgress read(const Json& json) {
+    return {.motion = json.at("motion"),
+            .step = static_cast<stage::PathProgress::Step>(json.at("step").get<int>()),
+            .segment = json.at("segment"),
+            .wire_reply = json.at("wire_reply")};
+  }
+};
+
+template <>
+struct Form<stage::LinkChanged> {
+  static constexpr const char* key = "link";
+  static Json write(const stage::LinkChanged& change) {
+    return {{"link", static_cast<int>(change.link)},
+            {"why", change.why},
+            {"controllable", change.controllable.list()},
+            {"serial_number", change.serial_number}};
+  }
+  static stage::LinkChanged read(const Json& json) {
+    return {.link = static_cast<stage::LinkState>(json.at("link").get<int>()),
+            .why = json.at("why"),
+            .controllable = axes_in(json.at("controllable")),
+            .serial_number = json.at("serial_number")};
+  }
+};
+
+template <>
+struct Form<stage::StopRequested> {
+  static constexpr const char* key = "stop";
+  static Json write(const stage::StopRequested& stop) {
+    return {{"axes", stop.axes.list()}, {"emergency", stop.emergency}, {"who", stop.who}};
+  }
+  static stage::StopRequested read(const Json& json) {
+    return {.axes = axes_in(json.at("axes")), .emergency = json.at("emergency"), .who = json.at("who")};
+  }
+};
+
+template <>
+struct Form<stage::ForeignMotion> {
+  static constexpr const char* key = "foreign_motion";
+  static Json write(const stage::ForeignMotion& motion) { return motion.axes.list(); }
+  static stage::ForeignMotion read(const Json& json) { return {axes_in(json)}; }
+};
+
+template <>
+struct Form<stage::SwitchesChanged> {
+  static constexpr const char* key = "switches";
+  static Json write(const stage::SwitchesChanged& change) {
+    Json changes = Json::array();
+    for (const auto& one : change.changes) {
+      changes.push_back({{"item", one.item}, {"number", one.number}, {"before", one.before}, {"after", one.after}});
+    }
+    return {{"who", change.who}, {"changes", std::move(changes)}, {"unknown", change.unknown}};
+  }
+  static stage::SwitchesChanged read(const Json& json) {
+    stage::SwitchesChanged change{.who = json.at("who"), .changes = {}, .unknown = json.at("unknown")};
+    for (const Json& one : json.at("changes")) {
+      change.changes.push_back({one.at("item"), one.at("number"), one.at("before"), one.at("after")});
+    }
+    return change;
+  }
+};
+
+template <>
+struct Form<stage::ProgramNotice> {
+  static constexpr const char* key = "program";
+  static Json write(const stage::ProgramNotice& notice) {
+    return {{"kind", static_cast<int>(notice.kind)}, {"count", notice.count}};
+  }
+  static stage::ProgramNotice read(const Json& json) {
+    return {.kind = static_cast<stage::ProgramNotice::Kind>(json.at("kind").get<int>()), .count = json.at("count")};
+  }
+};
+
+template <>
+struct Form<DaemonStarted> {
+  static constexpr const char* key = "daemon_started";
+  static Json write(const DaemonStarted& started) { return {{"after_unclean_end", started.after_unclean_end}}; }
+  static DaemonStarted read(const Json& json) { return {.after_unclean_end = json.at("after_unclean_end")}; }
+};
+
+Json clock_json(const Moment& clock) {
+  return {{"monotonic", nanos_of(clock.monotonic)}, {"wall", nanoseconds(clock.wall.time_since_epoch()).count()}};
+}
+
+Moment clock_of(const Json& json) {
+  return {time_of(json.at("monotonic")), WallTime(nanoseconds(json.at("wall").get<std::int64_t>()))};
+}
+
+template <class... What>
+std::optional<Fact> read_any(const Json& json, const std::variant<What...>*) {
+  std::optional<Fact> fact;
+  const auto try_as = [&](auto form) {
+    if (json.contains(form.key)) fact = form.read(json.at(form.key));
+  };
+  (try_as(Form<What>()), ...);
+  return fact;
+}
+
+}  // namespace
+
+std::string text_of(const FactRecord& record) {
+  Json json{{"clock", clock_json(record.clock)}};
+  std::visit(
+      [&](const auto& what) {
+        using What = Form<std::decay_t<decltype(what)>>;
+        json[What::key] = What::write(what);
+      },
+      record.fact);
+  return json_text(json);
+}
+
+std::optional<FactRecord> fact_in(std::string_view text) {
+  try {
+    const Json json = Json::parse(text);
+    std::optional<Fact> fact = read_any(json, static_cast<const Fact*>(nullptr));
+    if (!fact) return std::nullopt;
+    FactRecord record;
+    record.fact = *std::move(fact);
+    record.clock = clock_of(json.at("clock"));
+    return record;
+  } catch (const Json::exception&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace axisgate::server::journal
