@@ -102,8 +102,10 @@ void Mutation::refused(const Problem& problem) {
   if (journal != nullptr) journal->append_refusal(entry(EntryKind::request_refused, body));
 }
 
+// What uses no axes has entries of its own, such as those of leases: here only its id is noted.
 void Mutation::ended(std::string answer, std::string_view outcome) {
   auto change = key_ ? gateway_.requests().ended(*key_, std::move(answer)) : std::nullopt;
+  if (!change && !uses_axes(kind_)) return;
   write(EntryKind::request_ended, json_text({{"request", name(kind_)}, {"outcome", outcome}}), std::move(change));
 }
 
