@@ -145,10 +145,11 @@ axisctl lease list)"},
      R"(Reads a job in RML-1, plays it on a model of the machine and checks it. Nothing is sent, and no daemon is needed. The
 profile describes the machine: the name of one in deploy/mills, or your own changed copy. --origin is the work origin:
 X and Y from the home corner, and how far Z0 is below the top of the travel. Without it only sizes are checked. With
---stock there is a warning for a cut beside or below the workpiece. `mill check` exits 1 when the job has an error.
-`mill preview` draws the job from above, from the front and from the side.)",
+--stock there is a warning for a cut beside or below the workpiece. With --tool, the diameter of the tool, the report
+says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from above, from
+the front and from the side, and reports the same errors and warnings.)",
      R"(printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill check - --profile mdx-20
-printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2
+printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
 printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg)"},
     {"units",

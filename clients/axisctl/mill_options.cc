@@ -25,6 +25,8 @@ void add_mill_verbs(CLI::App& app, Options& options) {
         ->type_name("X,Y,Z");
     verb->add_option("--stock", options.mill.stock, "the workpiece in mm, from the work origin, and its thickness")
         ->type_name("X,Y,Z");
+    verb->add_option("--tool", options.mill.tool_mm, "the diameter of the tool in mm: says how much is removed")
+        ->type_name("MM");
   }
   preview->add_option("-o,--output", options.mill.output, "an .svg or a .png file")->required()->type_name("FILE");
 }

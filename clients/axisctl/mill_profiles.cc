@@ -55,7 +55,7 @@ std::vector<rml1::KnownMachine> known_mills() {
   std::vector<rml1::KnownMachine> machines;
   for (const fs::path& file : shipped()) {
     if (const auto profile = rml1::load_profile(file.string())) {
-      machines.push_back({profile->name, profile->step_mm, profile->z_mm});
+      machines.push_back({profile->name, profile->step_mm, profile->z_mm, profile->speed.cutting_maximum});
     }
   }
   return machines;

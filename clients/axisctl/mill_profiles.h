@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/judge.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/profile_judge.h"
 
 namespace axisgate::axisctl {
 

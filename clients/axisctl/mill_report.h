@@ -7,12 +7,12 @@
 
 namespace axisgate::axisctl {
 
-// `job.rml:3:7: error: error 2: ... [2-3]` for each, in the order of the job, and how many are not shown.
+// `job.rml:3:7: error 2: ... [2-3]` for each, in the order of the job, and how many are not shown.
 void print_diagnostics(const std::string& file, const rml1::Diagnostics& diagnostics);
 // What the job does on this machine, in mm.
 void print_summary(const rml1::Check& check, const rml1::Profile& profile, bool origin_known);
 
-// One object for each diagnostic, and one of the job. Steps of the workpiece system.
-void print_json(const rml1::Check& check);
+// One object for each diagnostic, and one of the job (mill_json.cc). Steps of the workpiece system, and mm.
+void print_json(const rml1::Check& check, const rml1::Profile& profile);
 
 }  // namespace axisgate::axisctl

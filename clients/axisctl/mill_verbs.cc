@@ -25,7 +25,8 @@ namespace {
 using namespace rml1;
 
 constexpr std::size_t kPiece = 1 << 16;
-constexpr double kFarthest = 10'000;  // mm; as in profiles
+constexpr double kFarthest = 10'000;                // mm; as in profiles
+constexpr double kThinnest = 0.1, kThickest = 100;  // tools, mm
 
 // "X,Y,Z" in mm.
 Point lengths(const std::string& text, const char* option) {
@@ -66,6 +67,11 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
       throw usage("--stock has no size", "use its three lengths in mm, e.g. 80,50,10");
     options.stock = Stock{p.x, p.y, p.z};
   }
+  if (asked.tool_mm && !(*asked.tool_mm >= kThinnest && *asked.tool_mm <= kThickest)) {
+    throw usage(fmt::format("--tool is {} mm", *asked.tool_mm),
+                fmt::format("use the tool's diameter in mm, {} to {}", kThinnest, kThickest));
+  }
+  options.tool_mm = asked.tool_mm;
   return options;
 }
 
@@ -101,10 +107,10 @@ int mill_check(const Options& options) {
   Check check(profile, asked);
   read_job(options.mill.file, check);
   if (options.json) {
-    print_json(check);
+    print_json(check, profile);
   } else {
     print_diagnostics(options.mill.file, check.diagnostics());
-    if (!check.is_g_code()) print_summary(check, profile, asked.origin.has_value());
+    if (!check.is_other_file()) print_summary(check, profile, asked.origin.has_value());
   }
   return check.diagnostics().count(Severity::error) == 0 ? kDone : kFailed;
 }
@@ -119,10 +125,8 @@ int mill_preview(const Options& options) {
   Strokes strokes;
   Check check(profile, asked, &strokes);
   read_job(options.mill.file, check);
-  if (check.is_g_code()) {
-    print_diagnostics(options.mill.file, check.diagnostics());
-    return kFailed;
-  }
+  print_diagnostics(options.mill.file, check.diagnostics());
+  if (check.is_other_file() || check.summary().commands == 0) return kFailed;
   const std::string title = std::filesystem::path(options.mill.file).filename().string();
   const Picture picture = make_picture(title, check, profile, asked.stock, asked.origin.has_value(), strokes);
   errno = 0;
@@ -130,10 +134,6 @@ int mill_preview(const Options& options) {
   if (!written) {
     throw usage(fmt::format("{} cannot be written: {}", output, std::strerror(errno)),
                 "name a file in a folder that you can write to");
-  }
-  if (const auto errors = check.diagnostics().count(Severity::error); errors > 0) {
-    print_note(
-        fmt::format("the job has {} {}: `axisctl mill check` shows them", errors, errors == 1 ? "error" : "errors"));
   }
   return kDone;
 }

@@ -87,6 +87,7 @@ struct MillOptions {
   std::string profile;                // a shipped one's name, or a file
   std::optional<std::string> origin;  // "10,10,5", mm
   std::optional<std::string> stock;   // the same
+  std::optional<double> tool_mm;      // its diameter
   std::string output;                 // preview: the picture
 };
 

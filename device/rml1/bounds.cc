@@ -5,8 +5,8 @@
 namespace axisgate::rml1 {
 
 std::string to_string(const Reach& reach) {
-  return reach.size() == 0 ? fmt::format("{:g}", reach.lowest)
-                           : fmt::format("{:g} to {:g}", reach.lowest, reach.highest);
+  const std::string lowest = fmt::format("{:g}", reach.lowest), highest = fmt::format("{:g}", reach.highest);
+  return lowest == highest ? lowest : lowest + " to " + highest;
 }
 
 }  // namespace axisgate::rml1

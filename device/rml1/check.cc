@@ -2,8 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
+
+#include "device/rml1/known_file.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -22,46 +25,104 @@ std::string time_text(const Summary& summary) {
   return duration(summary.seconds_low) + " to " + duration(summary.seconds_high);
 }
 
+std::string time_reason(const Summary& summary, const Profile& profile) {
+  const Acceleration& assumed = profile.acceleration;
+  std::string text = fmt::format("{:g} to {:g} mm/s2 and moves up to {:.0f} % slower are assumed", assumed.best,
+                                 assumed.worst, assumed.slower * 100);
+  if (summary.seconds_down > 0) {
+    text += fmt::format("; the longer time has {} for the way down from the top to Z0, which may lie anywhere",
+                        duration(summary.seconds_down));
+  }
+  return text;
+}
+
 Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
     : profile_(profile),
+      options_(std::move(options)),
       moves_(moves),
-      origin_known_(options.origin.has_value()),
-      machine_(profile, options.origin, diagnostics_, *this),
-      parser_(profile.dialect, diagnostics_, machine_),
-      judge_(profile, origin_known_, options.stock, std::move(options.others), diagnostics_),
+      machine_(profile, options_.origin, diagnostics_, *this),
+      parser_(profile.dialect, diagnostics_, *this),
+      judge_(profile, options_.origin.has_value(), options_.stock, options_.others, diagnostics_),
+      profile_judge_(profile, options_.others, diagnostics_),
+      state_judge_(profile, diagnostics_),
+      workload_(profile, options_.tool_mm),
       best_(profile.acceleration.best, profile.acceleration.corner_mm),
       worst_(profile.acceleration.worst, profile.acceleration.corner_mm, 1 + profile.acceleration.slower) {}
 
-void Check::feed(std::string_view bytes) {
-  if (verdict_ == JobKind::Verdict::nothing_yet) bytes = recognise(bytes);
-  if (!is_g_code()) parser_.feed(bytes);
+bool Check::is_other_file() const {
+  return opening_.verdict() == Opening::Verdict::g_code || opening_.verdict() == Opening::Verdict::other_file;
 }
 
-// What is left of the bytes when the kind is known; until then they are held.
-std::string_view Check::recognise(std::string_view bytes) {
-  std::size_t count = 0;
-  while (verdict_ == JobKind::Verdict::nothing_yet && count < bytes.size()) verdict_ = kind_.take(bytes[count++]);
-  held_ += bytes.substr(0, count);
-  if (is_g_code()) {
-    diagnostics_.error(0, kind_.place(), "1-2", [] {
-      return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
-    });
-  } else if (verdict_ == JobKind::Verdict::rml) {
-    parser_.feed(std::exchange(held_, {}));
+void Check::feed(std::string_view bytes) {
+  bytes_ += bytes.size();
+  if (opening_.verdict() == Opening::Verdict::nothing_yet) {
+    bytes.remove_prefix(opening_.take(bytes));
+    judge_opening();
   }
-  return bytes.substr(count);
+  if (opening_.verdict() == Opening::Verdict::job) parser_.feed(bytes);
+}
+
+// Once, when the kind is known.
+void Check::judge_opening() {
+  switch (opening_.verdict()) {
+    case Opening::Verdict::nothing_yet:
+      return;
+    case Opening::Verdict::job:
+      return begin_job();
+    case Opening::Verdict::g_code:
+      diagnostics_.error(0, opening_.g_code_place(), "1-2", [] {
+        return "this is G-code, not RML-1: a machine that expects RML-1 may hang until it is switched off";
+      });
+      return;
+    case Opening::Verdict::other_file:
+      diagnostics_.error(0, {}, "1-2",
+                         [this] { return fmt::format("this is {}, not a job in RML-1", opening_.what()); });
+  }
+}
+
+void Check::begin_job() {
+  std::string_view bytes = opening_.held();
+  profile_judge_.begins(bytes.substr(0, kHead));
+  if (bytes.starts_with(kByteOrderMark)) {
+    diagnostics_.error(1, {}, "1-1", [] {
+      return "the file begins with a byte order mark, EF BB BF, which is no part of RML-1: save it as ASCII";
+    });
+    bytes.remove_prefix(kByteOrderMark.size());
+    parser_.skip(kByteOrderMark.size());
+  }
+  parser_.feed(bytes);
 }
 
 void Check::finish() {
-  if (!is_g_code()) {
-    parser_.feed(held_);
+  if (opening_.verdict() == Opening::Verdict::nothing_yet) {
+    opening_.finish();
+    judge_opening();
+  }
+  if (!is_other_file()) {
     parser_.finish();
-    judge_.finish(machine_);
+    judge_.finish(machine_, parser_.commands());
+    profile_judge_.finish();
+    state_judge_.finish(machine_);
+    report_no_command();
   }
   summary_.final = machine_.tool();
   summary_.seconds_low = best_.finish();
   summary_.seconds_high = worst_.finish();
   summary_.commands = parser_.commands();
+}
+
+void Check::report_no_command() {
+  if (parser_.commands() > 0 || diagnostics_.count(Severity::error) > 0) return;
+  diagnostics_.error(0, {}, "1-2", [this] {
+    return bytes_ == 0 ? std::string("the file is empty: this is no job")
+                       : fmt::format("{} bytes without a command: this is no job", bytes_);
+  });
+}
+
+void Check::execute(const Instruction& instruction) {
+  machine_.execute(instruction);
+  profile_judge_.executed(instruction);
+  state_judge_.executed(instruction);
 }
 
 // Eight bits, a start bit and a stop bit.
@@ -71,23 +132,29 @@ double Check::arrival(std::uint64_t end) const {
 
 void Check::moved(const Move& move) {
   const Point way = (move.to - move.from) * profile_.step_mm;
-  const double distance = length(way);
-  summary_.distance_mm += distance;
+  // The way down from wherever the tool is when a job begins says nothing about the job.
+  const bool first_height = !moved_ && way.x == 0 && way.y == 0;
+  moved_ = true;
+  summary_.distance_mm += length(way);
+  summary_.cutting_mm += length(way) * move.cutting_part();
   if (move.cuts() && move.turning) summary_.rpm.take(machine_.rpm());
-  summary_.cutting_mm += distance * move.cutting_part();
-  const bool assumed = begins_assumed(move);
-  summary_.bounds.take(assumed ? move.to : move.from);
+  summary_.bounds.take(first_height ? move.to : move.from);
   summary_.bounds.take(move.to);
-  if (!assumed) best_.move(way, move.speed, arrival(move.end));
-  begun_ = true;
-  worst_.move(way, move.speed, arrival(move.end));
+  time(move, way, first_height);
   judge_.moved(move);
+  const bool plane = move.operation == Operation::plot && (way.x != 0 || way.y != 0);
+  judge_.took(workload_.moved(move, plane ? machine_.cutting_speed() : machine_.z_speed()), move);
   if (moves_ != nullptr) moves_->moved(move);
 }
 
 // Where Z0 is not known, nobody knows from how high the tool comes down at first.
-bool Check::begins_assumed(const Move& move) const {
-  return !begun_ && !origin_known_ && move.from.x == move.to.x && move.from.y == move.to.y;
+void Check::time(const Move& move, const Point& way, bool first_height) {
+  if (!first_height || options_.origin) {
+    best_.move(way, move.speed, arrival(move.end));
+  } else {
+    summary_.seconds_down = length(way) / move.speed * (1 + profile_.acceleration.slower);
+  }
+  worst_.move(way, move.speed, arrival(move.end));
 }
 
 void Check::waited(Wait what, double seconds, std::uint64_t end) {
@@ -98,8 +165,11 @@ void Check::waited(Wait what, double seconds, std::uint64_t end) {
 
 void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {
   judge_.commanded(from, target, height_alone, machine_.box(), by);
+  if (!height_alone) profile_judge_.commanded(target, by);
+  if (moves_ == nullptr) return;
+  find_left_out(machine_.box(), from, target, [this](const Point& a, const Point& b) { moves_->left_out(a, b); });
 }
 
-void Check::lifted(double steps, const Instruction& by) { judge_.lifted(steps, by); }
+void Check::lifted(double steps, const Instruction& by) { profile_judge_.lifted(steps, by); }
 
 }  // namespace axisgate::rml1

@@ -9,11 +9,14 @@
 
 #include "device/rml1/bounds.h"
 #include "device/rml1/diagnostic.h"
-#include "device/rml1/job_kind.h"
 #include "device/rml1/judge.h"
 #include "device/rml1/machine.h"
+#include "device/rml1/opening.h"
 #include "device/rml1/parser.h"
 #include "device/rml1/planner.h"
+#include "device/rml1/profile_judge.h"
+#include "device/rml1/state_judge.h"
+#include "device/rml1/workload.h"
 
 namespace axisgate::rml1 {
 
@@ -21,13 +24,15 @@ struct CheckOptions {
   std::optional<Origin> origin;  // none: only sizes are judged
   std::optional<Stock> stock;
   std::vector<KnownMachine> others;
+  std::optional<double> tool_mm{};  // the diameter, above 0
 };
 
 // Steps of the workpiece system.
 struct Summary {
   Point final;    // where the tool really is
-  Bounds bounds;  // of what was really driven, but for an assumed height at which the job begins
+  Bounds bounds;  // of what was really driven, but for the height at which the job begins
   double seconds_low = 0, seconds_high = 0;
+  double seconds_down = 0;  // of seconds_high: from the height at which the job begins, where that is not known
   double distance_mm = 0, cutting_mm = 0;
   std::uint64_t spin_ups = 0;
   Reach rpm;  // at which it cuts
@@ -35,43 +40,54 @@ struct Summary {
 };
 
 std::string time_text(const Summary& summary);  // "45 s to 1 min 30 s"
+// Why the two ends differ: "200 to 100 mm/s2 and moves up to 50 % slower are assumed".
+std::string time_reason(const Summary& summary, const Profile& profile);
 
-class Check : private MachineListener {
+class Check : private MachineListener, private ParserListener {
  public:
-  // `moves` receives each real move, too. Everything referred to outlives this.
+  // `moves` receives each real move, and what clipping leaves out. Everything referred to outlives this.
   Check(const Profile& profile, CheckOptions options, MoveListener* moves = nullptr);
 
   void feed(std::string_view bytes);
   void finish();
 
-  bool is_g_code() const { return verdict_ == JobKind::Verdict::g_code; }
+  // G-code, a picture, a page: then this is the only diagnostic.
+  bool is_other_file() const;
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const Summary& summary() const { return summary_; }  // after finish()
+  const std::vector<Section>& sections() const { return workload_.sections(); }
+  std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
 
  private:
+  void execute(const Instruction& instruction) override;
+  void quit() override { machine_.quit(); }
   void moved(const Move& move) override;
   void waited(Wait what, double seconds, std::uint64_t end) override;
   void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) override;
   void lifted(double steps, const Instruction& by) override;
 
-  std::string_view recognise(std::string_view bytes);
+  void judge_opening();
+  void begin_job();
+  void report_no_command();
   double arrival(std::uint64_t end) const;
-  bool begins_assumed(const Move& move) const;
+  void time(const Move& move, const Point& way, bool first_height);
 
   const Profile& profile_;
+  const CheckOptions options_;
   MoveListener* moves_;
-  bool origin_known_;
   Diagnostics diagnostics_;
-  JobKind kind_;
-  JobKind::Verdict verdict_ = JobKind::Verdict::nothing_yet;
-  std::string held_;  // until the kind is known
+  Opening opening_;
+  std::uint64_t bytes_ = 0;
   Machine machine_;
   Parser parser_;
   Judge judge_;
+  ProfileJudge profile_judge_;
+  StateJudge state_judge_;
+  Workload workload_;
   Planner best_, worst_;
   Summary summary_;
-  bool begun_ = false;
+  bool moved_ = false;
 };
 
 }  // namespace axisgate::rml1

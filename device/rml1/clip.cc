@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace axisgate::rml1 {
 namespace {
@@ -48,6 +49,16 @@ Point at(const Point& from, const Point& to, double part) {
 Point Box::held(const Point& p) const {
   return {std::clamp(p.x, lowest.x, highest.x), std::clamp(p.y, lowest.y, highest.y),
           std::clamp(p.z, lowest.z, highest.z)};
+}
+
+void find_left_out(const Box& box, const Point& from, const Point& to, const Piecewise& left_out) {
+  const double bottom = box.lowest.z;
+  if (box.over(from) && box.over(to) && from.z >= bottom && to.z >= bottom) return;
+  Span span = inside(box, from, to);
+  if (span.any()) cut(span, from.z, to.z, bottom, std::numeric_limits<double>::infinity());
+  if (!span.any()) return left_out(from, to);
+  if (span.enter > 0) left_out(from, at(from, to, span.enter));
+  if (span.leave < 1) left_out(at(from, to, span.leave), to);
 }
 
 void Clipper::move_to(const Point& target, const Driven& driven) {

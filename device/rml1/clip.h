@@ -25,6 +25,11 @@ enum class Piece {
   descent,
 };
 
+using Piecewise = std::function<void(const Point& from, const Point& to)>;
+// The pieces of a straight commanded path that lie beyond the sides of the box or below it: the tool does not drive
+// them as commanded. Beyond the top nothing is lost.
+void find_left_out(const Box& box, const Point& from, const Point& to, const Piecewise& left_out);
+
 class Clipper {
  public:
   using Driven = std::function<void(Piece, const Point& from, const Point& to)>;

@@ -1,6 +1,7 @@
 #include "device/rml1/diagnostic.h"
 
 #include <algorithm>
+#include <tuple>
 
 namespace axisgate::rml1 {
 
@@ -16,30 +17,26 @@ std::string_view name(Severity severity) {
   return "error";
 }
 
-// The last that is no error and of a kind that `which` accepts.
-template <class Which>
-bool Diagnostics::drop_last(Which which) {
-  for (std::size_t index = kept_.size(); index-- > 0;) {
-    if (kept_[index].severity == Severity::error || !which(kinds_[index])) continue;
-    kept_.erase(kept_.begin() + static_cast<std::ptrdiff_t>(index));
-    kinds_.erase(kinds_.begin() + static_cast<std::ptrdiff_t>(index));
-    return true;
+std::vector<Diagnostic> Diagnostics::in_order() const {
+  std::vector<Diagnostic> all = kept_;
+  const auto key = [](const Diagnostic& one) { return std::tuple(one.place.offset, one.number != 0); };
+  std::ranges::stable_sort(all, {}, key);
+  return all;
+}
+
+std::vector<Diagnostics::Omitted> Diagnostics::omitted() const {
+  std::vector<Omitted> all;
+  for (const Kind& kind : kinds_) {
+    if (kind.count > kSame) all.push_back({kept_[kind.first], kind.count - kSame, kind.last});
   }
-  return false;
+  return all;
 }
 
-bool Diagnostics::make_room_for_error() {
-  return kept_.size() < kKept || drop_last([](Kind) { return true; });
-}
-
-bool Diagnostics::make_room_for(Kind kind) {
-  if (kept_.size() < kKept) return true;
-  if (times(kind) > 0) return false;
-  return drop_last([this](Kind other) { return times(other) > kSame; });
-}
-
-std::size_t Diagnostics::times(Kind kind) const {
-  return static_cast<std::size_t>(std::count(kinds_.begin(), kinds_.end(), kind));
+bool Diagnostics::keeps(const void* id, const Place& place) {
+  auto kind = std::ranges::find(kinds_, id, &Kind::id);
+  if (kind == kinds_.end()) kind = kinds_.insert(kind, {id, kept_.size(), 0, place});
+  kind->last = place;
+  return ++kind->count <= kSame;
 }
 
 }  // namespace axisgate::rml1

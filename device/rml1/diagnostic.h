@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include "device/rml1/place.h"
@@ -23,42 +22,50 @@ struct Diagnostic {
   std::string text;
 };
 
-// The first hundred in the order of their finding, and a count of all. When they are full, an error takes the place of
-// the last that is none, and the first warning or note of its kind that of the last whose kind stands there many times.
+// The first ten of each kind in the order of their finding, and a count of all. Each place in the code that reports
+// something is a kind, so that what is kept has a limit. Not thread safe.
 class Diagnostics {
  public:
-  static constexpr std::size_t kKept = 100, kSame = 10;
+  static constexpr std::uint64_t kSame = 10;
 
-  // `text` is called only for what is kept: a job may have millions. Each place in the code that reports something is a
-  // kind.
+  // What of a kind is not kept.
+  struct Omitted {
+    Diagnostic first;
+    std::uint64_t count = 0;
+    Place last;
+  };
+
+  // `text` is called only for what is kept: a job may have millions.
   template <class Text>
   void add(int number, Severity severity, const Place& place, std::string_view section, Text&& text) {
     static constexpr char kKind = 0;
     ++counts_[static_cast<std::size_t>(severity)];
-    if (severity == Severity::error ? !make_room_for_error() : !make_room_for(&kKind)) return;
-    kept_.push_back({number, severity, place, section, std::string(text())});
-    kinds_.push_back(&kKind);
+    if (keeps(&kKind, place)) kept_.push_back({number, severity, place, section, std::string(text())});
   }
   template <class Text>
   void error(int number, const Place& place, std::string_view section, Text&& text) {
-    add(number, Severity::error, place, section, std::forward<Text>(text));
+    add(number, Severity::error, place, section, text);
   }
 
   const std::vector<Diagnostic>& kept() const { return kept_; }
+  // By place in the job; at one place, what concerns the whole job comes first.
+  std::vector<Diagnostic> in_order() const;
   std::uint64_t count(Severity severity) const { return counts_[static_cast<std::size_t>(severity)]; }
-  std::uint64_t omitted() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
+  std::uint64_t omitted_count() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
+  std::vector<Omitted> omitted() const;
 
  private:
-  using Kind = const void*;
+  struct Kind {
+    const void* id;
+    std::size_t first;  // in kept_
+    std::uint64_t count = 0;
+    Place last;
+  };
 
-  bool make_room_for_error();
-  bool make_room_for(Kind kind);
-  std::size_t times(Kind kind) const;
-  template <class Which>
-  bool drop_last(Which which);
+  bool keeps(const void* id, const Place& place);
 
   std::vector<Diagnostic> kept_;
-  std::vector<Kind> kinds_;  // of those kept
+  std::vector<Kind> kinds_;
   std::uint64_t counts_[3] = {};
 };
 

@@ -9,9 +9,10 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr double kHalfStep = 0.5;
-
-// `p`, or where the way from it to `other` goes through the surface. One of them lies below.
-Point sunk(const Point& p, const Point& other) { return p.z <= 0 ? p : p + (other - p) * (p.z / (p.z - other.z)); }
+// Assumed: more than twice the diameter of the tools that these machines take for cutting.
+constexpr double kDeepPassMm = 10;
+// So many paths without an error are no accident, and so many errors behind them no slip of the pen. Assumed.
+constexpr std::uint64_t kSoundPaths = 10, kManyErrors = 3;
 
 bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -60,6 +61,7 @@ void Judge::judge_stock(const Move& move) {
 void Judge::commanded(const Point& from, const Point& target, bool height_alone, const Box& box,
                       const Instruction& by) {
   const bool cuts = from.z < 0 || target.z < 0;
+  if (diagnostics_.count(Severity::error) == 0) ++paths_before_errors_;
   if (!asked_.z.any || target.z < asked_.z.lowest) deepest_ = by.place;
   asked_.z.take(target.z);
   // A cut begins where the tool is; where it was before it travels, nobody knows. Where the origin is known, what of
@@ -99,23 +101,12 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
   }
 }
 
-// A job does not state its unit; a lift by a whole travel shows it.
-void Judge::lifted(double steps, const Instruction& by) {
-  const auto travel_of = [steps](double z_mm, double step) { return std::abs(z_mm / step - steps) <= kHalfStep; };
-  if (reported_.contains(Cause::lift) || travel_of(profile_.z_mm, profile_.step_mm)) return;
-  std::vector<std::string> names;
-  double step_mm = 0;
-  for (const KnownMachine& other : others_) {
-    if (same(other.step_mm, profile_.step_mm) || !travel_of(other.z_mm, other.step_mm)) continue;
-    names.push_back(other.name);
-    step_mm = other.step_mm;
-  }
-  if (names.empty()) return;
-  warn_once(Cause::lift, by.place, "1-1", [&] {
+void Judge::took(double depth_mm, const Move& move) {
+  if (depth_mm <= kDeepPassMm) return;
+  warn_once(Cause::deep_pass, move.place, "3-2", [&] {
     return fmt::format(
-        "a lift of {:g} steps is the whole travel of the {}, with steps of {} mm; here they are {} mm: is it the right "
-        "profile?",
-        steps, fmt::join(names, " and the "), step_mm, profile_.step_mm);
+        "takes {:.2f} mm in one pass: with most tools a pass of this depth breaks the tool; cut in several passes",
+        depth_mm);
   });
 }
 
@@ -155,8 +146,30 @@ void Judge::judge_sizes() {
   }
 }
 
-void Judge::finish(const Machine& machine) {
+// A file of another kind has hardly anything but errors. One that has lost bytes is a job up to a line.
+void Judge::judge_errors(std::uint64_t commands) {
+  const std::uint64_t errors = diagnostics_.count(Severity::error);
+  if (errors < kManyErrors) return;
+  if (paths_before_errors_ >= kSoundPaths) {
+    const auto is_error = [](const Diagnostic& one) { return one.severity == Severity::error && one.number != 0; };
+    const std::vector<Diagnostic> all = diagnostics_.in_order();
+    const auto first = std::ranges::find_if(all, is_error);
+    if (first == all.end()) return;
+    diagnostics_.add(0, Severity::warning, first->place, "2-3", [&] {
+      return fmt::format(
+          "sound before line {0}, and from line {0} on {1} errors: is it damaged there, or were bytes lost?",
+          first->place.line, errors);
+    });
+  } else if (errors > commands) {
+    diagnostics_.add(0, Severity::warning, {}, "1-2", [&] {
+      return fmt::format("more errors than commands, {} and {}: is it a job in RML-1?", errors, commands);
+    });
+  }
+}
+
+void Judge::finish(const Machine& machine, std::uint64_t commands) {
   judge_sizes();
+  judge_errors(commands);
   const double z = machine.tool().z;
   if (!last_ || z > 0 || (z == 0 && !machine.tool_lowered())) return;
   diagnostics_.add(0, Severity::warning, *last_, "3-2", [&] {

@@ -3,12 +3,12 @@
 
 #include <optional>
 #include <set>
-#include <string>
-#include <utility>
+#include <string_view>
 #include <vector>
 
 #include "device/rml1/bounds.h"
 #include "device/rml1/machine.h"
+#include "device/rml1/profile_judge.h"
 
 namespace axisgate::rml1 {
 
@@ -17,27 +17,19 @@ struct Stock {
   double x = 0, y = 0, z = 0;
 };
 
-// A machine that the job may have been made for instead.
-struct KnownMachine {
-  std::string name;
-  double step_mm = 0, z_mm = 0;
-};
-
 // Each warning is given once, at the first command that causes it.
 class Judge {
  public:
-  Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, std::vector<KnownMachine> others,
+  // Everything referred to outlives this.
+  Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, const std::vector<KnownMachine>& others,
         Diagnostics& diagnostics)
-      : profile_(profile),
-        origin_known_(origin_known),
-        stock_(stock),
-        others_(std::move(others)),
-        diagnostics_(diagnostics) {}
+      : profile_(profile), origin_known_(origin_known), stock_(stock), others_(others), diagnostics_(diagnostics) {}
 
   void moved(const Move& move);
   void commanded(const Point& from, const Point& target, bool height_alone, const Box& box, const Instruction& by);
-  void lifted(double steps, const Instruction& by);
-  void finish(const Machine& machine);
+  // What `move` takes in one pass, in mm.
+  void took(double depth_mm, const Move& move);
+  void finish(const Machine& machine, std::uint64_t commands);
 
  private:
   enum class Cause {
@@ -48,7 +40,7 @@ class Judge {
     cuts_outside_area,
     travels_outside_area,
     below_bottom,
-    lift
+    deep_pass
   };
 
   template <class Text>
@@ -57,18 +49,20 @@ class Judge {
   void take_plane(const Point& from, const Point& target, const Place& place);
   void judge_area(const Point& target, const Box& box, const Place& place);
   void judge_sizes();
+  void judge_errors(std::uint64_t commands);
   bool fits(double size, double area_mm, double step_mm) const;
   double mm(double steps) const { return steps * profile_.step_mm; }
 
   const Profile& profile_;
   bool origin_known_;
   std::optional<Stock> stock_;
-  std::vector<KnownMachine> others_;
+  const std::vector<KnownMachine>& others_;
   Diagnostics& diagnostics_;
   std::set<Cause> reported_;
   Bounds asked_;  // of what was commanded; X and Y of what cuts alone, where the origin is known
   Place widest_x_, widest_y_, deepest_;
   std::optional<Place> last_;
+  std::uint64_t paths_before_errors_ = 0;
 };
 
 }  // namespace axisgate::rml1

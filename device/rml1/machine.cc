@@ -139,7 +139,7 @@ void Machine::plot(const Instruction& instruction) {
 void Machine::take_tool(bool lowered, const Instruction& instruction) {
   if (lowered || lowered_) dwell(instruction);
   lowered_ = lowered;
-  lowered_by_default_ = lowered_by_default_ || (lowered && !z1_set_);
+  if (lowered && !z1_set_ && !lowered_by_default_) lowered_by_default_ = instruction.place;
   commanded_.z = lowered ? z1_ : z2();
   move_height(commanded_.z, instruction);
 }

@@ -39,6 +39,8 @@ class MoveListener {
  public:
   virtual ~MoveListener() = default;
   virtual void moved(const Move& move) = 0;
+  // A straight commanded piece that clipping leaves out. Steps, in workpiece coordinates.
+  virtual void left_out(const Point& /*from*/, const Point& /*to*/) {}
 };
 
 enum class Wait : std::uint8_t { spin_up, dwell, turn };  // turn: of an axis of rotation, while nothing else moves
@@ -63,12 +65,16 @@ class Machine : public ParserListener {
   const Point& tool() const { return clipper_.tool(); }
   const Box& box() const { return clipper_.box(); }
   bool tool_lowered() const { return lowered_; }
+  bool relative() const { return relative_; }
   bool spindle_turns() const { return turning_; }
+  bool spindle_permitted() const { return permitted_; }
   double z1() const { return z1_; }
-  bool lowered_by_default() const { return lowered_by_default_; }  // to a Z1 that the job had not set
+  // The first command that lowers the tool to a Z1 that the job has not set.
+  const std::optional<Place>& lowered_by_default() const { return lowered_by_default_; }
   double z2() const { return z2_.value_or(box().highest.z); }
   double cutting_speed() const { return cutting_speed_; }  // mm/s
   double z_speed() const { return z_speed_; }              // mm/s
+  double dwell_s() const { return dwell_s_; }
   double rpm() const { return rpm_; }
 
  private:
@@ -115,7 +121,8 @@ class Machine : public ParserListener {
   Point commanded_;  // not rounded: the sums of PR are not either
   bool relative_ = false, lowered_ = false;
   double z1_ = 0;
-  bool z1_set_ = false, lowered_by_default_ = false;
+  bool z1_set_ = false;
+  std::optional<Place> lowered_by_default_;
   std::optional<double> z2_;  // none: the top
   double cutting_speed_ = 0, z_speed_ = 0;
   double dwell_s_ = 0;

@@ -6,15 +6,15 @@
 #include <cmath>
 
 #include "device/rml1/characters.h"
+#include "device/rml1/quoted.h"
 
 namespace axisgate::rml1 {
 namespace {
 
 bool is_of_a_number(char c) { return begins_number(c) || c == ','; }
 
-std::string shown(char c) {
-  return c == '!' ? "that is ! alone" : c < 0x20 || c == 0x7F ? "of this code" : std::string(1, c);
-}
+// More of a run of digits than a message shows.
+constexpr std::size_t kStrayKept = 32;
 
 std::vector<Row> rows_of(const Dialect& dialect, std::span<const Row> more) {
   std::vector<Row> rows(more.begin(), more.end());
@@ -52,6 +52,8 @@ void Parser::feed(std::string_view bytes) {
     }
   }
 }
+
+void Parser::skip(std::size_t bytes) { offset_ += bytes; }
 
 void Parser::control(char c) {
   switch (control_.take(c)) {
@@ -98,9 +100,7 @@ bool Parser::step(char c) {
     case State::search:
       return search(c);
     case State::stray:
-      if (is_of_a_number(c)) return true;
-      state_ = State::search;
-      return false;
+      return stray(c);
     case State::second_letter:
       return second_letter(c);
     case State::common_first:
@@ -132,8 +132,8 @@ bool Parser::search(char c) {
       state_ = State::second_letter;
     }
   } else if (is_of_a_number(c)) {
-    diagnostics_.error(2, name_place_, "2-3", [] { return "a number where a command is expected"; });
     called_ = false;
+    stray_ = c;
     state_ = State::stray;
   } else if (c == '!') {
     state_ = State::common_first;
@@ -143,6 +143,17 @@ bool Parser::search(char c) {
     unknown();
   }
   return true;
+}
+
+bool Parser::stray(char c) {
+  if (is_of_a_number(c)) {
+    if (stray_.size() < kStrayKept) stray_ += c;
+    return true;
+  }
+  diagnostics_.error(2, name_place_, "2-3",
+                     [this] { return "a number where a command is expected: " + in_quotes(stray_); });
+  state_ = State::search;
+  return false;
 }
 
 bool Parser::second_letter(char c) {
@@ -192,9 +203,11 @@ void Parser::unknown(char second) {
   const bool eighth_bit = has_eighth_bit(first_);
   const int number = called_ && !eighth_bit ? 2 : 1;
   diagnostics_.error(number, name_place_, number == 2 ? "3-1" : "2-3", [&]() -> std::string {
-    if (eighth_bit) return "a byte of 0x80 or more is no part of RML-1";
-    const std::string name = fmt::format("{}{}{}", state_ == State::common_second ? "!" : "", shown(first_),
-                                         is_letter(second) ? std::string(1, second) : "");
+    std::string letters = state_ == State::common_second ? "!" : "";
+    letters += first_;
+    if (is_letter(second)) letters += second;
+    const std::string name = in_quotes(letters);
+    if (eighth_bit) return fmt::format("a byte of 0x80 or more is no part of RML-1: {}", name);
     if (number == 2) return fmt::format("^ is followed by {}, which is no mode 2 command", name);
     return "there is no command " + name;
   });
@@ -307,15 +320,15 @@ double Parser::in_range(const Parameter& parameter, double value, bool& good) {
   if (!low && !high) return parameter.whole ? std::trunc(value) : value;
   if (low ? parameter.lowest_stated : parameter.highest_stated) {
     diagnostics_.error(3, number_place_, row_->section, [&] {
-      return fmt::format("{} takes {} to {}: this number is not used", row_->name, parameter.lowest, parameter.highest);
+      return fmt::format("{} takes {} to {}: {} is not used", row_->name, parameter.lowest, parameter.highest, value);
     });
     good = false;
     return value;
   }
   const double nearest = low ? parameter.lowest : parameter.highest;
   diagnostics_.add(0, Severity::warning, number_place_, "2-5", [&] {
-    return fmt::format("{} takes {} to {}: {} is used instead", row_->name, parameter.lowest, parameter.highest,
-                       nearest);
+    return fmt::format("{} takes {} to {}: {} is used instead of {}", row_->name, parameter.lowest, parameter.highest,
+                       nearest, value);
   });
   return nearest;
 }
@@ -341,8 +354,9 @@ void Parser::end_list() {
   instruction_.count = 0;
   if (!emitted_) emit();
   if (left == 0) return;
-  diagnostics_.error(2, first_left, row_->section, [this] {
-    return fmt::format("{} takes sets of {} numbers: what is left of a set is not executed", row_->name, row_->count);
+  diagnostics_.error(2, first_left, row_->section, [&] {
+    return fmt::format("{} takes sets of {} numbers: {} is left of a set, and not executed", row_->name, row_->count,
+                       fmt::join(instruction_.values.begin(), instruction_.values.begin() + left, ","));
   });
 }
 

@@ -1,6 +1,7 @@
 // Reads a job: instructions and diagnostics, the same for any split of its bytes, in bounded memory.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -36,14 +37,15 @@ class Parser {
   Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener, std::span<const Row> more = {});
 
   void feed(std::string_view bytes);
-  void finish();  // the job ends here
+  void skip(std::size_t bytes);  // of the first line, which have been judged otherwise
+  void finish();                 // the job ends here
 
   std::uint64_t commands() const { return commands_; }  // that exist, executed or in error
 
  private:
   enum class State : std::uint8_t {
     search,         // for a command
-    stray,          // in a run of digits that belong to none
+    stray,          // in a run of digits that belong to none: stray_
     second_letter,  // of a mode 2 command
     common_first,   // behind "!"
     common_second,
@@ -60,6 +62,7 @@ class Parser {
   void take_at(const Place& place, char c);
   bool step(char c);
   bool search(char c);
+  bool stray(char c);
   bool second_letter(char c);
   bool common_first(char c);
   bool common_second(char c);
@@ -94,6 +97,7 @@ class Parser {
   Place call_place_;
   char first_ = 0;    // letter of a name
   Place name_place_;  // of the name's first byte
+  std::string stray_;
   Place number_place_, escape_place_;
   NumberReader number_;
   const Row* row_ = nullptr;

@@ -6,154 +6,179 @@
 #include <boost/locale/encoding_utf.hpp>
 #include <cmath>
 
+#include "device/rml1/layout.h"
+
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kWidth = 1000, kViewsHeight = 800, kMargin = 40, kHeading = 60, kLine = 18, kSwatch = 14;
-constexpr std::array<const char*, 3> kTitles = {"top: X, Y", "front: X, Z", "side: Y, Z"};
+constexpr double kLine = 18, kSwatch = 14, kEntry = 130;
+constexpr double kPad = 0.04;  // of an extent, beside it
+constexpr std::size_t kCharacters = 125, kEntriesInLine = 7;
+constexpr std::size_t kReports = 8;
 
-double part(const Point& p, int axis) { return axis == 0 ? p.x : axis == 1 ? p.y : p.z; }
+Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
-// All that is shown, in steps.
-Bounds extent(const Check& check, const Profile& profile, std::optional<Stock> stock, bool origin_known) {
-  Bounds shown = check.summary().bounds;
-  shown.take({0, 0, 0});
-  if (stock) shown.take({profile.steps(stock->x), profile.steps(stock->y), -profile.steps(stock->z)});
-  if (origin_known) {
-    shown.take(check.machine().box().lowest);
-    shown.take(check.machine().box().highest);
-  }
-  // Nothing has a size of nothing.
-  const double least = profile.steps(1);
-  for (Reach* reach : {&shown.x, &shown.y, &shown.z}) reach->take(reach->lowest + std::max(least, reach->size()));
-  return shown;
+Bounds stock_bounds(const Stock& stock, const Profile& profile) {
+  Bounds bounds;
+  bounds.take({0, 0, -profile.steps(stock.z)});
+  bounds.take({profile.steps(stock.x), profile.steps(stock.y), 0});
+  return bounds;
 }
 
-class Layout {
- public:
-  Layout(const Bounds& shown, const Profile& profile) : shown_(shown), profile_(profile) {
-    const double across = shown.x.size() + shown.y.size(), down = shown.y.size() + shown.z.size();
-    scale_ = std::min((kWidth - 3 * kMargin) / across, kViewsHeight / down);
-    const double right = 2 * kMargin + shown.x.size() * scale_;
-    const double lower = kHeading + shown.y.size() * scale_ + 2 * kMargin;
-    place(0, 0, 1, kMargin, kHeading);
-    place(1, 0, 2, kMargin, lower);
-    place(2, 1, 2, right, lower);
-    picture_.width = kWidth;
-    picture_.height = lower + shown.z.size() * scale_ + kMargin;
+// What cuts; `commanded`: also where clipping leaves it out.
+Bounds cut_bounds(const Strokes& strokes, bool commanded) {
+  Bounds bounds;
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    const bool left_out = stroke.kind == Strokes::Kind::left_out && (stroke.from[2] < 0 || stroke.to[2] < 0);
+    if (stroke.kind != Strokes::Kind::cut && !(commanded && left_out)) continue;
+    bounds.take(wide(stroke.from));
+    bounds.take(wide(stroke.to));
   }
+  return bounds;
+}
 
-  Picture picture(const Strokes& strokes) {
-    picture_.strokes = &strokes;
-    return picture_;
-  }
-
-  void add_box(Picture::Rectangle::Kind kind, const Point& lowest, const Point& highest) {
-    for (const Picture::View& view : picture_.views) {
-      const double left = view.x + part(lowest, view.across) * scale_;
-      const double top = view.y - part(highest, view.up) * scale_;
-      picture_.rectangles.push_back({kind, left, top, (part(highest, view.across) - part(lowest, view.across)) * scale_,
-                                     (part(highest, view.up) - part(lowest, view.up)) * scale_});
+// What travels; its height only below the top, which often lies far above.
+void take_travel(Bounds& bounds, const Strokes& strokes, double top, bool plane) {
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    if (stroke.kind != Strokes::Kind::travel) continue;
+    for (const Point& p : {wide(stroke.from), wide(stroke.to)}) {
+      if (plane) bounds.x.take(p.x), bounds.y.take(p.y);
+      if (p.z < std::floor(top)) bounds.z.take(p.z);
     }
   }
+}
 
-  const std::vector<Picture::Rectangle>& rectangles() const { return picture_.rectangles; }
+void pad(Reach& reach, double least) {
+  if (!reach.any) reach.take(0);
+  const double middle = (reach.lowest + reach.highest) / 2;
+  const double half = std::max(least, reach.size() * (1 + 2 * kPad)) / 2;
+  reach.take(middle - half);
+  reach.take(middle + half);
+}
 
-  void add_heading(const std::string& title) { picture_.labels.push_back({kMargin, kMargin * 0.6, title, true}); }
-
-  void add_legend(const std::vector<std::string>& lines, double deepest_mm) {
-    double y = picture_.height;
-    for (const std::string& line : lines) picture_.labels.push_back({kMargin, y += kLine, line});
-    y += kLine;
-    const int shades = deepest_mm > 0 ? kShades : 1;
-    for (int shade = 0; shade < shades; ++shade) {
-      const double x = kMargin + shade * 100.0;
-      picture_.rectangles.push_back({Picture::Rectangle::Kind::swatch, x, y, kSwatch, kSwatch, shade});
-      picture_.labels.push_back(
-          {x + kSwatch + 4, y + kSwatch - 2,
-           shade == 0 ? "travel" : fmt::format("to {:.2f} mm", deepest_mm * shade / (kShades - 1))});
+Extents extents(const Check& check, const Profile& profile, std::optional<Stock> stock, bool origin_known,
+                const Strokes& strokes) {
+  const Box& box = check.machine().box();
+  Extents all;
+  all.shown = cut_bounds(strokes, true);
+  take_travel(all.shown, strokes, box.highest.z, !all.shown.x.any);
+  all.shown.z.take(0);
+  if (stock) {
+    all.stock = stock_bounds(*stock, profile);
+    for (const Point& p : {Point{all.stock->x.lowest, all.stock->y.lowest, all.stock->z.lowest},
+                           Point{all.stock->x.highest, all.stock->y.highest, 0}}) {
+      all.shown.take(p);
     }
-    picture_.height = y + kMargin;
   }
-
- private:
-  void place(std::size_t index, int across, int up, double left, double top) {
-    const auto reach = [this](int axis) { return axis == 0 ? shown_.x : axis == 1 ? shown_.y : shown_.z; };
-    picture_.views[index] = {across, up, left - reach(across).lowest * scale_, top + reach(up).highest * scale_,
-                             scale_};
-    picture_.labels.push_back({left, top - 6, kTitles[index]});
+  if (origin_known) {
+    all.area.emplace();
+    all.area->take(box.lowest);
+    all.area->take(box.highest);
   }
+  pad(all.shown.x, profile.steps(1));
+  pad(all.shown.y, profile.steps(1));
+  pad(all.shown.z, profile.steps(0.1));
+  return all;
+}
 
-  Bounds shown_;
-  const Profile& profile_;
-  double scale_ = 1;
-  Picture picture_;
-};
+std::string size_text(std::string_view axis, const Reach& reach, double step_mm) {
+  return fmt::format("{} {:.2f} to {:.2f} mm ({:.2f} mm)", axis, reach.lowest * step_mm, reach.highest * step_mm,
+                     reach.size() * step_mm);
+}
 
-std::vector<std::string> legend(const Check& check, const Profile& profile, const Strokes& strokes,
-                                const std::vector<Picture::Rectangle>& drawn) {
+std::vector<std::string> facts(const Check& check, const Profile& profile, const Strokes& strokes, bool stock,
+                               bool area) {
   const Summary& job = check.summary();
-  const Reach& feeds = strokes.feeds();
+  const Bounds cuts = cut_bounds(strokes, false);
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; {}, by assumed accelerations",
-                              job.commands, job.distance_mm, job.cutting_mm, time_text(job)));
-  if (feeds.any)
-    lines.push_back(fmt::format("cuts at {} mm/s, {} rpm", to_string(feeds), job.rpm.any ? to_string(job.rpm) : "0"));
-  const auto shows = [&drawn](Picture::Rectangle::Kind kind) {
-    return std::any_of(drawn.begin(), drawn.end(), [kind](const auto& one) { return one.kind == kind; });
-  };
-  lines.push_back(fmt::format("steps of {} mm{}{}; cross: work origin, Z0", profile.step_mm,
-                              shows(Picture::Rectangle::Kind::work_area) ? "; dashed: work area" : "",
-                              shows(Picture::Rectangle::Kind::stock) ? "; filled: stock" : ""));
+  lines.push_back(fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; takes {}", job.commands,
+                              job.distance_mm, job.cutting_mm, time_text(job)));
+  lines.push_back("time: " + time_reason(job, profile));
+  if (cuts.x.any) {
+    lines.push_back(fmt::format("cuts {}, {}, {:.2f} mm deep", size_text("X", cuts.x, profile.step_mm),
+                                size_text("Y", cuts.y, profile.step_mm),
+                                std::max(0.0, -cuts.z.lowest) * profile.step_mm));
+  }
+  if (strokes.feeds().any) {
+    lines.push_back(fmt::format(
+        "cuts at {} mm/s, {} rpm{}", to_string(strokes.feeds()), job.rpm.any ? to_string(job.rpm) : "0",
+        check.speed_not_reached() ? fmt::format("; the job sets up to {:g} mm/s", *check.speed_not_reached()) : ""));
+  }
+  lines.push_back(fmt::format("steps of {} mm; cross: work origin, Z0{}{}", profile.step_mm,
+                              area ? "; dashed: work area" : "", stock ? "; filled: stock" : ""));
   return lines;
 }
 
-}  // namespace
-
-const std::array<const char*, kShades> kShadeColours = {"#9aa5b1", "#fdcc8a", "#fdae61", "#fc8d59", "#ef6548",
-                                                        "#d7301f", "#a50f15", "#7a0177", "#3f007d"};
-
-void Strokes::moved(const Move& move) {
-  if (move.from.z * move.to.z < 0) {
-    const Point surface = move.from + (move.to - move.from) * (move.from.z / (move.from.z - move.to.z));
-    add(move.from, surface, move.from.z < 0);
-    add(surface, move.to, move.to.z < 0);
-  } else {
-    add(move.from, move.to, move.cuts());
+// At blanks, in lines that fit into the picture.
+std::vector<std::string> wrapped(std::string text) {
+  std::vector<std::string> lines;
+  while (text.size() > kCharacters) {
+    const std::size_t blank = text.rfind(' ', kCharacters);
+    const std::size_t end = blank == std::string::npos || blank < 4 ? kCharacters : blank;
+    lines.push_back(text.substr(0, end));
+    text = "    " + text.substr(text.find_first_not_of(' ', end));
   }
-  lowest_ = std::min({lowest_, move.from.z, move.to.z});
-  if (move.cuts() && !move.lifts()) feeds_.take(move.speed);
+  lines.push_back(text);
+  return lines;
 }
 
-void Strokes::add(const Point& from, const Point& to, bool cuts) {
-  const auto single = [](const Point& p) {
-    return std::array<float, 3>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
-  };
-  all_.push_back({single(from), single(to), cuts});
+std::vector<std::string> reports(const Diagnostics& diagnostics) {
+  const std::vector<Diagnostic> all = diagnostics.in_order();
+  std::vector<std::string> lines;
+  std::size_t shown = 0;
+  for (; shown < all.size() && lines.size() < kReports; ++shown) {
+    const Diagnostic& one = all[shown];
+    for (std::string& line : wrapped(fmt::format("{}, line {}: {}", name(one.severity), one.place.line, one.text))) {
+      lines.push_back(std::move(line));
+    }
+  }
+  const std::uint64_t more = all.size() - shown + diagnostics.omitted_count();
+  if (more > 0) lines.push_back(fmt::format("and {} more", more));
+  return lines;
 }
 
-int Strokes::shade(const Stroke& stroke) const {
-  if (!stroke.cuts) return 0;
-  const double deepest = std::min(stroke.from[2], stroke.to[2]);
-  if (lowest_ >= 0) return 1;  // nothing is below the surface
-  return std::clamp(static_cast<int>(std::ceil(deepest / lowest_ * (kShades - 1))), 1, kShades - 1);
-}
+class Legend {
+ public:
+  explicit Legend(Picture& picture) : picture_(picture), y_(picture.height) {}
+
+  void add_line(const std::string& line) { picture_.labels.push_back({kMargin, y_ += kLine, line}); }
+
+  void add_swatches(const std::vector<Shades::Entry>& entries) {
+    for (std::size_t index = 0; index < entries.size(); ++index) {
+      if (index % kEntriesInLine == 0) y_ += kLine + 4;
+      const double x = kMargin + static_cast<double>(index % kEntriesInLine) * kEntry;
+      picture_.rectangles.push_back(
+          {Picture::Rectangle::Kind::swatch, x, y_ - kSwatch + 2, kSwatch, kSwatch, entries[index].shade});
+      picture_.labels.push_back({x + kSwatch + 5, y_, entries[index].text});
+    }
+    y_ += 4;
+  }
+
+  double bottom() const { return y_ + kLine; }
+
+ private:
+  Picture& picture_;
+  double y_;
+};
+
+}  // namespace
 
 Picture make_picture(const std::string& title, const Check& check, const Profile& profile, std::optional<Stock> stock,
                      bool origin_known, const Strokes& strokes) {
-  Layout layout(extent(check, profile, stock, origin_known), profile);
+  Picture picture = lay_out(extents(check, profile, stock, origin_known, strokes), profile.step_mm);
+  picture.strokes = &strokes;
+  picture.shades.emplace(strokes, profile.step_mm);
   // A file's name may be of any bytes; what is no UTF-8 is left out.
-  layout.add_heading(boost::locale::conv::utf_to_utf<char>(title) + " on the " + profile.name);
-  if (origin_known) {
-    const Box& box = check.machine().box();
-    layout.add_box(Picture::Rectangle::Kind::work_area, box.lowest, box.highest);
+  picture.labels.push_back(
+      {kMargin, kMargin * 0.7, boost::locale::conv::utf_to_utf<char>(title) + " on the " + profile.name, true});
+  Legend legend(picture);
+  legend.add_swatches(picture.shades->legend());
+  for (const std::string& line : facts(check, profile, strokes, stock.has_value(), origin_known)) {
+    for (const std::string& part : wrapped(line)) legend.add_line(part);
   }
-  if (stock) {
-    layout.add_box(Picture::Rectangle::Kind::stock, {0, 0, -profile.steps(stock->z)},
-                   {profile.steps(stock->x), profile.steps(stock->y), 0});
-  }
-  layout.add_legend(legend(check, profile, strokes, layout.rectangles()), -strokes.lowest() * profile.step_mm);
-  return layout.picture(strokes);
+  for (const std::string& line : reports(check.diagnostics())) legend.add_line(line);
+  picture.height = legend.bottom();
+  return picture;
 }
 
 }  // namespace axisgate::rml1

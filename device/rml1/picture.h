@@ -7,59 +7,45 @@
 #include <vector>
 
 #include "device/rml1/check.h"
+#include "device/rml1/shades.h"
+#include "device/rml1/strokes.h"
 
 namespace axisgate::rml1 {
 
-// Colours: 0 is travel, the others are cutting, from shallow to deep.
-inline constexpr int kShades = 9;
-extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
-
-// Collects the moves while a job is checked: 28 bytes each, as many as there are.
-class Strokes : public MoveListener {
- public:
-  struct Stroke {
-    std::array<float, 3> from, to;  // steps
-    bool cuts;
-  };
-
-  void moved(const Move& move) override;
-
-  const std::vector<Stroke>& all() const { return all_; }
-  double lowest() const { return lowest_; }      // steps; 0 or below
-  const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts on its way along or down
-  int shade(const Stroke& stroke) const;
-
- private:
-  void add(const Point& from, const Point& to, bool cuts);
-
-  std::vector<Stroke> all_;
-  double lowest_ = 0;
-  Reach feeds_;
-};
-
 // Lengths in pixels, y downward.
 struct Picture {
-  struct View {
-    int across, up;  // which of x, y, z
-    double x, y;     // where the work origin lies
-    double scale;    // pixels a step
-  };
   struct Rectangle {
-    enum class Kind { work_area, stock, swatch } kind;
+    enum class Kind { work_area, stock, swatch, frame } kind;
     double x, y, width, height;
     int shade = 0;  // of a swatch
   };
+  // Everything in it ends at its frame.
+  struct View {
+    int across = 0, up = 0;  // which of x, y, z
+    Rectangle frame{};
+    double x = 0, y = 0;             // where the work origin lies
+    double scale = 1;                // pixels a step
+    int stretch = 1;                 // Z is drawn so many times as high
+    std::vector<Rectangle> boxes{};  // work area and stock
+  };
+  struct Line {
+    double from_x, from_y, to_x, to_y;
+  };
+  enum class Anchor { start, middle, end };
   struct Label {
     double x, y;
     std::string text;
     bool heading = false;
+    Anchor anchor = Anchor::start;
   };
 
   double width = 0, height = 0;
   std::array<View, 3> views{};
   std::vector<Rectangle> rectangles;
+  std::vector<Line> lines;  // of scales
   std::vector<Label> labels;
   const Strokes* strokes = nullptr;
+  std::optional<Shades> shades{};
 };
 
 // `strokes` outlives it.

@@ -26,6 +26,7 @@ void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
   switch (one.kind) {
     case Picture::Rectangle::Kind::work_area:
       set_colour(cairo, "#555555");
+      cairo_set_line_width(cairo, 1);
       cairo_set_dash(cairo, kDashes, 2, 0);
       cairo_stroke(cairo);
       cairo_set_dash(cairo, nullptr, 0, 0);
@@ -37,29 +38,36 @@ void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
     case Picture::Rectangle::Kind::swatch:
       set_colour(cairo, kShadeColours[static_cast<std::size_t>(one.shade)]);
       cairo_fill(cairo);
+      return;
+    case Picture::Rectangle::Kind::frame:
+      set_colour(cairo, "#8c98a4");
+      cairo_set_line_width(cairo, 1);
+      cairo_stroke(cairo);
   }
 }
 
 using Shaded = std::array<std::vector<const Strokes::Stroke*>, kShades>;
 
-Shaded by_shade(const Strokes& strokes) {
+Shaded by_shade(const Picture& picture) {
   Shaded shaded;
-  for (const Strokes::Stroke& stroke : strokes.all()) {
-    shaded[static_cast<std::size_t>(strokes.shade(stroke))].push_back(&stroke);
+  for (const Strokes::Stroke& stroke : picture.strokes->all()) {
+    shaded[static_cast<std::size_t>(picture.shades->of(stroke))].push_back(&stroke);
   }
   return shaded;
 }
 
-void draw_view(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::View& view) {
+void draw_strokes(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::View& view) {
   const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
   const auto point = [&](const std::array<float, 3>& p, auto to) {
-    to(cairo, view.x + p[across] * view.scale, view.y - p[up] * view.scale);
+    to(cairo, view.x + p[across] * view.scale, view.y - p[up] * view.scale * view.stretch);
   };
   // What is a pixel apart looks the same without smooth edges, and is drawn in a fraction of the time.
   cairo_set_antialias(cairo, many ? CAIRO_ANTIALIAS_NONE : CAIRO_ANTIALIAS_DEFAULT);
   for (std::size_t shade = 0; shade < shaded.size(); ++shade) {
+    static constexpr double kDots[] = {2, 2};
     set_colour(cairo, kShadeColours[shade]);
     cairo_set_line_width(cairo, shade == 0 ? 0.6 : 1);
+    cairo_set_dash(cairo, kDots, shade == kLeftOut ? 2 : 0, 0);
     int waiting = 0;
     for (const Strokes::Stroke* stroke : shaded[shade]) {
       point(stroke->from, cairo_move_to);
@@ -68,13 +76,46 @@ void draw_view(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::V
     }
     cairo_stroke(cairo);
   }
+  cairo_set_dash(cairo, nullptr, 0, 0);
   cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+void draw_holes(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
+  constexpr double kTurn = 6.2832;
+  const auto& strokes = picture.strokes->all();
+  for (std::size_t index = 0; index < strokes.size(); ++index) {
+    if (!picture.strokes->is_hole(index)) continue;
+    set_colour(cairo, kShadeColours[static_cast<std::size_t>(picture.shades->of(strokes[index]))]);
+    cairo_arc(cairo, view.x + strokes[index].to[0] * view.scale, view.y - strokes[index].to[1] * view.scale, 2.5, 0,
+              kTurn);
+    cairo_fill(cairo);
+  }
+}
+
+void draw_view(cairo_t* cairo, const Picture& picture, const Shaded& shaded, const Picture::View& view) {
+  cairo_save(cairo);
+  cairo_rectangle(cairo, view.frame.x, view.frame.y, view.frame.width, view.frame.height);
+  cairo_clip(cairo);
+  for (const Picture::Rectangle& one : view.boxes) draw_rectangle(cairo, one);
+  draw_strokes(cairo, shaded, picture.strokes->all().size() > kMany, view);
+  if (view.up == 1) draw_holes(cairo, picture, view);
   set_colour(cairo, "#0060c0");
   cairo_move_to(cairo, view.x - 6, view.y);
   cairo_rel_line_to(cairo, 12, 0);
   cairo_move_to(cairo, view.x, view.y - 6);
   cairo_rel_line_to(cairo, 0, 12);
   cairo_stroke(cairo);
+  cairo_restore(cairo);
+  draw_rectangle(cairo, view.frame);
+}
+
+void draw_label(cairo_t* cairo, const Picture::Label& label) {
+  cairo_set_font_size(cairo, label.heading ? 18 : 12);
+  cairo_text_extents_t text;
+  cairo_text_extents(cairo, label.text.c_str(), &text);
+  const double part = label.anchor == Picture::Anchor::start ? 0 : label.anchor == Picture::Anchor::middle ? 0.5 : 1;
+  cairo_move_to(cairo, label.x - part * text.x_advance, label.y);
+  cairo_show_text(cairo, label.text.c_str());
 }
 
 }  // namespace
@@ -89,15 +130,17 @@ bool write_png(const Picture& picture, const std::string& file) {
   set_colour(cairo.get(), "#ffffff");
   cairo_paint(cairo.get());
   for (const Picture::Rectangle& one : picture.rectangles) draw_rectangle(cairo.get(), one);
-  const Shaded shaded = by_shade(*picture.strokes);
-  const bool many = picture.strokes->all().size() > kMany;
-  for (const Picture::View& view : picture.views) draw_view(cairo.get(), shaded, many, view);
-  set_colour(cairo.get(), "#222222");
-  for (const Picture::Label& label : picture.labels) {
-    cairo_set_font_size(cairo.get(), label.heading ? 18 : 12);
-    cairo_move_to(cairo.get(), label.x, label.y);
-    cairo_show_text(cairo.get(), label.text.c_str());
+  const Shaded shaded = by_shade(picture);
+  for (const Picture::View& view : picture.views) draw_view(cairo.get(), picture, shaded, view);
+  set_colour(cairo.get(), "#555555");
+  cairo_set_line_width(cairo.get(), 1);
+  for (const Picture::Line& line : picture.lines) {
+    cairo_move_to(cairo.get(), line.from_x, line.from_y);
+    cairo_line_to(cairo.get(), line.to_x, line.to_y);
   }
+  cairo_stroke(cairo.get());
+  set_colour(cairo.get(), "#222222");
+  for (const Picture::Label& label : picture.labels) draw_label(cairo.get(), label);
   return cairo_status(cairo.get()) == CAIRO_STATUS_SUCCESS &&
          cairo_surface_write_to_png(surface.get(), file.c_str()) == CAIRO_STATUS_SUCCESS;
 }

@@ -14,6 +14,11 @@ struct Point {
   friend Point operator*(const Point& a, double factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
 };
 
+// `p`, or where the straight path from it to `other` goes through the surface. One of them is at or below it.
+inline Point sunk(const Point& p, const Point& other) {
+  return p.z <= 0 ? p : p + (other - p) * (p.z / (p.z - other.z));
+}
+
 inline double length(const Point& p) { return std::sqrt(p.x * p.x + p.y * p.y + p.z * p.z); }
 
 }  // namespace axisgate::rml1

@@ -11,6 +11,7 @@ namespace {
 
 struct Path {
   std::string text;
+  std::string holes;  // of the view from above
   long x = 0, y = 0;  // where it has come to
   bool begun = false;
 
@@ -46,42 +47,111 @@ std::string escaped(const std::string& text) {
   return safe;
 }
 
-void add_view(std::string& svg, const Picture& picture, const Picture::View& view) {
-  std::array<Path, kShades> paths;
-  const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
-  for (const Strokes::Stroke& stroke : picture.strokes->all()) {
-    paths[static_cast<std::size_t>(picture.strokes->shade(stroke))].line(
-        std::lround(stroke.from[across]), std::lround(stroke.from[up]), std::lround(stroke.to[across]),
-        std::lround(stroke.to[up]));
-  }
-  // Not every reader knows strokes that are not scaled.
-  const double pixel = 1 / view.scale;
-  svg += fmt::format(
-      "<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\" stroke-width=\"{4:.6g}\">\n",
-      view.scale, -view.scale, view.x, view.y, pixel);
-  for (std::size_t shade = 0; shade < paths.size(); ++shade) {
-    if (!paths[shade].begun) continue;
-    svg += shade == 0 ? fmt::format("<path class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"",
-                                    0.6 * pixel, 3 * pixel, 2 * pixel)
-                      : "<path class=\"cut\"";
-    svg += fmt::format(" stroke=\"{}\" d=\"", kShadeColours[shade]);
-    svg += paths[shade].text;
-    svg += "\"/>\n";
-  }
-  svg += "</g>\n";
-  svg += fmt::format("<path class=\"origin\" d=\"M{0:.2f} {1:.2f}m-6 0h12m-6-6v12\"/>\n", view.x, view.y);
-}
-
 std::string_view class_of(Picture::Rectangle::Kind kind) {
   switch (kind) {
     case Picture::Rectangle::Kind::work_area:
       return "area";
     case Picture::Rectangle::Kind::stock:
       return "stock";
+    case Picture::Rectangle::Kind::frame:
+      return "frame";
     case Picture::Rectangle::Kind::swatch:
       break;
   }
   return "swatch";
+}
+
+void add_rectangle(std::string& svg, const Picture::Rectangle& one) {
+  const bool swatch = one.kind == Picture::Rectangle::Kind::swatch;
+  svg += fmt::format("<rect class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"{}/>\n",
+                     class_of(one.kind), one.x, one.y, one.width, one.height,
+                     swatch ? fmt::format(" fill=\"{}\"", kShadeColours[static_cast<std::size_t>(one.shade)]) : "");
+}
+
+// A line of no length with round ends is a dot.
+void add_hole(Path& path, const Strokes::Stroke& stroke) {
+  path.holes += fmt::format("M{} {}h0", std::lround(stroke.to[0]), std::lround(stroke.to[1]));
+}
+
+std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& view) {
+  std::array<Path, kShades> paths;
+  const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
+  const auto high = [&](float steps) { return std::lround(steps * static_cast<float>(view.stretch)); };
+  const auto& strokes = picture.strokes->all();
+  for (std::size_t index = 0; index < strokes.size(); ++index) {
+    const Strokes::Stroke& stroke = strokes[index];
+    Path& path = paths[static_cast<std::size_t>(picture.shades->of(stroke))];
+    path.line(std::lround(stroke.from[across]), high(stroke.from[up]), std::lround(stroke.to[across]),
+              high(stroke.to[up]));
+    if (up == 1 && picture.strokes->is_hole(index)) add_hole(path, stroke);
+  }
+  return paths;
+}
+
+// How a path differs from the others of its view.
+std::string style_of(std::size_t shade, double pixel) {
+  if (shade == 0) {
+    return fmt::format("class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"", 0.6 * pixel,
+                       3 * pixel, 2 * pixel);
+  }
+  if (shade != kLeftOut) return "class=\"cut\"";
+  return fmt::format("class=\"left-out\" stroke-dasharray=\"{:.6g} {:.6g}\"", 2 * pixel, 2 * pixel);
+}
+
+void add_strokes(std::string& svg, const Picture& picture, const Picture::View& view) {
+  // Not every reader knows strokes that are not scaled.
+  const double pixel = 1 / view.scale;
+  svg += fmt::format(
+      "<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\" stroke-width=\"{4:.6g}\">\n",
+      view.scale, -view.scale, view.x, view.y, pixel);
+  const std::array<Path, kShades> paths = paths_of(picture, view);
+  for (std::size_t shade = 0; shade < paths.size(); ++shade) {
+    if (!paths[shade].holes.empty()) {
+      svg += fmt::format("<path class=\"hole\" stroke-width=\"{:.6g}\" stroke=\"{}\" d=\"{}\"/>\n", 5 * pixel,
+                         kShadeColours[shade], paths[shade].holes);
+    }
+    if (!paths[shade].begun) continue;
+    svg += fmt::format("<path {} stroke=\"{}\" d=\"", style_of(shade, pixel), kShadeColours[shade]);
+    svg += paths[shade].text;
+    svg += "\"/>\n";
+  }
+  svg += "</g>\n";
+}
+
+void add_view(std::string& svg, const Picture& picture, std::size_t index) {
+  const Picture::View& view = picture.views[index];
+  svg += fmt::format("<clipPath id=\"view{}\">", index);
+  add_rectangle(svg, view.frame);
+  svg += fmt::format("</clipPath>\n<g clip-path=\"url(#view{})\">\n", index);
+  for (const Picture::Rectangle& one : view.boxes) add_rectangle(svg, one);
+  add_strokes(svg, picture, view);
+  svg += fmt::format("<path class=\"origin\" d=\"M{0:.2f} {1:.2f}m-6 0h12m-6-6v12\"/>\n</g>\n", view.x, view.y);
+  add_rectangle(svg, view.frame);
+}
+
+std::string_view anchor_of(Picture::Anchor anchor) {
+  switch (anchor) {
+    case Picture::Anchor::middle:
+      return " text-anchor=\"middle\"";
+    case Picture::Anchor::end:
+      return " text-anchor=\"end\"";
+    case Picture::Anchor::start:
+      break;
+  }
+  return "";
+}
+
+void add_label(std::string& svg, const Picture::Label& label) {
+  svg += fmt::format("<text{}{} x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", label.heading ? " class=\"heading\"" : "",
+                     anchor_of(label.anchor), label.x, label.y, escaped(label.text));
+}
+
+void add_scales(std::string& svg, const std::vector<Picture::Line>& lines) {
+  svg += "<path class=\"scale\" d=\"";
+  for (const Picture::Line& line : lines) {
+    svg += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", line.from_x, line.from_y, line.to_x, line.to_y);
+  }
+  svg += "\"/>\n";
 }
 
 }  // namespace
@@ -90,22 +160,17 @@ std::string to_svg(const Picture& picture) {
   std::string svg = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} "
       "{1:.0f}\">\n"
-      "<style>rect.page{{fill:#fff}}.view path{{fill:none;stroke-linejoin:round}}.area{{fill:none;stroke:#555;"
-      "stroke-dasharray:6 4}}.stock{{fill:#e8d8b8;fill-opacity:.5;stroke:#a08040}}.origin{{fill:none;stroke:#0060c0;"
-      "stroke-width:1.5}}text{{font:12px sans-serif;fill:#222}}text.heading{{font-size:18px;font-weight:bold}}"
+      "<style>rect.page{{fill:#fff}}.view "
+      "path{{fill:none;stroke-linejoin:round}}.hole{{stroke-linecap:round}}.area{{fill:none;stroke:#555;"
+      "stroke-dasharray:6 4}}.stock{{fill:#e8d8b8;fill-opacity:.5;stroke:#a08040}}.frame{{fill:none;stroke:#8c98a4}}"
+      ".origin{{fill:none;stroke:#0060c0;stroke-width:1.5}}.scale{{fill:none;stroke:#555}}"
+      "text{{font:12px sans-serif;fill:#222}}text.heading{{font-size:18px;font-weight:bold}}"
       "</style>\n<rect class=\"page\" width=\"100%\" height=\"100%\"/>\n",
       picture.width, picture.height);
-  for (const Picture::Rectangle& one : picture.rectangles) {
-    const bool swatch = one.kind == Picture::Rectangle::Kind::swatch;
-    svg += fmt::format("<rect class=\"{}\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\"{}/>\n",
-                       class_of(one.kind), one.x, one.y, one.width, one.height,
-                       swatch ? fmt::format(" fill=\"{}\"", kShadeColours[static_cast<std::size_t>(one.shade)]) : "");
-  }
-  for (const Picture::View& view : picture.views) add_view(svg, picture, view);
-  for (const Picture::Label& label : picture.labels) {
-    svg += fmt::format("<text{} x=\"{:.2f}\" y=\"{:.2f}\">{}</text>\n", label.heading ? " class=\"heading\"" : "",
-                       label.x, label.y, escaped(label.text));
-  }
+  for (const Picture::Rectangle& one : picture.rectangles) add_rectangle(svg, one);
+  for (std::size_t index = 0; index < picture.views.size(); ++index) add_view(svg, picture, index);
+  add_scales(svg, picture.lines);
+  for (const Picture::Label& label : picture.labels) add_label(svg, label);
   return svg + "</svg>\n";
 }
 

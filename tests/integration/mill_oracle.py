@@ -66,8 +66,7 @@ class Tool:
         self.up = machine.up
         self.machine_top = machine.top
         self.travel = self.depth = machine.area[2] / machine.step_mm
-        self.assumed = machine.origin is None
-        if self.assumed:
+        if machine.origin is None:
             self._lie_anywhere()
         else:
             self.low = [-machine.origin[axis] / machine.step_mm for axis in (0, 1)]
@@ -123,8 +122,9 @@ class Tool:
     def move(self, place):
         alone = math.dist(self.real[:2], place[:2]) <= SAME_PLACE
         if not alone or abs(self.real[2] - place[2]) > SAME_PLACE:
-            assumed = self.assumed and alone and self.bounds.places is None
-            self.bounds.add((*self.real[:2], place[2]) if assumed else self.real)
+            # The height at which a job begins is none that it drives to (README: bounds).
+            first_height = alone and self.bounds.places is None
+            self.bounds.add((*self.real[:2], place[2]) if first_height else self.real)
             self.bounds.add(place)
         self.real = place
 

@@ -305,11 +305,11 @@ class OracleByHand(unittest.TestCase):
 
     def test_two_dimensions(self):
         self.plays(b"PU100,50;PD;PU;", (100, 50, 50), (0, 0, -100), (100, 50, 50))
-        self.plays(b"PD100,50;", (100, 50, -100), (0, 0, -100), (100, 50, 50))
-        self.plays(b"PD;", (0, 0, -100), (0, 0, -100), (0, 0, 50))
-        self.plays(b"H;PD;", (0, 0, -100), (0, 0, -100), (0, 0, 50))
+        self.plays(b"PD100,50;", (100, 50, -100), (0, 0, -100), (100, 50, -100))
+        self.plays(b"PD;", (0, 0, -100), (0, 0, -100), (0, 0, -100))
+        self.plays(b"H;PD;", (0, 0, -100), (0, 0, -100), (0, 0, -100))
         self.plays(b"PA;PD5,5,7;PR1,1;DF;PA2,2", (2, 2, -100))
-        self.plays(b"PU5,5;", (5, 5, 20), (0, 0, 20), (5, 5, 50), z2=20)
+        self.plays(b"PU5,5;", (5, 5, 20), (0, 0, 20), (5, 5, 20), z2=20)
 
     def test_modes(self):
         self.plays(b"i10,20,1,2m5,5r1,1^pd 1 1", (7, 7, -100), (0, 0, -100), (11, 22, 50))
@@ -330,9 +330,9 @@ class OracleByHand(unittest.TestCase):
         self.plays(b"Z100,0,-500,120,0,-500;", (120, 0, -150), (0, 0, -150), (120, 0, 50))
 
     def test_the_tool_waits_and_comes_back(self):
-        self.plays(b"D100,0,400,0;", (300, 0, -100), (0, 0, -100), (300, 0, 50))
+        self.plays(b"D100,0,400,0;", (300, 0, -100), (0, 0, -100), (300, 0, -100))
         self.plays(b"D100,0,400,0,400,100,0,100", (0, 100, -100), (0, 0, -100), (300, 100, 50))
-        self.plays(b"PD;!ZZ500,0,-100,100,0,-140;", (100, 0, -140), (0, 0, -140), (300, 0, 50))
+        self.plays(b"PD;!ZZ500,0,-100,100,0,-140;", (100, 0, -140), (0, 0, -140), (300, 0, -100))
         self.plays(b"PD;!ZZ500,0,-100;!ZM-190;PU", (300, 0, -100))
         self.plays(b"PD400,0,400,400,-400,-300;", (-100, -37.5, -100), (-100, -37.5, -100), (300, 220, 50))
 
@@ -372,18 +372,18 @@ class OracleByHand(unittest.TestCase):
         """Z from -149.6 to 50.4: a whole machine coordinate is a step and 0.4."""
         between = {"origin": (2.5, 2.5, 1.26)}
         self.plays(b"PD;PU;", (0, 0, 50.4), (0, 0, -100), (0, 0, 50.4), **between)
-        self.plays(b"!ZM-60.9;PR;!ZM-4;!ZE X1;", (1, 0, -13.6), (0, 0, -13.6), (1, 0, 50.4), **between)
+        self.plays(b"!ZM-60.9;PR;!ZM-4;!ZE X1;", (1, 0, -13.6), (0, 0, -13.6), (1, 0, -9.6), **between)
         self.plays(b"!ZM1060;", (0, 0, -9.6), top=1000, up=-1, **between)
         self.plays(b"PD;PR;!ZM0;", (0, 0, -99.6), **between)
         self.plays(b"PD;PR;!ZM0;Z0,0,.2;", (0, 0, -100), **between)  # -100 + 0.2, not -99.6 + 0.2
-        self.plays(b"!ZO-60;PR;Z0,0,-7.1;", (0, 0, 53), (0, 0, 53), (0, 0, 60), **between)
+        self.plays(b"!ZO-60;PR;Z0,0,-7.1;", (0, 0, 53), (0, 0, 53), (0, 0, 53), **between)
 
     def test_held_at_the_edge(self):
         for job, down in ((b"PD400,8;", 1), (b"D400,8;", 1), (b"I400,8;", 1), (b"PU400,8;", 0), (b"PA400,8;", 0)):
-            low, high = (-100, 50) if down else (50, 50)
-            self.plays(job, (300, 8, low), (0, 0, low), (300, 8, high), hold=True)
+            height = -100 if down else 50
+            self.plays(job, (300, 8, height), (0, 0, height), (300, 8, height), hold=True)
         self.plays(b"PD-150,230;PU;", (-100, 220, 50), (-100, 0, -100), (0, 220, 50), hold=True)
-        self.plays(b"PD400,400;PR-50,-50,-100,-200;", (250, 150, -100), (0, 0, -100), (300, 220, 50), hold=True)
+        self.plays(b"PD400,400;PR-50,-50,-100,-200;", (250, 150, -100), (0, 0, -100), (300, 220, -100), hold=True)
         self.plays(b"PD400,8;PR;Z-150,0,20;", (250, 8, -80), hold=True)
         self.plays(b"PD400,8;!ZEY20;", (300, 20, -100), hold=True)
         self.plays(b"PD;Z400,8,-100;", (300, 6, -100), hold=True)

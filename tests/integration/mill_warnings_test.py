@@ -51,7 +51,7 @@ class Warnings(InAFolder):
     def test_travel_on_the_surface(self):
         for travel in ("PU200,0;", "M200,0;", "R200,0;", "PA200,0;"):
             self.gives("Z2", f"!PZ-100,0;PU;{travel}", travel)
-            self.silent(f"!PZ-100,1;PU;{travel}")
+            self.silent(f"!PZ-100,1;PU;{travel}^PA;")
         self.silent("!PZ-100,0;PU;!PZ-100,1;PU200,0;")
 
     def test_homing_at_z2_on_the_surface(self):
@@ -94,7 +94,7 @@ class Warnings(InAFolder):
             checked = self.gives("larger", job.format(just + 1), at[:2], "--stock", "250,250,61", severity="error")
             self.assertEqual((checked.code, checked.summary["errors"]), (1, 1))
             self.assertIn(side, checked.about("larger")[0]["text"])
-            self.silent(job.format(just), "--stock", "250,250,61")
+            self.assertEqual(Checked(job.format(just), "--stock", "250,250,61").about("larger"), [])
         self.gives("larger", "PU-4000,0,4129,0;", "PU", "--stock", "99,99,9", severity="error")
         self.silent("PU-4000,0,4128,0;", "--stock", "99,99,9")
 
@@ -139,7 +139,7 @@ class Warnings(InAFolder):
         for job in ("PD100,0;", "PD;!MC0;", "Z0,0,-1;"):
             self.assertEqual([each["severity"] for each in Checked(HEAD + job, *ORIGIN, *STOCK).about("tool down")],
                              ["warning"], job)
-        for job in ("PD100,0;PU;", "PD;!ZM0;", "PD;H;", "PD;IN;", "Z0,0,-1,0,0,1;", "PD;^PR;Z0,0,101;"):
+        for job in ("PD100,0;PU;", "PD;!ZM0;", "PD;H;", "PD;IN;", "Z0,0,-1,0,0,1;", "PD;^PR;Z0,0,101;^PA;"):
             self.silent(HEAD + job)
 
     def test_an_end_on_the_surface(self):
@@ -157,8 +157,9 @@ class Warnings(InAFolder):
         for job in ("PU7729,0,0,0;", "PU0,-401,0,0;"):
             self.gives("area", HEAD + job, "PU" + job[2:], *ORIGIN, severity="note")
         self.gives("below|deep", "Z0,0,-1621,0,0,100;", "Z", *ORIGIN)
-        for job in ("PD7728,0,0,0;PU;", "PD-400,5696,0,0;PU;", "Z0,0,-1620,0,0,100;"):
+        for job in ("PD7728,0,0,0;PU;", "PD-400,5696,0,0;PU;"):
             self.silent(HEAD + job, *ORIGIN)
+        self.assertEqual(Checked(HEAD + "Z0,0,-1620,0,0,100;", *ORIGIN).about("below|deep"), [])
 
     def test_each_cause_is_told_once(self):
         job = HEAD + "PD900,0;PU;PD900,900;PU;" * 1000

@@ -14,11 +14,11 @@ using testing::IsEmpty;
 // 1000 x 1000 x 500 steps.
 constexpr Stock kStock{10, 10, 5};
 
-// "warning 0 at 7 [5-1]".
+// "warning 0 at 7 [5-1]", without the warning of a Z1 that the profile has given (trace.h).
 std::vector<std::string> all(const Check& check) {
-  std::vector<std::string> found = told(check.diagnostics().kept());
-  for (std::size_t index = 0; index < found.size(); ++index) {
-    found[index] += fmt::format(" [{}]", check.diagnostics().kept()[index].section);
+  std::vector<std::string> found;
+  for (const Diagnostic& one : check.diagnostics().kept()) {
+    for (const std::string& line : told_but_z1({one})) found.push_back(line + fmt::format(" [{}]", one.section));
   }
   return found;
 }
@@ -98,24 +98,11 @@ TEST(WorkArea, IsNotKnownWithoutOrigin) {
 }
 
 TEST(WorkArea, EndsAtTheBottom) {
-  const Judged found = with_origin("Z0,0,-1051;Z0,0,-2000;PU;");
+  const CheckOptions low{Origin{100, 100, 55}, {}, {}};
+  const Judged found = judge("Z0,0,-551;Z0,0,-2000;PU;", low);
   EXPECT_THAT(found.told, ElementsAre("warning 0 at 0 [5-1]"));
-  EXPECT_THAT(found.text, HasSubstr("10.51 mm below the surface, and the machine reaches 10.50 mm"));
-  EXPECT_THAT(with_origin("Z0,0,-1050;PU;").told, IsEmpty());
-}
-
-// 60.5 mm are 2420 steps of 0.025 mm, and 6050 here.
-TEST(Lift, OfAnotherMachine) {
-  const CheckOptions options{kMidway, {}, {{"other", 0.025, 60.5}, {"same step", 0.01, 24.2}}};
-  const Judged found = judge("Z0,0,0;PR;Z0,0,2420;Z0,0,-2420,0,0,2420;", options);
-  EXPECT_THAT(found.told, ElementsAre("warning 0 at 10 [1-1]"));
-  EXPECT_THAT(found.text, HasSubstr("a lift of 2420 steps is the whole travel of the other"));
-  EXPECT_THAT(judge("@-9,2420;PU;", options).told, ElementsAre("warning 0 at 0 [1-1]"));
-  EXPECT_THAT(judge("Z0,0,0;PR;Z0,0,6050;Z0,0,2421;", options).told, IsEmpty());
-}
-
-TEST(Lift, OfAMachineOfTheSameStepIsNone) {
-  EXPECT_THAT(judge("Z0,0,0;PR;Z0,0,2420;", {kMidway, {}, {{"same step", 0.01, 24.2}}}).told, IsEmpty());
+  EXPECT_THAT(found.text, HasSubstr("5.51 mm below the surface, and the machine reaches 5.50 mm"));
+  EXPECT_THAT(judge("Z0,0,-550;PU;", low).told, IsEmpty());
 }
 
 // 605 mm are 60500 steps.
@@ -127,8 +114,9 @@ TEST(Size, IsLargerThanTheMachine) {
 }
 
 TEST(Size, InZCountsFromTheSurfaceDown) {
-  EXPECT_THAT(sizes_only("Z0,0,-6051;PU;").told, ElementsAre("error 0 at 0 [5-1]"));
-  EXPECT_THAT(sizes_only("Z0,0,-6050;PU;PR;Z0,0,9999;").told, IsEmpty());
+  // In one pass, which is a warning of its own.
+  EXPECT_THAT(sizes_only("Z0,0,-6051;PU;").told, ElementsAre("warning 0 at 0 [3-2]", "error 0 at 0 [5-1]"));
+  EXPECT_THAT(sizes_only("Z0,0,-6050;PU;PR;Z0,0,9999;PA;").told, ElementsAre("warning 0 at 0 [3-2]"));
 }
 
 TEST(Size, FitsTheOtherUnit) {
@@ -146,7 +134,7 @@ TEST(End, WithTheToolDown) {
   EXPECT_THAT(found.told, ElementsAre("warning 0 at 9 [3-2]"));
   EXPECT_THAT(found.text, HasSubstr("ends with the tool down, 1.00 mm below the surface"));
   EXPECT_THAT(sizes_only("Z0,0,-5;").told, ElementsAre("warning 0 at 0 [3-2]"));
-  for (const char* job : {"PD;PU;", "PD;H;", "PD;IN;", "PD;Z0,0,5;", "PD;!ZM0;", "", "F5;"}) {
+  for (const char* job : {"PD;PU;", "PD;H;", "PD;IN;", "PD;Z0,0,5;", "PD;!ZM0;", "F5;"}) {
     EXPECT_THAT(sizes_only(job).told, IsEmpty()) << job;
   }
 }
@@ -159,48 +147,31 @@ TEST(End, WithinACommand) {
 
 TEST(Pause, IsWarnedOf) { EXPECT_THAT(sizes_only("PD;PU;!NR;").told, ElementsAre("warning 0 at 6 [3-3]")); }
 
-TEST(GCode, IsRefusedWithoutAnythingElse) {
-  for (const char* job : {"\n %\nO1000\n", "\n G0 X1 Y2\n", "\n N10 G21\n", "\n g\t21\n", "\n (comment)\n"}) {
-    const auto check = checked(job, test_profile());
-    EXPECT_TRUE(check->is_g_code()) << job;
-    EXPECT_THAT(all(*check), ElementsAre("error 0 at 2 [1-2]")) << job;
-    EXPECT_EQ(check->diagnostics().kept()[0].place, (Place{2, 2, 2})) << job;
-    EXPECT_EQ(check->summary().commands, 0u) << job;
-  }
+// 25.4 mm, an inch.
+TEST(DeepPass, IsTakenAtOnce) {
+  const Judged found = sizes_only("!PZ-2540,200;PD;PU;");
+  EXPECT_THAT(found.told, ElementsAre("warning 0 at 13 [3-2]"));
+  EXPECT_THAT(found.text, HasSubstr("takes 25.40 mm in one pass"));
+  EXPECT_THAT(sizes_only("!PZ-1000,200;PD;PU;").told, IsEmpty());
+  EXPECT_THAT(sizes_only("!PZ-900,200;PD;PU;!PZ-1800,200;PD;PU;!PZ-2540,200;PD;PU;").told, IsEmpty());
 }
 
-TEST(GCode, IsToldBehindCommentsAndWordsOfBoth) {
-  struct Case {
-    const char* job;
-    Place place;
-  };
-  for (const auto& [job, place] : {Case{"; made by a program: PU, PD\n;\nG21\n", {30, 3, 1}},
-                                   {"T1 M6\r\nS1000M3 ; on\r\nG0 X1\r\n", {21, 3, 1}},
-                                   {"M05\n (off)\n", {5, 2, 2}},
-                                   {"X10.5 Y-2 F100 G1", {15, 1, 16}}}) {
-    const auto check = checked(job, test_profile());
-    EXPECT_TRUE(check->is_g_code()) << job;
-    EXPECT_EQ(check->diagnostics().kept().at(0).place, place) << job;
-  }
+TEST(Errors, OfAFileOfAnotherKind) {
+  const Judged found = sizes_only("lorem ipsum\n");
+  EXPECT_THAT(found.told, testing::Contains("warning 0 at 0 [1-2]"));
+  EXPECT_THAT(sizes_only("Q;@-9,9;PD;PU;").told, ElementsAre("error 1 at 0 [2-3]"));
 }
 
-TEST(GCode, IsNotToldWithoutAWordOfItsOwn) {
-  for (const char* job : {"; G0 X1\nPU1,1;\nG0\n", "F4;G0\nPU1,1;G0\n", "M3\nT1\n", "; G0\n", "Z1 Y.X\nG0\n"}) {
-    EXPECT_FALSE(checked(job, test_profile())->is_g_code()) << job;
-  }
-}
-
-// The text that is held until the kind is known has a limit.
-TEST(GCode, IsSoughtIn64KiB) {
-  const std::string comment = ";" + std::string(65532, 'a') + "\n";
-  EXPECT_TRUE(checked(comment + "G0", test_profile())->is_g_code());
-  EXPECT_FALSE(checked(";" + comment + "G0", test_profile())->is_g_code());
-}
-
-TEST(GCode, IsNotWhatOnlyBeginsLikeIt) {
-  for (const char* job : {"GX1;", "N;PD;", "PD;G0;", "\x1B.K%", "!MC1;N10"}) {
-    EXPECT_FALSE(checked(job, test_profile())->is_g_code()) << job;
-  }
+TEST(Errors, OfAJobThatHasLostBytes) {
+  std::string job = "@-9,9;\n";
+  for (int line = 0; line < 10; ++line) job += "PU" + std::to_string(line) + ",9;\n";
+  const auto lost = checked(job + "Q;\n,;\n9;\n", test_profile());
+  const auto texts = lost->diagnostics().in_order();
+  ASSERT_EQ(texts.size(), 4u);
+  EXPECT_EQ(texts[0].text,
+            "sound before line 12, and from line 12 on 3 errors: is it damaged there, or were bytes lost?");
+  EXPECT_EQ(texts[0].place, (Place{job.size(), 12, 1}));
+  EXPECT_EQ(checked(job + "Q;\n,;\n", test_profile())->diagnostics().kept().size(), 2u);
 }
 
 }  // namespace

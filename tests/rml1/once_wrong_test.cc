@@ -85,18 +85,18 @@ TEST(OnceWrong, GCodeDependedOnTheSplit) {
 
 // 150 mm wide, wherever the tool was before.
 TEST(OnceWrong, TheBeginningCountedAsSize) {
-  EXPECT_THAT(told(checked("PU50000,0;PD65000,0;PU50000,0;", test_profile())->diagnostics().kept()), IsEmpty());
+  EXPECT_THAT(told_but_z1(checked("PU50000,0;PD65000,0;PU50000,0;", test_profile())->diagnostics().kept()), IsEmpty());
 }
 
 // The tool is taken out of the groove.
 TEST(OnceWrong, ALiftWithTheSpindleStoppedWasCutting) {
-  EXPECT_THAT(told(checked("PU0,0;PD1000,0;!MC0;PU;", test_profile())->diagnostics().kept()), IsEmpty());
+  EXPECT_THAT(told_but_z1(checked("PU0,0;PD1000,0;!MC0;PU;", test_profile())->diagnostics().kept()), IsEmpty());
 }
 
 TEST(OnceWrong, WhatIsHeldAtTheEdgeWasSilent) {
   Profile profile = test_profile();
   profile.holds_flat_commands = true;
-  EXPECT_THAT(told(checked("PU0,0;PD-20000,0,0,0;PU;", profile, {kMidway, {}, {}})->diagnostics().kept()),
+  EXPECT_THAT(told_but_z1(checked("PU0,0;PD-20000,0,0,0;PU;", profile, {kMidway, {}, {}})->diagnostics().kept()),
               ElementsAre("warning 0 at 6"));
 }
 
@@ -110,7 +110,7 @@ TEST(OnceWrong, ALiftByExtensionAxesWasNotJudged) {
   Profile profile = test_profile();
   profile.step_mm = 0.025;
   const CheckOptions options{kMidway, {}, {{"another", 0.01, 60.5}}};
-  for (const char* job : {"PU0,0;^PR;!ZE Z6050;", "PU0,0;^PR;Z0,0,6050;"}) {
+  for (const char* job : {"PU0,0;^PR;!ZE Z6050;PA;", "PU0,0;^PR;Z0,0,6050;PA;"}) {
     EXPECT_THAT(told(checked(job, profile, options)->diagnostics().kept()), ElementsAre("warning 0 at 10")) << job;
   }
 }
@@ -151,17 +151,17 @@ TEST(OnceWrong, AHoleBelowTheBottomWasSilent) {
   const auto check = checked("!PZ-5,9;PD;PU;!PZ-11,9;", profile, {origin, {}, {}});
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre(testing::HasSubstr("error 3")));
   EXPECT_THAT(told(checked("!PZ-5;!ZO-6047;PD;PU;", profile, {origin, {}, {}})->diagnostics().kept()),
-              ElementsAre("warning 0 at 15"));
+              ElementsAre("note 0 at 6", "warning 0 at 15"));
 }
 
 TEST(OnceWrong, ACutFromTheBeginningHadNoSize) {
-  EXPECT_THAT(told(checked("PD65000,0;PU;", test_profile())->diagnostics().kept()), ElementsAre("error 0 at 0"));
+  EXPECT_THAT(told_but_z1(checked("PD65000,0;PU;", test_profile())->diagnostics().kept()), ElementsAre("error 0 at 0"));
 }
 
 // Where the origin is known, it is known that the way to a parking place is not driven beyond the edge.
 TEST(OnceWrong, ParkingOutsideWasLargerThanTheMachine) {
   const auto check = checked("PU0,0;PD1000,0;PU65000,0;", test_profile(), {kMidway, {}, {}});
-  EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("note 0 at 15"));
+  EXPECT_THAT(told_but_z1(check->diagnostics().kept()), ElementsAre("note 0 at 15"));
 }
 
 // PU performs "only a tool-up operation" (3-2): the tool waits where the path left, at X 300, Y 60.
@@ -182,8 +182,22 @@ TEST(OnceWrong, AHeightWhoseStepIsReachedWasAnError) {
 }
 
 TEST(OnceWrong, ANameBehindACircumflexWasToldInPart) {
-  EXPECT_THAT(play("^!XX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by !XX"));
-  EXPECT_THAT(play("^PX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by PX"));
+  EXPECT_THAT(play("^!XX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by \"!XX\""));
+  EXPECT_THAT(play("^PX;", test_profile()).diagnostics.at(0).text, testing::HasSubstr("followed by \"PX\""));
+}
+
+// From the top, 5000 or 6050 steps above Z0, down to Z2.
+TEST(OnceWrong, TheUpperBoundDependedOnTheOrigin) {
+  for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
+    EXPECT_EQ(to_string(checked("@-9,200;PU0,0;PD9,9;PU;", test_profile(), {origin, {}, {}})->summary().bounds.z),
+              "-9 to 200");
+  }
+}
+
+// A speed that is limited by an axis is the limit but for the last digits.
+TEST(OnceWrong, OneSpeedWasShownAsARange) {
+  EXPECT_EQ(to_string(Reach{true, 15, 15.000000000001}), "15");
+  EXPECT_EQ(to_string(Reach{true, 2, 15}), "2 to 15");
 }
 
 }  // namespace

@@ -68,9 +68,9 @@ std::vector<std::string> judged(const std::string& job, const Cuts& cuts) {
   std::vector<std::string> lines;
   add_lines(check.diagnostics().kept(), lines);
   const Summary& sum = check.summary();
-  lines.push_back(fmt::format("omitted {}, {} commands, {} spin ups, {} {} s, {} {} mm", check.diagnostics().omitted(),
-                              sum.commands, sum.spin_ups, sum.seconds_low, sum.seconds_high, sum.distance_mm,
-                              sum.cutting_mm));
+  lines.push_back(fmt::format("omitted {}, {} commands, {} spin ups, {} {} s, {} {} mm",
+                              check.diagnostics().omitted_count(), sum.commands, sum.spin_ups, sum.seconds_low,
+                              sum.seconds_high, sum.distance_mm, sum.cutting_mm));
   lines.push_back(text(sum.final) + ", " + reach(sum.bounds.x) + ", " + reach(sum.bounds.y) + ", " +
                   reach(sum.bounds.z));
   return lines;

@@ -1,0 +1,78 @@
+#include "device/rml1/shades.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace axisgate::rml1 {
+namespace {
+
+double depth(const Strokes::Stroke& stroke) { return -std::min({stroke.from[2], stroke.to[2], 0.0F}); }
+
+}  // namespace
+
+const std::array<const char*, kShades> kShadeColours = {"#9aa5b1", "#e6007e", "#fdae61", "#f98e52", "#ef6548",
+                                                        "#d7301f", "#a50f15", "#7a0177", "#54278f", "#1f005c"};
+
+Shades::Shades(const Strokes& strokes, double step_mm) : step_mm_(step_mm) {
+  set_levels(strokes);
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    if (stroke.kind == Strokes::Kind::cut) {
+      levels_[level_of(stroke)].used = true;
+    } else {
+      (stroke.kind == Strokes::Kind::travel ? travel_ : left_out_) = true;
+    }
+  }
+}
+
+long Shades::hundredths(double steps) const { return std::lround(steps * step_mm_ * 100); }
+
+// A few depths are far apart in colour, too; a single one is in the middle.
+void Shades::set_levels(const Strokes& strokes) {
+  std::set<long> depths;
+  long deepest = 0;
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    if (stroke.kind != Strokes::Kind::cut) continue;
+    deepest = std::max(deepest, hundredths(depth(stroke)));
+    if (depths.size() <= kDepths) depths.insert(hundredths(depth(stroke)));
+  }
+  ranges_ = depths.size() > kDepths;
+  if (ranges_) {
+    for (int range = 0; range < kDepths; ++range) {
+      levels_.push_back({(deepest * (range + 1) + kDepths - 1) / kDepths, kShallowest + range});
+    }
+    return;
+  }
+  const auto last = static_cast<int>(depths.size()) - 1;
+  int index = 0;
+  for (const long one : depths) {
+    levels_.push_back({one, kShallowest + (last == 0 ? kDepths / 2 : index * (kDepths - 1) / last)});
+    ++index;
+  }
+}
+
+std::size_t Shades::level_of(const Strokes::Stroke& stroke) const {
+  return static_cast<std::size_t>(std::ranges::lower_bound(levels_, hundredths(depth(stroke)), {}, &Level::hundredths) -
+                                  levels_.begin());
+}
+
+int Shades::of(const Strokes::Stroke& stroke) const {
+  if (stroke.kind == Strokes::Kind::travel) return 0;
+  return stroke.kind == Strokes::Kind::left_out ? kLeftOut : levels_[level_of(stroke)].shade;
+}
+
+std::vector<Shades::Entry> Shades::legend() const {
+  std::vector<Entry> entries;
+  if (travel_) entries.push_back({0, "travel"});
+  for (const Level& level : levels_) {
+    if (!level.used) continue;
+    const double mm = static_cast<double>(level.hundredths) / 100;
+    entries.push_back({level.shade, fmt::format("{}{:.2f} mm deep", ranges_ ? "to " : "", mm)});
+  }
+  if (left_out_) entries.push_back({kLeftOut, "not driven"});
+  return entries;
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,37 @@
+#include "device/rml1/strokes.h"
+
+namespace axisgate::rml1 {
+
+void Strokes::moved(const Move& move) {
+  if (move.from.z * move.to.z < 0) {
+    const Point surface = move.from.z > 0 ? sunk(move.from, move.to) : sunk(move.to, move.from);
+    add(move.from, surface, move.from.z < 0 ? Kind::cut : Kind::travel);
+    add(surface, move.to, move.to.z < 0 ? Kind::cut : Kind::travel);
+  } else {
+    add(move.from, move.to, move.cuts() ? Kind::cut : Kind::travel);
+  }
+  if (move.cuts() && !move.lifts()) feeds_.take(move.speed);
+}
+
+void Strokes::left_out(const Point& from, const Point& to) {
+  any_left_out_ = true;
+  add(from, to, Kind::left_out);
+}
+
+bool Strokes::is_hole(std::size_t index) const {
+  const auto vertical = [this](std::size_t at) {
+    const Stroke& one = all_[at];
+    return one.kind == Kind::cut && one.from[0] == one.to[0] && one.from[1] == one.to[1];
+  };
+  return index + 1 < all_.size() && vertical(index) && vertical(index + 1) && all_[index].to[2] < all_[index].from[2] &&
+         all_[index + 1].to[2] > all_[index].to[2];
+}
+
+void Strokes::add(const Point& from, const Point& to, Kind kind) {
+  const auto single = [](const Point& p) {
+    return std::array<float, 3>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
+  };
+  all_.push_back({single(from), single(to), kind});
+}
+
+}  // namespace axisgate::rml1

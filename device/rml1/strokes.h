@@ -1,0 +1,40 @@
+// What a job drives, kept to be drawn.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "device/rml1/bounds.h"
+#include "device/rml1/machine.h"
+
+namespace axisgate::rml1 {
+
+// Collects the moves while a job is checked: 28 bytes each, as many as there are. Not thread safe.
+class Strokes : public MoveListener {
+ public:
+  enum class Kind : std::uint8_t { travel, cut, left_out };
+  struct Stroke {
+    std::array<float, 3> from, to;  // steps
+    Kind kind;
+  };
+
+  void moved(const Move& move) override;
+  void left_out(const Point& from, const Point& to) override;
+
+  const std::vector<Stroke>& all() const { return all_; }
+  // Whether this one is drilled: straight down, and straight up again.
+  bool is_hole(std::size_t index) const;
+  const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts on its way along or down
+  bool any_left_out() const { return any_left_out_; }
+
+ private:
+  void add(const Point& from, const Point& to, Kind kind);
+
+  std::vector<Stroke> all_;
+  Reach feeds_;
+  bool any_left_out_ = false;
+};
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,180 @@
+// What a picture shows of a job, and where: nothing leaves its view, and the legend has what is there.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <optional>
+#include <string>
+
+#include "device/rml1/picture.h"
+#include "tests/rml1/trace.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::Not;
+
+class Shown {
+ public:
+  explicit Shown(const std::string& job, std::optional<Origin> origin = {}, std::optional<Stock> stock = {})
+      : check_(profile_, {origin, stock, {}}, &strokes_) {
+    check_.feed(job);
+    check_.finish();
+    picture_.emplace(make_picture("job", check_, profile_, stock, origin.has_value(), strokes_));
+  }
+  const Picture& operator*() const { return *picture_; }
+  const Picture* operator->() const { return &*picture_; }
+
+  std::vector<std::string> labels() const {
+    std::vector<std::string> texts;
+    for (const Picture::Label& label : picture_->labels) texts.push_back(label.text);
+    return texts;
+  }
+  std::vector<std::string> legend() const {
+    std::vector<std::string> texts;
+    for (const auto& entry : picture_->shades->legend()) texts.push_back(entry.text);
+    return texts;
+  }
+  // What a view shows, in steps.
+  Reach across(std::size_t view) const {
+    const Picture::View& one = picture_->views[view];
+    return {true, (one.frame.x - one.x) / one.scale, (one.frame.x + one.frame.width - one.x) / one.scale};
+  }
+  Reach up(std::size_t view) const {
+    const Picture::View& one = picture_->views[view];
+    const double scale = one.scale * one.stretch;
+    return {true, (one.y - one.frame.y - one.frame.height) / scale, (one.y - one.frame.y) / scale};
+  }
+
+ private:
+  const Profile profile_ = test_profile();
+  Strokes strokes_;
+  Check check_;
+  std::optional<Picture> picture_;
+};
+
+const std::string kSquare = "@-50,200;PU1000,1000;PD3000,1000,3000,2000,1000,1000;PU;H;";
+
+bool lies_in(const Picture& picture, const Picture::Rectangle& one) {
+  return one.x >= 0 && one.y >= 0 && one.x + one.width <= picture.width && one.y + one.height <= picture.height;
+}
+
+TEST(Views, LieOnThePageApartFromEachOther) {
+  for (const char* job : {kSquare.c_str(), "@-50,200;PU0,0;PD50000,0;PU;", "@-50,200;PU0,0;PD0,50000;PU;", "Z9,9,-9;",
+                          "F5;", "PU99,99;"}) {
+    for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
+      const Shown shown(job, origin);
+      for (const Picture::View& view : shown->views) EXPECT_TRUE(lies_in(*shown, view.frame)) << job;
+      for (const Picture::Rectangle& one : shown->rectangles) EXPECT_TRUE(lies_in(*shown, one)) << job;
+      EXPECT_LT(shown->views[0].frame.y + shown->views[0].frame.height, shown->views[1].frame.y) << job;
+      EXPECT_LT(shown->views[1].frame.x + shown->views[1].frame.width, shown->views[2].frame.x) << job;
+    }
+  }
+}
+
+// Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000.
+TEST(Views, EndAtTheHeightsBelowTheTop) {
+  for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
+    const Reach z = Shown(kSquare, origin).up(1);
+    EXPECT_GE(z.highest, 200);
+    EXPECT_LE(z.highest, 220);
+    EXPECT_LE(z.lowest, -50);
+    EXPECT_GE(z.lowest, -70);
+  }
+}
+
+TEST(Views, CutOffWhatLeavesThem) {
+  const std::string svg = to_svg(*Shown(kSquare));
+  for (const char* part :
+       {"<clipPath id=\"view0\">", "<g clip-path=\"url(#view0)\">", "<g clip-path=\"url(#view2)\">"}) {
+    EXPECT_THAT(svg, HasSubstr(part));
+  }
+}
+
+// The cuts are 2000 x 1000 steps in an area of 60500.
+TEST(Views, ShowTheCutsAndNotTheWorkArea) {
+  const Shown shown(kSquare, kMidway);
+  EXPECT_GE(shown.across(0).lowest, 900);
+  EXPECT_LE(shown.across(0).highest, 3100);
+  EXPECT_GT(shown->views[0].frame.width, 400);
+  EXPECT_THAT(shown.labels(), Contains(HasSubstr("work area: 605 x 605 mm")));
+  const auto is_area = [](const Picture::Rectangle& one) { return one.kind == Picture::Rectangle::Kind::work_area; };
+  EXPECT_EQ(std::ranges::count_if(shown->rectangles, is_area), 1);
+  EXPECT_THAT(Shown(kSquare).labels(), Not(Contains(HasSubstr("work area:"))));
+}
+
+TEST(Views, ShowAFlatJobHigher) {
+  const Shown shown("@-50,200;PU0,0;PD20000,0,20000,10000,0,0;PU;");
+  EXPECT_GE(shown->views[1].frame.height, 60);
+  EXPECT_GT(shown->views[1].stretch, 1);
+  EXPECT_THAT(shown.labels(), Contains(fmt::format("front: X, Z (Z {} times as high)", shown->views[1].stretch)));
+}
+
+TEST(Scales, AreInMillimetres) {
+  const Shown shown(kSquare);
+  EXPECT_THAT(shown.labels(), Contains("20"));
+  EXPECT_THAT(shown.labels(),
+              Contains(HasSubstr("cuts X 10.00 to 30.00 mm (20.00 mm), Y 10.00 to 20.00 mm (10.00 mm), 0.50 mm deep")));
+  // The bar is the first line that ends at the right margin.
+  const auto bar =
+      std::ranges::find_if(shown->lines, [](const auto& line) { return line.to_x == 948 && line.from_x < 948; });
+  ASSERT_NE(bar, shown->lines.end());
+  const double mm = (bar->to_x - bar->from_x) / shown->views[0].scale * 0.01;
+  EXPECT_THAT(shown.labels(), Contains(fmt::format("{:g} mm", mm)));
+}
+
+TEST(Legend, HasTheDepthsThatThereAre) {
+  const std::string job = "@-10,200;PU0,0;PD100,0;@-20,200;PU0,0;PD100,0;@-35,200;PU0,0;PD100,0;PU;";
+  EXPECT_THAT(Shown(job).legend(), ElementsAre("travel", "0.10 mm deep", "0.20 mm deep", "0.35 mm deep"));
+  EXPECT_THAT(Shown("Z0,0,-1;Z99,0,-1;").legend(), ElementsAre("travel", "0.01 mm deep"));
+  EXPECT_THAT(Shown("PU99,0;PU0,0;").legend(), ElementsAre("travel"));
+}
+
+// Eight ranges up to 0.80 mm, of which the second to the fourth are not there.
+TEST(Legend, HasTheRangesThatThereAre) {
+  std::string job = "Z0,0,0;";
+  for (const int z : {1, 2, 3, 4, 5, 41, 51, 61, 71, 80}) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);
+  EXPECT_THAT(Shown(job).legend(), ElementsAre("travel", "to 0.10 mm deep", "to 0.50 mm deep", "to 0.60 mm deep",
+                                               "to 0.70 mm deep", "to 0.80 mm deep"));
+}
+
+TEST(Legend, ShowsTheSpeedOfTheMachineAndOfTheJob) {
+  EXPECT_THAT(Shown("VS16.7;!VZ60;" + kSquare).labels(),
+              Contains(HasSubstr("cuts at 15 mm/s, 6500 rpm; the job sets up to 60 mm/s")));
+  EXPECT_THAT(Shown("VS4;!VZ4;" + kSquare).labels(), Contains("cuts at 4 mm/s, 6500 rpm"));
+}
+
+TEST(Reports, StandInThePicture) {
+  EXPECT_THAT(Shown(kSquare + "!NR;").labels(), Contains(HasSubstr("warning, line 1: !NR pauses")));
+  std::string many = kSquare;
+  for (int line = 0; line < 30; ++line) many += "\nQ;";
+  const Shown shown(many);
+  EXPECT_THAT(shown.labels(), Contains("error, line 2: there is no command \"Q\""));
+  EXPECT_THAT(shown.labels(), Contains(testing::MatchesRegex("and [0-9]+ more")));
+}
+
+// X ends at 50500; Z at -1050.
+TEST(LeftOut, IsMarked) {
+  const Shown beside("@-50,200;PU50000,0;PD51000,0;PU;", kMidway);
+  EXPECT_THAT(beside.legend(), ElementsAre("travel", "0.50 mm deep", "not driven"));
+  EXPECT_THAT(to_svg(*beside), HasSubstr("class=\"left-out\""));
+  EXPECT_THAT(to_svg(*beside), HasSubstr("d=\"M50500 0l500 0\""));
+  EXPECT_GE(beside.across(0).highest, 51000);
+  EXPECT_THAT(Shown("Z0,0,-1100;Z99,0,-1100;", kMidway).legend(), Contains("not driven"));
+  EXPECT_THAT(Shown(kSquare, kMidway).legend(), Not(Contains("not driven")));
+  EXPECT_THAT(Shown("@-50,200;PU50000,0;PD51000,0;PU;").legend(), Not(Contains("not driven")));
+}
+
+TEST(Holes, AreSeenFromAbove) {
+  const std::string svg = to_svg(*Shown("Z100,200,50;Z100,200,-30;Z100,200,50;"));
+  EXPECT_THAT(svg, HasSubstr("class=\"hole\""));
+  EXPECT_THAT(svg, HasSubstr("d=\"M100 200h0\""));
+  for (const std::string& job : {kSquare, std::string("Z9,9,50;Z9,9,-30;Z9,9,-60;Z99,9,-60;Z99,9,50;")}) {
+    EXPECT_THAT(to_svg(*Shown(job)), Not(HasSubstr("class=\"hole\""))) << job;
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::rml1

@@ -1,0 +1,88 @@
+// Whether a job was made for another machine: lifts, speeds, raster, and what the file says of itself.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tests/rml1/trace.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+
+const std::vector<KnownMachine> kOtherMills = {{"MDX-20", 0.025, 60.5, 15}, {"MDX-50", 0.01, 135, 60}};
+
+std::unique_ptr<Check> with_others(const std::string& job, const Profile& profile = test_profile()) {
+  return checked(job, profile, {kMidway, {}, kOtherMills});
+}
+
+std::vector<std::string> texts(const Check& check) {
+  std::vector<std::string> found;
+  for (const Diagnostic& one : check.diagnostics().kept()) found.push_back(one.text);
+  return found;
+}
+
+// 60.5 mm are 2420 steps of 0.025 mm, and 6050 here.
+TEST(Lift, OfAnotherMachine) {
+  const auto check = with_others("Z0,0,0;PR;Z0,0,2420;Z0,0,-2420,0,0,2420;PA;");
+  EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("warning 0 at 10"));
+  EXPECT_THAT(texts(*check)[0], HasSubstr("a lift of 2420 steps is the whole travel of the MDX-20"));
+  EXPECT_THAT(told(with_others("@-9,2420;PU;")->diagnostics().kept()), ElementsAre("warning 0 at 0"));
+  EXPECT_THAT(texts(*with_others("Z0,0,0;PR;Z0,0,6050;Z0,0,2421;PA;")), IsEmpty());
+}
+
+// 135 mm are 13500 steps of the same length.
+TEST(Lift, OfAMachineOfTheSameStepIsNone) { EXPECT_THAT(texts(*with_others("Z0,0,0;PR;Z0,0,13500;PA;")), IsEmpty()); }
+
+// "When the value of the parameter is the model's capacity or higher, the model's maximum speed is used" (3-1 F). Here
+// it is 15 mm/s for both.
+TEST(HighestSpeed, IsExceeded) {
+  for (const char* job : {"F16.7;", "VS16.7;", "V16.7;", "!VZ16.7;"}) {
+    const auto check = with_others(job);
+    ASSERT_THAT(told(check->diagnostics().kept()), ElementsAre("warning 0 at 0")) << job;
+    EXPECT_THAT(texts(*check)[0], HasSubstr("sets 16.7 mm/s; the test mill has at most 15 mm/s")) << job;
+    EXPECT_THAT(texts(*check)[0], Not(HasSubstr("right profile"))) << job;
+    EXPECT_EQ(check->speed_not_reached(), 16.7) << job;
+  }
+  for (const char* job : {"F15;V15;", "F0;V-5;", "F;V;"}) EXPECT_THAT(texts(*with_others(job)), IsEmpty()) << job;
+}
+
+TEST(HighestSpeed, IsThatOfAnotherMachine) {
+  const auto check = with_others("VS60;VS70;V60;VS60;");
+  ASSERT_THAT(told(check->diagnostics().kept()), ElementsAre("warning 0 at 0", "warning 0 at 10"));
+  EXPECT_THAT(texts(*check)[0], HasSubstr("the highest speed of the MDX-50: is it the right profile?"));
+  EXPECT_EQ(check->speed_not_reached(), 70);
+}
+
+// Multiples of 40 steps: whole millimetres of 0.025 mm, and 0.4 mm here.
+TEST(Raster, OfAnotherUnit) {
+  const std::string job = "@-9,9;PU40,80;PU120,160;PU200,240;PU280,320;";
+  const auto check = with_others(job);
+  EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("note 0 at 6"));
+  EXPECT_THAT(texts(*check)[0], HasSubstr("multiples of 40 steps: 1 mm on the MDX-20 with steps of 0.025 mm, 0.4 mm"));
+  Profile profile = test_profile();
+  profile.step_mm = 0.025;
+  EXPECT_THAT(texts(*with_others(job, profile)), IsEmpty());
+}
+
+TEST(Raster, NeedsEightCoordinates) {
+  EXPECT_THAT(texts(*with_others("@-9,9;PU40,80;PU120,160;PU200,240;PU280,40;")), IsEmpty());
+}
+
+// 20 steps are 0.2 mm here, and 0.5 mm of 0.025 mm: both are usual.
+TEST(Raster, ThatFitsBothUnitsIsNone) {
+  EXPECT_THAT(texts(*with_others("@-9,9;PU20,40;PU60,80;PU100,120;PU140,160;")), IsEmpty());
+}
+
+TEST(Header, NamesAnotherMachine) {
+  const auto check = with_others("PA;\n; for the mdx-20A ;PU;");
+  EXPECT_THAT(texts(*check), Contains(HasSubstr("names the MDX-20, and is checked for the test mill")));
+  EXPECT_THAT(texts(*with_others("; MDX-500")), Not(Contains(HasSubstr("names the"))));
+  EXPECT_THAT(texts(*with_others("; MDX-20 or test mill")), Not(Contains(HasSubstr("names the"))));
+}
+
+}  // namespace
+}  // namespace axisgate::rml1
