@@ -12,6 +12,9 @@ _CLOCK_FOLDERS = ("device/link/", "server/", "clients/", "tests/bench/", "tests/
 _ASIO_FOLDERS = ("device/link/", "server/", "clients/")
 _DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
 _SIMULATOR = "device/shrc203/simulator/"
+_MILL_SIMULATOR = "device/rml1/simulator/"
+# Of the gateway's side the simulated mill knows the figures of machines alone.
+_MILL_DATA = ("device/rml1/profile.h", "device/rml1/profile_files.h")
 _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
@@ -65,7 +68,7 @@ def may_include(source, target):
     here, there = room_of(source), room_of(target)
     if not here or not there or here == there or there[0] < here[0]:
         return True
-    if source.startswith(_SIMULATOR + "program/") and there[1] == "device/link":
+    if source.startswith((_SIMULATOR + "program/", _MILL_SIMULATOR + "program/")) and there[1] == "device/link":
         return True
     return source == _DAEMON and there[1] == "server/rpc"
 
@@ -104,6 +107,12 @@ def _check_target(file, number, target):
     if in_simulator and target in _GATEWAY_PARSERS:
         yield file.finding(number, "simulator-apart", f"the simulator may not include {target}",
                            "parse with the simulator's own code, or a mistake would agree with itself")
+    if file.path.startswith(_MILL_SIMULATOR) and _is_of_the_check(target):
+        yield file.finding(number, "simulator-apart", f"the simulated mill may not include {target}",
+                           "parse and move with the simulator's own code, or a mistake would agree with itself")
+    if _is_of_the_check(file.path) and target.startswith(_MILL_SIMULATOR):
+        yield file.finding(number, "simulator-apart", f"the check of jobs may not include {target}",
+                           "a check must not know the simulated mill: compare them in tests/rml1")
     if _names_a_kind(file.path, target):
         yield file.finding(number, "kinds", f"{target} is of one kind of device",
                            f"use device/stage; only {_KINDS} names the kinds")
@@ -113,6 +122,10 @@ def _check_target(file, number, target):
     if re.match(r"boost/asio\b", target) and not file.path.startswith(_ASIO_FOLDERS):
         yield file.finding(number, "asio-in-link", f"<{target}> is Boost.Asio",
                            "put input and output behind device/link")
+
+
+def _is_of_the_check(path):
+    return path.startswith("device/rml1/") and not path.startswith(_MILL_SIMULATOR) and path not in _MILL_DATA
 
 
 # The one file that names the kinds of device.

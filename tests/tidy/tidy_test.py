@@ -121,6 +121,7 @@ class Floors(Tree):
         self.assert_include("device/shrc203/a.cc", "device/link/b.h", "floors")
         self.assert_include("device/rml1/a.cc", "device/shrc203/b.h", "floors")
         self.assert_include("device/shrc203/simulator/a.cc", "device/link/b.h", "floors")
+        self.assert_include("device/rml1/simulator/a.cc", "device/link/b.h", "floors")
         self.assert_include("server/events/a.cc", "server/journal/b.h", "floors")
         self.assert_include("server/events/a.cc", "server/config/config.h", "floors")
 
@@ -131,6 +132,7 @@ class Floors(Tree):
 
     def test_those_who_wire_may(self):
         self.assert_include("device/shrc203/simulator/program/a.cc", "device/link/b.h")
+        self.assert_include("device/rml1/simulator/program/a.cc", "device/link/b.h")
         self.assert_include("server/gateway.cc", "server/events/b.h")
         self.assert_include("server/axisgated.cc", "server/rpc/b.h")
 
@@ -156,6 +158,14 @@ class Floors(Tree):
 class SimulatorApart(Tree):
     def test_the_gateway_does_not_know_the_simulator(self):
         self.assert_include("device/shrc203/a.cc", "device/shrc203/simulator/options.h", "simulator-apart")
+
+    def test_the_simulated_mill_and_the_check_do_not_know_each_other(self):
+        for target in ("device/rml1/parser.h", "device/rml1/machine.h", "device/rml1/clip.h"):
+            self.assert_include("device/rml1/simulator/a.cc", target, "simulator-apart")
+            self.assert_include("device/rml1/simulator/program/a.cc", target, "simulator-apart")
+        self.assert_include("device/rml1/a.cc", "device/rml1/simulator/machine.h", "simulator-apart")
+        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/profile.h")
+        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/simulator/machine.h")
 
     def test_the_simulator_does_not_know_the_table(self):
         for target in ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h"):

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "device/core/control_language.h"
 #include "device/shrc203/simulator/control.h"
-#include "device/shrc203/simulator/control_usage.h"
 #include "tests/unit/simulator_bench.h"
 
 namespace axisgate::shrc203::simulator::simulator_control_test {

@@ -5,13 +5,11 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <iterator>
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "device/core/escape.h"
-#include "device/shrc203/simulator/control_usage.h"
+#include "device/core/control_language.h"
+#include "device/shrc203/simulator/axis_set.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {
@@ -31,40 +29,21 @@ struct Call {
 };
 
 struct ControlCommand {
-  std::string_view usage;  // control_usage.h
+  std::string_view usage;  // device/core/control_language.h
   std::string_view meaning;
   Done (*carry_out)(const Call& call);
 };
 
-std::span<const ControlCommand> commands();
+constexpr std::array kNumbers = {
+    NumberField{"AXIS", 1, kAxes},
+    NumberField{"NUMBER", 0, 63},  // IN1 to IN6 as bits (manual 95) I:)
+    NumberField{"MILLISECONDS", 0, 60'000},
+    NumberField{"SECONDS", 0, 3600, true},
+};
 
-const ControlCommand* command_called(std::string_view name) {
-  for (const ControlCommand& command : commands()) {
-    if (same_word(words_of(command.usage).front(), name)) return &command;
-  }
-  return nullptr;
-}
+const ControlLanguage& language();
 
-// What `part` makes of each command, one after the other.
-template <class Part>
-std::string list(std::string_view separator, Part part) {
-  std::string text;
-  for (const ControlCommand& command : commands())
-    fmt::format_to(std::back_inserter(text), "{}{}", text.empty() ? "" : separator, part(command));
-  return text;
-}
-
-tl::unexpected<Problem> refuse(std::string what) {
-  const std::string names = list(", ", [](const ControlCommand& command) { return words_of(command.usage).front(); });
-  return fail(Reason::invalid_request, std::move(what), "say one of: " + names);
-}
-
-Done help(const Call& call) {
-  if (call.arguments.empty()) return list("; ", [](const ControlCommand& command) { return command.usage; });
-  const ControlCommand* command = command_called(call.word(0));
-  if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(call.word(0))));
-  return fmt::format("{}: {}", with_ranges(command->usage), command->meaning);
-}
+Done help(const Call& call) { return language().help(call.arguments); }
 
 Done excitation(const Call& call) {
   call.device.set_excitation(call.number(0), call.is_on(1), call.now);
@@ -190,26 +169,21 @@ constexpr std::array kControlCommands = {
     ControlCommand{"busy [AXIS]", "whether it moves, settles or waits: yes or no", busy},
 };
 
-std::span<const ControlCommand> commands() { return kControlCommands; }
+const ControlLanguage& language() {
+  static const ControlLanguage all = [] {
+    std::vector<ControlUsage> usages;
+    for (const ControlCommand& command : kControlCommands) usages.push_back({command.usage, command.meaning});
+    return ControlLanguage(std::move(usages), kNumbers);
+  }();
+  return all;
+}
 
 }  // namespace
 
 Result<std::string> control(Simulator& device, std::string_view line, TimePoint now) {
-  if (line.size() > kControlLineMax) {
-    return refuse(fmt::format("the line is longer than {} characters", kControlLineMax));
-  }
-  const auto words = words_of(line);
-  if (words.empty()) return refuse("the line is empty");
-  const ControlCommand* command = command_called(words.front());
-  if (command == nullptr) return refuse(fmt::format("there is no command '{}'", escaped(words.front())));
-  auto arguments = read_arguments(words, command->usage);
-  if (!arguments) return tl::unexpected(std::move(arguments.error()));
-  return command->carry_out({device, now, std::move(*arguments)});
-}
-
-std::string control_reply(const Result<std::string>& done) {
-  if (!done) return fmt::format("error: {}; {}", done.error().message, done.error().hint);
-  return done->empty() ? "ok" : "ok " + *done;
+  auto call = language().read(line);
+  if (!call) return tl::unexpected(std::move(call.error()));
+  return kControlCommands.at(call->command).carry_out({device, now, std::move(call->arguments)});
 }
 
 }  // namespace axisgate::shrc203::simulator

@@ -1,7 +1,6 @@
 // What a person at the simulated device does and sees, as lines of text: `help` lists them all.
 #pragma once
 
-#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -10,13 +9,8 @@
 
 namespace axisgate::shrc203::simulator {
 
-inline constexpr std::size_t kControlLineMax = 200;  // characters of a command
-
 // Carries out one command, without its end of line, at `now` in the device's time: the values that it answers, often
 // none. What is refused has changed nothing.
 Result<std::string> control(Simulator& device, std::string_view line, TimePoint now);
-
-// The same as one line for a person: "ok", "ok VALUE..." or "error: what; what to do".
-std::string control_reply(const Result<std::string>& done);
 
 }  // namespace axisgate::shrc203::simulator

@@ -1,9 +1,8 @@
 #include "device/shrc203/simulator/options.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <algorithm>
+#include <array>
+#include <vector>
 
 namespace axisgate::shrc203::simulator {
 namespace {
@@ -53,12 +52,6 @@ std::vector<OptionName> make_names() {
   return names;
 }
 
-std::vector<std::string_view> all_names() {
-  std::vector<std::string_view> names;
-  for (const OptionRow& row : kRows) names.push_back(row.name);
-  return names;
-}
-
 }  // namespace
 
 std::span<const OptionName> option_names() {
@@ -66,42 +59,6 @@ std::span<const OptionName> option_names() {
   return names;
 }
 
-Options::Options() {
-  for (const OptionName& option : option_names()) chosen_.push_back(option.values.front());
-}
-
-Result<void> Options::set(std::string_view name, std::string_view value) {
-  const auto names = option_names();
-  const auto option = std::find_if(names.begin(), names.end(), [&](const OptionName& o) { return o.name == name; });
-  if (option == names.end()) {
-    return fail(Reason::invalid_request, fmt::format("The simulated SHRC-203 has no option '{}'.", name),
-                fmt::format("Name one of: {}.", fmt::join(all_names(), ", ")));
-  }
-  const auto chosen = std::find(option->values.begin(), option->values.end(), value);
-  if (chosen == option->values.end()) {
-    return fail(Reason::invalid_request,
-                fmt::format("The option '{}' of the simulated SHRC-203 cannot be '{}'.", name, value),
-                fmt::format("Give one of: {}.", fmt::join(option->values, ", ")));
-  }
-  chosen_[static_cast<std::size_t>(option - names.begin())] = *chosen;
-  return {};
-}
-
-std::string_view Options::get(std::string_view name) const {
-  const auto names = option_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    if (names[i].name == name) return chosen_[i];
-  }
-  return {};
-}
-
-std::string Options::describe() const {
-  std::string text;
-  const auto names = option_names();
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    text += fmt::format("{}{}={}", i == 0 ? "" : " ", names[i].name, chosen_[i]);
-  }
-  return text;
-}
+Options::Options() : NamedOptions(option_names(), "simulated SHRC-203") {}
 
 }  // namespace axisgate::shrc203::simulator

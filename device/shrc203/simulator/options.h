@@ -6,17 +6,10 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <string_view>
-#include <vector>
 
-#include "device/core/problem.h"
+#include "device/core/named_options.h"
 
 namespace axisgate::shrc203::simulator {
-
-struct OptionName {
-  std::string_view name;
-  std::span<const std::string_view> values;
-};
 
 // Every option that can be drawn or set by name.
 std::span<const OptionName> option_names();
@@ -36,24 +29,15 @@ struct AxisSetup {
   int origin_acceleration_ms = 100;
 };
 
-class Options {
+class Options : public NamedOptions {
  public:
   Options();
-
-  // NAME=VALUE of option_names(); unknown names and values are refused, naming the possible ones.
-  Result<void> set(std::string_view name, std::string_view value);
-  std::string_view get(std::string_view name) const;  // empty for an unknown name
-  bool is(std::string_view name, std::string_view value) const { return get(name) == value; }
-  std::string describe() const;  // "busy_scope=axis ..." with every option, to replay a run
 
   // manual 44): 1+2+3 and so on as the digit of ?:AXIS.
   int axis_setting = 6;
   std::string serial_number = "2106001001";
   std::string firmware = "V2.00.000";
   std::array<AxisSetup, 3> axes;
-
- private:
-  std::vector<std::string_view> chosen_;
 };
 
 }  // namespace axisgate::shrc203::simulator

@@ -11,12 +11,13 @@
 #include <utility>
 #include <vector>
 
+#include "device/core/control_language.h"
 #include "device/core/paced_line.h"
+#include "device/link/control_server.h"
 #include "device/link/pty_line.h"
+#include "device/link/socket_file.h"
 #include "device/shrc203/simulator/control.h"
 #include "device/shrc203/simulator/options.h"
-#include "device/shrc203/simulator/program/control_server.h"
-#include "device/shrc203/simulator/program/socket_file.h"
 #include "device/shrc203/simulator/simulator.h"
 
 namespace axisgate {
@@ -67,7 +68,7 @@ void describe(CLI::App& program, Arguments& arguments) {
 
 void list_options() {
   fmt::print("Each option's first value is its default.\n");
-  for (const simulator::OptionName& option : simulator::option_names()) {
+  for (const OptionName& option : simulator::option_names()) {
     fmt::print("{}={}\n", option.name, fmt::join(option.values, "|"));
   }
 }
@@ -95,9 +96,9 @@ Result<std::shared_ptr<PtyLine>> open_line(const Strand& strand, const std::stri
   return std::make_shared<PtyLine>(strand, std::move(*pty), std::move(*watch));
 }
 
-Result<std::optional<simulator::SocketFile>> open_control(const std::string& path) {
+Result<std::optional<SocketFile>> open_control(const std::string& path) {
   if (path.empty()) return std::nullopt;
-  return simulator::SocketFile::open(path);
+  return SocketFile::open(path);
 }
 
 // The simulated device with its line, and the people at it.
@@ -114,9 +115,8 @@ class Device {
   }
 
   void take_commands(Descriptor listener) {
-    server_ = std::make_shared<simulator::ControlServer>(
-        line_->strand(), std::move(listener),
-        [this](const std::string& command, simulator::ControlServer::Reply reply) {
+    server_ = std::make_shared<ControlServer>(
+        line_->strand(), std::move(listener), [this](const std::string& command, ControlServer::Reply reply) {
           line_->post([this, command, reply = std::move(reply)](TimePoint now) { reply(carry_out(command, now)); });
         });
     server_->start();
@@ -131,7 +131,7 @@ class Device {
   std::string carry_out(const std::string& command, TimePoint now) {
     std::string reply;
     paced_.touch(now, [&](TimePoint device_now) {
-      reply = simulator::control_reply(simulator::control(*simulator_, command, device_now));
+      reply = control_reply(simulator::control(*simulator_, command, device_now));
     });
     return reply;
   }
@@ -139,7 +139,7 @@ class Device {
   std::shared_ptr<PtyLine> line_;
   simulator::Simulator* simulator_ = nullptr;  // of paced_
   PacedLine paced_;
-  std::shared_ptr<simulator::ControlServer> server_;
+  std::shared_ptr<ControlServer> server_;
 };
 
 int run(const Arguments& arguments, const simulator::Options& options) {

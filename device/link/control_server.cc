@@ -1,4 +1,4 @@
-#include "device/shrc203/simulator/program/control_server.h"
+#include "device/link/control_server.h"
 
 #include <sys/socket.h>
 
@@ -10,9 +10,9 @@
 #include <string_view>
 #include <utility>
 
-#include "device/shrc203/simulator/control.h"
+#include "device/core/control_language.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate {
 namespace {
 
 // How long it rests when no connection can be accepted, as when no descriptor is free.
@@ -189,4 +189,4 @@ void ControlServer::make_room() {
   open_.erase(open_.begin());
 }
 
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate

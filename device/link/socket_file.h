@@ -1,4 +1,4 @@
-// The Unix socket on which shrc203-sim is controlled, as a file: for this user alone, and gone at the program's end.
+// The Unix socket on which a simulator is controlled, as a file: for this user alone, and gone at the program's end.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@
 #include "device/core/problem.h"
 #include "device/link/descriptor.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate {
 
 class SocketFile {
  public:
@@ -32,4 +32,4 @@ class SocketFile {
   ino_t inode_ = 0;
 };
 
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate

@@ -1,4 +1,4 @@
-#include "device/shrc203/simulator/program/socket_file.h"
+#include "device/link/socket_file.h"
 
 #include <fmt/format.h>
 #include <sys/socket.h>
@@ -9,7 +9,7 @@
 #include <cerrno>
 #include <system_error>
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate {
 namespace {
 
 tl::unexpected<Problem> refuse(const std::string& path, const std::string& why, std::string hint) {
@@ -88,4 +88,4 @@ Result<SocketFile> SocketFile::open(const std::string& path) {
   return file;
 }
 
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate

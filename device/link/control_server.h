@@ -9,7 +9,7 @@
 #include "device/link/asio.h"
 #include "device/link/descriptor.h"
 
-namespace axisgate::shrc203::simulator {
+namespace axisgate {
 
 // A client's commands are carried out one after another, the next once the reply to the last has been taken. So one
 // that is silent, or reads no replies, holds up itself alone and costs some kilobytes. All members on the strand, or
@@ -43,4 +43,4 @@ class ControlServer : public std::enable_shared_from_this<ControlServer> {
   std::vector<std::shared_ptr<Connection>> open_;  // the client that spoke last is last
 };
 
-}  // namespace axisgate::shrc203::simulator
+}  // namespace axisgate

@@ -1,0 +1,19 @@
+// Where the profiles of machines are found.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "device/core/problem.h"
+
+namespace axisgate::rml1 {
+
+// Those installed beside the running program, or in the tree that it was built in, by name.
+std::vector<std::filesystem::path> shipped_profiles();
+
+// Of a shipped profile's name in either case, "mdx-20"; a path or a name ending in .toml is the file itself, which may
+// be missing. An unknown name is refused, with the known ones.
+Result<std::filesystem::path> profile_file(const std::string& name);
+
+}  // namespace axisgate::rml1

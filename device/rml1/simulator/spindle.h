@@ -1,0 +1,35 @@
+// The spindle motor (guideline 3-3 !MC and !RC, 5-2).
+#pragma once
+
+#include "device/rml1/profile.h"
+#include "device/rml1/simulator/record.h"
+
+namespace axisgate::rml1::simulator {
+
+class SpindleMotor {
+ public:
+  // Both outlive this.
+  SpindleMotor(const Spindle& data, Record& record) : data_(data), record_(record) {}
+
+  void permit() { permitted_ = true; }
+  void forbid();
+  // Starts it if it is permitted and stopped: true where movement then has to wait for the spin-up.
+  bool start();
+  void stop();
+  void set_revolutions(double parameter);  // of !RC, 0 to 8388607
+  void switch_off();                       // as the mill's power: all settings are lost
+
+  bool rotates() const { return rotates_; }
+  double rpm() const;  // as set; 0 while stopped
+
+ private:
+  double set_rpm() const;
+
+  const Spindle& data_;
+  Record& record_;
+  bool permitted_ = true;
+  bool rotates_ = false;
+  double parameter_ = 0;
+};
+
+}  // namespace axisgate::rml1::simulator
