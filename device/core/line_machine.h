@@ -1,6 +1,7 @@
 // The two seams between a sans-I/O state machine and the shell that drives it.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -19,6 +20,17 @@ class ByteLink {
 
   // Discards what is queued both ways, closes, and opens again after `wait`. The machine receives link_up or link_down.
   virtual void reopen(Duration wait) = 0;
+};
+
+// A line whose flow control matters: to a device that takes bytes when it has room, and never answers.
+class FlowLink : public ByteLink {
+ public:
+  // Of what was written, how many bytes have not left this host, as far as its driver knows.
+  virtual std::size_t unsent() const = 0;
+  // Flow control forbids sending now, as far as the host sees it (CTS): the device's buffer is full, or it is off.
+  virtual bool held() const = 0;
+  // Sends whether flow control forbids it or not, until it is respected again.
+  virtual void ignore_flow_control(bool ignored) = 0;
 };
 
 // A state machine at the end of a line: bytes and time go in, bytes and the next deadline come out.

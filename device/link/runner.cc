@@ -1,5 +1,6 @@
 #include "device/link/runner.h"
 
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <termios.h>
@@ -8,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -37,10 +39,15 @@ class Runner::Line : public MachineHost {
   void shut();
   void write(std::string_view bytes);
   void reopen(Duration wait);
+  std::size_t unsent() const;
+  bool held() const;
+  void ignore_flow_control(bool ignored);
 
  private:
   std::shared_ptr<Line> self() { return std::static_pointer_cast<Line>(shared_from_this()); }
   void settle() override;
+  // Asio's own native_handle() is not const.
+  int fd() const { return const_cast<boost::asio::posix::stream_descriptor&>(descriptor_).native_handle(); }
   void start_reading();
   void on_read(const error_code& error, std::size_t count);
   void send_queued();
@@ -61,6 +68,7 @@ class Runner::Line : public MachineHost {
   bool socket_ = false;
   bool waiting_for_room_ = false;
   bool overflowed_ = false;
+  std::optional<termios> respecting_;  // the tty's mode, while flow control is ignored
 };
 
 void Runner::Line::attach(LineMachine& machine, std::function<void()> after_call) {
@@ -119,6 +127,7 @@ void Runner::Line::close() {
   queued_.clear();
   waiting_for_room_ = false;
   overflowed_ = false;
+  respecting_.reset();
 }
 
 void Runner::Line::lose(std::string_view why) {
@@ -142,6 +151,36 @@ void Runner::Line::reopen(Duration wait) {
   reopen_timer_.async_wait([self = self(), generation = generation_](const error_code& error) {
     if (!error && generation == self->generation_) self->open();
   });
+}
+
+std::size_t Runner::Line::unsent() const {
+  int in_driver = 0;
+  const bool known = descriptor_.is_open() && !socket_ && ::ioctl(fd(), TIOCOUTQ, &in_driver) == 0;
+  return queued_.size() + (known ? static_cast<std::size_t>(in_driver) : 0);
+}
+
+bool Runner::Line::held() const {
+  termios mode{};
+  int modem_lines = 0;
+  const bool heeds_cts =
+      descriptor_.is_open() && !respecting_ && ::tcgetattr(fd(), &mode) == 0 && (mode.c_cflag & CRTSCTS) != 0;
+  return heeds_cts && ::ioctl(fd(), TIOCMGET, &modem_lines) == 0 && (modem_lines & TIOCM_CTS) == 0;
+}
+
+// At once: an output that an XOFF has stopped continues without IXON, while tcflow() does not undo an XOFF.
+void Runner::Line::ignore_flow_control(bool ignored) {
+  if (ignored == respecting_.has_value()) return;
+  termios mode{};
+  if (!ignored) {
+    mode = *std::exchange(respecting_, {});
+  } else if (descriptor_.is_open() && ::tcgetattr(fd(), &mode) == 0) {
+    respecting_ = mode;
+    mode.c_cflag &= ~static_cast<tcflag_t>(CRTSCTS);
+    mode.c_iflag &= ~static_cast<tcflag_t>(IXON);
+  } else {
+    return;
+  }
+  ::tcsetattr(fd(), TCSANOW, &mode);
 }
 
 void Runner::Line::settle() {
@@ -220,5 +259,11 @@ void Runner::post(std::function<void(TimePoint now)> request) { line_->post(std:
 void Runner::write(std::string_view bytes) { line_->write(bytes); }
 
 void Runner::reopen(Duration wait) { line_->reopen(wait); }
+
+std::size_t Runner::unsent() const { return line_->unsent(); }
+
+bool Runner::held() const { return line_->held(); }
+
+void Runner::ignore_flow_control(bool ignored) { line_->ignore_flow_control(ignored); }
 
 }  // namespace axisgate

@@ -12,11 +12,11 @@
 
 namespace axisgate {
 
-// Threads: write() and reopen() belong to the machine, which calls them from within its own members, on the strand.
+// Threads: what it overrides belongs to the machine, which calls it from within its own members, on the strand.
 // Everything else may be called from any thread. The machine is only ever called on the strand.
 // Lifetime: the machine and the io_context outlive the Runner's last call into the machine. Destroy a Runner on its
 // strand or when no thread runs its io_context any more; handlers still queued then do nothing.
-class Runner : public ByteLink {
+class Runner : public FlowLink {
  public:
   // Bytes that may wait for a line that takes none. One more, and the line counts as lost.
   static constexpr std::size_t kOutputBytesMax = 64 * 1024;
@@ -49,6 +49,10 @@ class Runner : public ByteLink {
   void write(std::string_view bytes) override;
   // While the line is already being opened, that attempt continues.
   void reopen(Duration wait) override;
+  // Of a tty. A socket's are in the hands of its other end: nothing unsent beyond what it did not take, and never held.
+  std::size_t unsent() const override;
+  bool held() const override;
+  void ignore_flow_control(bool ignored) override;
 
  private:
   class Line;

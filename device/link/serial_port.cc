@@ -89,6 +89,8 @@ bool is_pseudo_terminal(int port) {
   return major(status.st_rdev) >= kFirstMajor && major(status.st_rdev) <= kLastMajor;
 }
 
+constexpr cc_t kXon = 0x11, kXoff = 0x13;  // DC1, DC3 of ASCII
+
 termios2 raw_mode(const SerialSettings& settings) {
   termios2 mode{};
   mode.c_cflag = CS8 | CREAD | CLOCAL | BOTHER;
@@ -97,6 +99,11 @@ termios2 raw_mode(const SerialSettings& settings) {
   if (settings.stop_bits == 2) mode.c_cflag |= CSTOPB;
   if (settings.flow == FlowControl::rts_cts) mode.c_cflag |= CRTSCTS;
   if (settings.parity != Parity::none) mode.c_iflag = INPCK | IGNPAR;
+  if (settings.flow == FlowControl::xon_xoff) {
+    mode.c_iflag |= IXON;
+    mode.c_cc[VSTART] = kXon;
+    mode.c_cc[VSTOP] = kXoff;
+  }
   mode.c_cc[VMIN] = 1;
   mode.c_cc[VTIME] = 0;
   mode.c_ispeed = static_cast<speed_t>(settings.baud);

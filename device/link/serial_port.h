@@ -8,7 +8,7 @@
 namespace axisgate {
 
 enum class Parity { none, even, odd };
-enum class FlowControl { none, rts_cts };
+enum class FlowControl { none, rts_cts, xon_xoff };
 
 // Always eight data bits.
 struct SerialSettings {

@@ -1,0 +1,176 @@
+#include "device/rml1/sending/sender.h"
+
+#include <algorithm>
+#include <array>
+
+#include "device/core/transitions.h"
+#include "device/rml1/sending/cut.h"
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+constexpr int kBitsAByte = 10;  // with start bit and stop bit
+
+constexpr std::array<std::string_view, 8> kNames = {"READY", "SENDING",  "PAUSED",  "FINISHING",
+                                                    "FED",   "ABORTING", "ABORTED", "LOST"};
+
+Duration transmit_time(std::size_t bytes, int baud) {
+  return std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double>(static_cast<double>(bytes) * kBitsAByte / baud));
+}
+
+}  // namespace
+
+std::string_view name(SenderState state) { return kNames.at(static_cast<std::size_t>(state)); }
+
+bool is_end(SenderState state) {
+  return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost;
+}
+
+Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, SendSettings settings,
+               FlowLink& line)
+    : job_(job),
+      timeline_(timeline),
+      profile_(profile),
+      settings_(settings),
+      line_(line),
+      run_on_(computed_run_on()),
+      slowest_(timeline, &Step::most_s, settings.slack),
+      fastest_(timeline, &Step::least_s, 1) {}
+
+bool Sender::change(Event event) {
+  using enum SenderState;
+  using Change = Transition<SenderState, Event>;
+  static constexpr std::array kTable = {
+      Change{ready, Event::start, sending},
+      Change{sending, Event::pause, paused},
+      Change{paused, Event::resume, sending},
+      Change{sending, Event::all_written, finishing},
+      Change{finishing, Event::all_executed, fed},
+      Change{sending, Event::abort, aborting},
+      Change{paused, Event::abort, aborting},
+      Change{finishing, Event::abort, aborting},
+      Change{aborting, Event::abort_written, aborted},
+      Change{ready, Event::line_lost, lost},
+      Change{sending, Event::line_lost, lost},
+      Change{paused, Event::line_lost, lost},
+      Change{finishing, Event::line_lost, lost},
+      Change{aborting, Event::line_lost, lost},
+  };
+  const auto next = next_in(kTable, state_, event);
+  if (next) state_ = *next;
+  return next.has_value();
+}
+
+void Sender::start(TimePoint now) {
+  if (change(Event::start)) send(now);
+}
+
+void Sender::pause(TimePoint now) {
+  advance(now);
+  change(Event::pause);
+}
+
+void Sender::resume(TimePoint now) {
+  if (change(Event::resume)) send(now);
+}
+
+void Sender::line_lost(TimePoint now) {
+  progress(now);
+  change(Event::line_lost);
+}
+
+// Behind what was written of the job, which is whole commands.
+void Sender::abort(TimePoint now) {
+  const bool rests = may_rest(now);
+  if (!change(Event::abort)) return;
+  line_.write(abort_words(profile_, rests));
+  abort_since_ = now;
+}
+
+void Sender::look_after_abort(TimePoint now) {
+  if (line_.unsent() == 0) {
+    line_.ignore_flow_control(false);
+    return static_cast<void>(change(Event::abort_written));
+  }
+  // XOFF shows only as bytes that do not leave.
+  if (now - abort_since_ >= kHeldBeforeIgnored) line_.ignore_flow_control(true);
+}
+
+void Sender::advance(TimePoint now) {
+  if (state_ == SenderState::sending) send(now);
+  if (state_ == SenderState::aborting) look_after_abort(now);
+  if (state_ == SenderState::finishing && slowest_.executed(now) >= job_.size()) change(Event::all_executed);
+}
+
+void Sender::send(TimePoint now) {
+  while (written_ < job_.size()) {
+    const std::size_t end = next_cut(job_, written_, settings_.window);
+    if (line_.unsent() > 0 || line_.held() || !has_room(end, now)) return;
+    write(end, now);
+  }
+  change(Event::all_written);
+}
+
+void Sender::write(std::size_t end, TimePoint now) {
+  line_.write(job_.substr(written_, end - written_));
+  slowest_.arrived(end, now + transmit_time(end - written_, settings_.baud));
+  fastest_.arrived(end, now);
+  written_ = end;
+}
+
+bool Sender::has_room(std::size_t end, TimePoint now) {
+  if (settings_.streaming == Streaming::full) return true;
+  const std::uint64_t executed = slowest_.executed(now);
+  return executed == written_ || end - executed <= settings_.window;
+}
+
+// Before, in or after any of the steps in which the mill may be when the abort reaches it.
+bool Sender::may_rest(TimePoint now) {
+  const auto& steps = timeline_.steps();
+  const auto next = std::ranges::upper_bound(steps, slowest_.executed(now), {}, &Step::end);
+  if (next == steps.begin()) return true;
+  const auto unknown = std::ranges::upper_bound(steps, written_, {}, &Step::end);  // to the mill
+  if (unknown == steps.end() && !timeline_.turns_at_end()) return true;
+  const auto last = unknown == steps.end() ? unknown : unknown + 1;
+  return !std::all_of(next - 1, last, [](const Step& one) { return one.turning; });
+}
+
+std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
+  switch (state_) {
+    case SenderState::sending:
+      return line_.unsent() > 0 || line_.held() ? now + kLook : room_at();
+    case SenderState::aborting:
+      return now + kLook;
+    case SenderState::finishing:
+      return slowest_.when(job_.size());
+    default:
+      return std::nullopt;
+  }
+}
+
+// For the next command.
+std::optional<TimePoint> Sender::room_at() const {
+  const std::size_t end = next_cut(job_, written_, settings_.window);
+  const std::size_t over = end > settings_.window ? end - settings_.window : 0;
+  return slowest_.when(std::min<std::uint64_t>(over, written_));
+}
+
+SendProgress Sender::progress(TimePoint now) {
+  return {written_, std::min(line_.unsent(), written_), slowest_.executed(now), fastest_.executed(now)};
+}
+
+RunOn Sender::computed_run_on() const {
+  std::size_t longest = 0;
+  for (std::size_t begin = 0; begin < job_.size();) {
+    const std::size_t end = next_cut(job_, begin, settings_.window);
+    longest = std::max(longest, end - begin);
+    begin = end;
+  }
+  const std::size_t full = settings_.buffer + settings_.converter + longest;
+  if (settings_.streaming == Streaming::full) return {full, full};
+  return {std::min(std::max(settings_.window, longest), full), full};
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,97 @@
+// From the first byte of a job to the last; pause and abort. The table of its states: README.md.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/line_machine.h"
+#include "device/core/time.h"
+#include "device/rml1/profile.h"
+#include "device/rml1/sending/pace.h"
+#include "device/rml1/sending/timeline.h"
+
+namespace axisgate::rml1 {
+
+enum class Streaming { paced, full };
+
+struct SendSettings {
+  Streaming streaming = Streaming::paced;
+  std::size_t window = 64;      // bytes; of paced streaming
+  double slack = 1.5;           // by how much a mill may be slower than the slow end of its profile
+  std::size_t buffer = 1024;    // bytes, the mill's
+  std::size_t converter = 512;  // bytes, between host and mill
+  int baud = 9600;
+};
+
+// What may be executed after an abort, in bytes of the job.
+struct RunOn {
+  std::size_t at_most = 0;  // of a mill that executes
+  std::size_t if_held = 0;  // of one that its panel holds, for when it is released
+};
+
+enum class SenderState { ready, sending, paused, finishing, fed, aborting, aborted, lost };
+std::string_view name(SenderState state);  // "READY", "SENDING" ...
+bool is_end(SenderState state);
+
+// Bytes of the job.
+struct SendProgress {
+  std::uint64_t written = 0;         // to the line
+  std::uint64_t unsent = 0;          // of these, still in the host, as far as that can be known
+  std::uint64_t executed_least = 0;  // by the slowest mill
+  std::uint64_t executed_most = 0;   // by the fastest
+};
+
+// Not thread safe. Each call may change the state; `now` never goes back.
+class Sender {
+ public:
+  // `job`: with prologue and epilogue, checked. All that is referred to outlives this.
+  Sender(std::string_view job, const Timeline& timeline, const Profile& profile, SendSettings settings, FlowLink& line);
+
+  RunOn run_on() const { return run_on_; }
+
+  // What the present state does not have changes nothing.
+  void start(TimePoint now);
+  void pause(TimePoint now);
+  void resume(TimePoint now);
+  // Nothing of the job is written after it.
+  void abort(TimePoint now);
+  void line_lost(TimePoint now);
+
+  void advance(TimePoint now);
+  // When to call advance() again; nothing: not before another call.
+  std::optional<TimePoint> next_deadline(TimePoint now) const;
+
+  SenderState state() const { return state_; }
+  SendProgress progress(TimePoint now);
+
+  // Flow control that forbids an abort is ignored after that time.
+  static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
+  // Between two looks at a line that has something to send, or is held.
+  static constexpr Duration kLook = std::chrono::milliseconds(5);
+
+ private:
+  enum class Event { start, pause, resume, all_written, all_executed, abort, abort_written, line_lost };
+  bool change(Event event);
+  void send(TimePoint now);
+  void write(std::size_t end, TimePoint now);
+  bool has_room(std::size_t end, TimePoint now);
+  std::optional<TimePoint> room_at() const;
+  void look_after_abort(TimePoint now);
+  bool may_rest(TimePoint now);
+  RunOn computed_run_on() const;
+
+  const std::string_view job_;
+  const Timeline& timeline_;
+  const Profile& profile_;
+  const SendSettings settings_;
+  FlowLink& line_;
+  const RunOn run_on_;
+  Pace slowest_, fastest_;
+  SenderState state_ = SenderState::ready;
+  std::size_t written_ = 0;  // bytes of the job, whole commands
+  TimePoint abort_since_{};
+};
+
+}  // namespace axisgate::rml1

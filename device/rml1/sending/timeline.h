@@ -1,0 +1,38 @@
+// The steps of a job, in the order of its bytes, and how long each may take.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/machine.h"
+#include "device/rml1/profile.h"
+
+namespace axisgate::rml1 {
+
+// A move, a dwell or a spin-up.
+struct Step {
+  std::uint64_t end = 0;          // bytes of the job that had to come before
+  float least_s = 0, most_s = 0;  // at full speed throughout; from rest to rest by the slowest that the profile has
+  bool turning = false;           // the spindle, from its beginning on
+};
+
+class Timeline {
+ public:
+  // Of a job that was checked: what is wrong in it is passed over, as a mill would. `origin`: as of the check.
+  Timeline(std::string_view job, const Profile& profile, std::optional<Origin> origin);
+
+  const std::vector<Step>& steps() const { return steps_; }
+  double least_s() const { return least_s_; }
+  double most_s() const { return most_s_; }
+  // The spindle.
+  bool turns_at_end() const { return turns_at_end_; }
+
+ private:
+  std::vector<Step> steps_;
+  double least_s_ = 0, most_s_ = 0;
+  bool turns_at_end_ = false;
+};
+
+}  // namespace axisgate::rml1

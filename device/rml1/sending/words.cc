@@ -1,0 +1,28 @@
+#include "device/rml1/sending/words.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+namespace axisgate::rml1 {
+namespace {
+
+// Machine coordinates, whatever Z0 is (guideline 3-3 !ZM).
+std::string raise(const Profile& profile) {
+  return fmt::format("!VZ{:g};!ZM{};", profile.speed.z_maximum, std::llround(profile.top));
+}
+
+}  // namespace
+
+std::string prologue() { return ";^DF;"; }
+
+// DF permits the spindle, so that !MC0 comes after it.
+std::string epilogue(const Profile& profile, bool turning) {
+  return fmt::format(";{}^PA;{}!MC0;^DF;!MC0;", turning ? "" : "!MC0;", raise(profile));
+}
+
+std::string abort_words(const Profile& profile, bool may_rest) {
+  return fmt::format("\x1B.K\x1B.K{}^PA;{}!MC0;", may_rest ? "!MC0;" : "", raise(profile));
+}
+
+}  // namespace axisgate::rml1

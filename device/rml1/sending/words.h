@@ -1,0 +1,18 @@
+// What is written around a job, so that its modes do not reach the next one, and to abort it.
+#pragma once
+
+#include <string>
+
+#include "device/rml1/profile.h"
+
+namespace axisgate::rml1 {
+
+// Ends what may be open in the mill, and sets the language's defaults (guideline 3-1 DF).
+std::string prologue();
+// The tool up, the spindle off, the defaults. `turning`: the job leaves the spindle turning; then the tool is raised
+// before it stops.
+std::string epilogue(const Profile& profile, bool turning);
+// README.md says why in this order. `may_rest`: the spindle may not be turning, and be permitted to.
+std::string abort_words(const Profile& profile, bool may_rest);
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,273 @@
+// What is written of a job and when; pause, abort, and a line that is held.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "device/rml1/sending/cut.h"
+#include "device/rml1/sending/sender.h"
+#include "device/rml1/sending/words.h"
+#include "tests/rml1/fake_mill_line.h"
+#include "tests/rml1/mill.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::ElementsAre;
+using testing::IsEmpty;
+using testing::StartsWith;
+using enum SenderState;
+
+std::vector<std::string> pieces(const std::string& job, std::size_t window = 64) {
+  std::vector<std::string> all;
+  for (std::size_t begin = 0; begin < job.size();) {
+    const std::size_t end = next_cut(job, begin, window);
+    all.push_back(job.substr(begin, end - begin));
+    begin = end;
+  }
+  return all;
+}
+
+TEST(Cut, IsBehindACommandAndItsDelimiters) {
+  EXPECT_THAT(pieces("PU;PA1,2;\r\nPD 3 4;\n;Z1,2,3\nV 5"),
+              ElementsAre("PU;", "PA1,2;\r\n", "PD 3 4;\n;", "Z1,2,3\n", "V 5"));
+}
+
+// "^" waits for the command that it calls, whatever delimiters are between (guideline 1-2).
+TEST(Cut, DoesNotPartACircumflexFromItsCommand) {
+  EXPECT_THAT(pieces("^;\nPA;^ PD1,1;PU;"), ElementsAre("^;\nPA;", "^ PD1,1;", "PU;"));
+}
+
+TEST(Cut, OfALongListIsBehindASet) {
+  EXPECT_THAT(pieces("PD10,20,30,40,50,60;PU;", 8), ElementsAre("PD10,20,", "30,40,", "50,60;", "PU;"));
+  EXPECT_THAT(pieces("Z10,20,30,40,50,60;", 8), ElementsAre("Z10,20,30,", "40,50,60;"));
+  EXPECT_THAT(pieces("^PD10,20,30,40;", 8), ElementsAre("^PD10,20,", "30,40;"));
+  EXPECT_THAT(pieces("!ZE X10Y20:Z30;PU;", 8), ElementsAre("!ZE X10Y20:Z30;", "PU;")) << "it has no sets";
+}
+
+// By hand, from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
+TEST(Words, OfAnAbort) {
+  EXPECT_EQ(abort_words(test_profile(), false), "\x1B.K\x1B.K^PA;!VZ15;!ZM0;!MC0;");
+  EXPECT_EQ(abort_words(test_profile(), true), "\x1B.K\x1B.K!MC0;^PA;!VZ15;!ZM0;!MC0;");
+}
+
+TEST(Words, AroundAJob) {
+  EXPECT_EQ(prologue(), ";^DF;");
+  EXPECT_EQ(epilogue(test_profile(), true), ";^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;");
+  EXPECT_EQ(epilogue(test_profile(), false), ";!MC0;^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;");
+}
+
+class SenderTest : public testing::Test {
+ protected:
+  // 10 mm at 15 mm/s each, so 0.7 to 0.9 s by the profile; without a spin-up.
+  static std::string vectors(int count) {
+    std::string job = "!MC0;^PA;V15;VS15;";
+    for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
+    return job;
+  }
+  void begin(const std::string& job, SendSettings settings = {}) {
+    job_ = job;
+    timeline_.emplace(job_, profile_, std::nullopt);
+    sender_.emplace(job_, *timeline_, profile_, settings, line_);
+    sender_->start(now_);
+  }
+  void run_for(Duration time) {
+    for (const TimePoint end = now_ + time; now_ < end; now_ += milliseconds(1)) {
+      line_.run_to(now_);
+      sender_->advance(now_);
+    }
+  }
+  SendProgress progress() { return sender_->progress(now_); }
+  std::string written() const {
+    std::string all;
+    for (const std::string& one : line_.writes) all += one;
+    return all;
+  }
+
+  const Profile profile_ = test_profile();
+  FakeMillLine line_;
+  TimePoint now_{std::chrono::seconds(1000)};
+  std::string job_;
+  std::optional<Timeline> timeline_;
+  std::optional<Sender> sender_;
+};
+
+TEST_F(SenderTest, TheWholeJobIsWrittenOnceAndInCommands) {
+  begin(vectors(40), {.slack = 1});
+  run_for(std::chrono::seconds(60));
+  EXPECT_EQ(sender_->state(), fed);
+  EXPECT_EQ(written(), job_);
+  EXPECT_EQ(line_.received, job_);
+  EXPECT_EQ(line_.writes, pieces(job_));
+  EXPECT_EQ(progress().executed_least, job_.size());
+}
+
+TEST_F(SenderTest, PacedNeverGoesBeyondItsWindow) {
+  begin(vectors(200));
+  EXPECT_EQ(sender_->run_on().at_most, 64u);
+  EXPECT_EQ(sender_->run_on().if_held, 1024u + 512 + 9) << "the longest command has nine bytes";
+  std::uint64_t most = 0;
+  for (int i = 0; i < 20'000; ++i) {
+    run_for(milliseconds(1));
+    most = std::max(most, progress().written - progress().executed_least);
+  }
+  EXPECT_LE(most, 64u);
+  EXPECT_GE(most, 55u) << "less than it may";
+}
+
+TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
+  begin(vectors(200), {.streaming = Streaming::full});
+  run_for(std::chrono::seconds(3));
+  EXPECT_EQ(sender_->state(), finishing);
+  EXPECT_EQ(line_.received, job_);
+}
+
+TEST_F(SenderTest, WhileTheLineIsHeldOneCommandWaitsAtMost) {
+  line_.busy = true;
+  begin(vectors(20), {.streaming = Streaming::full});
+  run_for(std::chrono::seconds(1));
+  EXPECT_THAT(line_.writes, IsEmpty());
+  line_.busy = false;
+  run_for(milliseconds(20));
+  line_.busy = true;
+  const std::size_t before = line_.writes.size();
+  run_for(std::chrono::seconds(1));
+  EXPECT_EQ(line_.writes.size(), before);
+  line_.busy = false;
+  run_for(std::chrono::seconds(30));
+  EXPECT_EQ(line_.received, job_);
+}
+
+TEST_F(SenderTest, APauseWritesNothingMoreAndSaysWhatStillRuns) {
+  begin(vectors(200));
+  run_for(std::chrono::seconds(5));
+  sender_->pause(now_);
+  const std::uint64_t written = progress().written;
+  EXPECT_EQ(sender_->state(), paused);
+  EXPECT_GT(written, progress().executed_least);
+  EXPECT_LE(progress().executed_least, progress().executed_most);
+  run_for(std::chrono::seconds(20));
+  EXPECT_EQ(progress().written, written);
+  EXPECT_EQ(progress().executed_least, written) << "all that it had";
+  sender_->resume(now_);
+  run_for(std::chrono::seconds(600));
+  EXPECT_EQ(line_.received, job_);
+}
+
+TEST_F(SenderTest, AfterAnAbortNothingOfTheJobIsWritten) {
+  begin(vectors(200));
+  run_for(std::chrono::seconds(5));
+  line_.writes.clear();
+  sender_->abort(now_);
+  run_for(std::chrono::seconds(1));
+  EXPECT_EQ(sender_->state(), aborted);
+  EXPECT_EQ(written(), abort_words(profile_, true)) << "the job has forbidden the spindle";
+}
+
+TEST_F(SenderTest, ATurningSpindleIsStoppedAfterTheRaise) {
+  begin("^PA;V15;VS15;PU1000,0;PU0,0;PU1000,0;PU0,0;PU1000,0;PU0,0;PU1000,0;PU0,0;PU1000,0;PU0,0;PU1000,0;PU0,0;");
+  run_for(std::chrono::seconds(8));
+  line_.writes.clear();
+  sender_->abort(now_);
+  EXPECT_EQ(written(), abort_words(profile_, false));
+}
+
+// Before the first move it does not turn.
+TEST_F(SenderTest, OneThatMayRestIsStoppedBefore) {
+  begin("^PA;V15;VS15;PU1000,0;PU0,0;");
+  run_for(milliseconds(500));
+  line_.writes.clear();
+  sender_->abort(now_);
+  EXPECT_THAT(written(), StartsWith("\x1B.K\x1B.K!MC0;"));
+}
+
+TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
+  begin(vectors(200), {.streaming = Streaming::full});
+  run_for(milliseconds(100));
+  line_.busy = true;
+  sender_->abort(now_);
+  run_for(milliseconds(199));
+  EXPECT_FALSE(line_.ignores);
+  EXPECT_EQ(sender_->state(), aborting);
+  run_for(milliseconds(100));
+  EXPECT_EQ(sender_->state(), aborted);
+  EXPECT_FALSE(line_.ignores) << "as it was before";
+  EXPECT_THAT(line_.received, testing::EndsWith(abort_words(profile_, true)));
+}
+
+TEST_F(SenderTest, ALostLineIsAnEndOfWhichNothingIsKnown) {
+  begin(vectors(200));
+  run_for(std::chrono::seconds(5));
+  sender_->line_lost(now_);
+  EXPECT_EQ(sender_->state(), lost);
+  const std::uint64_t written = progress().written;
+  run_for(std::chrono::seconds(5));
+  EXPECT_EQ(progress().written, written);
+  sender_->abort(now_);
+  EXPECT_EQ(sender_->state(), lost);
+}
+
+// README.md's table, typed by hand: what each call makes of each state. The rest changes nothing.
+TEST_F(SenderTest, TheTableOfStates) {
+  const auto in = [this](SenderState state) {
+    line_ = FakeMillLine();
+    begin(vectors(4), {.slack = 1});
+    switch (state) {
+      case sending:
+        break;
+      case paused:
+        sender_->pause(now_);
+        break;
+      case finishing:
+        for (int i = 0; i < 60'000 && sender_->state() == sending; ++i) run_for(milliseconds(1));
+        break;
+      case fed:
+        run_for(std::chrono::seconds(60));
+        break;
+      case aborting:
+        line_.busy = true;
+        sender_->abort(now_);
+        break;
+      case aborted:
+        sender_->abort(now_);
+        run_for(std::chrono::seconds(1));
+        break;
+      case lost:
+        sender_->line_lost(now_);
+        break;
+      case ready:
+        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, line_);
+    }
+    ASSERT_EQ(sender_->state(), state);
+  };
+  const std::array kCalls = {&Sender::start, &Sender::pause, &Sender::resume, &Sender::abort, &Sender::line_lost};
+  struct Line {
+    SenderState from;
+    std::array<SenderState, 5> to;
+  };
+  const Line kTable[] = {
+      {ready, {sending, ready, ready, ready, lost}},
+      {sending, {sending, paused, sending, aborting, lost}},
+      {paused, {paused, paused, sending, aborting, lost}},
+      {finishing, {finishing, finishing, finishing, aborting, lost}},
+      {fed, {fed, fed, fed, fed, fed}},
+      {aborting, {aborting, aborting, aborting, aborting, lost}},
+      {aborted, {aborted, aborted, aborted, aborted, aborted}},
+      {lost, {lost, lost, lost, lost, lost}},
+  };
+  for (const Line& row : kTable) {
+    for (std::size_t call = 0; call < kCalls.size(); ++call) {
+      in(row.from);
+      ((*sender_).*kCalls.at(call))(now_);
+      EXPECT_EQ(sender_->state(), row.to.at(call)) << name(row.from) << ", call " << call;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace axisgate::rml1
