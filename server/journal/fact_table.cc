@@ -27,18 +27,19 @@ FactPointer fact_of(const Statement& row) {
 
 Result<void> FactTable::change(const FactChange& change) {
   if (change.added.empty()) return {};
+  // A row that somebody has put into its place must not keep the journal from writing.
+  auto insert = database_.prepare("INSERT OR REPLACE INTO fact VALUES(?, ?, ?, ?, ?)");
+  if (!insert) return tl::unexpected(insert.error());
   for (const FactPointer& record : change.added) {
-    if (auto done = add(*record); !done) return done;
+    if (auto done = add(*record, *insert); !done) return done;
   }
   return database_.run(fmt::format("DELETE FROM fact WHERE revision < {}", change.oldest).c_str());
 }
 
-Result<void> FactTable::add(const FactRecord& record) {
-  // A row that somebody has put into its place must not keep the journal from writing.
-  auto insert = database_.prepare("INSERT OR REPLACE INTO fact VALUES(?, ?, ?, ?, ?)");
-  if (!insert) return tl::unexpected(insert.error());
-  insert->bind(1, static_cast<std::int64_t>(record.revision)).bind(2, record.time).bind(3, record.run);
-  return insert->bind(4, record.device).bind(5, text_of(record)).step().map([](bool) {});
+Result<void> FactTable::add(const FactRecord& record, Statement& insert) {
+  insert.reset();
+  insert.bind(1, static_cast<std::int64_t>(record.revision)).bind(2, record.time).bind(3, record.run);
+  return insert.bind(4, record.device).bind(5, text_of(record)).step().map([](bool) {});
 }
 
 Result<void> FactTable::erase(std::int64_t person) {

@@ -41,7 +41,7 @@ CREATE TABLE fact(
   Result<void> erase(std::int64_t person);
 
  private:
-  Result<void> add(const FactRecord& record);
+  static Result<void> add(const FactRecord& record, Statement& insert);
   Result<std::vector<FactPointer>> read();
   Result<std::uint64_t> last_revision();
 

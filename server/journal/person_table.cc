@@ -8,12 +8,13 @@ std::string erased_name(std::int64_t number) { return fmt::format("erased {}", n
 
 Result<std::int64_t> PersonTable::number_of(std::string_view name) {
   if (name.empty()) return 0;
-  auto insert = database_.prepare("INSERT OR IGNORE INTO person(name) VALUES(?)");
-  if (!insert) return tl::unexpected(insert.error());
-  if (const auto done = insert->bind(1, name).step(); !done) return tl::unexpected(done.error());
   auto find = database_.prepare("SELECT id FROM person WHERE name = ?");
   if (!find) return tl::unexpected(find.error());
-  return find->bind(1, name).step().map([&](bool) { return find->integer(0); });
+  const auto known = find->bind(1, name).step();
+  if (!known || *known) return known.map([&](bool) { return find->integer(0); });
+  auto insert = database_.prepare("INSERT INTO person(name) VALUES(?) RETURNING id");
+  if (!insert) return tl::unexpected(insert.error());
+  return insert->bind(1, name).step().map([&](bool) { return insert->integer(0); });
 }
 
 Result<std::optional<NamedPerson>> PersonTable::find(std::string_view name) {
