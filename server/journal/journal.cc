@@ -7,6 +7,7 @@
 #include <chrono>
 #include <filesystem>
 #include <future>
+#include <iterator>
 #include <memory>
 #include <utility>
 
@@ -238,6 +239,12 @@ bool Journal::write(Batch batch) {
 // Those who wait are refused, and what they wanted is not tried again.
 void Journal::note_failure(Batch& batch, const Problem& problem) {
   std::optional<Problem> refusal;
+  std::vector<Waiting> refused;
+  const auto take_from = [&refused](std::vector<Waiting>& waiting) {
+    const auto awaited = std::ranges::stable_partition(waiting, [](const Waiting& one) { return one.done == nullptr; });
+    refused.insert(refused.end(), std::move_iterator(awaited.begin()), std::move_iterator(awaited.end()));
+    waiting.erase(awaited.begin(), awaited.end());
+  };
   {
     const std::lock_guard lock(mutex_);
     if (!failure_) {
@@ -246,9 +253,10 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
     }
     failure_ = problem;
     refusal = unavailable();
+    take_from(batch.records);
+    take_from(waiting_);  // they came while this batch was tried
   }
-  for (const Waiting& one : batch.records) answer(one.done, tl::unexpected(*refusal));
-  std::erase_if(batch.records, [](const Waiting& one) { return one.done != nullptr; });
+  for (const Waiting& one : refused) answer(one.done, tl::unexpected(*refusal));
 }
 
 // Where somebody reads, it is tried again after the next commit.

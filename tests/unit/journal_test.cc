@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <atomic>
 #include <filesystem>
 #include <fstream>
 #include <functional>
@@ -68,6 +69,22 @@ TEST_F(JournalTest, H45_ARefusingDiskIsReportedAndTriedAgain) {
   ASSERT_EQ(kept().size(), 2u);
   EXPECT_EQ(kept()[1].entry.kind, EntryKind::stop_requested);
   EXPECT_EQ(kept()[0].entry.kind, EntryKind::journal_failed);
+}
+
+// Some of them come while the first refusal is under way.
+TEST_F(JournalTest, H45_ACommitAsTheDiskBeginsToRefuseIsAnswered) {
+  for (int round = 0; round < 30; ++round) {
+    const auto journal = *Journal::open(path_);
+    run("ALTER TABLE entry RENAME TO away");
+    std::atomic<int> refused = 0;
+    int asked = 0;
+    journal->append({{.kind = EntryKind::stop_requested}});
+    for (; !journal->failure(); ++asked) {
+      journal->commit({{.kind = EntryKind::request_made}}, [&](const Result<void>& done) { refused += done ? 0 : 1; });
+    }
+    ASSERT_TRUE(comes_true([&] { return refused == asked; })) << refused << " of " << asked << ", round " << round;
+    run("ALTER TABLE away RENAME TO entry");
+  }
 }
 
 TEST_F(JournalTest, WhatWasLeftOutIsCounted) {
