@@ -55,7 +55,7 @@ class Person:
                 return state
             if time.monotonic() > limit:
                 raise AssertionError(f"{state} did not become {expected}")
-            time.sleep(0.002)
+            time.sleep(0.002)  # between two looks; the limit above decides
 
 
 class Terminal:
@@ -82,7 +82,7 @@ class Terminal:
                 os.write(self.fd, b";")
             except BlockingIOError:
                 return
-            time.sleep(0.001)
+            time.sleep(0.001)  # between two tries; the count above decides
         raise AssertionError("the terminal was not stopped")
 
     def send(self, data):
@@ -93,7 +93,7 @@ class Terminal:
             except BlockingIOError:
                 if time.monotonic() > limit:
                     raise
-                time.sleep(0.002)
+                time.sleep(0.002)  # between two tries; the limit above decides
 
 
 class MillTest(unittest.TestCase):
