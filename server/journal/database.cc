@@ -27,6 +27,23 @@ void identity_function(sqlite3_context* context, int, sqlite3_value** arguments)
 
 }  // namespace
 
+KeptStatements::~KeptStatements() {
+  for (const auto& [sql, statement] : kept_) sqlite3_finalize(statement);
+}
+
+sqlite3_stmt* KeptStatements::take(std::string_view sql) {
+  const auto found = kept_.find(sql);
+  return found == kept_.end() ? nullptr : kept_.extract(found).mapped();
+}
+
+// A statement that is not reset would hold back the log, and what is bound may be somebody's name.
+void KeptStatements::give_back(sqlite3_stmt* statement) {
+  sqlite3_reset(statement);
+  sqlite3_clear_bindings(statement);
+  const bool kept = kept_.size() < kMost && kept_.try_emplace(sqlite3_sql(statement), statement).second;
+  if (!kept) sqlite3_finalize(statement);
+}
+
 Statement& Statement::bind(int parameter, std::int64_t value) {
   sqlite3_bind_int64(statement_.get(), parameter, value);
   return *this;
@@ -108,11 +125,12 @@ Result<void> Database::empty_log() {
 }
 
 Result<Statement> Database::prepare(std::string_view sql) {
-  sqlite3_stmt* statement = nullptr;
+  sqlite3_stmt* statement = kept_->take(sql);
+  if (statement != nullptr) return Statement(statement, *kept_);
   if (sqlite3_prepare_v2(database_.get(), sql.data(), static_cast<int>(sql.size()), &statement, nullptr) != SQLITE_OK) {
     return failed(database_.get(), sql);
   }
-  return Statement(statement);
+  return Statement(statement, *kept_);
 }
 
 }  // namespace axisgate::server::journal

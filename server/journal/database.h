@@ -3,7 +3,10 @@
 
 #include <sqlite3.h>
 
+#include <cstddef>
 #include <cstdint>
+#include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -12,6 +15,25 @@
 #include "server/events/wall_time.h"
 
 namespace axisgate::server::journal {
+
+// The statements of one connection that nobody uses now: to compile one takes longer than to run it. Not thread safe.
+class KeptStatements {
+ public:
+  // As many as an append runs, and some more.
+  static constexpr std::size_t kMost = 32;
+
+  KeptStatements() = default;
+  ~KeptStatements();
+  KeptStatements(const KeptStatements&) = delete;
+  KeptStatements& operator=(const KeptStatements&) = delete;
+
+  // Null: none of this text is kept.
+  sqlite3_stmt* take(std::string_view sql);
+  void give_back(sqlite3_stmt* statement);
+
+ private:
+  std::map<std::string, sqlite3_stmt*, std::less<>> kept_;
+};
 
 // One query of one Database, which outlives it. Not thread safe.
 class Statement {
@@ -35,12 +57,13 @@ class Statement {
 
  private:
   friend class Database;
-  struct Finalize {
-    void operator()(sqlite3_stmt* statement) const { sqlite3_finalize(statement); }
+  struct GiveBack {
+    KeptStatements* kept;
+    void operator()(sqlite3_stmt* statement) const { kept->give_back(statement); }
   };
-  explicit Statement(sqlite3_stmt* statement) : statement_(statement) {}
+  Statement(sqlite3_stmt* statement, KeptStatements& kept) : statement_(statement, {&kept}) {}
 
-  std::unique_ptr<sqlite3_stmt, Finalize> statement_;
+  std::unique_ptr<sqlite3_stmt, GiveBack> statement_;
 };
 
 // Why a file could not be opened.
@@ -76,6 +99,7 @@ class Database {
   explicit Database(sqlite3* database) : database_(database) {}
 
   std::unique_ptr<sqlite3, Close> database_;
+  std::unique_ptr<KeptStatements> kept_ = std::make_unique<KeptStatements>();  // its place stays when this is moved
 };
 
 }  // namespace axisgate::server::journal

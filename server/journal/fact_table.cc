@@ -33,7 +33,9 @@ Result<void> FactTable::change(const FactChange& change) {
   for (const FactPointer& record : change.added) {
     if (auto done = add(*record, *insert); !done) return done;
   }
-  return database_.run(fmt::format("DELETE FROM fact WHERE revision < {}", change.oldest).c_str());
+  auto remove = database_.prepare("DELETE FROM fact WHERE revision < ?");
+  if (!remove) return tl::unexpected(remove.error());
+  return remove->bind(1, static_cast<std::int64_t>(change.oldest)).step().map([](bool) {});
 }
 
 Result<void> FactTable::add(const FactRecord& record, Statement& insert) {
