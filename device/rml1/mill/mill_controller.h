@@ -1,0 +1,153 @@
+// One mill: its queue, its confirmation, and the job that runs. README.md says what each state means.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/line_machine.h"
+#include "device/core/problem.h"
+#include "device/core/time.h"
+#include "device/rml1/mill/job.h"
+#include "device/rml1/mill/prepared_job.h"
+#include "device/rml1/profile.h"
+#include "device/rml1/sending/sender.h"
+
+namespace axisgate::rml1 {
+
+enum class AtLoss { abort, leave };  // what is sent when the line is back, for a job that ran when it broke
+
+struct MillSettings {
+  SendSettings sending;
+  Duration confirmation_lasts = std::chrono::minutes(10);
+  Duration busy_limit = std::chrono::minutes(10);  // so long without a byte taken, and the mill is said to be busy
+  AtLoss at_loss = AtLoss::abort;
+};
+
+enum class MillLink { closed, open };
+
+// The job that runs.
+struct RunningJob {
+  JobNumber number = 0;
+  SenderState sender = SenderState::ready;
+  SendProgress progress;  // in bytes of the job itself
+  RunOn run_on;
+  TimePoint started{};
+  bool busy = false;  // for MillSettings::busy_limit the mill has taken nothing
+};
+
+// What others see of what happens. Called from within the controller's members; must not call back.
+class MillEvents {
+ public:
+  virtual ~MillEvents() = default;
+
+  virtual void link_changed(MillLink link, std::string_view why, TimePoint now) = 0;
+  // It was added, or has another state. `why`: for people, where it is not as requested; may be empty.
+  virtual void job_changed(const Job& job, std::string_view why, TimePoint now) = 0;
+  virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
+  // Bytes of the job up to `through` go to the line next. What must outlive a killed daemon is kept before it returns.
+  virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
+};
+
+// Not thread safe: lives on its device's strand. Where a request is refused nothing has changed.
+class MillController : public LineMachine {
+ public:
+  // All outlive this.
+  MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events);
+
+  // A job that ran when the daemon before this one was killed; `written` is what is known. Before link_up().
+  void inherit(Job job);
+  // Behind all others. The number ascends.
+  void add(Job job, TimePoint now);
+  // It comes first. not_found; wrong_mode, where it is not QUEUED.
+  Result<void> move_to_front(JobNumber job, TimePoint now);
+  // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or the line is closed;
+  // stale_setpoint: `seen` is not what the job needs.
+  Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
+  // Its first byte goes out, if the mill takes it. `prepared` is of the job's bytes. not_found; wrong_mode;
+  // not_allowed, where it is not confirmed any more; link_down.
+  Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, TimePoint now);
+  // Of the running job; wrong_mode where none runs, or not so.
+  Result<void> pause(TimePoint now);
+  Result<void> resume(TimePoint now);
+  // Nothing of the job is written after it. Where none runs nothing is to be done.
+  void abort(std::string_view why, TimePoint now);
+  // not_found; wrong_mode, where the job's state does not have it.
+  Result<void> cancel(JobNumber job, TimePoint now);
+  Result<void> done(JobNumber job, TimePoint now);
+  // What was confirmed is not so any more.
+  void setup_changed(std::string_view why, TimePoint now);
+
+  // Those without an end, in the order of the queue; the one that runs is among them.
+  const std::vector<Job>& jobs() const { return jobs_; }
+  std::optional<RunningJob> running(TimePoint now);
+  MillLink link() const { return link_; }
+  const MillSettings& settings() const { return settings_; }
+
+  void link_up(TimePoint now) override;
+  void link_down(TimePoint now, std::string_view why) override;
+  void receive(std::string_view, TimePoint) override {}  // a mill never answers (guideline 4-2)
+  void advance(TimePoint now) override;
+  std::optional<TimePoint> next_deadline() const override;
+
+  // Between two attempts to open the line: the first, doubled each time up to the last.
+  static constexpr Duration kReopenFirst = std::chrono::milliseconds(250), kReopenLast = std::chrono::seconds(5);
+
+ private:
+  // Passes on what a sender writes, behind the note of it.
+  class NotedLine : public FlowLink {
+   public:
+    NotedLine(MillController& mill, FlowLink& line) : mill_(mill), line_(line) {}
+    void write(std::string_view bytes) override;
+    void reopen(Duration wait) override { line_.reopen(wait); }
+    std::size_t unsent() const override { return line_.unsent(); }
+    bool held() const override { return line_.held(); }
+    void ignore_flow_control(bool ignored) override { line_.ignore_flow_control(ignored); }
+
+   private:
+    MillController& mill_;
+    FlowLink& line_;
+  };
+  struct Running {
+    JobNumber number;
+    std::shared_ptr<const PreparedJob> prepared;
+    TimePoint started;
+    Sender sender;
+    SenderState seen = SenderState::ready;
+    std::uint64_t noted = 0;  // bytes of the text that were given to the line
+    std::uint64_t taken = 0;  // by the mill, at `taken_at`
+    TimePoint taken_at{};
+    bool busy = false;
+  };
+
+  Result<Job*> find(JobNumber number);
+  Result<void> change(JobNumber number, JobEvent event, TimePoint now);
+  void change(Job& job, JobEvent event, std::string_view why, TimePoint now);
+  void leave_queue_if_ended(JobNumber number);
+  Result<void> check_next(const Job& job) const;
+  Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
+  void look_at_sender(TimePoint now);
+  void look_whether_busy(TimePoint now);
+  WrittenRange written_at_loss();
+  void end_run(JobEvent event, std::string_view why, TimePoint now);
+  RunningJob view(TimePoint now);
+  std::optional<TimePoint> confirmed_until() const;
+
+  const Profile& profile_;
+  const MillSettings settings_;
+  FlowLink& line_;
+  NotedLine noted_line_;
+  MillEvents& events_;
+  MillLink link_ = MillLink::closed;
+  Duration reopen_ = kReopenFirst;
+  std::vector<Job> jobs_;
+  std::unique_ptr<Running> running_;
+  bool must_abort_ = false;  // when the line is back
+  TimePoint now_{};          // of the last call
+};
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,32 @@
+#include "device/rml1/mill/prepared_job.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+std::string wrapped(std::string_view body, const Profile& profile, std::optional<Origin> origin) {
+  const bool turning = Timeline(body, profile, origin).turns_at_end();
+  std::string text = prologue();
+  text += body;
+  return text + epilogue(profile, turning);
+}
+
+}  // namespace
+
+PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profile& profile,
+                         std::optional<Origin> origin)
+    : digest_(std::move(digest)),
+      body_size_(body.size()),
+      text_(wrapped(body, profile, origin)),
+      timeline_(text_, profile, origin) {}
+
+std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
+  const std::uint64_t before = prologue().size();
+  return bytes < before ? 0 : std::min(bytes - before, body_size_);
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,297 @@
+// The queue of a mill, confirmations at the machine, and what is known when the line is lost.
+#include "device/rml1/mill/mill_controller.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "device/rml1/sending/words.h"
+#include "tests/rml1/fake_mill_line.h"
+#include "tests/rml1/mill.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+using enum JobState;
+
+class MillControllerTest : public testing::Test, protected MillEvents {
+ protected:
+  void SetUp() override { mill_.link_up(now_); }
+
+  // Moves of 10 mm at 15 mm/s: 0.7 to 0.9 s each by the profile.
+  static std::string vectors(int count) {
+    std::string job = "V15;VS15;";
+    for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
+    return job;
+  }
+  static JobSetup setup(std::string digest = "d1") { return {std::move(digest), "test", "corner", "T1"}; }
+  void add(JobNumber number, std::string owner = "unix anna", std::string digest = "d1") {
+    Job job{.number = number, .name = "part.rml", .owner = std::move(owner), .setup = setup(std::move(digest))};
+    mill_.add(std::move(job), now_);
+  }
+  std::shared_ptr<const PreparedJob> prepared(int count = 20, std::string digest = "d1") {
+    return std::make_shared<const PreparedJob>(vectors(count), std::move(digest), profile_, std::nullopt);
+  }
+  Result<void> confirm(JobNumber number) { return mill_.confirm(number, setup(), "unix bert", now_); }
+  void run_job(JobNumber number, int count = 20) {
+    ASSERT_TRUE(confirm(number));
+    ASSERT_TRUE(mill_.start(number, prepared(count), now_));
+  }
+  void run_for(Duration time) {
+    for (const TimePoint end = now_ + time; now_ < end; now_ += 1ms) {
+      line_.run_to(now_);
+      if (const auto due = mill_.next_deadline(); due && *due <= now_) mill_.advance(now_);
+    }
+  }
+  JobState state(JobNumber number) const {
+    for (const Job& job : mill_.jobs()) {
+      if (job.number == number) return job.state;
+    }
+    return ended_.at(number);
+  }
+  std::string written() const {
+    std::string all;
+    for (const std::string& one : line_.writes) all += one;
+    return all;
+  }
+  static Reason reason(const Result<void>& result) { return result ? Reason::unspecified : result.error().reason; }
+
+  void link_changed(MillLink, std::string_view, TimePoint) override {}
+  void job_changed(const Job& job, std::string_view why, TimePoint) override {
+    ended_[job.number] = job.state;
+    said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
+  }
+  void sender_changed(const RunningJob& running, TimePoint) override {
+    said_.emplace_back(name(running.sender));
+    if (running.busy) said_.emplace_back("busy");
+  }
+  void about_to_write(JobNumber, std::uint64_t through) override {
+    noted_ = through;
+    written_before_note_ = line_.writes.size();
+  }
+
+  const Profile profile_ = test_profile();
+  FakeMillLine line_;
+  TimePoint now_{1000s};
+  MillSettings settings_;
+  std::map<JobNumber, JobState> ended_;
+  std::vector<std::string> said_;
+  std::uint64_t noted_ = 0;
+  std::size_t written_before_note_ = 0;
+  MillController mill_{profile_, settings_, line_, *this};
+};
+
+TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
+  add(1);
+  run_job(1, 4);
+  EXPECT_EQ(state(1), running);
+  run_for(60s);
+  EXPECT_EQ(state(1), fed);
+  EXPECT_EQ(written(), prologue() + vectors(4) + epilogue(profile_, true));
+  EXPECT_TRUE(mill_.done(1, now_));
+  EXPECT_EQ(state(1), done);
+  EXPECT_THAT(mill_.jobs(), IsEmpty());
+  EXPECT_THAT(said_, ElementsAre("QUEUED", "CONFIRMED", "RUNNING", "SENDING", "FINISHING", "FED", "FED", "DONE"));
+}
+
+TEST_F(MillControllerTest, WithoutAConfirmationNothingIsWritten) {
+  add(1);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_THAT(line_.writes, IsEmpty());
+  EXPECT_EQ(state(1), queued);
+}
+
+TEST_F(MillControllerTest, AConfirmationExpires) {
+  add(1);
+  ASSERT_TRUE(confirm(1));
+  now_ += 10min - 1ms;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), confirmed);
+  now_ += 1ms;
+  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed) << "also before time was let pass";
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), queued);
+  EXPECT_THAT(said_, Contains(HasSubstr("expired")));
+}
+
+TEST_F(MillControllerTest, AConfirmationIsForWhatTheJobNeeds) {
+  add(1);
+  for (const JobSetup& other : {JobSetup{"d2", "test", "corner", "T1"}, JobSetup{"d1", "mdx-15", "corner", "T1"},
+                                JobSetup{"d1", "test", "", "T1"}, JobSetup{"d1", "test", "corner", "T2"}}) {
+    EXPECT_EQ(reason(mill_.confirm(1, other, "unix bert", now_)), Reason::stale_setpoint);
+  }
+  EXPECT_EQ(state(1), queued);
+}
+
+TEST_F(MillControllerTest, OtherBytesThanThoseConfirmedDoNotStart) {
+  add(1);
+  ASSERT_TRUE(confirm(1));
+  EXPECT_EQ(reason(mill_.start(1, prepared(20, "d2"), now_)), Reason::internal);
+  EXPECT_THAT(line_.writes, IsEmpty());
+}
+
+TEST_F(MillControllerTest, OnlyTheFirstOfTheQueueIsConfirmed) {
+  add(1);
+  add(2, "unix carla");
+  const Result<void> second = confirm(2);
+  EXPECT_EQ(reason(second), Reason::wrong_mode);
+  EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is before"));
+  EXPECT_EQ(reason(confirm(3)), Reason::not_found);
+  ASSERT_TRUE(mill_.move_to_front(2, now_));
+  EXPECT_TRUE(confirm(2));
+  EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
+}
+
+TEST_F(MillControllerTest, AnotherThatIsPutBeforeItVoidsAConfirmation) {
+  add(1);
+  add(2);
+  ASSERT_TRUE(confirm(1));
+  ASSERT_TRUE(mill_.move_to_front(2, now_));
+  EXPECT_EQ(state(1), queued);
+  EXPECT_EQ(mill_.jobs().front().number, 2u);
+}
+
+TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
+  add(1);
+  ASSERT_TRUE(confirm(1));
+  mill_.setup_changed("unix bert has moved the mill", now_);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  ASSERT_TRUE(confirm(1));
+  mill_.abort("requested by unix bert", now_);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  ASSERT_TRUE(confirm(1));
+  mill_.link_down(now_, "unplugged");
+  mill_.link_up(now_);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_THAT(line_.writes, IsEmpty());
+}
+
+TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
+  add(1);
+  add(2);
+  run_job(1);
+  EXPECT_EQ(reason(confirm(2)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.start(2, prepared(), now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.cancel(1, now_)), Reason::wrong_mode) << "it is aborted, not cancelled";
+}
+
+TEST_F(MillControllerTest, PauseAndResume) {
+  add(1);
+  EXPECT_EQ(reason(mill_.pause(now_)), Reason::wrong_mode);
+  run_job(1);
+  EXPECT_EQ(reason(mill_.resume(now_)), Reason::wrong_mode);
+  run_for(2s);
+  ASSERT_TRUE(mill_.pause(now_));
+  const std::size_t before = line_.writes.size();
+  run_for(60s);
+  EXPECT_THAT(line_.writes, SizeIs(before));
+  ASSERT_TRUE(mill_.resume(now_));
+  run_for(120s);
+  EXPECT_EQ(state(1), fed);
+}
+
+TEST_F(MillControllerTest, AnAbortEndsTheJobAndVoidsNothingElse) {
+  add(1);
+  add(2);
+  run_job(1);
+  run_for(2s);
+  const std::size_t before = line_.writes.size();
+  mill_.abort("requested by unix bert", now_);
+  run_for(1s);
+  EXPECT_EQ(state(1), aborted);
+  EXPECT_THAT(line_.writes, SizeIs(before + 1));
+  EXPECT_THAT(line_.writes.back(), HasSubstr("\x1B.K\x1B.K"));
+  EXPECT_EQ(mill_.jobs().front().number, 2u);
+}
+
+TEST_F(MillControllerTest, WhatIsWrittenIsNotedBefore) {
+  add(1);
+  run_job(1);
+  EXPECT_EQ(written_before_note_ + 1, line_.writes.size());
+  run_for(3s);
+  EXPECT_EQ(noted_, mill_.running(now_)->progress.written);
+  EXPECT_GT(noted_, 0u);
+}
+
+TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
+  add(1);
+  run_job(1, 200);
+  run_for(20s);
+  const std::uint64_t most = mill_.running(now_)->progress.written;
+  mill_.link_down(now_, "unplugged");
+  EXPECT_EQ(state(1), paused_unknown);
+  EXPECT_EQ(mill_.jobs().front().written->most, most);
+  EXPECT_EQ(mill_.jobs().front().written->least, most - std::min<std::uint64_t>(most, 512));
+  line_.writes.clear();
+  mill_.link_up(now_);
+  run_for(60s);
+  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "the mill is stopped once, nothing else";
+  EXPECT_EQ(reason(mill_.start(1, prepared(200), now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
+  EXPECT_TRUE(mill_.cancel(1, now_));
+}
+
+TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
+  MillController after(profile_, settings_, line_, *this);
+  after.inherit(
+      {.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .written = WrittenRange{0, 900}});
+  EXPECT_EQ(after.jobs().front().state, paused_unknown);
+  after.link_up(now_);
+  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  after.link_down(now_, "unplugged");
+  after.link_up(now_);
+  EXPECT_THAT(line_.writes, SizeIs(1)) << "once";
+}
+
+TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
+  settings_.at_loss = AtLoss::leave;
+  MillController other(profile_, settings_, line_, *this);
+  other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup()});
+  other.link_up(now_);
+  EXPECT_THAT(line_.writes, IsEmpty());
+}
+
+TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {
+  add(1);
+  run_job(1, 200);
+  run_for(5s);
+  line_.busy = true;
+  run_for(10min - 5s);
+  EXPECT_FALSE(mill_.running(now_)->busy);
+  run_for(10s);
+  EXPECT_TRUE(mill_.running(now_)->busy);
+  EXPECT_EQ(state(1), running);
+  line_.busy = false;
+  run_for(1s);
+  EXPECT_FALSE(mill_.running(now_)->busy);
+}
+
+TEST_F(MillControllerTest, WithAClosedLineNothingIsConfirmed) {
+  add(1);
+  mill_.link_down(now_, "unplugged");
+  EXPECT_EQ(reason(confirm(1)), Reason::link_down);
+}
+
+// Prologue ";^DF;", so five bytes are none of the job's.
+TEST(PreparedJobTest, BytesOfTheTextAndOfTheJob) {
+  const Profile profile = test_profile();
+  const PreparedJob job("PU1000,0;", "d", profile, std::nullopt);
+  EXPECT_EQ(job.text(), ";^DF;PU1000,0;" + epilogue(profile, true)) << "PU starts a spindle that DF permits";
+  EXPECT_EQ(job.of_body(0), 0u);
+  EXPECT_EQ(job.of_body(5), 0u);
+  EXPECT_EQ(job.of_body(8), 3u);
+  EXPECT_EQ(job.of_body(job.text().size()), 9u);
+}
+
+}  // namespace
+}  // namespace axisgate::rml1
