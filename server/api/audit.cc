@@ -15,7 +15,8 @@ void audit(RequestKind kind, std::string_view who, std::string_view what) {
   if (rule_of(kind).audited) spdlog::info("{} {}", escaped(who), escaped(what, kWhatMax));
 }
 
-void audit(RequestKind kind, const server::Stage& device, const stage::RequestContext& context, std::string_view what) {
+void audit(RequestKind kind, const server::Device& device, const stage::RequestContext& context,
+           std::string_view what) {
   if (!rule_of(kind).audited) return;
   spdlog::info("{}: {} requests: {}", device.name(), escaped(context.who), escaped(what, kWhatMax));
 }

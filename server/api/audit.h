@@ -5,7 +5,7 @@
 
 #include "device/stage/requests.h"
 #include "server/api/request_kinds.h"
-#include "server/devices/stage.h"
+#include "server/devices/device.h"
 
 namespace axisgate::api {
 
@@ -16,6 +16,6 @@ namespace axisgate::api {
 void audit(RequestKind kind, std::string_view who, std::string_view what);
 
 // Of a request that is handed to its device now: "move axis 1 to 5 mm".
-void audit(RequestKind kind, const server::Stage& device, const stage::RequestContext& context, std::string_view what);
+void audit(RequestKind kind, const server::Device& device, const stage::RequestContext& context, std::string_view what);
 
 }  // namespace axisgate::api

@@ -50,7 +50,7 @@ Json body_of(RequestKind kind, const stage::RequestContext& context, std::string
 
 }  // namespace
 
-Mutation::Mutation(server::Gateway& gateway, const server::Stage& device, RequestKind kind, std::string who,
+Mutation::Mutation(server::Gateway& gateway, const server::Device& device, RequestKind kind, std::string who,
                    std::optional<RequestChange> begun)
     : gateway_(gateway), device_(device.name()), kind_(kind), who_(std::move(who)), begun_(std::move(begun)) {
   if (begun_) key_ = {begun_->request.identity, begun_->request.id};
@@ -124,7 +124,7 @@ Entry Mutation::entry(EntryKind kind, std::string body) const {
           .body = std::move(body)};
 }
 
-Result<std::shared_ptr<Mutation>> Mutations::begin(RequestKind kind, const Call& call, const server::Stage& device,
+Result<std::shared_ptr<Mutation>> Mutations::begin(RequestKind kind, const Call& call, const server::Device& device,
                                                    const std::string& who, OnKnown known) const {
   std::optional<RequestChange> begun;
   if (!call.request_id.empty()) {

@@ -19,7 +19,7 @@ namespace axisgate::api {
 class Mutation {
  public:
   // `gateway` outlives it. `begun`: what the memory of requests keeps of it; nothing without a request_id.
-  Mutation(server::Gateway& gateway, const server::Stage& device, RequestKind kind, std::string who,
+  Mutation(server::Gateway& gateway, const server::Device& device, RequestKind kind, std::string who,
            std::optional<server::journal::RequestChange> begun);
 
   // Writes it to the journal; `then` is called when it is on the disk: journal_unavailable where it is not, so that
@@ -57,7 +57,7 @@ class Mutations {
   // Null: a request with its id came before, and `known` is called with what became of it, from any thread.
   // request_id_reused, request_memory_lost.
   using OnKnown = server::journal::RequestMemory::OnKnown;
-  Result<std::shared_ptr<Mutation>> begin(RequestKind kind, const Call& call, const server::Stage& device,
+  Result<std::shared_ptr<Mutation>> begin(RequestKind kind, const Call& call, const server::Device& device,
                                           const std::string& who, OnKnown known) const;
 
  private:

@@ -22,38 +22,51 @@
 namespace axisgate::api {
 
 // A request that was let in.
-struct Admitted {
-  server::Stage* device = nullptr;  // never null
+template <class Device>
+struct AdmittedTo {
+  Device* device = nullptr;  // never null
   server::Caller caller;
   stage::RequestContext context;
 };
+using Admitted = AdmittedTo<server::Stage>;
 
 // Such a request on its device's strand.
-struct Turn {
-  server::Stage& device;
-  stage::StageController& controller;
+template <class Device>
+struct TurnOf {
+  Device& device;
+  typename Device::Controller& controller;
   const server::Caller& caller;
   const stage::RequestContext& context;
   TimePoint now;
 };
+using Turn = TurnOf<server::Stage>;
 
 // What a door hands in.
-struct Asked {
+template <class Device>
+struct AskedOf {
   RequestKind kind;
   const Call& call;                // copied as far as it is needed
-  Result<server::Stage*> device;   // or why there is none
+  Result<Device*> device;          // or why there is none
   std::optional<Problem> fault{};  // of how the rest is written
 };
+using Asked = AskedOf<server::Stage>;
 
 // deadline_passed for what would start a motion after its not_after: while it was posted, its time ran out. What waits
 // on the device longer than that is refused there.
 Result<void> check_deadline(RequestKind kind, const stage::RequestContext& context, TimePoint now);
 
-// Thread safe.
-class Pipeline {
+// To one family of devices. Thread safe.
+template <class Device>
+class PipelineOf {
  public:
+  using Asked = AskedOf<Device>;
+  using Admitted = AdmittedTo<Device>;
+  using Turn = TurnOf<Device>;
+  template <class Outcome>
+  using Repeat = RepeatOf<Device, Outcome>;
+
   // Both outlive this.
-  Pipeline(const Admission& admission, const Mutations& mutations) : admission_(admission), mutations_(mutations) {}
+  PipelineOf(const Admission& admission, const Mutations& mutations) : admission_(admission), mutations_(mutations) {}
 
   // In this order: unauthenticated, not_allowed; invalid_request or unknown_device; invalid_request for a request_id;
   // the fault of the rest.
@@ -69,7 +82,7 @@ class Pipeline {
   // The answer to validate_only is an empty Outcome. A request whose id has come before is answered by `repeat`.
   template <class Outcome, class Prepare, class Check, class Describe, class Begin>
   void run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe, Begin begin,
-           std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Outcome>()) const;
+           std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Device, Outcome>()) const;
 
   // What changes something, and answers in its own way. `ready` is called on the strand, before it is in the journal
   // and, where that has taken time, again: whether it may be done now, and what it is. `begin` does it, and says what
@@ -77,7 +90,7 @@ class Pipeline {
   //   Result<std::string> ready(const Turn&)
   //   void begin(const Turn&, const MutationPtr&)
   //   void refuse(const Problem&)
-  //   void repeat(server::Stage&, const Result<Known>&)
+  //   void repeat(Device&, const Result<Known>&)
   template <class Ready, class Begin, class Refuse, class Again>
   void act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const;
 
@@ -85,7 +98,7 @@ class Pipeline {
   //   void begin(const Turn&, const Answer<Outcome>&)
   template <class Outcome, class Begin>
   void once(const Asked& asked, Answer<Outcome> answer, Begin begin,
-            std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Outcome>()) const;
+            std::type_identity_t<Repeat<Outcome>> repeat = usual_repeat<Device, Outcome>()) const;
 
   // For what has nothing to check there, and no validate_only.
   //   void begin(const Turn&, const Answer<Outcome>&)
@@ -94,7 +107,7 @@ class Pipeline {
 
  private:
   struct Identified {
-    server::Stage* device = nullptr;  // never null
+    Device* device = nullptr;  // never null
     server::Caller caller;
   };
   Result<Identified> identify(const Asked& asked) const;
@@ -106,12 +119,53 @@ class Pipeline {
   const Admission& admission_;
   const Mutations& mutations_;
 };
+using Pipeline = PipelineOf<server::Stage>;
 
+template <class Device>
+Result<typename PipelineOf<Device>::Identified> PipelineOf<Device>::identify(const Asked& asked) const {
+  Result<server::Caller> caller = admission_.check_role(asked.kind, asked.call.credential);
+  if (!caller) return tl::unexpected(caller.error());
+  if (!asked.device) return tl::unexpected(asked.device.error());
+  const Patience patience = rule_of(asked.kind).patience;
+  if (patience == Patience::change || patience == Patience::motion) {
+    if (const auto good = Admission::check_request_id(asked.call); !good) return tl::unexpected(good.error());
+  }
+  return Identified{*asked.device, *std::move(caller)};
+}
+
+template <class Device>
+Result<AdmittedTo<Device>> PipelineOf<Device>::admit(const Asked& asked, Identified identified) const {
+  Result<stage::RequestContext> context = admission_.context_of(asked.kind, asked.call, identified.caller);
+  if (!context) return tl::unexpected(context.error());
+  if (asked.fault) return tl::unexpected(*asked.fault);
+  return Admitted{identified.device, std::move(identified.caller), *std::move(context)};
+}
+
+template <class Device>
+Result<AdmittedTo<Device>> PipelineOf<Device>::admit(const Asked& asked) const {
+  Result<Identified> identified = identify(asked);
+  if (!identified) return tl::unexpected(identified.error());
+  return admit(asked, *std::move(identified));
+}
+
+template <class Device>
+Result<void> PipelineOf<Device>::check_right(RequestKind kind, const Turn& turn) {
+  if (rule_of(kind).use != Use::all_axes) return {};
+  return turn.controller.check_use(turn.context, turn.controller.state().controllable());
+}
+
+template <class Device>
+Result<void> PipelineOf<Device>::check_now(RequestKind kind, const Turn& turn) {
+  const Result<void> right = check_right(kind, turn);
+  return right ? check_deadline(kind, turn.context, turn.now) : right;
+}
+
+template <class Device>
 template <class Ready, class Begin, class Refuse, class Again>
-void Pipeline::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
+void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
   const Result<Identified> identified = identify(asked);
   if (!identified) return refuse(identified.error());
-  server::Stage& device = *identified->device;
+  Device& device = *identified->device;
   const auto begun = mutations_.begin(asked.kind, asked.call, device, identified->caller.who,
                                       [&device, repeat](const auto& known) { repeat(device, known); });
   if (!begun) return refuse(begun.error());
@@ -130,7 +184,8 @@ void Pipeline::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, 
     Begin begin;
   };
   const auto visit = std::make_shared<Visit>(Visit{*std::move(admitted), std::move(ready), std::move(begin)});
-  device.post([kind = asked.kind, visit, mutation, refuse_it](stage::StageController& controller, TimePoint now) {
+  using Controller = typename Device::Controller;
+  device.post([kind = asked.kind, visit, mutation, refuse_it](Controller& controller, TimePoint now) {
     const Admitted& it = visit->admitted;
     const Turn turn{*it.device, controller, it.caller, it.context, now};
     const Result<std::string> what = visit->ready(turn);
@@ -138,7 +193,7 @@ void Pipeline::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, 
     audit(kind, turn.device, turn.context, *what);
     const auto then = [visit, mutation, refuse_it](const Result<void>& written) {
       if (!written) return refuse_it(written.error());
-      visit->admitted.device->post([visit, mutation, refuse_it](stage::StageController& same, TimePoint later) {
+      visit->admitted.device->post([visit, mutation, refuse_it](Controller& same, TimePoint later) {
         const Admitted& still = visit->admitted;
         const Turn second{*still.device, same, still.caller, still.context, later};
         const Result<std::string> yet = visit->ready(second);
@@ -149,9 +204,10 @@ void Pipeline::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, 
   });
 }
 
+template <class Device>
 template <class Outcome, class Prepare, class Check, class Describe, class Begin>
-void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check, Describe describe,
-                   Begin begin, std::type_identity_t<Repeat<Outcome>> repeat) const {
+void PipelineOf<Device>::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, Check check,
+                             Describe describe, Begin begin, std::type_identity_t<Repeat<Outcome>> repeat) const {
   if (asked.call.validate_only) {
     return ask(asked, std::move(answer),
                [kind = asked.kind, prepare, check](const Turn& turn, const Answer<Outcome>& respond) {
@@ -179,26 +235,28 @@ void Pipeline::run(const Asked& asked, Answer<Outcome> answer, Prepare prepare, 
         prepared ? begin(turn, *std::move(prepared), respond) : respond(tl::unexpected(prepared.error()));
       },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
-      [repeat, answer](server::Stage& device, const auto& known) { repeat(device, known, answer); });
+      [repeat, answer](Device& device, const auto& known) { repeat(device, known, answer); });
 }
 
+template <class Device>
 template <class Outcome, class Begin>
-void Pipeline::once(const Asked& asked, Answer<Outcome> answer, Begin begin,
-                    std::type_identity_t<Repeat<Outcome>> repeat) const {
+void PipelineOf<Device>::once(const Asked& asked, Answer<Outcome> answer, Begin begin,
+                              std::type_identity_t<Repeat<Outcome>> repeat) const {
   act(
       asked, [](const Turn&) { return Result<std::string>(""); },
       [begin, answer](const Turn& turn, const MutationPtr& mutation) { begin(turn, settling(mutation, answer)); },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
-      [repeat, answer](server::Stage& device, const auto& known) { repeat(device, known, answer); });
+      [repeat, answer](Device& device, const auto& known) { repeat(device, known, answer); });
 }
 
+template <class Device>
 template <class Outcome, class Begin>
-void Pipeline::ask(const Asked& asked, Answer<Outcome> answer, Begin begin) const {
+void PipelineOf<Device>::ask(const Asked& asked, Answer<Outcome> answer, Begin begin) const {
   Result<Admitted> admitted = admit(asked);
   if (!admitted) return answer(tl::unexpected(std::move(admitted.error())));
-  server::Stage& device = *admitted->device;
+  Device& device = *admitted->device;
   device.post([admitted = *std::move(admitted), answer = std::move(answer), begin = std::move(begin)](
-                  stage::StageController& controller, TimePoint now) {
+                  typename Device::Controller& controller, TimePoint now) {
     begin(Turn{*admitted.device, controller, admitted.caller, admitted.context, now}, answer);
   });
 }

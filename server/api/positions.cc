@@ -77,7 +77,7 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
       },
       [own = own_name(found), &positions = positions_](server::Stage& its_device, const Result<Known>& known,
                                                        const Answer<Outcome>& respond) {
-        repeat_done(its_device, known, [&](const Result<void>& done) {
+        repeat_done(known, [&](const Result<void>& done) {
           if (!done) return respond(tl::unexpected(done.error()));
           auto position = find_position(positions, its_device.name(), own);
           if (!position) return respond(tl::unexpected(position.error()));

@@ -13,7 +13,7 @@ void repeat_motion(server::Stage& device, const Result<Known>& known, const Answ
   });
 }
 
-void repeat_done(server::Stage&, const Result<Known>& known, const Answer<void>& answer) {
+void repeat_done(const Result<Known>& known, const Answer<void>& answer) {
   if (!known) return answer(tl::unexpected(known.error()));
   const auto problem = server::journal::problem_in(known->answer);
   answer(problem ? tl::unexpected(*problem) : Result<void>());

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "device/core/problem.h"
@@ -21,23 +22,22 @@ using Known = server::journal::RequestMemory::Known;
 using StartedMotion = std::optional<CurrentMotion>;
 
 // Answers a repeat with what the first request came to. From any thread.
-template <class Outcome>
-using Repeat = std::function<void(server::Stage& device, const Result<Known>& known, const Answer<Outcome>& answer)>;
+template <class Device, class Outcome>
+using RepeatOf = std::function<void(Device& device, const Result<Known>& known, const Answer<Outcome>& answer)>;
 
 // Where the device's line is closed meanwhile, the answer is dropped, as any other.
 void repeat_motion(server::Stage& device, const Result<Known>& known, const Answer<StartedMotion>& answer);
-void repeat_done(server::Stage& device, const Result<Known>& known, const Answer<void>& answer);
+void repeat_done(const Result<Known>& known, const Answer<void>& answer);
 
 // Of outcomes that can be remembered as they are.
-template <class Outcome>
-Repeat<Outcome> usual_repeat();
-template <>
-inline Repeat<StartedMotion> usual_repeat() {
-  return repeat_motion;
-}
-template <>
-inline Repeat<void> usual_repeat() {
-  return repeat_done;
+template <class Device, class Outcome>
+RepeatOf<Device, Outcome> usual_repeat() {
+  if constexpr (std::is_void_v<Outcome>) {
+    return [](Device&, const Result<Known>& known, const Answer<void>& answer) { repeat_done(known, answer); };
+  } else {
+    static_assert(std::is_same_v<Outcome, StartedMotion>, "name how a repeat is answered");
+    return repeat_motion;
+  }
 }
 
 // Nothing, of a motion: its end is its answer.

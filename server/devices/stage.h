@@ -19,6 +19,8 @@ namespace axisgate::server {
 
 class Stage final : public Device {
  public:
+  using Controller = stage::StageController;
+
   // `bus`, `metrics`, `thread` and `requests` outlive this. `record` and `journal` may be null. With a journal,
   // motions are numbered on from the last that it has, or the record.
   Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
