@@ -160,7 +160,7 @@ void Check::time(const Move& move, const Point& way, bool first_height) {
 void Check::waited(Wait what, double seconds, std::uint64_t end) {
   if (what == Wait::spin_up) ++summary_.spin_ups;
   best_.pause(seconds, arrival(end));
-  worst_.pause(seconds, arrival(end));
+  worst_.pause(seconds * (what == Wait::turn ? 1 + profile_.acceleration.slower : 1), arrival(end));
 }
 
 void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {

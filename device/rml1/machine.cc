@@ -156,7 +156,6 @@ void Machine::feed(const Instruction& instruction) {
 
 // !ZE. "Axes for which nothing is specified keep their present location."
 void Machine::extension(const Instruction& instruction) {
-  if (instruction.first) dwell(instruction);
   const AxisTarget* rotation = nullptr;
   Point there = clipper_.commanded();
   bool moves = false;
@@ -178,6 +177,7 @@ void Machine::extension(const Instruction& instruction) {
   }
   const double lift = there.z - clipper_.commanded().z;
   if (lift > 0) listener_.lifted(relative_ ? lift : commanded_.z, instruction);
+  if (instruction.first && (moves || rotation != nullptr)) dwell(instruction);
   if (moves) move_to(there, z_speed_, instruction);
   if (rotation != nullptr) turn(*rotation, instruction);
 }
@@ -187,8 +187,8 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
   const double there = target(degrees, angle_);
   const double way = std::abs(there - angle_);
   angle_ = there;
-  if (way == 0) return;
   start_spindle(instruction);
+  if (way == 0) return;
   listener_.waited(Wait::turn, way / profile_.rotary->degrees_per_s, instruction.end);
 }
 

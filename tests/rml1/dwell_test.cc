@@ -68,6 +68,8 @@ TEST(Dwell, ComesOnceBeforeAThreeAxisCommand) {
 TEST(Dwell, DoesNotComeWhereNothingIsExecuted) {
   EXPECT_EQ(dwells("Z;!ZZ;Z1,2;!ZE::;PA;PR;"), 0u);
   EXPECT_EQ(dwells("F5;V5;@-9,9;!RC1;!ZM-10;!ZO-10;DF;"), 0u);
+  EXPECT_EQ(dwells("!ZEU5;"), 0u) << "an axis that the mill does not have (guideline 3-3 !ZE)";
+  EXPECT_EQ(dwells("!ZEU5X1;"), 1u);
 }
 
 TEST(Dwell, IsOverAfterDfAndIn) {

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "device/rml1/sending/timeline.h"
 #include "tests/rml1/trace.h"
 
 namespace axisgate::rml1 {
@@ -123,6 +124,18 @@ TEST(RotaryAxis, TurnsByDegrees) {
   EXPECT_THAT(upward("Z1,0,9;!ZEA90;!ZEA90;!ZEA60;").waits, ElementsAre("spin up 2", "turn 9", "turn 3"));
   EXPECT_THAT(upward("Z1,0,9;PR;!ZEA45;!ZEA45;!ZEA-45.5;").waits,
               ElementsAre("spin up 2", "turn 4.5", "turn 4.5", "turn 4.55"));
+}
+
+// A turn is a movement: at the high end it takes longer, as moves do.
+TEST(RotaryAxis, MayTurnSlower) {
+  Profile profile = test_profile();
+  profile.acceleration.slower = 0.5;
+  const Summary found = checked("!MC0;!ZEA90;", profile)->summary();
+  EXPECT_NEAR(found.seconds_low, 9, 1e-9);
+  EXPECT_NEAR(found.seconds_high, 13.5, 1e-9);
+  const Timeline timeline("!MC0;!ZEA90;", profile, kMidway);
+  EXPECT_NEAR(timeline.least_s(), 9, 1e-6);
+  EXPECT_NEAR(timeline.most_s(), 13.5, 1e-6);
 }
 
 // A9000 is 90 degrees, A90.0 and A90. too.

@@ -62,6 +62,14 @@ TEST(Words, AroundAJob) {
   EXPECT_EQ(epilogue(test_profile(), false), ";!MC0;^PA;!VZ15;!ZM0;!MC0;^DF;!MC0;");
 }
 
+// "When the cutting direction changes" (guideline 3-1 W): once in a command, or before each of its points.
+TEST(Timeline, HasADwellBeforeEachPointAtMost) {
+  const Timeline with("^PA;W1000;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
+  const Timeline without("^PA;W0;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
+  EXPECT_FLOAT_EQ(static_cast<float>(with.least_s() - without.least_s()), 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(with.most_s() - without.most_s()), 3);
+}
+
 class SenderTest : public testing::Test {
  protected:
   // 10 mm at 15 mm/s each, so 0.7 to 0.9 s by the profile; without a spin-up.
@@ -110,7 +118,7 @@ TEST_F(SenderTest, TheWholeJobIsWrittenOnceAndInCommands) {
 TEST_F(SenderTest, PacedNeverGoesBeyondItsWindow) {
   begin(vectors(200));
   EXPECT_EQ(sender_->run_on().at_most, 64u);
-  EXPECT_EQ(sender_->run_on().if_held, 1024u + 512 + 9) << "the longest command has nine bytes";
+  EXPECT_EQ(sender_->run_on().if_held, 1024u + 512 + 2 * 9) << "the longest command has nine bytes";
   std::uint64_t most = 0;
   for (int i = 0; i < 20'000; ++i) {
     run_for(milliseconds(1));
@@ -118,6 +126,19 @@ TEST_F(SenderTest, PacedNeverGoesBeyondItsWindow) {
   }
   EXPECT_LE(most, 64u);
   EXPECT_GE(most, 55u) << "less than it may";
+}
+
+// A converter takes all at once, and nothing shows how much of it has arrived.
+TEST_F(SenderTest, PacedCountsTheTimeThatBytesNeedOnTheLine) {
+  line_ = FakeMillLine(10'000'000);
+  std::string job;
+  for (int i = 0; i < 1000; ++i) job += "VS15;";
+  begin(job, {.baud = 9600});
+  for (int i = 0; i < 1000; ++i) {
+    run_for(milliseconds(1));
+    ASSERT_LE(progress().written, 960u * static_cast<unsigned>(i + 1) / 1000 + 64);
+  }
+  EXPECT_GE(progress().written, 900u) << "less than it may";
 }
 
 TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
@@ -184,6 +205,16 @@ TEST_F(SenderTest, OneThatMayRestIsStoppedBefore) {
   line_.writes.clear();
   sender_->abort(now_);
   EXPECT_THAT(written(), StartsWith("\x1B.K\x1B.K!MC0;"));
+}
+
+// !MC0 stops it, and the dwell comes before it starts again (guideline 3-1 W, 5-2).
+TEST_F(SenderTest, OneThatRestsInADwellIsStoppedBefore) {
+  begin("^PA;V15;VS15;W500;PU500,0;PD1000,0;!MC0;!MC1;PD0,0;", {.window = 20});
+  run_for(std::chrono::seconds(6));
+  ASSERT_EQ(progress().written, job_.size() - 6) << "all but the last move";
+  line_.writes.clear();
+  sender_->abort(now_);
+  EXPECT_EQ(written(), abort_words(profile_, true));
 }
 
 TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {

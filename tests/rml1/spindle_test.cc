@@ -31,8 +31,8 @@ TEST_P(StartsInPlace, WithACommandThatMayMove) {
   EXPECT_THAT(found.moves, IsEmpty());
 }
 INSTANTIATE_TEST_SUITE_P(Guideline52, StartsInPlace,
-                         testing::Values("PU", "PU0,0", "M", "M0,0", "R0,0", "PA0,0", "Z0,0,5000", "!ZEX0", "!ZM0",
-                                         "^IN;!ZM0"));
+                         testing::Values("PU", "PU0,0", "M", "M0,0", "R0,0", "PA0,0", "Z0,0,5000", "!ZEX0", "!ZEA0",
+                                         "!ZM0", "^IN;!ZM0"));
 
 class DoesNotStart : public testing::TestWithParam<const char*> {};
 TEST_P(DoesNotStart, WithoutACommandThatMoves) {

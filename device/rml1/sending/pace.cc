@@ -7,20 +7,32 @@ namespace axisgate::rml1 {
 
 void Pace::arrived(std::uint64_t through, TimePoint at) {
   const auto& steps = timeline_.steps();
-  free_ = std::max(free_, at);
-  while (next_ < steps.size() && steps[next_].end <= through) {
+  for (; next_ < steps.size() && steps[next_].end <= through; ++next_) {
     const std::chrono::duration<double> takes(steps[next_].*duration_ * slower_);
-    free_ += std::chrono::duration_cast<Duration>(takes);
-    add(steps[next_++].end);
+    add(steps[next_].end, at, std::chrono::duration_cast<Duration>(takes));
   }
   // What moves nothing is over with what was before it.
-  add(through);
+  add(through, at, {});
 }
 
 // A command with several steps has been executed when the last has ended.
-void Pace::add(std::uint64_t end) {
-  if (under_way_.empty() || under_way_.back().end != end) under_way_.push_back({end, {}});
+void Pace::add(std::uint64_t end, TimePoint arrived, Duration takes) {
+  free_ = std::max(free_, arrived) + takes;
+  if (under_way_.empty() || under_way_.back().end != end) under_way_.push_back({end, arrived, {}, {}});
+  under_way_.back().takes += takes;
   under_way_.back().at = free_;
+}
+
+void Pace::has_read(std::uint64_t bytes, TimePoint now) {
+  executed(now);
+  const auto unread = std::ranges::upper_bound(under_way_, bytes, {}, &Ending::end);
+  if (unread == under_way_.begin()) return;
+  for (auto before = unread - under_way_.begin(); before > 1; --before) {
+    executed_ = under_way_.front().end;
+    under_way_.pop_front();
+  }
+  free_ = now;
+  for (Ending& one : under_way_) one.at = free_ = std::min(one.at, std::max(free_, one.arrived) + one.takes);
 }
 
 std::uint64_t Pace::executed(TimePoint now) {

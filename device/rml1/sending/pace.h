@@ -17,6 +17,9 @@ class Pace {
 
   // The job's bytes up to `through` have arrived then. Both ascend.
   void arrived(std::uint64_t through, TimePoint at);
+  // So many bytes have left the mill's buffer by now, whatever its speed is: the command that they end with may be
+  // under way, and those before it have been executed. `now` ascends.
+  void has_read(std::uint64_t bytes, TimePoint now);
 
   // How many bytes of the job it has executed. `now` ascends.
   std::uint64_t executed(TimePoint now);
@@ -26,10 +29,12 @@ class Pace {
  private:
   struct Ending {
     std::uint64_t end = 0;  // bytes
+    TimePoint arrived{};
+    Duration takes{};
     TimePoint at{};
   };
 
-  void add(std::uint64_t end);
+  void add(std::uint64_t end, TimePoint arrived, Duration takes);
 
   const Timeline& timeline_;
   float Step::*const duration_;

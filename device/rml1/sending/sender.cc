@@ -5,19 +5,20 @@
 
 #include "device/core/transitions.h"
 #include "device/rml1/sending/cut.h"
+#include "device/rml1/sending/window.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
 namespace {
 
-constexpr int kBitsAByte = 10;  // with start bit and stop bit
-
 constexpr std::array<std::string_view, 8> kNames = {"READY", "SENDING",  "PAUSED",  "FINISHING",
                                                     "FED",   "ABORTING", "ABORTED", "LOST"};
 
-Duration transmit_time(std::size_t bytes, int baud) {
-  return std::chrono::duration_cast<Duration>(
-      std::chrono::duration<double>(static_cast<double>(bytes) * kBitsAByte / baud));
+SendSettings with_window(SendSettings settings, std::string_view job, const Timeline& timeline) {
+  if (settings.window > 0) return settings;
+  const bool paced = settings.streaming == Streaming::paced;
+  settings.window = paced ? adapted_window(job, timeline, settings.slack, settings.baud) : kWindows[0];
+  return settings;
 }
 
 }  // namespace
@@ -33,7 +34,7 @@ Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& pr
     : job_(job),
       timeline_(timeline),
       profile_(profile),
-      settings_(settings),
+      settings_(with_window(settings, job, timeline)),
       line_(line),
       run_on_(computed_run_on()),
       slowest_(timeline, &Step::most_s, settings.slack),
@@ -99,6 +100,7 @@ void Sender::look_after_abort(TimePoint now) {
 }
 
 void Sender::advance(TimePoint now) {
+  learn(now);
   if (state_ == SenderState::sending) send(now);
   if (state_ == SenderState::aborting) look_after_abort(now);
   if (state_ == SenderState::finishing && slowest_.executed(now) >= job_.size()) change(Event::all_executed);
@@ -115,7 +117,8 @@ void Sender::send(TimePoint now) {
 
 void Sender::write(std::size_t end, TimePoint now) {
   line_.write(job_.substr(written_, end - written_));
-  slowest_.arrived(end, now + transmit_time(end - written_, settings_.baud));
+  arrives_ = std::max(arrives_, now) + transmit_time(end - written_, settings_.baud);
+  slowest_.arrived(end, arrives_);
   fastest_.arrived(end, now);
   written_ = end;
 }
@@ -124,6 +127,14 @@ bool Sender::has_room(std::size_t end, TimePoint now) {
   if (settings_.streaming == Streaming::full) return true;
   const std::uint64_t executed = slowest_.executed(now);
   return executed == written_ || end - executed <= settings_.window;
+}
+
+// What has left the host and has been read by the mill fits neither into its buffer nor between the two. So says flow
+// control alone: without it a mill loses what it has no room for.
+void Sender::learn(TimePoint now) {
+  const std::size_t left = written_ - std::min(line_.unsent(), written_);
+  const std::size_t unread = settings_.buffer + settings_.converter;
+  if (left > unread) slowest_.has_read(left - unread, now);
 }
 
 // Before, in or after any of the steps in which the mill may be when the abort reaches it.
@@ -140,7 +151,8 @@ bool Sender::may_rest(TimePoint now) {
 std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   switch (state_) {
     case SenderState::sending:
-      return line_.unsent() > 0 || line_.held() ? now + kLook : room_at();
+      if (line_.unsent() > 0 || line_.held()) return now + until_next_look();
+      return room_at();
     case SenderState::aborting:
       return now + kLook;
     case SenderState::finishing:
@@ -148,6 +160,11 @@ std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
     default:
       return std::nullopt;
   }
+}
+
+// The line does not rest longer than it must behind its last byte.
+Duration Sender::until_next_look() const {
+  return line_.unsent() > 0 ? std::min(kLook, transmit_time(line_.unsent(), settings_.baud)) : kLook;
 }
 
 // For the next command.
@@ -158,9 +175,11 @@ std::optional<TimePoint> Sender::room_at() const {
 }
 
 SendProgress Sender::progress(TimePoint now) {
+  learn(now);
   return {written_, std::min(line_.unsent(), written_), slowest_.executed(now), fastest_.executed(now)};
 }
 
+// The mill's buffer may be full while it executes a command, and another one is in the host.
 RunOn Sender::computed_run_on() const {
   std::size_t longest = 0;
   for (std::size_t begin = 0; begin < job_.size();) {
@@ -168,7 +187,7 @@ RunOn Sender::computed_run_on() const {
     longest = std::max(longest, end - begin);
     begin = end;
   }
-  const std::size_t full = settings_.buffer + settings_.converter + longest;
+  const std::size_t full = settings_.buffer + settings_.converter + 2 * longest;
   if (settings_.streaming == Streaming::full) return {full, full};
   return {std::min(std::max(settings_.window, longest), full), full};
 }

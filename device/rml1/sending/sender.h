@@ -18,7 +18,7 @@ enum class Streaming { paced, full };
 
 struct SendSettings {
   Streaming streaming = Streaming::paced;
-  std::size_t window = 64;      // bytes; of paced streaming
+  std::size_t window = 0;       // bytes, of paced streaming; 0: adapted to the job (window.h)
   double slack = 1.5;           // by how much a mill may be slower than the slow end of its profile
   std::size_t buffer = 1024;    // bytes, the mill's
   std::size_t converter = 512;  // bytes, between host and mill
@@ -27,7 +27,7 @@ struct SendSettings {
 
 // What may be executed after an abort, in bytes of the job.
 struct RunOn {
-  std::size_t at_most = 0;  // of a mill that executes
+  std::size_t at_most = 0;  // of a mill that executes, and began at the top above the work origin
   std::size_t if_held = 0;  // of one that its panel holds, for when it is released
 };
 
@@ -68,7 +68,7 @@ class Sender {
 
   // Flow control that forbids an abort is ignored after that time.
   static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
-  // Between two looks at a line that has something to send, or is held.
+  // Between two looks at a line that has something to send, or is held, at most.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
 
  private:
@@ -77,6 +77,8 @@ class Sender {
   void send(TimePoint now);
   void write(std::size_t end, TimePoint now);
   bool has_room(std::size_t end, TimePoint now);
+  void learn(TimePoint now);
+  Duration until_next_look() const;
   std::optional<TimePoint> room_at() const;
   void look_after_abort(TimePoint now);
   bool may_rest(TimePoint now);
@@ -91,6 +93,7 @@ class Sender {
   Pace slowest_, fastest_;
   SenderState state_ = SenderState::ready;
   std::size_t written_ = 0;  // bytes of the job, whole commands
+  TimePoint arrives_{};      // the last of them, at the mill: a converter may hold what has left the host
   TimePoint abort_since_{};
 };
 

@@ -1,0 +1,22 @@
+// How many bytes a mill is given ahead of what it has executed.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "device/core/time.h"
+#include "device/rml1/sending/timeline.h"
+
+namespace axisgate::rml1 {
+
+// With start bit and stop bit.
+Duration transmit_time(std::size_t bytes, int baud);
+
+// The first is enough where each command takes the mill longer than the line. The last is half of the mill's buffer.
+inline constexpr std::size_t kWindows[] = {64, 128, 256, 512};  // bytes
+
+// The smallest of these with which a mill that takes `slower` times the high end of the timeline waits for its bytes
+// hardly longer than with the largest: the job takes at most a hundredth longer.
+std::size_t adapted_window(std::string_view job, const Timeline& timeline, double slower, int baud);
+
+}  // namespace axisgate::rml1

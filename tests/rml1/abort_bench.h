@@ -1,0 +1,102 @@
+// A sender and the simulated mill, with a line and a converter between them, in virtual time: what runs on after an
+// abort, and how the mill is left.
+#pragma once
+
+#include <cstddef>
+#include <deque>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/rml1/sending/sender.h"
+#include "tests/rml1/simulator_bench.h"
+
+namespace axisgate::rml1 {
+
+// What leaves the host is in the converter at once. From there it reaches the mill at the speed of the line.
+class LineToMill : public FlowLink {
+ public:
+  struct Setup {
+    bool shows_cts = false;
+    std::size_t converter = 0;  // bytes
+    std::size_t late = 0;       // bytes that still leave after the mill has stopped the line
+    bool can_ignore = true;     // flow control
+    int baud = 9600;
+  };
+
+  // `mill` outlives this.
+  LineToMill(simulator::MillBench& mill, Setup setup);
+
+  void write(std::string_view bytes) override;
+  void reopen(Duration) override {}
+  std::size_t unsent() const override;
+  bool held() const override { return setup_.shows_cts && stopped(); }
+  void ignore_flow_control(bool ignored) override { ignores_ = ignored && setup_.can_ignore; }
+
+  // When the byte under way reaches the mill.
+  std::optional<TimePoint> next() const { return byte_ ? std::optional(arrives_) : std::nullopt; }
+  // Begins the next byte, if it may leave.
+  void pump(TimePoint now);
+  char take();  // the byte that has arrived
+
+  std::string written;  // to the line
+
+ private:
+  bool stopped() const;
+  bool may_leave();
+
+  simulator::MillBench& mill_;
+  Setup setup_;
+  std::deque<char> host_, converter_;
+  std::optional<char> byte_;
+  TimePoint arrives_{};
+  std::size_t late_left_ = 0;
+  bool ignores_ = false;
+};
+
+class AbortBench {
+ public:
+  // `job` and `timeline` outlive this. The mill is a test_profile(), and stands at the top above the work origin. The
+  // job is started.
+  AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, SendSettings settings,
+             LineToMill::Setup line, std::string_view before = {});
+
+  void run_for(Duration time);
+  void finish();  // until nothing more happens by itself
+  void press_view();
+
+  // From here on bytes of the job that are executed have run on.
+  void abort();
+  void stop_writing();
+
+  Sender& sender() { return sender_; }
+  const std::string& written() const { return line_.written; }
+  simulator::Simulator::State state() { return mill_.mill.state(mill_.now); }
+
+  std::size_t ran_on() const { return job_begun_ - executed_at_end_; }  // bytes of the job
+  bool abort_lost() const { return abort_lost_; }                       // a byte of it, with error 16
+  bool raise_started_spindle() const { return raise_started_spindle_; }
+
+ private:
+  void end_writing();
+  std::optional<TimePoint> next() const;
+  bool step(TimePoint until);
+  void read_record();
+  void begun(std::size_t buffered);
+  bool delivers_job() const { return !job_written_ || delivered_ <= *job_written_; }
+
+  const Profile profile_ = test_profile();
+  simulator::MillBench mill_;
+  LineToMill line_;
+  Sender sender_;
+  std::size_t lines_read_ = 0;                    // of the record
+  std::size_t delivered_ = 0;                     // bytes, to the mill
+  std::size_t lost_ = 0, job_lost_ = 0;           // of these, as its buffer was full
+  std::size_t begun_before_ = 0, job_begun_ = 0;  // bytes of the job: through the last but one command, and the last
+  std::size_t executed_at_end_ = 0;               // bytes of the job, when writing ended
+  std::optional<std::size_t> job_written_;        // bytes of the job, likewise
+  bool abort_begun_ = false, abort_lost_ = false, raise_started_spindle_ = false;
+};
+
+}  // namespace axisgate::rml1
