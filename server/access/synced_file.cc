@@ -25,10 +25,6 @@ tl::unexpected<Problem> failed(std::string_view what, const std::string& path, i
               std::move(hint));
 }
 
-tl::unexpected<Problem> cannot_write(const std::string& path) {
-  return failed("write", path, errno, "let the daemon's user write there");
-}
-
 std::string_view kind_of(mode_t mode) {
   if (S_ISLNK(mode)) return "a symbolic link";
   if (S_ISDIR(mode)) return "a directory";
@@ -56,16 +52,8 @@ bool write_synced(const std::string& path, const std::string& text) {
   ::unlink(path.c_str());
   Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
   if (!file.valid()) return false;
-  const bool written = ::write(file.get(), text.data(), text.size()) == static_cast<ssize_t>(text.size());
-  const bool synced = written && ::fsync(file.get()) == 0;
-  return ::close(file.release()) == 0 && synced;
-}
-
-bool sync_directory(const std::string& path) {
-  const int directory = ::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-  if (directory < 0) return false;
-  const bool synced = ::fsync(directory) == 0;
-  return ::close(directory) == 0 && synced;
+  if (!write_all(file.get(), text) || ::fsync(file.get()) != 0) return false;
+  return ::close(file.release()) == 0;
 }
 
 }  // namespace
@@ -91,21 +79,48 @@ Result<Descriptor> open_state_file(const std::string& path, int flags) {
   return file;
 }
 
+Result<void> read_pieces(int file, const std::string& path, const std::function<void(std::string_view)>& take) {
+  std::array<char, 1 << 15> piece{};
+  while (true) {
+    const ssize_t count = ::read(file, piece.data(), piece.size());
+    if (count == 0) return {};
+    if (count > 0) {
+      take({piece.data(), static_cast<std::size_t>(count)});
+    } else if (errno != EINTR) {
+      return failed("read", path, errno, "check the disk: the file is left as it is");
+    }
+  }
+}
+
 Result<std::string> read_state_file(const std::string& path) {
   const Result<Descriptor> file = open_state_file(path, O_RDONLY);
   if (!file) return tl::unexpected(file.error());
   std::string text;
   if (!file->valid()) return text;
-  std::array<char, 4096> piece{};
-  while (true) {
-    const ssize_t count = ::read(file->get(), piece.data(), piece.size());
-    if (count == 0) return text;
-    if (count > 0) {
-      text.append(piece.data(), static_cast<std::size_t>(count));
-    } else if (errno != EINTR) {
-      return failed("read", path, errno, "check the disk: the file is left as it is");
-    }
+  const Result<void> whole = read_pieces(file->get(), path, [&text](std::string_view piece) { text += piece; });
+  if (!whole) return tl::unexpected(whole.error());
+  return text;
+}
+
+bool write_all(int file, std::string_view bytes) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) return false;
+    bytes.remove_prefix(count < 0 ? 0 : static_cast<std::size_t>(count));
   }
+  return true;
+}
+
+tl::unexpected<Problem> cannot_write(const std::string& path) {
+  const int error = errno;
+  const bool full = error == ENOSPC || error == EDQUOT;
+  return failed("write", path, error, full ? "free space on its disk" : "let the daemon's user write there");
+}
+
+Result<void> sync_directory(const std::string& path) {
+  const Descriptor directory(::open(path.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+  if (!directory.valid() || ::fsync(directory.get()) != 0) return cannot_write(path);
+  return {};
 }
 
 Result<void> replace_synced(const std::string& path, const std::string& text) {
@@ -113,8 +128,7 @@ Result<void> replace_synced(const std::string& path, const std::string& text) {
   make_state_directory(directory);
   if (!write_synced(fresh, text)) return cannot_write(fresh);
   if (::rename(fresh.c_str(), path.c_str()) != 0) return cannot_write(path);
-  if (!sync_directory(directory)) return cannot_write(directory);
-  return {};
+  return sync_directory(directory);
 }
 
 }  // namespace axisgate::server

@@ -22,6 +22,7 @@ _FLOORS = {
     "device/core": (0,), "device/config": (0,), "device/stage": (1, 0), "device/*": (1, 1),
     "device": (1, 2),
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
+    "server/spool": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
     "server": (3,), "server/api": (4,), "server/rpc": (5,), "clients": (6,), "tests": (7,),
 }
@@ -128,12 +129,15 @@ def _is_of_the_check(path):
     return path.startswith("device/rml1/") and not path.startswith(_MILL_SIMULATOR) and path not in _MILL_DATA
 
 
-# The one file that names the kinds of device.
+# The one file that names the kinds of device. Mills are all of one kind, so their part of the server uses it as it is.
 _KINDS = "server/kinds.cc"
+_OF_MILLS = ("server/api/", "server/config/", "server/devices/", "server/journal/", "server/rpc/")
 
 
 def _names_a_kind(path, target):
     of_a_kind = target.startswith("device/") and room_of(target)[0] == (1, 1) and room_of(target)[1] != "device/link"
+    if target.startswith("device/rml1/") and path.startswith(_OF_MILLS):
+        return False
     return of_a_kind and path.startswith("server/") and path != _KINDS
 
 

@@ -130,6 +130,13 @@ class Floors(Tree):
             self.assert_include(path, "device/shrc203/kind.h", "kinds")
         self.assert_include("server/kinds.cc", "device/shrc203/kind.h")
 
+    def test_mills_are_of_one_kind(self):
+        self.assert_include("server/config/a.h", "device/rml1/b.h")
+        self.assert_include("server/devices/a.cc", "device/rml1/simulator/b.h")
+        self.assert_include("server/config/a.h", "device/shrc203/kind.h", "kinds")
+        for path in ("server/gateway.cc", "server/front/a.cc"):
+            self.assert_include(path, "device/rml1/b.h", "kinds")
+
     def test_those_who_wire_may(self):
         self.assert_include("device/shrc203/simulator/program/a.cc", "device/link/b.h")
         self.assert_include("device/rml1/simulator/program/a.cc", "device/link/b.h")

@@ -13,6 +13,7 @@
 #include "server/access/generation.h"
 #include "server/access/tokens.h"
 #include "server/devices/saved_positions.h"
+#include "tests/unit/file_size_limit.h"
 
 namespace axisgate::server::synced_file_test {
 namespace {
@@ -111,6 +112,26 @@ TEST_F(StateFile, WhatAKilledDaemonLeftIsReplaced) {
   ASSERT_EQ(::mkfifo(path("tokens.new").c_str(), 0600), 0);
   ASSERT_TRUE(replace_synced(path(), "newer"));
   EXPECT_EQ(content("tokens"), "newer");
+}
+
+TEST_F(StateFile, AFullDiskLeavesWhatWasThereAndSaysWhy) {
+  ASSERT_TRUE(replace_synced(path(), "kept"));
+  const auto replaced = [this] {
+    const FileSizeLimit limit(10);
+    return replace_synced(path(), "more than ten bytes");
+  }();
+  ASSERT_FALSE(replaced);
+  EXPECT_EQ(replaced.error().message, "cannot write " + path("tokens.new") + ": File too large");
+  EXPECT_EQ(content("tokens"), "kept");
+}
+
+TEST_F(StateFile, AFullDiskIsToBeFreed) {
+  const int full = ::open("/dev/full", O_WRONLY | O_CLOEXEC);
+  ASSERT_FALSE(write_all(full, "x"));
+  const Problem problem = cannot_write("/dev/full").value();
+  ::close(full);
+  EXPECT_EQ(problem.message, "cannot write /dev/full: No space left on device");
+  EXPECT_EQ(problem.hint, "free space on its disk");
 }
 
 TEST_F(StateFile, TheDirectoryIsMadeForThisUserAlone) {

@@ -1,0 +1,78 @@
+#include "server/spool/room.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+#include <utility>
+
+namespace axisgate::server::spool {
+namespace {
+
+constexpr std::string_view kMakeRoom = "remove jobs that are not needed any more";
+
+std::string size_text(std::int64_t bytes) {
+  return bytes % kMebibyte == 0 ? fmt::format("{} MiB", bytes / kMebibyte) : fmt::format("{} bytes", bytes);
+}
+
+}  // namespace
+
+Result<std::unique_ptr<Place>> Room::take(std::string identity) {
+  const std::lock_guard lock(mutex_);
+  if (jobs_ >= bounds_.jobs) {
+    return fail(Reason::queue_full, fmt::format("{} jobs are kept already, as many as may be", bounds_.jobs),
+                std::string(kMakeRoom));
+  }
+  return std::unique_ptr<Place>(new Place(*this, std::move(identity), 0));
+}
+
+std::unique_ptr<Place> Room::hold(std::string identity, std::int64_t bytes) {
+  const std::lock_guard lock(mutex_);
+  return std::unique_ptr<Place>(new Place(*this, std::move(identity), bytes));
+}
+
+Result<void> Room::check(const Place& place, std::int64_t more) const {
+  if (place.bytes_ + more > bounds_.bytes_of_one) {
+    return fail(Reason::out_of_range,
+                fmt::format("the job is larger than {}, the most for one job", size_text(bounds_.bytes_of_one)),
+                "divide it into several jobs");
+  }
+  if (bytes_of_.at(place.identity_) + more > bounds_.bytes_of_identity) {
+    return fail(Reason::queue_full,
+                fmt::format("with it the jobs of {} are larger than {}, the most for one caller", place.identity_,
+                            size_text(bounds_.bytes_of_identity)),
+                std::string(kMakeRoom));
+  }
+  if (bytes_ + more > bounds_.bytes) {
+    return fail(Reason::queue_full,
+                fmt::format("with it all jobs are larger than {}, the most together", size_text(bounds_.bytes)),
+                std::string(kMakeRoom));
+  }
+  return {};
+}
+
+void Room::add(const std::string& identity, std::int64_t bytes) {
+  bytes_ += bytes;
+  bytes_of_[identity] += bytes;
+}
+
+Place::Place(Room& room, std::string identity, std::int64_t bytes)
+    : room_(room), identity_(std::move(identity)), bytes_(bytes) {
+  ++room_.jobs_;
+  room_.add(identity_, bytes_);
+}
+
+Place::~Place() {
+  const std::lock_guard lock(room_.mutex_);
+  --room_.jobs_;
+  room_.add(identity_, -bytes_);
+}
+
+Result<void> Place::grow(std::int64_t bytes) {
+  const std::lock_guard lock(room_.mutex_);
+  if (Result<void> checked = room_.check(*this, bytes); !checked) return checked;
+  bytes_ += bytes;
+  room_.add(identity_, bytes);
+  return {};
+}
+
+}  // namespace axisgate::server::spool
