@@ -37,6 +37,7 @@
 #include "server/rpc/server.h"
 #include "server/service_manager.h"
 #include "server/spare_memory.h"
+#include "server/spool/spool.h"
 #include "server/watchdog.h"
 
 namespace axisgate {
@@ -140,6 +141,7 @@ void log_what_is_served(const server::Gateway& gateway, const rpc::Server& serve
 struct Kept {
   std::unique_ptr<server::Access> access;
   std::unique_ptr<server::SavedPositions> positions;
+  std::unique_ptr<server::spool::Spool> spool;
   std::unique_ptr<server::journal::Journal> journal;  // null: none is kept
 };
 
@@ -180,12 +182,14 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  const Kept kept{*std::move(access), *std::move(positions),
+  auto spool = server::spool::Spool::open(state->file("spool"), {});
+  if (!spool) return complain(kExitFailed, server::explain(spool.error()));
+  const Kept kept{*std::move(access), *std::move(positions), *std::move(spool),
                   config.journal.kept ? open_journal(*state, config.journal) : nullptr};
   server::journal::Journal* const journal = kept.journal.get();
   int exit_code = 0;
   {
-    server::Gateway gateway(config, *generation, state->path(), journal);
+    server::Gateway gateway(config, *generation, state->path(), journal, kept.spool.get());
     if (journal != nullptr) journal->append({entry_of_daemon(EntryKind::daemon_started)});
     exit_code = serve(gateway, kept, end_signals);
   }

@@ -11,7 +11,8 @@ namespace axisgate::server {
 inline std::string explain(const Problem& problem) {
   if (problem.hint.empty()) return problem.message;
   const bool sentence = problem.hint.front() >= 'A' && problem.hint.front() <= 'Z';
-  return problem.message + (sentence ? ". " : "; ") + problem.hint;
+  const bool ended = problem.message.ends_with('.');
+  return problem.message + (!sentence ? "; " : ended ? " " : ". ") + problem.hint;
 }
 
 }  // namespace axisgate::server

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "server/devices/after_crash.h"
+#include "server/devices/mill.h"
 #include "server/devices/motion_record.h"
 #include "server/explain.h"
 #include "server/recording/recording_file.h"
@@ -31,7 +32,7 @@ Executor posting_to(boost::asio::io_context& context) {
 // Null where nothing can be kept.
 std::unique_ptr<MotionRecord> record_of(const DeviceConfig& device, const std::string& state_directory) {
   if (state_directory.empty()) return nullptr;
-  auto record = MotionRecord::open(fmt::format("{}/motions-{}", state_directory, device.profile.name), boot_id());
+  auto record = MotionRecord::open(fmt::format("{}/motions-{}", state_directory, device.name), boot_id());
   if (record) return *std::move(record);
   spdlog::warn("{}", explain(record.error()));
   return nullptr;
@@ -61,7 +62,7 @@ void open_timers(boost::asio::io_context& context) { const boost::asio::steady_t
 }  // namespace
 
 Gateway::Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory,
-                 journal::Journal* journal)
+                 journal::Journal* journal, spool::Spool* spool)
     : config_(config),
       run_(random_run()),
       journal_(journal),
@@ -72,17 +73,34 @@ Gateway::Gateway(const Config& config, std::uint32_t generation, const std::stri
   open_timers(readers_);
   const bool after_unclean_end = journal != nullptr && journal->after_unclean_end();
   events_.publish("", DaemonStarted{after_unclean_end}, std::chrono::system_clock::now());
-  for (const DeviceConfig& device : config.devices) {
-    auto line = make_line(device, lines_.new_strand());
-    auto stage = std::make_unique<Stage>(device, std::move(line), lines_, events_, metrics_, posting_to(readers_),
-                                         lease_tokens_, record_of(device, state_directory), journal, requests_);
-    stages_.push_back(stage.get());
-    devices_.push_back(std::move(stage));
+  for (const DeviceConfig& device : config_.devices) {
+    if (const auto* stage = std::get_if<StageConfig>(&device.family)) {
+      add_stage(device, *stage, state_directory);
+    } else if (spool != nullptr) {
+      add_mill(device, std::get<MillConfig>(device.family), state_directory, *spool);
+    }
   }
   settle_what_was_left(journal, requests_, events_, [this](std::string_view device) {
     const Stage* const stage = find_stage(device);
     return stage == nullptr ? std::nullopt : stage->started_before();
   });
+}
+
+void Gateway::add_stage(const DeviceConfig& device, const StageConfig& config, const std::string& state_directory) {
+  auto stage = std::make_unique<Stage>(device, config, make_line(device, lines_.new_strand()), lines_, events_,
+                                       metrics_, posting_to(readers_), lease_tokens_,
+                                       record_of(device, state_directory), journal_, requests_);
+  stages_.push_back(stage.get());
+  devices_.push_back(std::move(stage));
+}
+
+void Gateway::add_mill(const DeviceConfig& device, const MillConfig& config, const std::string& state_directory,
+                       spool::Spool& spool) {
+  auto record = JobRecord::open(fmt::format("{}/job-{}", state_directory, device.name), boot_id());
+  if (!record) spdlog::warn("{}", explain(record.error()));
+  devices_.push_back(std::make_unique<Mill>(device, config, make_line(device, lines_.new_strand()), lines_, metrics_,
+                                            posting_to(readers_), lease_tokens_, spool,
+                                            record ? *std::move(record) : nullptr, journal_));
 }
 
 Gateway::~Gateway() {
@@ -100,9 +118,9 @@ Gateway::~Gateway() {
 void Gateway::start() {
   lines_.start();
   readers_thread_ = std::thread([this] { readers_.run(); });
-  for (std::size_t i = 0; i < devices_.size(); ++i) {
-    const std::string& path = config_.devices[i].record;
-    if (!path.empty()) recording_files_.push_back(std::make_unique<RecordingFile>(path, devices_[i]->recorder()));
+  for (const auto& device : devices_) {
+    const std::string& path = std::ranges::find(config_.devices, device->name(), &DeviceConfig::name)->record;
+    if (!path.empty()) recording_files_.push_back(std::make_unique<RecordingFile>(path, device->recorder()));
   }
   for (const auto& device : devices_) device->start();
 }

@@ -20,6 +20,7 @@
 #include "server/journal/journal.h"
 #include "server/journal/request_memory.h"
 #include "server/metrics/metrics.h"
+#include "server/spool/spool.h"
 
 namespace axisgate::server {
 
@@ -30,9 +31,10 @@ class RecordingFile;
 class Gateway {
  public:
   // `generation` is greater for every start of the daemon (access/generation.h). What moves is kept in
-  // `state_directory` for a run after this one; without it nothing is. `journal` outlives this; null: none is kept.
+  // `state_directory` for a run after this one; without it nothing is. `journal` and `spool` outlive this. A null
+  // journal: none is kept. A null spool: mills of the configuration are left out.
   Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {},
-          journal::Journal* journal = nullptr);
+          journal::Journal* journal = nullptr, spool::Spool* spool = nullptr);
   // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
   ~Gateway();
   Gateway(const Gateway&) = delete;
@@ -63,6 +65,10 @@ class Gateway {
   Timeouts& timeouts() { return timeouts_; }
 
  private:
+  void add_stage(const DeviceConfig& device, const StageConfig& stage, const std::string& state_directory);
+  void add_mill(const DeviceConfig& device, const MillConfig& mill, const std::string& state_directory,
+                spool::Spool& spool);
+
   using Work = boost::asio::executor_work_guard<boost::asio::io_context::executor_type>;
 
   const Config config_;

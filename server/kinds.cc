@@ -6,12 +6,12 @@
 
 namespace axisgate::server {
 
-// A new kind is one line here.
 DeviceKinds device_kinds() {
-  static const std::array<const stage::Kind*, 1> kinds = {
+  // A new kind of stage controller is one line here.
+  static const std::array<const stage::Kind*, 1> stages = {
       &shrc203::kind(),
   };
-  return kinds;
+  return {.stages = stages, .mill = "rml1"};
 }
 
 }  // namespace axisgate::server

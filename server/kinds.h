@@ -5,7 +5,6 @@
 
 namespace axisgate::server {
 
-// The first is that of a device whose table names none.
 DeviceKinds device_kinds();
 
 }  // namespace axisgate::server

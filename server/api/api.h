@@ -10,6 +10,7 @@
 #include "server/api/history.h"
 #include "server/api/jogs.h"
 #include "server/api/leases.h"
+#include "server/api/mills.h"
 #include "server/api/motions.h"
 #include "server/api/paths.h"
 #include "server/api/pipeline.h"
@@ -32,6 +33,7 @@ class Api {
       : admission(access, gateway.config().limits, gateway.lease_tokens()),
         mutations(gateway),
         pipeline(admission, mutations),
+        mill_pipeline(admission, mutations),
         stops(gateway, admission),
         motions(gateway, pipeline, streams),
         paths(gateway, pipeline, streams),
@@ -45,12 +47,14 @@ class Api {
         history(gateway, admission),
         diagnostics(gateway, admission, pipeline, streams),
         simulators(gateway, pipeline),
-        tokens(gateway, access, admission, streams) {}
+        tokens(gateway, access, admission, streams),
+        mills(gateway, mill_pipeline, streams) {}
 
   Admission admission;
   Streams streams;
   const Mutations mutations;
   const Pipeline pipeline;
+  const MillPipeline mill_pipeline;
   const Stops stops;
   const Motions motions;
   const Paths paths;
@@ -65,6 +69,7 @@ class Api {
   const Diagnostics diagnostics;
   const Simulators simulators;
   const Tokens tokens;
+  const Mills mills;
 };
 
 }  // namespace axisgate::api

@@ -56,6 +56,16 @@ enum class RequestKind {
   list_motions,
   watch_motion,
   cancel_motion,
+  send_job,
+  get_mill,
+  watch_mill,
+  confirm_job,
+  start_job,
+  pause_job,
+  resume_job,
+  abort_job,
+  cancel_job,
+  report_job_done,
   ask_door,    // what a door says of itself in one answer: its health
   watch_door,  // the same as a stream
   unlisted,    // no kind that this table knows

@@ -1,5 +1,7 @@
 #include "server/api/stops.h"
 
+#include <fmt/format.h>
+
 #include <atomic>
 #include <cstddef>
 #include <memory>
@@ -10,6 +12,8 @@
 namespace axisgate::api {
 namespace {
 
+using server::Device;
+using server::Mill;
 using server::Stage;
 using stage::StageController;
 using stage::StopReport;
@@ -17,9 +21,9 @@ using stage::StopReport;
 // The reports of all devices that are stopped together. Each device fills its own place, on its own strand.
 class Gathering {
  public:
-  Gathering(const std::vector<Stage*>& devices, Answer<std::vector<DeviceStop>> answer)
+  Gathering(const std::vector<Device*>& devices, Answer<std::vector<DeviceStop>> answer)
       : missing_(devices.size()), answer_(std::move(answer)) {
-    for (const Stage* device : devices) stops_.push_back({.device = device, .report = {}, .state = {}});
+    for (const Device* device : devices) stops_.push_back({.device = device, .report = {}});
   }
 
   // Once for each device.
@@ -35,12 +39,35 @@ class Gathering {
   const Answer<std::vector<DeviceStop>> answer_;
 };
 
-// `start(controller, now, done)` stops one device.
+StopReport report_of_abort(std::string_view mill, bool job_ran) {
+  if (!job_ran) return {};
+  return {
+      .axes = {},
+      .problem = Problem{.reason = Reason::outcome_unknown,
+                         .message = fmt::format("the abort was sent to {}; whether it has stopped is not known", mill),
+                         .hint = "look at the machine"}};
+}
+
+void stop_mill(Mill& mill, const std::string& who, const std::shared_ptr<Gathering>& gathering, std::size_t index) {
+  mill.post([&mill, who, gathering, index](rml1::MillController& controller, TimePoint now) {
+    const bool job_ran = controller.running_job() != 0;
+    controller.abort(fmt::format("requested by {}", who), now);
+    gathering->add(index, report_of_abort(mill.name(), job_ran), {});
+  });
+}
+
+// `start(controller, now, done)` stops one stage.
 template <class Start>
-void stop_each(const std::vector<Stage*>& devices, Answer<std::vector<DeviceStop>> answer, Start start) {
+void stop_each(const std::vector<Device*>& devices, const std::string& who, Answer<std::vector<DeviceStop>> answer,
+               Start start) {
   const auto gathering = std::make_shared<Gathering>(devices, std::move(answer));
   for (std::size_t index = 0; index < devices.size(); ++index) {
-    devices[index]->post([gathering, index, start](StageController& controller, TimePoint now) {
+    if (auto* mill = dynamic_cast<Mill*>(devices[index])) {
+      stop_mill(*mill, who, gathering, index);
+      continue;
+    }
+    auto& stage = dynamic_cast<Stage&>(*devices[index]);
+    stage.post([gathering, index, start](StageController& controller, TimePoint now) {
       start(controller, now, [gathering, index, &controller](StopReport report) {
         gathering->add(index, std::move(report), controller.state());
       });
@@ -50,35 +77,37 @@ void stop_each(const std::vector<Stage*>& devices, Answer<std::vector<DeviceStop
 
 }  // namespace
 
-Result<std::vector<Stage*>> Stops::find_stages(std::string_view device) const {
-  if (device.empty()) return gateway_.stages();
-  const Result<Stage*> found = find_stage(gateway_, device);
-  if (!found) return tl::unexpected(found.error());
-  return std::vector<Stage*>{*found};
+Result<std::vector<Device*>> Stops::find_devices(std::string_view device) const {
+  std::vector<Device*> all;
+  if (device.empty()) {
+    for (const auto& one : gateway_.devices()) all.push_back(one.get());
+    return all;
+  }
+  return find_device(gateway_, device).map([](Device* found) { return std::vector<Device*>{found}; });
 }
 
 void Stops::stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                  Answer<std::vector<DeviceStop>> answer) const {
-  const auto devices = find_stages(device);
+  const auto devices = find_devices(device);
   if (!devices) return answer(tl::unexpected(devices.error()));
   if (!axes) return answer(tl::unexpected(axes.error()));
   if (!axes->empty() && devices->size() > 1) {
     return answer(fail(Reason::invalid_request, "the axes to be stopped are given without their device",
-                       "name one of " + stage_names(gateway_) + "; without axes all of them are stopped"));
+                       "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
-  stop_each(*devices, std::move(answer),
-            [axes = *axes, context = admission_.context_of_stop(call)](StageController& controller, TimePoint now,
-                                                                       StageController::OnStopped done) {
+  const stage::RequestContext context = admission_.context_of_stop(call);
+  stop_each(*devices, context.who, std::move(answer),
+            [axes = *axes, context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.stop(axes, context, now, std::move(done));
             });
 }
 
 void Stops::emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const {
-  const auto devices = find_stages(device);
+  const auto devices = find_devices(device);
   if (!devices) return answer(tl::unexpected(devices.error()));
-  stop_each(*devices, std::move(answer),
-            [context = admission_.context_of_stop(call)](StageController& controller, TimePoint now,
-                                                         StageController::OnStopped done) {
+  const stage::RequestContext context = admission_.context_of_stop(call);
+  stop_each(*devices, context.who, std::move(answer),
+            [context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.emergency_stop(context, now, std::move(done));
             });
 }

@@ -15,9 +15,9 @@
 namespace axisgate::api {
 
 struct DeviceStop {
-  const server::Stage* device = nullptr;  // never null
-  stage::StopReport report;
-  stage::State state;  // as the report was made
+  const server::Device* device = nullptr;  // never null
+  stage::StopReport report;                // of a mill without axes
+  stage::State state{};                    // of a stage, as the report was made
 };
 
 // Thread safe.
@@ -26,7 +26,8 @@ class Stops {
   // Both outlive this.
   Stops(const server::Gateway& gateway, const Admission& admission) : gateway_(gateway), admission_(admission) {}
 
-  // Of these axes; of none named, of all. Of an empty device name: of all devices, at the same time. Answers when all
+  // Of these axes; of none named, of all. Of an empty device name: of all devices, at the same time. A mill is sent the
+  // abort of the job that runs; that is reported as outcome_unknown, since a mill never answers. Answers when all axes
   // are stationary, the wait for it has run out, or at the call's deadline; one for each device, in the order of the
   // configuration. invalid_request, also for axes without a device where there are several; unknown_device, or as
   // `axes` is at fault.
@@ -37,7 +38,7 @@ class Stops {
   void emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const;
 
  private:
-  Result<std::vector<server::Stage*>> find_stages(std::string_view device) const;
+  Result<std::vector<server::Device*>> find_devices(std::string_view device) const;
 
   const server::Gateway& gateway_;
   const Admission& admission_;

@@ -42,7 +42,7 @@ std::vector<AdminCommand> chosen(ConfigTable& table, const std::vector<std::stri
 
 std::vector<AdminCommand> admin_commands(DeviceKinds kinds) {
   std::vector<AdminCommand> all;
-  for (const stage::Kind* kind : kinds) {
+  for (const stage::Kind* kind : kinds.stages) {
     for (const auto& command : kind->admin_commands()) {
       all.push_back({std::string(command.name), sent_by(command.request)});
     }

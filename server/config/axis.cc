@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "device/core/quantity.h"
+#include "server/config/caller.h"
 #include "server/config/name.h"
 #include "server/config/quantity.h"
 #include "server/config/stage.h"
@@ -49,23 +50,9 @@ void check_override(ConfigTable& table, const AxisLimits& own, const AxisLimits&
   }
 }
 
-// Why limits cannot mean that caller; empty where they can. Only the very name that the daemon knows a caller by will
-// do: any other would mean nobody.
-std::string wrong_with_caller(std::string_view whose) {
+std::string wrong_with_whose(std::string_view whose) {
   if (whose == "observer" || whose == "nobody") return "moves nothing anyway";
-  const auto blank = whose.find(' ');
-  const std::string_view way = whose.substr(0, blank);
-  const std::string_view name = blank == std::string_view::npos ? "" : whose.substr(blank + 1);
-  if (way == "tcp") return "is known by an address only, which everybody on this machine may have";
-  const bool known = way == "unix" || way == "cert" || way == "token";
-  if (!known) return "is neither a role nor a caller as the daemon names them";
-  const auto printable = [](char c) { return c >= ' ' && c <= '~'; };
-  if (name.empty() || name.front() == ' ' || name.back() == ' ' || !std::ranges::all_of(name, printable)) {
-    return "names nobody";
-  }
-  if (way == "token" && !is_name(name)) return "is not a token's name";
-  const bool login = name.find(' ') == std::string_view::npos || name.starts_with("uid ");
-  return way == "unix" && !login ? "is not a login" : "";
+  return wrong_with_caller(whose, "is neither a role nor a caller as the daemon names them");
 }
 
 std::string read_whose(ConfigTable& table) {
@@ -74,7 +61,7 @@ std::string read_whose(ConfigTable& table) {
   const std::optional<std::string> whose = table.text("whose");
   if (!whose && !table.has("whose")) table.missing("whose", kAllowed);
   if (!whose || *whose == "operator" || *whose == "admin") return whose.value_or("");
-  if (const std::string wrong = wrong_with_caller(*whose); !wrong.empty()) {
+  if (const std::string wrong = wrong_with_whose(*whose); !wrong.empty()) {
     table.error("whose", fmt::format("\"{}\" {}; use {}", *whose, wrong, kAllowed));
   }
   return *whose;

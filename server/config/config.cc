@@ -1,10 +1,8 @@
 #include "server/config/config.h"
 
-#include <arpa/inet.h>
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <set>
 #include <tuple>
 
@@ -13,9 +11,11 @@
 #include "server/access/writers.h"
 #include "server/config/access.h"
 #include "server/config/axis.h"
+#include "server/config/connection.h"
 #include "server/config/default_socket.h"
 #include "server/config/journal.h"
 #include "server/config/limits.h"
+#include "server/config/mill.h"
 #include "server/config/name.h"
 #include "server/config/network.h"
 #include "server/config/words.h"
@@ -31,21 +31,10 @@ using stage::Profile;
 constexpr std::uint16_t kGrpcPort = 50203;
 constexpr std::uint16_t kMetricsPort = 9203;
 
-enum class Connection { serial, tcp, simulated };
-constexpr std::array<std::pair<std::string_view, Connection>, 3> kConnections = {
-    {{"serial", Connection::serial}, {"tcp", Connection::tcp}, {"simulated", Connection::simulated}}};
-
-// Names are for the name server to judge; a port or a blank in one is a slip.
-bool is_host(std::string_view host) {
-  in6_addr address{};
-  const bool version_6 = ::inet_pton(AF_INET6, std::string(host).c_str(), &address) == 1;
-  return version_6 || (!host.empty() && host.size() <= 253 && host.find_first_of(" \t:/[]") == std::string_view::npos);
-}
-
 class ConfigReader {
  public:
   ConfigReader(std::string file, std::vector<ConfigError>& errors, DeviceKinds kinds)
-      : file_(std::move(file)), errors_(errors), kinds_(kinds) {}
+      : file_(std::move(file)), errors_(errors), kinds_(kinds), connections_(file_, errors) {}
 
   Config read(const toml::table& root) {
     ConfigTable table(root, "", file_, errors_);
@@ -79,22 +68,40 @@ class ConfigReader {
   DeviceConfig read_device(const toml::table& source) {
     ConfigTable table(source, "device", file_, errors_);
     DeviceConfig device;
-    read_name(table, device.profile.name);
-    device.kind = read_kind(table);
-    read_line(table, device);
-    device.kind_settings = read_kind_settings(table, *device.kind);
-    read_limits(table, device.profile);
+    read_name(table, device.name);
+    if (const stage::Kind* kind = read_kind(table)) {
+      device.family = read_stage_config(table, *kind, device);
+    } else {
+      MillConfig mill = read_mill(table, file_, errors_, connections_, device);
+      mill.kind = kinds_.mill;
+      device.family = std::move(mill);
+    }
     device.record = read_record(table);
-    read_axes(table, file_, errors_, device.profile.axes);
     table.refuse_unknown();
     return device;
   }
 
-  // Of a kind that there is not, the first stands in, so that the rest of the table is looked at all the same.
+  // Null: a mill. Of a kind that there is not, the first stands in, so that the rest of the table is looked at all the
+  // same.
   const stage::Kind* read_kind(ConfigTable& table) {
     std::vector<std::pair<std::string_view, const stage::Kind*>> known;
-    for (const stage::Kind* kind : kinds_) known.emplace_back(kind->name(), kind);
-    return table.choice<const stage::Kind*>("kind", known).value_or(kinds_.front());
+    for (const stage::Kind* kind : kinds_.stages) known.emplace_back(kind->name(), kind);
+    if (!kinds_.mill.empty()) known.emplace_back(kinds_.mill, nullptr);
+    return table.choice<const stage::Kind*>("kind", known).value_or(kinds_.stages.front());
+  }
+
+  // `device` gets its connection.
+  StageConfig read_stage_config(ConfigTable& table, const stage::Kind& kind, DeviceConfig& device) {
+    StageConfig stage{.kind = &kind, .profile = {}, .kind_settings = {}};
+    const auto check = [&kind](std::string_view name, std::string_view value) {
+      return kind.check_option(name, value);
+    };
+    const auto connection = connections_.read(table, stage.profile.baud, check, device);
+    if (connection != ConnectionKind::simulated) stage.profile.serial_number = table.text("serial_number").value_or("");
+    stage.kind_settings = read_kind_settings(table, kind);
+    read_limits(table, stage.profile);
+    read_axes(table, file_, errors_, stage.profile.axes);
+    return stage;
   }
 
   static stage::Words read_kind_settings(ConfigTable& table, const stage::Kind& kind) {
@@ -127,87 +134,6 @@ class ConfigReader {
     name = *given;
   }
 
-  void read_line(ConfigTable& table, DeviceConfig& device) {
-    const auto connection = table.choice<Connection>("connection", kConnections);
-    if (!connection && !table.has("connection")) {
-      table.missing("connection", "\"serial\", \"tcp\" or \"simulated\"");
-    }
-    const std::optional<std::int64_t> baud = table.integer("baud", 300, 4'000'000);
-    if (baud) device.profile.baud = static_cast<int>(*baud);
-    if (!connection) {
-      // Without the connection it is not known which of these keys belong here: none is called unknown.
-      for (const char* key :
-           {"path", "parity", "stop_bits", "flow_control", "host", "port", "serial_number", "speed", "options"}) {
-        table.allow(key);
-      }
-    } else if (*connection == Connection::serial) {
-      device.connection = read_serial(table, device.profile);
-    } else if (*connection == Connection::tcp) {
-      device.connection = read_tcp(table, device.profile);
-    } else {
-      SimulatedConnection simulated = read_simulated(table, *device.kind);
-      simulated.paced = baud.has_value();
-      device.connection = std::move(simulated);
-    }
-  }
-
-  SerialSettings read_serial(ConfigTable& table, Profile& profile) {
-    SerialSettings serial;
-    const std::optional<std::string> path = table.text("path");
-    if (!path && !table.has("path"))
-      table.missing("path", "the tty, e.g. \"/dev/ttyUSB0\" or one of /dev/serial/by-id");
-    if (path && (path->empty() || path->front() != '/')) {
-      table.error("path", fmt::format("\"{}\" is not an absolute path, e.g. \"/dev/ttyUSB0\"", *path));
-    } else if (path && !lines_.insert(*path).second) {
-      table.error("path", fmt::format("\"{}\" is the line of another device, too; each has its own", *path));
-    }
-    serial.path = path.value_or("");
-    serial.parity = table.choice<Parity>("parity", kParities).value_or(serial.parity);
-    serial.stop_bits = static_cast<int>(table.integer("stop_bits", 1, 2).value_or(serial.stop_bits));
-    serial.flow = table.choice<FlowControl>("flow_control", kFlowControls).value_or(serial.flow);
-    serial.baud = profile.baud;
-    profile.serial_number = table.text("serial_number").value_or("");
-    return serial;
-  }
-
-  TcpSettings read_tcp(ConfigTable& table, Profile& profile) {
-    const std::optional<std::string> host = table.text("host");
-    if (!host && !table.has("host"))
-      table.missing("host", "the serial server's name or address, e.g. \"192.168.0.20\"");
-    if (host && !is_host(*host)) {
-      table.error("host", fmt::format("\"{}\" is neither a host name nor an address; the port has a key of its own, "
-                                      "and an IPv6 address has no brackets",
-                                      *host));
-    }
-    const std::optional<std::int64_t> port = table.integer("port", 1, 65535);
-    if (!port && !table.has("port")) table.missing("port", "the port on which the serial server offers the raw line");
-    TcpSettings tcp{host.value_or(""), static_cast<std::uint16_t>(port.value_or(0))};
-    if (host && port && !lines_.insert(to_string(tcp)).second) {
-      table.error("port", fmt::format("{} is the line of another device, too; each has its own", to_string(tcp)));
-    }
-    profile.serial_number = table.text("serial_number").value_or("");
-    return tcp;
-  }
-
-  SimulatedConnection read_simulated(ConfigTable& table, const stage::Kind& kind) {
-    SimulatedConnection simulated;
-    simulated.speed =
-        table.number("speed", 0.001, 10'000, "how many times as fast as real time, from 0.001 to 10000").value_or(1);
-    const toml::table* options = table.table("options");
-    if (options == nullptr) return simulated;
-    ConfigTable chosen(*options, "device.options", file_, errors_);
-    for (const auto& [key, node] : *options) {
-      const std::optional<std::string> value = chosen.text(key.str());
-      if (!value) continue;
-      if (const Result<void> possible = kind.check_option(key.str(), *value); !possible) {
-        chosen.error(key.str(), explain(possible.error()));
-      } else {
-        simulated.options.emplace(key.str(), *value);
-      }
-    }
-    return simulated;
-  }
-
   std::string read_record(ConfigTable& table) {
     const std::string path = table.text("record").value_or("");
     if (path.empty() && !table.has("record")) return path;
@@ -235,17 +161,17 @@ class ConfigReader {
   std::string file_;
   std::vector<ConfigError>& errors_;
   const DeviceKinds kinds_;
+  ConnectionReader connections_;
   std::set<std::string> names_;
-  std::set<std::string> lines_;
   std::set<std::string> recordings_;
 };
 
 }  // namespace
 
 Config default_config(DeviceKinds kinds) {
-  DeviceConfig device;
-  device.kind = kinds.front();
-  for (const auto& setting : device.kind->settings()) device.kind_settings.emplace(setting.key, setting.otherwise);
+  StageConfig stage{.kind = kinds.stages.front(), .profile = {}, .kind_settings = {}};
+  for (const auto& setting : stage.kind->settings()) stage.kind_settings.emplace(setting.key, setting.otherwise);
+  DeviceConfig device{.name = stage.profile.name, .connection = {}, .record = {}, .family = std::move(stage)};
   return Config{.listen = {"127.0.0.1", kGrpcPort},
                 .socket = default_socket_to_listen(),
                 .metrics = {"127.0.0.1", kMetricsPort},
@@ -266,7 +192,7 @@ Configured<Config> parse_config(std::string_view text, const std::string& file, 
     errors.push_back({file, error.source().begin.line, "", fmt::format("is not TOML: {}", error.description())});
   }
   if (errors.empty()) return config;
-  // Those of the stage profiles that it names come last, each once whatever names it.
+  // Those of the profiles that it names come last, each once whatever names it.
   const auto place = [&file](const ConfigError& error) {
     return std::tuple(error.file != file, std::string_view(error.file), error.line);
   };

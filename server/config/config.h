@@ -1,6 +1,7 @@
 // The daemon's configuration: a TOML file, checked whole before anything is opened.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -14,6 +15,8 @@
 #include "device/config/config_error.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
+#include "device/rml1/profile.h"
+#include "device/rml1/sending/sender.h"
 #include "device/stage/kind.h"
 #include "device/stage/profile.h"
 #include "server/access/access.h"
@@ -30,7 +33,7 @@ struct TcpAddress {
 };
 std::string to_string(const TcpAddress& address);  // "127.0.0.1:50203", "[::1]:50203"
 
-// The built-in simulator. With Profile::baud its bytes take the time that a real line takes.
+// The built-in simulator. With a baud rate its bytes take the time that a real line takes.
 struct SimulatedConnection {
   double speed = 1;    // its time runs so many times as fast
   bool paced = false;  // a baud rate was given: bytes take their time
@@ -38,14 +41,49 @@ struct SimulatedConnection {
 };
 
 // The kinds that a configuration may name; they live as long as the program.
-using DeviceKinds = std::span<const stage::Kind* const>;
+struct DeviceKinds {
+  std::span<const stage::Kind* const> stages;  // the first is that of a device whose table names none
+  std::string_view mill = {};                  // the name of mills that read RML-1; empty: there are none
+};
+
+struct StageConfig {
+  const stage::Kind* kind = nullptr;  // one of DeviceKinds::stages
+  stage::Profile profile;             // of its name and baud those of the DeviceConfig count
+  stage::Words kind_settings;         // a word for each of kind->settings()
+};
+
+// A place of the work origin.
+struct NamedOrigin {
+  std::string name;
+  std::int64_t x = 0, y = 0;  // the mill's steps from its home corner, within its work area
+};
+
+// As an entry of MillConfig::station: every user of the Unix socket.
+inline constexpr std::string_view kAnybodyOnUnix = "unix";
+
+// A mill that reads RML-1 (device/rml1).
+struct MillConfig {
+  enum class AtExit { abort, finish };
+
+  std::string_view kind;     // DeviceKinds::mill
+  std::string profile_name;  // as the configuration has it: "mdx-20", or the absolute path of a file
+  rml1::Profile profile;
+  rml1::SendSettings sending;                                     // with the device's baud
+  std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // who may confirm at the mill, as in Caller::who
+  std::chrono::minutes confirmation{10};                          // how long a confirmation is valid
+  std::vector<std::string> tools{"T1"};                           // at least one
+  std::vector<NamedOrigin> origins;
+  std::chrono::seconds busy_limit{600};  // after so long without a byte taken it is reported as still busy
+  AtExit at_exit = AtExit::abort;        // what happens to a running job when the daemon ends
+  double slower_percent = 0;             // of a simulated mill: each motion takes so much longer than by the profile
+};
 
 struct DeviceConfig {
-  const stage::Kind* kind = nullptr;  // one of DeviceKinds
-  stage::Profile profile;
-  stage::Words kind_settings;  // a word for each of kind->settings()
+  std::string name;
+  int baud = stage::Profile{}.baud;
   std::variant<SimulatedConnection, SerialSettings, TcpSettings> connection;
   std::string record;  // the file that the daemon records the line to; empty: none
+  std::variant<StageConfig, MillConfig> family;
 };
 
 // Where other machines call: TLS 1.3, and every caller has a token or a certificate. The files are PEM. They are read
@@ -78,7 +116,7 @@ struct Config {
   std::vector<DeviceConfig> devices;
 };
 
-// What the daemon runs without a file: one simulated device of the first kind, named `stage`.
+// What the daemon runs without a file: one simulated stage of the first kind, named `stage`.
 Config default_config(DeviceKinds kinds);
 
 // Every error in the file is reported, in the order of the lines; a syntax error ends the reading.

@@ -40,6 +40,11 @@ class TomlWriter {
   void milliseconds(std::string_view name, Duration value) {
     number(name, std::chrono::duration_cast<std::chrono::milliseconds>(value).count());
   }
+  void texts(std::string_view name, const std::vector<std::string>& values) {
+    std::string list;
+    for (const std::string& value : values) list += fmt::format("{}{}", list.empty() ? "" : ", ", in_quotes(value));
+    key(name, fmt::format("[{}]", list));
+  }
   void quantity(std::string_view name, const std::optional<Quantity>& value, std::string_view per = "") {
     if (value) text(name, fmt::format("{}{}{}", to_string(value->value), symbol(value->unit), per));
   }
@@ -62,14 +67,13 @@ void write(TomlWriter& out, const AccessConfig& access) {
   out.table("[access]");
   out.key("local", word(kRoles, access.local));
   out.key("certificates", word(kRoles, access.certificates));
-  std::string commands, roles;
-  for (const AdminCommand& command : access.admin_commands) {
-    commands += fmt::format("{}{}", commands.empty() ? "" : ", ", in_quotes(command.name));
-  }
+  std::vector<std::string> commands;
+  for (const AdminCommand& command : access.admin_commands) commands.push_back(command.name);
+  std::string roles;
   for (const auto& [who, role] : access.roles) {
     roles += fmt::format("{}{} = {}", roles.empty() ? "" : ", ", in_quotes(who), word(kRoles, role));
   }
-  out.key("admin_commands", fmt::format("[{}]", commands));
+  out.texts("admin_commands", commands);
   if (!roles.empty()) out.key("roles", fmt::format("{{ {} }}", roles));
 }
 
@@ -92,28 +96,26 @@ void write(TomlWriter& out, const JournalConfig& journal) {
   out.key("others_seen_by", word(kRoles, journal.others_seen_by));
 }
 
-void write(TomlWriter& out, const SerialSettings& serial, const stage::Profile& profile) {
+void write(TomlWriter& out, const SerialSettings& serial, int baud) {
   out.text("connection", "serial");
   out.text("path", serial.path);
-  out.number("baud", profile.baud);
+  out.number("baud", baud);
   out.key("parity", word(kParities, serial.parity));
   out.number("stop_bits", serial.stop_bits);
   out.key("flow_control", word(kFlowControls, serial.flow));
-  if (!profile.serial_number.empty()) out.text("serial_number", profile.serial_number);
 }
 
-void write(TomlWriter& out, const TcpSettings& tcp, const stage::Profile& profile) {
+void write(TomlWriter& out, const TcpSettings& tcp, int baud) {
   out.text("connection", "tcp");
   out.text("host", tcp.host);
   out.number("port", tcp.port);
-  out.number("baud", profile.baud);
-  if (!profile.serial_number.empty()) out.text("serial_number", profile.serial_number);
+  out.number("baud", baud);
 }
 
-void write(TomlWriter& out, const SimulatedConnection& simulated, const stage::Profile& profile) {
+void write(TomlWriter& out, const SimulatedConnection& simulated, int baud) {
   out.text("connection", "simulated");
   out.key("speed", fmt::to_string(simulated.speed));
-  if (simulated.paced) out.number("baud", profile.baud);
+  if (simulated.paced) out.number("baud", baud);
   std::string options;
   for (const auto& [name, value] : simulated.options) {
     options += fmt::format("{}{} = {}", options.empty() ? "" : ", ", in_quotes(name), in_quotes(value));
@@ -158,21 +160,52 @@ void write(TomlWriter& out, const stage::Kind& kind, const stage::Words& setting
   }
 }
 
-void write(TomlWriter& out, const DeviceConfig& device) {
-  const stage::Profile& profile = device.profile;
-  out.table("[[device]]");
-  out.text("name", profile.name);
-  if (device.kind != nullptr) out.text("kind", device.kind->name());
-  std::visit([&](const auto& connection) { write(out, connection, profile); }, device.connection);
-  if (device.kind != nullptr) write(out, *device.kind, device.kind_settings);
+std::string_view kind_of(const StageConfig& stage) { return stage.kind == nullptr ? "" : stage.kind->name(); }
+std::string_view kind_of(const MillConfig& mill) { return mill.kind; }
+
+void write(TomlWriter& out, const StageConfig& stage, const DeviceConfig&) {
+  const stage::Profile& profile = stage.profile;
+  if (!profile.serial_number.empty()) out.text("serial_number", profile.serial_number);
+  if (stage.kind != nullptr) write(out, *stage.kind, stage.kind_settings);
   out.key("at_exit", word(kAtExit, profile.at_exit));
   out.key("settings_at_lease_end", word(kAtLeaseEnd, profile.settings_at_lease_end));
   out.milliseconds("reply_limit_ms", profile.reply_limit);
   out.milliseconds("idle_poll_ms", profile.idle_poll);
   out.milliseconds("moving_poll_ms", profile.moving_poll);
-  if (!device.record.empty()) out.text("record", device.record);
   int number = 0;
   for (const stage::AxisProfile& axis : profile.axes) write(out, ++number, axis);
+}
+
+void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) {
+  if (std::holds_alternative<SimulatedConnection>(device.connection)) {
+    out.key("slower", fmt::to_string(mill.slower_percent));
+  }
+  out.text("profile", mill.profile_name);
+  out.key("streaming", word(kStreamings, mill.sending.streaming));
+  if (mill.sending.window != 0) out.key("window", fmt::to_string(mill.sending.window));
+  out.key("buffer", fmt::to_string(mill.sending.buffer));
+  out.key("converter", fmt::to_string(mill.sending.converter));
+  out.texts("station", mill.station);
+  out.number("confirmation_minutes", mill.confirmation.count());
+  out.texts("tools", mill.tools);
+  out.number("busy_limit_s", mill.busy_limit.count());
+  out.key("at_exit", word(kMillAtExit, mill.at_exit));
+  for (const NamedOrigin& origin : mill.origins) {
+    out.table("[[device.origin]]");
+    out.text("name", origin.name);
+    out.number("x", origin.x);
+    out.number("y", origin.y);
+  }
+}
+
+void write(TomlWriter& out, const DeviceConfig& device) {
+  out.table("[[device]]");
+  out.text("name", device.name);
+  const auto kind = std::visit([](const auto& family) { return kind_of(family); }, device.family);
+  if (!kind.empty()) out.text("kind", kind);
+  std::visit([&](const auto& connection) { write(out, connection, device.baud); }, device.connection);
+  if (!device.record.empty()) out.text("record", device.record);
+  std::visit([&](const auto& family) { write(out, family, device); }, device.family);
 }
 
 }  // namespace

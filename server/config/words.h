@@ -8,6 +8,7 @@
 #include "device/link/serial_port.h"
 #include "device/stage/profile.h"
 #include "server/access/roles.h"
+#include "server/config/config.h"
 
 namespace axisgate::server {
 
@@ -24,5 +25,9 @@ inline constexpr std::array<std::pair<std::string_view, stage::AtExit>, 2> kAtEx
     {{"stop", stage::AtExit::stop}, {"finish", stage::AtExit::finish}}};
 inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> kAtLeaseEnd = {
     {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
+inline constexpr std::array<std::pair<std::string_view, rml1::Streaming>, 2> kStreamings = {
+    {{"paced", rml1::Streaming::paced}, {"full", rml1::Streaming::full}}};
+inline constexpr std::array<std::pair<std::string_view, MillConfig::AtExit>, 2> kMillAtExit = {
+    {{"abort", MillConfig::AtExit::abort}, {"finish", MillConfig::AtExit::finish}}};
 
 }  // namespace axisgate::server

@@ -11,6 +11,8 @@
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "device/link/tcp_socket.h"
+#include "device/rml1/simulator/control.h"
+#include "device/rml1/simulator/simulator.h"
 
 namespace axisgate::server {
 namespace {
@@ -44,21 +46,44 @@ std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
                                        fmt::format("{} at {} baud", settings.path, settings.baud));
 }
 
-std::unique_ptr<Line> make_tcp(const TcpSettings& settings, const stage::Profile& profile) {
+std::unique_ptr<Line> make_tcp(const TcpSettings& settings, int baud) {
   return std::make_unique<OutsideLine>(tcp_opener(settings),
-                                       fmt::format("tcp {} at {} baud", to_string(settings), profile.baud));
+                                       fmt::format("tcp {} at {} baud", to_string(settings), baud));
+}
+
+struct Simulated {
+  std::unique_ptr<LineMachine> device;
+  // What a person does at it, in the device's time.
+  std::function<Result<std::string>(std::string_view command, TimePoint now)> operate;
+};
+
+Simulated simulate(const StageConfig& stage, const stage::Words& options, ByteLink& line) {
+  auto device = stage.kind->make_simulation(options, line);
+  auto operate = [at = device.get()](std::string_view command, TimePoint now) { return at->operate(command, now); };
+  return {std::move(device), operate};
+}
+
+Simulated simulate(const MillConfig& mill, const stage::Words& options, ByteLink& line) {
+  using namespace rml1::simulator;
+  Options chosen;
+  for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
+  const MillSetup setup{mill.profile, std::move(chosen), mill.sending.buffer, Flow::none, mill.slower_percent};
+  auto device = std::make_unique<Simulator>(setup, line);
+  auto operate = [at = device.get()](std::string_view command, TimePoint now) { return control(*at, command, now); };
+  return {std::move(device), operate};
 }
 
 class SimulatedLine final : public Line {
  public:
-  SimulatedLine(Pacing pacing, const stage::Kind& kind, const stage::Words& options, Strand strand,
+  // `simulate` is called once, in here.
+  SimulatedLine(Pacing pacing, const std::function<Simulated(ByteLink&)>& simulate, Strand strand,
                 std::string description)
       : description_(std::move(description)),
         runner_(std::move(strand)),
-        device_(pacing, runner_, [this, &kind, &options](ByteLink& inside) -> std::unique_ptr<LineMachine> {
-          auto simulated = kind.make_simulation(options, inside);
-          simulation_ = simulated.get();
-          return simulated;
+        device_(pacing, runner_, [this, &simulate](ByteLink& inside) {
+          Simulated simulated = simulate(inside);
+          operate_ = std::move(simulated.operate);
+          return std::move(simulated.device);
         }) {
     runner_.attach(device_);
   }
@@ -70,20 +95,23 @@ class SimulatedLine final : public Line {
 
   void operate(std::string command, OnOperated done) override {
     runner_.post([this, command = std::move(command), done = std::move(done)](TimePoint now) {
-      device_.touch(now, [&](TimePoint device_now) { done(simulation_->operate(command, device_now)); });
+      device_.touch(now, [&](TimePoint device_now) { done(operate_(command, device_now)); });
     });
   }
 
  private:
   const std::string description_;
   Runner runner_;
-  stage::Simulation* simulation_ = nullptr;  // inside device_
+  decltype(Simulated::operate) operate_;
   PacedLine device_;
 };
 
 std::unique_ptr<Line> make_simulated(const SimulatedConnection& connection, const DeviceConfig& config, Strand strand) {
-  const Pacing pacing{connection.paced ? config.profile.baud : 0, Duration{}, connection.speed};
-  return std::make_unique<SimulatedLine>(pacing, *config.kind, connection.options, std::move(strand),
+  const Pacing pacing{connection.paced ? config.baud : 0, Duration{}, connection.speed};
+  const auto of_family = [&](ByteLink& line) {
+    return std::visit([&](const auto& family) { return simulate(family, connection.options, line); }, config.family);
+  };
+  return std::make_unique<SimulatedLine>(pacing, of_family, std::move(strand),
                                          fmt::format("built-in simulator, speed {}", connection.speed));
 }
 
@@ -97,7 +125,7 @@ std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand) {
   if (const auto* serial = std::get_if<SerialSettings>(&config.connection)) {
     return make_serial(*serial);
   }
-  if (const auto* tcp = std::get_if<TcpSettings>(&config.connection)) return make_tcp(*tcp, config.profile);
+  if (const auto* tcp = std::get_if<TcpSettings>(&config.connection)) return make_tcp(*tcp, config.baud);
   return make_simulated(std::get<SimulatedConnection>(config.connection), config, std::move(strand));
 }
 

@@ -23,9 +23,9 @@ class Line {
   virtual void start() = 0;
   virtual void shutdown() = 0;
 
-  // What a person does at a simulated device, and what that person sees (stage::Simulation). From any thread; `done` is
-  // called on the simulator's strand, or at once where the device is not simulated: invalid_request. After shutdown()
-  // it is dropped.
+  // What a person does at a simulated device, and what that person sees (stage::Simulation,
+  // device/rml1/simulator/control.h). From any thread; `done` is called on the simulator's strand, or at once where the
+  // device is not simulated: invalid_request. After shutdown() it is dropped.
   using OnOperated = std::function<void(const Result<std::string>& answer)>;
   virtual void operate(std::string command, OnOperated done);
 };

@@ -23,15 +23,23 @@ std::string count_by_outcome(const std::vector<stage::Motion>& motions) {
   return text;
 }
 
+// With what every device has.
+stage::Profile profile_of(const DeviceConfig& device, const StageConfig& config) {
+  stage::Profile profile = config.profile;
+  profile.name = device.name;
+  profile.baud = device.baud;
+  return profile;
+}
+
 }  // namespace
 
-Stage::Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus,
-             Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
-             journal::Journal* journal, journal::RequestMemory& requests)
-    : Device(config.profile.name, recording_header(config.profile), std::move(line), thread, metrics, readers,
+Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_ptr<Line> line, LineThread& thread,
+             EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
+             std::unique_ptr<MotionRecord> record, journal::Journal* journal, journal::RequestMemory& requests)
+    : Device(device.name, recording_header(profile_of(device, config)), std::move(line), thread, metrics, readers,
              lease_tokens),
       kind_(*config.kind),
-      profile_(config.profile),
+      profile_(profile_of(device, config)),
       newest_state_(readers),
       record_(std::move(record)),
       entries_(profile_.name, journal, requests),

@@ -23,9 +23,9 @@ class Stage final : public Device {
 
   // `bus`, `metrics`, `thread` and `requests` outlive this. `record` and `journal` may be null. With a journal,
   // motions are numbered on from the last that it has, or the record.
-  Stage(const DeviceConfig& config, std::unique_ptr<Line> line, LineThread& thread, EventBus& bus, Metrics& metrics,
-        const Executor& readers, LeaseTokens& lease_tokens, std::unique_ptr<MotionRecord> record,
-        journal::Journal* journal, journal::RequestMemory& requests);
+  Stage(const DeviceConfig& device, const StageConfig& config, std::unique_ptr<Line> line, LineThread& thread,
+        EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
+        std::unique_ptr<MotionRecord> record, journal::Journal* journal, journal::RequestMemory& requests);
 
   // From any thread.
   std::string_view kind_name() const override { return kind_.name(); }

@@ -15,7 +15,7 @@ namespace {
 using Json = nlohmann::json;
 
 // [line, answer, microseconds since the motion's request]; [line, answer] of no motion.
-Json json_of(const std::vector<ExchangedLines::Line>& lines) {
+Json lines_json(const std::vector<ExchangedLines::Line>& lines) {
   Json list = Json::array();
   for (const ExchangedLines::Line& line : lines) {
     Json one = Json::array({line.text, line.answer ? Json(*line.answer) : Json()});
@@ -114,7 +114,7 @@ void DeviceEntries::on_event(const stage::Event& event, TimePoint now) {
   std::optional<RequestChange> change = change_of(event);
   if (journal_ == nullptr) return;
   if (const auto lines = lines_.on_event(event, now)) {
-    Json body{{"axes", axes_of(lines->axes)}, {"lines", json_of(lines->lines)}};
+    Json body{{"axes", axes_of(lines->axes)}, {"lines", lines_json(lines->lines)}};
     const Noted apart{EntryKind::lines_exchanged, std::move(body), lines->who, lines->motion};
     journal_->append({entry_of(apart, device_, now)});
   }
@@ -122,7 +122,7 @@ void DeviceEntries::on_event(const stage::Event& event, TimePoint now) {
   if (!noted) return;
   if (noted->kind == EntryKind::motion_started || noted->kind == EntryKind::motion_ended) {
     const auto lines = lines_.take(std::get<stage::MotionChanged>(event).motion);
-    if (!lines.empty()) noted->body["lines"] = json_of(lines);
+    if (!lines.empty()) noted->body["lines"] = lines_json(lines);
   }
   journal_->append({entry_of(*std::move(noted), device_, now), std::move(change).value_or(RequestChange{})});
 }

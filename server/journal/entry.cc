@@ -50,6 +50,8 @@ std::string name(EntryKind kind) {
       return "rearmed";
     case EntryKind::person_erased:
       return "person erased";
+    case EntryKind::job_changed:
+      return "job";
   }
   return fmt::format("kind {}", static_cast<int>(kind));
 }

@@ -127,16 +127,26 @@ Config Redactor::redact(Config config) {
     return way + hide(Kind::user, caller.substr(way.size()));
   };
   for (const auto& [who, role] : std::exchange(config.access.roles, {})) config.access.roles[hidden(who)] = role;
-  for (DeviceConfig& device : config.devices) {
-    device.profile.serial_number = hide(Kind::serial_number, device.profile.serial_number);
-    device.record = hide(Kind::path, device.record);
-    if (auto* serial = std::get_if<SerialSettings>(&device.connection)) serial->path = hide(Kind::path, serial->path);
-    if (auto* tcp = std::get_if<TcpSettings>(&device.connection)) tcp->host = hide(Kind::host, tcp->host);
-    for (stage::AxisProfile& axis : device.profile.axes) {
+  const auto hide_stage = [&](StageConfig& stage) {
+    stage.profile.serial_number = hide(Kind::serial_number, stage.profile.serial_number);
+    for (stage::AxisProfile& axis : stage.profile.axes) {
       for (stage::LimitOverride& limits : axis.overrides) {
         if (!role_named(limits.whose)) limits.whose = hidden(limits.whose);
       }
     }
+  };
+  const auto hide_mill = [&](MillConfig& mill) {
+    if (mill.profile_name.starts_with('/')) mill.profile_name = hide(Kind::path, mill.profile_name);
+    for (std::string& caller : mill.station) {
+      if (caller != kAnybodyOnUnix) caller = hidden(caller);
+    }
+  };
+  for (DeviceConfig& device : config.devices) {
+    device.record = hide(Kind::path, device.record);
+    if (auto* serial = std::get_if<SerialSettings>(&device.connection)) serial->path = hide(Kind::path, serial->path);
+    if (auto* tcp = std::get_if<TcpSettings>(&device.connection)) tcp->host = hide(Kind::host, tcp->host);
+    if (auto* stage = std::get_if<StageConfig>(&device.family)) hide_stage(*stage);
+    if (auto* mill = std::get_if<MillConfig>(&device.family)) hide_mill(*mill);
   }
   return config;
 }

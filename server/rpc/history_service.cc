@@ -35,6 +35,7 @@ static_assert(static_cast<int>(EntryKind::lines_exchanged) == v1::HISTORY_KIND_L
 static_assert(static_cast<int>(EntryKind::lease_granted) == v1::HISTORY_KIND_LEASE_GRANTED);
 static_assert(static_cast<int>(EntryKind::rearmed) == v1::HISTORY_KIND_REARMED);
 static_assert(static_cast<int>(EntryKind::person_erased) == v1::HISTORY_KIND_PERSON_ERASED);
+static_assert(static_cast<int>(EntryKind::job_changed) == v1::HISTORY_KIND_JOB_CHANGED);
 
 constexpr int kPageUsual = 100;
 
@@ -162,7 +163,7 @@ Result<std::int64_t> to_last(const std::string& page_token) {
 // Empty: all.
 Result<std::string> to_device(const server::Gateway& gateway, const std::string& name) {
   if (name.empty()) return "";
-  return api::find_stage(gateway, name).map([](const server::Stage* device) { return device->name(); });
+  return api::find_device(gateway, name).map([](const server::Device* device) { return device->name(); });
 }
 
 Result<std::string> to_outcome(v1::MotionState outcome) {

@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 46> kKinds = {{
+constexpr std::array<MethodKind, 56> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -37,6 +37,16 @@ constexpr std::array<MethodKind, 46> kKinds = {{
     {"HistoryService/SummarizeHistory", Kind::summarize_history},
     {"HistoryService/VerifyJournal", Kind::verify_journal},
     {"HistoryService/ErasePerson", Kind::erase_person},
+    {"MillService/SendJob", Kind::send_job},
+    {"MillService/GetMill", Kind::get_mill},
+    {"MillService/WatchMill", Kind::watch_mill},
+    {"MillService/ConfirmJob", Kind::confirm_job},
+    {"MillService/StartJob", Kind::start_job},
+    {"MillService/PauseJob", Kind::pause_job},
+    {"MillService/ResumeJob", Kind::resume_job},
+    {"MillService/AbortJob", Kind::abort_job},
+    {"MillService/CancelJob", Kind::cancel_job},
+    {"MillService/ReportJobDone", Kind::report_job_done},
     {"PositionService/SavePosition", Kind::save_position},
     {"PositionService/ListPositions", Kind::list_positions},
     {"PositionService/DeletePosition", Kind::delete_position},

@@ -8,6 +8,7 @@
 #include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/digest.h"
+#include "server/rpc/mills.h"
 #include "server/rpc/to_proto.h"
 #include "server/rpc/transactions.h"
 #include "server/rpc/unreadable.h"
@@ -54,6 +55,7 @@ bool OwnAnswers::has(RequestKind kind) {
   switch (kind) {
     case RequestKind::stop:
     case RequestKind::emergency_stop:
+    case RequestKind::abort_job:
     case RequestKind::list_devices:
     case RequestKind::get_device:
     case RequestKind::execute:
@@ -80,6 +82,8 @@ std::unique_ptr<Answer> OwnAnswers::answer(RequestKind kind, std::shared_ptr<Ser
       return parsed<v1::StopRequest>(&OwnAnswers::stop, message, std::move(asked));
     case RequestKind::emergency_stop:
       return parsed<v1::EmergencyStopRequest>(&OwnAnswers::emergency_stop, message, std::move(asked));
+    case RequestKind::abort_job:
+      return parsed<v1::AbortJobRequest>(&OwnAnswers::abort_job, message, std::move(asked));
     case RequestKind::get_device:
       return parsed<v1::GetDeviceRequest>(&OwnAnswers::get_device, message, std::move(asked));
     case RequestKind::execute:
@@ -104,6 +108,18 @@ std::unique_ptr<Answer> OwnAnswers::emergency_stop(const v1::EmergencyStopReques
                                                     api_.stops.emergency_stop(call, request.device(),
                                                                               std::move(answer));
                                                   });
+}
+
+std::unique_ptr<Answer> OwnAnswers::abort_job(const v1::AbortJobRequest& request, Asked asked) const {
+  const auto fill = [](const api::CurrentRun& run) {
+    v1::AbortJobResponse response;
+    if (run.running) *response.mutable_running() = to_proto(run);
+    return response;
+  };
+  const api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
+  return one_answer<api::CurrentRun>(asked.served, asked.wake, fill, [&](api::Answer<api::CurrentRun> answer) {
+    api_.mills.abort(call, request.device(), std::move(answer));
+  });
 }
 
 std::unique_ptr<Answer> OwnAnswers::list_devices(const v1::ListDevicesRequest&, Asked asked) const {

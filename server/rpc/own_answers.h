@@ -9,6 +9,7 @@
 
 #include "axisgate/v1/command.pb.h"
 #include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/mill.pb.h"
 #include "axisgate/v1/stage.pb.h"
 #include "device/core/time.h"
 #include "server/api/api.h"
@@ -45,6 +46,7 @@ class OwnAnswers {
 
   std::unique_ptr<front::Answer> stop(const v1::StopRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> abort_job(const v1::AbortJobRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> list_devices(const v1::ListDevicesRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> get_device(const v1::GetDeviceRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> execute(const v1::ExecuteRequest& request, Asked asked) const;

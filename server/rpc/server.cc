@@ -28,6 +28,7 @@
 #include "server/rpc/half_close.h"
 #include "server/rpc/health_service.h"
 #include "server/rpc/history_service.h"
+#include "server/rpc/mill_service.h"
 #include "server/rpc/position_service.h"
 #include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
@@ -77,6 +78,7 @@ class Server::Services {
   SettingService settings_;
   SimulatorService simulators_;
   PositionService positions_;
+  MillService mills_;
   DiagnosticsService diagnostics_;
   ControlService control_;
   AccessService known_callers_;
@@ -107,6 +109,7 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       settings_(api_.settings),
       simulators_(api_.simulators),
       positions_(api_.positions),
+      mills_(api_.mills, half_close_),
       diagnostics_(api_.diagnostics),
       control_(api_.leases),
       known_callers_(api_.tokens),
@@ -135,8 +138,8 @@ void Server::Services::build() {
   // By estimates of the bandwidth gRPC would raise the length of frames, which the front bounds.
   builder.AddChannelArgument(GRPC_ARG_HTTP2_BDP_PROBE, 0);
   for (grpc::Service* service : std::initializer_list<grpc::Service*>{
-           &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &diagnostics_,
-           &control_, &known_callers_, &health_}) {
+           &devices_, &stage_, &events_, &history_, &commands_, &settings_, &simulators_, &positions_, &mills_,
+           &diagnostics_, &control_, &known_callers_, &health_}) {
     builder.RegisterService(service);
   }
   std::vector<std::unique_ptr<grpc::experimental::ServerInterceptorFactoryInterface>> interceptors;

@@ -8,11 +8,11 @@
 
 namespace axisgate::rpc {
 
-inline constexpr std::array<std::string_view, 11> kApiServices = {
-    "axisgate.v1.DeviceService",    "axisgate.v1.StageService",   "axisgate.v1.EventService",
-    "axisgate.v1.HistoryService",   "axisgate.v1.CommandService", "axisgate.v1.DiagnosticsService",
-    "axisgate.v1.ControlService",   "axisgate.v1.AccessService",  "axisgate.v1.SettingService",
-    "axisgate.v1.SimulatorService", "axisgate.v1.PositionService"};
+inline constexpr std::array<std::string_view, 12> kApiServices = {
+    "axisgate.v1.DeviceService",    "axisgate.v1.StageService",    "axisgate.v1.EventService",
+    "axisgate.v1.HistoryService",   "axisgate.v1.CommandService",  "axisgate.v1.DiagnosticsService",
+    "axisgate.v1.ControlService",   "axisgate.v1.AccessService",   "axisgate.v1.SettingService",
+    "axisgate.v1.SimulatorService", "axisgate.v1.PositionService", "axisgate.v1.MillService"};
 
 // Those of gRPC itself.
 inline constexpr std::array<std::string_view, 2> kCommonServices = {"grpc.health.v1.Health",

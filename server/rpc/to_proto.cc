@@ -265,8 +265,9 @@ v1::Event to_proto(const server::FactRecord& record) {
 v1::DeviceStop to_proto(const api::DeviceStop& stop) {
   v1::DeviceStop proto;
   proto.set_device(api::device_name(stop.device->name()));
+  const auto* stage = dynamic_cast<const server::Stage*>(stop.device);
   for (const stage::StopReport::Axis& axis : stop.report.axes) {
-    const stage::AxisProfile& profile = stop.device->profile().axes[static_cast<std::size_t>(axis.axis - 1)];
+    const stage::AxisProfile& profile = stage->profile().axes[static_cast<std::size_t>(axis.axis - 1)];
     v1::AxisStop& one = *proto.add_axes();
     one.set_axis(axis.axis);
     one.set_wire_reply(escaped(axis.wire_reply));

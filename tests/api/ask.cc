@@ -123,6 +123,35 @@ Reason ask_motion(World& world, RequestKind kind, const Call& call) {
   }
 }
 
+// Of the stage that there is.
+Reason ask_mills(World& world, RequestKind kind, const Call& call) {
+  constexpr const char* kJob = "devices/turn/jobs/1";
+  const Mills& mills = world.api->mills;
+  const auto with = [&](auto member) { return [&mills, member](const auto&... all) { (mills.*member)(all...); }; };
+  switch (kind) {
+    case RequestKind::send_job:
+      return reason_of(mills.send(call, kDevice, {}));
+    case RequestKind::get_mill:
+      return answer_of<MillState>(with(&Mills::get), call, kDevice);
+    case RequestKind::confirm_job:
+      return answer_of<CurrentJob>(with(&Mills::confirm), call, kJob, rml1::JobSetup());
+    case RequestKind::start_job:
+      return answer_of<CurrentJob>(with(&Mills::start), call, kJob);
+    case RequestKind::pause_job:
+      return answer_of<CurrentRun>(with(&Mills::pause), call, kDevice);
+    case RequestKind::resume_job:
+      return answer_of<CurrentRun>(with(&Mills::resume), call, kDevice);
+    case RequestKind::abort_job:
+      return answer_of<CurrentRun>(with(&Mills::abort), call, kDevice);
+    case RequestKind::cancel_job:
+      return answer_of<CurrentJob>(with(&Mills::cancel), call, kJob);
+    case RequestKind::report_job_done:
+      return answer_of<CurrentJob>(with(&Mills::done), call, kJob);
+    default:
+      return reason_of(mills.watch(call, kDevice));
+  }
+}
+
 Reason ask_settings(World& world, RequestKind kind, const Call& call) {
   const Settings& settings = world.api->settings;
   Asking<void> done;
@@ -345,9 +374,10 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::ask_door:
     case Kind::watch_door:
     case Kind::unlisted:
-      break;
+      return Reason::internal;
+    default:
+      return ask_mills(world, kind, call);
   }
-  return Reason::internal;
 }
 
 }  // namespace axisgate::api

@@ -95,6 +95,26 @@ const std::vector<Row> kRows = {
     {Kind::watch_motion, "watch_motion", Role::observer, "stream", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::cancel_motion, "cancel_motion", Role::operator_, "request", Asks::nothing, Reason::not_found,
      Reason::not_found},
+    // The device is no mill.
+    {Kind::send_job, "send_job", Role::operator_, "stream", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::get_mill, "get_mill", Role::observer, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::watch_mill, "watch_mill", Role::observer, "stream", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::confirm_job, "confirm_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::start_job, "start_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::pause_job, "pause_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::resume_job, "resume_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::abort_job, "abort_job", Role::observer, "", Asks::nothing, Reason::invalid_request, Reason::invalid_request},
+    {Kind::cancel_job, "cancel_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
+    {Kind::report_job_done, "report_job_done", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
 };
 
 // Those without a device behind them, which only a door has.

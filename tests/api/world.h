@@ -242,7 +242,7 @@ class World {
  private:
   static server::DeviceKinds kinds() {
     static const std::vector<const stage::Kind*> only = {&rotor::kind()};
-    return only;
+    return {.stages = only};
   }
   void end() {
     api.reset();

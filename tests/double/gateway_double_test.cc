@@ -21,7 +21,7 @@ using testing::HasSubstr;
 constexpr std::chrono::seconds kPatience{10};
 
 std::vector<const stage::Kind*> kinds_with_rotor() {
-  const DeviceKinds known = device_kinds();
+  const auto known = device_kinds().stages;
   std::vector<const stage::Kind*> kinds(known.begin(), known.end());
   kinds.push_back(&rotor::kind());
   return kinds;
@@ -29,7 +29,8 @@ std::vector<const stage::Kind*> kinds_with_rotor() {
 
 Configured<Config> parse(const std::string& device) {
   static const std::vector<const stage::Kind*> kinds = kinds_with_rotor();
-  return parse_config("[[device]]\nname = \"turn\"\nconnection = \"simulated\"\n" + device, "double.toml", kinds);
+  return parse_config("[[device]]\nname = \"turn\"\nconnection = \"simulated\"\n" + device, "double.toml",
+                      {.stages = kinds});
 }
 
 std::string first_error(const Configured<Config>& config) {
@@ -121,7 +122,7 @@ TEST(GatewayWithRotor, MovesIt) {
 TEST(GatewayWithRotor, TurnsItTheOtherWay) {
   const auto config = parse("kind = \"rotor\"\ndirection = \"reversed\"\nspeed = 20\noptions = { speed = \"1000\" }\n");
   ASSERT_TRUE(config) << first_error(config);
-  EXPECT_EQ(config->devices[0].kind_settings.at("direction"), "reversed");
+  EXPECT_EQ(std::get<StageConfig>(config->devices[0].family).kind_settings.at("direction"), "reversed");
   std::mutex mutex;
   std::string told;
   RunningGateway gateway(*config);

@@ -19,7 +19,7 @@ Quantity millimeters(std::int64_t digits, int decimals = 0) { return {{digits, d
 class RpcEnvelope : public RpcTest {
  protected:
   void configure(server::Config& config) override {
-    auto& axes = config.devices[0].profile.axes;
+    auto& axes = std::get<server::StageConfig>(config.devices[0].family).profile.axes;
     axes[0].travel_minimum = millimeters(-5);
     axes[0].travel_maximum = millimeters(5);
     axes[0].maximum_speed = millimeters(6, 1);

@@ -35,9 +35,10 @@ class RpcTest : public ::testing::Test {
     config.listen.port = 0;
     config.socket = directory_ + "/axisgate.sock";
     config.devices[0].connection = server::SimulatedConnection{20, false, {}};
-    config.devices[0].profile.axes[0].travel_maximum = Quantity{{5, 0}, Unit::millimeters};
+    std::get<server::StageConfig>(config.devices[0].family).profile.axes[0].travel_maximum =
+        Quantity{{5, 0}, Unit::millimeters};
     configure(config);
-    gateway_ = std::make_unique<server::Gateway>(config, 1, "", journal_.get());
+    gateway_ = std::make_unique<server::Gateway>(config, 1, "", journal_.get(), spool_.get());
     access_ = std::make_unique<server::Access>(config.access, server::caller_name(::geteuid()),
                                                *server::Tokens::open(directory_ + ".tokens"));
     positions_ = *server::SavedPositions::open(directory_ + ".positions");
@@ -180,6 +181,7 @@ class RpcTest : public ::testing::Test {
   server::ConnectionLimits limits_{100};  // before SetUp()
   const std::string directory_ = ::testing::TempDir() + "axisgate-rpc-" + std::to_string(::getpid());
   std::unique_ptr<server::journal::Journal> journal_;  // before SetUp(); null: none is kept
+  std::unique_ptr<server::spool::Spool> spool_;        // before SetUp(); null: there are no mills
   std::unique_ptr<server::Access> access_;
   std::unique_ptr<server::SavedPositions> positions_;
   std::unique_ptr<server::Gateway> gateway_;

@@ -12,7 +12,7 @@ using ::testing::HasSubstr;
 class RpcStage : public RpcTest {
  protected:
   void configure(server::Config& config) override {
-    auto& axes = config.devices[0].profile.axes;
+    auto& axes = std::get<server::StageConfig>(config.devices[0].family).profile.axes;
     axes[0].stage = stage::StageProfile{"Other", {{20, 0}, false}, {}};
     axes[1].unit = Unit::degrees;
     axes[1].stage = stage::StageProfile{"Turner", {{10, 0}, true}, Decimal{5, 0}};

@@ -64,7 +64,7 @@ class Contrast final : public stage::Kind {
 int serve(const char* config_path) {
   static const Contrast contrast;
   static const std::array<const stage::Kind*, 1> kinds = {&contrast};
-  auto config = server::load_config(config_path, kinds);
+  auto config = server::load_config(config_path, {.stages = kinds});
   if (!config) {
     for (const auto& error : config.error()) fmt::print(stderr, "{}\n", to_string(error));
     return 2;

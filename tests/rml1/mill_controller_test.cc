@@ -173,7 +173,17 @@ TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
   EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+}
+
+TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
+  mill_.link_down(now_, "unplugged");
+  mill_.abort("requested by unix bert", now_);
   EXPECT_THAT(line_.writes, IsEmpty());
+  mill_.link_up(now_);
+  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "when the line is back";
+  mill_.abort("requested by unix bert", now_);
+  EXPECT_THAT(line_.writes, SizeIs(2));
 }
 
 TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
@@ -243,8 +253,12 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
 
 TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
   MillController after(profile_, settings_, line_, *this);
-  after.inherit(
-      {.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .written = WrittenRange{0, 900}});
+  after.inherit({.number = 7,
+                 .name = "part.rml",
+                 .owner = "unix anna",
+                 .setup = setup(),
+                 .state = paused_unknown,
+                 .written = WrittenRange{0, 900}});
   EXPECT_EQ(after.jobs().front().state, paused_unknown);
   after.link_up(now_);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
@@ -256,7 +270,7 @@ TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
 TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
   settings_.at_loss = AtLoss::leave;
   MillController other(profile_, settings_, line_, *this);
-  other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup()});
+  other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
   other.link_up(now_);
   EXPECT_THAT(line_.writes, IsEmpty());
 }

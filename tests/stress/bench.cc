@@ -66,13 +66,14 @@ server::Config Bench::config() const {
   server::Config config;
   for (std::size_t device = 0; device < kDevices; ++device) {
     server::DeviceConfig one = server::default_config(server::device_kinds()).devices[0];
-    one.profile.name = device_name(device);
-    one.profile.serial_number = serial_number(device);
+    auto& stage = std::get<server::StageConfig>(one.family);
+    one.name = device_name(device);
+    stage.profile.serial_number = serial_number(device);
     // The simulator's axes do not keep each other waiting; one device makes use of it.
-    if (device == 0) one.kind_settings["busy_scope"] = "axis";
-    one.profile.baud = 4'000'000;
-    one.profile.idle_poll = milliseconds(20);
-    one.profile.moving_poll = milliseconds(10);
+    if (device == 0) stage.kind_settings["busy_scope"] = "axis";
+    one.baud = 4'000'000;
+    stage.profile.idle_poll = milliseconds(20);
+    stage.profile.moving_poll = milliseconds(10);
     one.connection = SerialSettings{path(device), 4'000'000, Parity::none, 1, FlowControl::none};
     one.record = recording_path(device);
     config.devices.push_back(std::move(one));

@@ -55,7 +55,7 @@ number = 2
 )",
                                    "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
-  const auto& axes = config->devices.at(0).profile.axes;
+  const auto& axes = std::get<StageConfig>(config->devices.at(0).family).profile.axes;
   EXPECT_TRUE(axes[0].require_homing);
   ASSERT_EQ(axes[0].overrides.size(), 2u);
   const auto& operators = axes[0].overrides[0];

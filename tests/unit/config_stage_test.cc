@@ -47,7 +47,7 @@ class ConfigStage : public testing::Test {
   stage::AxisProfile axis(const std::string& stage, const std::string& lines = "") const {
     const auto config = read(stage, lines);
     EXPECT_TRUE(config) << to_string(config.error().front());
-    return config ? config->devices.at(0).profile.axes[0] : stage::AxisProfile{};
+    return config ? std::get<StageConfig>(config->devices.at(0).family).profile.axes[0] : stage::AxisProfile{};
   }
 
   // Without the folder in front.
@@ -259,7 +259,7 @@ TEST(ConfigStageTable, TheProfileMayStandInTheConfigurationItself) {
   const std::string head = "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n[[device.axis]]\nnumber = 1\n";
   const auto config = parse_config(head + "[device.axis.stage]\n" + kLinear, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
-  EXPECT_EQ(config->devices.at(0).profile.axes[0].stage->model, "OSMS20-85");
+  EXPECT_EQ(std::get<StageConfig>(config->devices.at(0).family).profile.axes[0].stage->model, "OSMS20-85");
   const auto wrong = parse_config(head + "[device.axis.stage]\nname = \"x\"\nkind = \"linear\"\npulse = \"1\"\n",
                                   "lab.toml", device_kinds());
   ASSERT_FALSE(wrong);
@@ -275,7 +275,7 @@ TEST(ConfigStageFiles, EveryProfileThatIsShippedIsRight) {
             entry.path().string() + "\"\n",
         "lab.toml", device_kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
-    EXPECT_TRUE(config->devices.at(0).profile.axes[0].stage) << entry.path();
+    EXPECT_TRUE(std::get<StageConfig>(config->devices.at(0).family).profile.axes[0].stage) << entry.path();
   }
   EXPECT_GT(count, 3);
 }

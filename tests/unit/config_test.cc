@@ -37,7 +37,7 @@ TEST(Config, DefaultIsOneSimulatedStageOnLoopback) {
   EXPECT_EQ(to_string(config.listen), "127.0.0.1:50203");
   EXPECT_EQ(to_string(config.metrics), "127.0.0.1:9203");
   ASSERT_EQ(config.devices.size(), 1u);
-  EXPECT_EQ(config.devices[0].profile.name, "stage");
+  EXPECT_EQ(config.devices[0].name, "stage");
   EXPECT_TRUE(std::holds_alternative<SimulatedConnection>(config.devices[0].connection));
 }
 
@@ -78,14 +78,15 @@ maximum_speed = "2mm/s"
   EXPECT_EQ(to_string(config->listen), "[::1]:5000");
   EXPECT_EQ(config->socket, "/run/lab/gate.sock");
   EXPECT_EQ(to_string(config->metrics), "127.0.0.1:0");
-  const stage::Profile& profile = config->devices.at(0).profile;
-  const stage::Words& kind_settings = config->devices.at(0).kind_settings;
+  const auto& stage = std::get<StageConfig>(config->devices.at(0).family);
+  const stage::Profile& profile = stage.profile;
+  const stage::Words& kind_settings = stage.kind_settings;
   EXPECT_EQ(profile.serial_number, "2106001001");
   EXPECT_EQ(kind_settings.at("busy_scope"), "axis");
   EXPECT_EQ(kind_settings.at("prebuffer_scope"), "axis");
   EXPECT_EQ(profile.at_exit, stage::AtExit::finish);
   EXPECT_EQ(profile.settings_at_lease_end, stage::AtLeaseEnd::kept);
-  EXPECT_EQ(profile.baud, 9600);
+  EXPECT_EQ(config->devices.at(0).baud, 9600);
   EXPECT_EQ(profile.reply_limit, std::chrono::milliseconds(750));
   EXPECT_EQ(profile.idle_poll, std::chrono::seconds(2));
   EXPECT_EQ(profile.moving_poll, std::chrono::milliseconds(50));
@@ -128,8 +129,8 @@ serial_number = "7"
   ASSERT_TRUE(config) << to_string(config.error().front());
   const DeviceConfig& device = config->devices.at(0);
   EXPECT_EQ(to_string(std::get<TcpSettings>(device.connection)), "moxa.lab:4001");
-  EXPECT_EQ(device.profile.baud, 9600);
-  EXPECT_EQ(device.profile.serial_number, "7");
+  EXPECT_EQ(device.baud, 9600);
+  EXPECT_EQ(std::get<StageConfig>(device.family).profile.serial_number, "7");
 }
 
 TEST(Config, AnIpV6AddressIsAHost) {
@@ -284,7 +285,7 @@ TEST(Config, ReadsAFile) {
   const auto config = load_config(path, device_kinds());
   std::remove(path.c_str());
   ASSERT_TRUE(config) << to_string(config.error().front());
-  EXPECT_EQ(config->devices.at(0).profile.name, "stage");
+  EXPECT_EQ(config->devices.at(0).name, "stage");
 }
 
 TEST(Config, AFileThatOthersMayWriteIsRefused) {

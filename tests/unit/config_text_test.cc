@@ -138,13 +138,74 @@ travel_maximum = "90deg"
   const Configured<Config> again = parse_config(text, "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front()) << text;
   EXPECT_EQ(to_toml(*again), text);
-  EXPECT_EQ(again->devices.at(0).profile.axes[2].stage->pulse, (Scale{{2500, 0}, true}));
+  EXPECT_EQ(std::get<StageConfig>(again->devices.at(0).family).profile.axes[2].stage->pulse, (Scale{{2500, 0}, true}));
+}
+
+TEST(ConfigText, AMillIsReadAsTheSame) {
+  const std::string own = R"(streaming = "full"
+window = 128
+buffer = 2048
+converter = 0
+station = ["unix alice", "token anna"]
+confirmation_minutes = 5
+tools = ["T1", "ball-nose_3"]
+busy_limit_s = 60
+at_exit = "finish"
+
+[[device.origin]]
+name = "vice"
+x = 400
+y = 0
+
+[[device.origin]]
+name = "corner"
+x = 0
+y = 6096
+)";
+  const std::string simulated = R"(kind = "rml1"
+connection = "simulated"
+speed = 0.5
+baud = 19200
+options = { "cover_open" = "ends" }
+slower = 0.1
+profile = "MDX-540"
+)";
+  const auto config = parse_config(
+      "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nconnection = \"serial\"\n"
+      "path = \"/dev/ttyS0\"\n" +
+          own + "[[device]]\nname = \"toy\"\n" + simulated +
+          "[[device]]\nname = \"far\"\nkind = \"rml1\"\nprofile = \"srm-20\"\nconnection = \"tcp\"\nhost = "
+          "\"moxa\"\nport = 1\n",
+      "lab.toml", device_kinds());
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  const std::string text = to_toml(*config);
+  const Configured<Config> again = parse_config(text, "again.toml", device_kinds());
+  ASSERT_TRUE(again) << to_string(again.error().front()) << text;
+  EXPECT_EQ(to_toml(*again), text);
+  EXPECT_THAT(text, HasSubstr("flow_control = \"rtscts\"\nprofile = \"mdx-20\"\n" + own));
+  EXPECT_THAT(text, HasSubstr("name = \"toy\"\n" + simulated));
+  EXPECT_THAT(text, HasSubstr(R"(name = "far"
+kind = "rml1"
+connection = "tcp"
+host = "moxa"
+port = 1
+baud = 9600
+profile = "srm-20"
+streaming = "paced"
+buffer = 1024
+converter = 512
+station = ["unix"]
+confirmation_minutes = 10
+tools = ["T1"]
+busy_limit_s = 600
+at_exit = "abort"
+)"));
 }
 
 TEST(ConfigText, TellsTheBuiltInConfiguration) {
   const Configured<Config> again = parse_config(to_toml(default_config(device_kinds())), "again.toml", device_kinds());
   ASSERT_TRUE(again) << to_string(again.error().front());
-  EXPECT_EQ(again->devices.at(0).profile.name, "stage");
+  EXPECT_EQ(again->devices.at(0).name, "stage");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@ using stage::LinkState;
 
 DeviceConfig device_named(std::string name) {
   DeviceConfig device = default_config(device_kinds()).devices[0];
-  device.profile.name = std::move(name);
+  device.name = std::move(name);
   return device;
 }
 

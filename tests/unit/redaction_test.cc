@@ -104,8 +104,8 @@ port = 4001
   Redactor redactor;
   const Config clean = redactor.redact(*config);
   EXPECT_EQ(clean.socket, "/path-1");
-  EXPECT_EQ(clean.devices[0].profile.name, "stage");
-  EXPECT_EQ(clean.devices[0].profile.serial_number, "0000000001");
+  EXPECT_EQ(clean.devices[0].name, "stage");
+  EXPECT_EQ(std::get<StageConfig>(clean.devices[0].family).profile.serial_number, "0000000001");
   EXPECT_EQ(std::get<SerialSettings>(clean.devices[0].connection).path, "/dev/serial/by-id/path-3");
   EXPECT_EQ(clean.devices[0].record, "/path-2");
   EXPECT_EQ(std::get<TcpSettings>(clean.devices[1].connection).host, "host-1");
@@ -123,13 +123,26 @@ TEST(Redactor, CallersWhoseTravelIsNarrowerButNotRoles) {
   Redactor redactor;
   Config config = default_config(device_kinds());
   config.access.roles = {{"unix alice", Role::operator_}};
-  auto& theirs = config.devices[0].profile.axes[1].overrides;
+  auto& theirs = std::get<StageConfig>(config.devices[0].family).profile.axes[1].overrides;
   for (const char* whose : {"operator", "unix alice", "token night-scan"}) theirs.emplace_back().whose = whose;
   const Config clean = redactor.redact(config);
-  const auto& hidden = clean.devices[0].profile.axes[1].overrides;
+  const auto& hidden = std::get<StageConfig>(clean.devices[0].family).profile.axes[1].overrides;
   EXPECT_EQ(hidden[0].whose, "operator");
   EXPECT_EQ(hidden[1].whose, "unix user-1") << "the same as in [access]";
   EXPECT_EQ(hidden[2].whose, "token user-2");
+}
+
+TEST(Redactor, CallersAtTheStationOfAMill) {
+  Redactor redactor;
+  Config config = default_config(device_kinds());
+  config.access.roles = {{"unix alice", Role::operator_}};
+  MillConfig mill;
+  mill.profile_name = "mdx-20";
+  mill.station = {"unix", "unix alice", "token anna"};
+  config.devices[0].family = mill;
+  const auto clean = std::get<MillConfig>(redactor.redact(config).devices[0].family);
+  EXPECT_EQ(clean.station, (std::vector<std::string>{"unix", "unix user-1", "token user-2"}));
+  EXPECT_EQ(clean.profile_name, "mdx-20");
 }
 
 }  // namespace

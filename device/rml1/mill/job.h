@@ -49,6 +49,7 @@ struct Job {
   std::string name;  // a person's text
   std::string owner;
   JobSetup setup;
+  std::uint64_t bytes = 0;
   double least_s = 0, most_s = 0;  // how long the mill takes
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed

@@ -134,7 +134,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   const PreparedJob& it = *prepared;
   running_.reset(new Running{number, std::move(prepared), now,
                              Sender(it.text(), it.timeline(), profile_, settings_.sending, noted_line_),
-                             SenderState::ready, 0, 0, now, false});
+                             SenderState::ready, 0, 0, now, false, ""});
   running_->sender.start(now);
   look_at_sender(now);
   return {};
@@ -160,9 +160,16 @@ Result<void> MillController::resume(TimePoint now) {
 
 void MillController::abort(std::string_view why, TimePoint now) {
   setup_changed(why, now);
-  if (!running_) return;
+  if (!running_) return send_abort();
+  running_->aborted_why = why;
   running_->sender.abort(now);
   look_at_sender(now);
+}
+
+// Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.
+void MillController::send_abort() {
+  must_abort_ = link_ != MillLink::open;
+  if (!must_abort_) line_.write(abort_words(profile_, true));
 }
 
 Result<void> MillController::cancel(JobNumber job, TimePoint now) { return change(job, JobEvent::cancel, now); }
@@ -195,7 +202,8 @@ void MillController::look_at_sender(TimePoint now) {
   const SenderState state = running_->sender.state();
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
   if (state == SenderState::fed) end_run(JobEvent::fed, "", now);
-  if (state == SenderState::aborted) end_run(JobEvent::aborted, "the abort was sent", now);
+  if (state == SenderState::aborted)
+    end_run(JobEvent::aborted, fmt::format("the abort was sent, {}", running_->aborted_why), now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
@@ -227,8 +235,7 @@ WrittenRange MillController::written_at_loss() {
 }
 
 void MillController::inherit(Job job) {
-  job.state = JobState::paused_unknown;
-  must_abort_ = settings_.at_loss == AtLoss::abort;
+  if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
   jobs_.push_back(std::move(job));
 }
 
@@ -237,7 +244,7 @@ void MillController::link_up(TimePoint now) {
   link_ = MillLink::open;
   reopen_ = kReopenFirst;
   events_.link_changed(link_, "", now);
-  if (std::exchange(must_abort_, false)) line_.write(abort_words(profile_, true));
+  if (must_abort_) send_abort();
 }
 
 void MillController::link_down(TimePoint now, std::string_view why) {
@@ -268,11 +275,9 @@ std::optional<TimePoint> MillController::confirmed_until() const {
 }
 
 std::optional<TimePoint> MillController::next_deadline() const {
-  std::optional<TimePoint> next = confirmed_until();
-  if (!running_) return next;
-  const auto sender = running_->sender.next_deadline(now_);
-  if (sender && (!next || *sender < *next)) next = sender;
-  return next;
+  if (!running_) return confirmed_until();
+  const TimePoint look = now_ + kLook;
+  return std::min(running_->sender.next_deadline(now_).value_or(look), look);
 }
 
 }  // namespace axisgate::rml1

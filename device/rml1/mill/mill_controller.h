@@ -59,7 +59,8 @@ class MillController : public LineMachine {
   // All outlive this.
   MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events);
 
-  // A job that ran when the daemon before this one was killed; `written` is what is known. Before link_up().
+  // A job of the run of the daemon before this one: QUEUED, FED, or PAUSED_UNKNOWN with what is known to be `written`.
+  // Before link_up().
   void inherit(Job job);
   // Behind all others. The number ascends.
   void add(Job job, TimePoint now);
@@ -74,7 +75,7 @@ class MillController : public LineMachine {
   // Of the running job; wrong_mode where none runs, or not so.
   Result<void> pause(TimePoint now);
   Result<void> resume(TimePoint now);
-  // Nothing of the job is written after it. Where none runs nothing is to be done.
+  // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same.
   void abort(std::string_view why, TimePoint now);
   // not_found; wrong_mode, where the job's state does not have it.
   Result<void> cancel(JobNumber job, TimePoint now);
@@ -85,6 +86,7 @@ class MillController : public LineMachine {
   // Those without an end, in the order of the queue; the one that runs is among them.
   const std::vector<Job>& jobs() const { return jobs_; }
   std::optional<RunningJob> running(TimePoint now);
+  JobNumber running_job() const { return running_ ? running_->number : 0; }
   MillLink link() const { return link_; }
   const MillSettings& settings() const { return settings_; }
 
@@ -96,6 +98,9 @@ class MillController : public LineMachine {
 
   // Between two attempts to open the line: the first, doubled each time up to the last.
   static constexpr Duration kReopenFirst = std::chrono::milliseconds(250), kReopenLast = std::chrono::seconds(5);
+
+  // At a job that runs, so that others see its progress.
+  static constexpr Duration kLook = std::chrono::milliseconds(500);
 
  private:
   // Passes on what a sender writes, behind the note of it.
@@ -122,6 +127,7 @@ class MillController : public LineMachine {
     std::uint64_t taken = 0;  // by the mill, at `taken_at`
     TimePoint taken_at{};
     bool busy = false;
+    std::string aborted_why;  // for people
   };
 
   Result<Job*> find(JobNumber number);
@@ -130,6 +136,7 @@ class MillController : public LineMachine {
   void leave_queue_if_ended(JobNumber number);
   Result<void> check_next(const Job& job) const;
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
+  void send_abort();
   void look_at_sender(TimePoint now);
   void look_whether_busy(TimePoint now);
   WrittenRange written_at_loss();

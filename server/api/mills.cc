@@ -1,0 +1,319 @@
+#include "server/api/mills.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/api/names.h"
+#include "server/devices/spooled_jobs.h"
+
+namespace axisgate::api {
+namespace {
+
+using server::Mill;
+using MillTurn = TurnOf<Mill>;
+
+// The newest state.
+class MillWatch final : public Subscription<MillState> {
+ public:
+  MillWatch(Mill& mill, Streams::Place place) : Subscription(std::move(place)), mill_(mill) {}
+
+ private:
+  void begin() override {
+    woken_by(mill_.newest());
+    wake();
+  }
+
+  Reading read() override {
+    const auto newest = mill_.newest().get();
+    if (newest.version == taken_) return Nothing{};
+    taken_ = newest.version;
+    return MillState{&mill_, newest.value};
+  }
+
+  Mill& mill_;
+  std::optional<std::uint64_t> taken_;  // the version that was taken last
+};
+
+// Of one that has just left the queue as it was before, with the state that it has come to.
+CurrentJob current(const MillTurn& turn, const rml1::Job& before) {
+  CurrentJob now{&turn.device, before, server::moment_of(turn.now)};
+  for (const rml1::Job& job : turn.controller.jobs()) {
+    if (job.number == before.number) now.job = job;
+  }
+  const auto running = turn.controller.running(turn.now);
+  if (running && running->number == before.number) now.run_on = running->run_on;
+  return now;
+}
+
+Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber number) {
+  const auto found = std::ranges::find(mill.jobs(), number, &rml1::Job::number);
+  if (found != mill.jobs().end()) return *found;
+  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
+              "`axisctl mill queue` lists them; `axisctl history` has those that have ended");
+}
+
+// A repeat acts no more: the job as it is now.
+void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, const Answer<CurrentJob>& answer) {
+  repeat_done(known, [&](const Result<void>& done) {
+    if (!done) return answer(tl::unexpected(done.error()));
+    mill.post([&mill, number, answer](rml1::MillController& controller, TimePoint now) {
+      const Result<rml1::Job> job = find_job(controller, number);
+      if (!job) return answer(tl::unexpected(job.error()));
+      answer(CurrentJob{&mill, *job, server::moment_of(now)});
+    });
+  });
+}
+
+// "unix" is anybody on the Unix socket, "unix anna" one of them.
+bool is_at_station(const Mill& mill, std::string_view who) {
+  return std::ranges::any_of(mill.config().station, [who](std::string_view place) {
+    return who == place || (who.starts_with(place) && who.substr(place.size()).starts_with(' '));
+  });
+}
+
+std::string station_text(const Mill& mill) { return fmt::format("{}", fmt::join(mill.config().station, ", ")); }
+
+}  // namespace
+
+JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline, JobToSend job,
+                     const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
+    : call_(call),
+      mill_(mill),
+      pipeline_(pipeline),
+      job_(std::move(job)),
+      spooled_(std::move(spooled)),
+      check_(mill.config().profile, options) {}
+
+Result<void> JobUpload::append(std::string_view bytes) {
+  check_.feed(bytes);
+  return spooled_->append(bytes);
+}
+
+Result<void> JobUpload::judge() const {
+  const rml1::Diagnostics& found = check_.diagnostics();
+  const auto keeps_out = [this](const rml1::Diagnostic& one) {
+    return one.severity == rml1::Severity::error ||
+           (one.severity == rml1::Severity::warning && !job_.accepted_warnings.contains(one.section));
+  };
+  const auto all = found.in_order();
+  const auto first = std::ranges::find_if(all, keeps_out);
+  if (first == all.end()) return {};
+  const auto count = std::ranges::count_if(all, keeps_out);
+  const bool warns = first->severity == rml1::Severity::warning;
+  return fail(Reason::invalid_request,
+              fmt::format("line {}, column {}: {}: {} [{}]{}", first->place.line, first->place.column,
+                          rml1::name(first->severity), first->text, first->section,
+                          count == 1 ? "" : fmt::format("; {} more keep the job from the queue", count - 1)),
+              warns ? fmt::format("`axisctl mill check` shows all; --accept {} accepts such warnings", first->section)
+                    : "correct the job; `axisctl mill check` shows all errors");
+}
+
+// A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
+void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
+  check_.finish();
+  if (const Result<void> good = judge(); !good) return answer(tl::unexpected(good.error()));
+  Result<server::spool::Job> spooled = spooled_->finish();
+  if (!spooled) return answer(tl::unexpected(spooled.error()));
+  call_.digest = std::move(digest);
+  rml1::Job job = server::job_of(*spooled);
+  const rml1::Summary& summary = check_.summary();
+  job.least_s = summary.seconds_low;
+  job.most_s = summary.seconds_high;
+  (void)mill_.spool().set_facts(mill_.name(), job.number, server::facts_of(job.setup, job.least_s, job.most_s));
+  const auto drop = [&mill = mill_, number = job.number] { mill.drop_spooled(number); };
+  pipeline_.act(
+      {RequestKind::send_job, call_, Result<Mill*>(&mill_)},
+      [number = job.number](const MillTurn&) { return Result<std::string>(fmt::format("send job {}", number)); },
+      [job, answer](const MillTurn& turn, const MutationPtr& mutation) {
+        turn.controller.add(job, turn.now);
+        mutation->acted(server::journal::answer_done());
+        answer(current(turn, job));
+      },
+      [drop, answer](const Problem& problem) {
+        drop();
+        answer(tl::unexpected(problem));
+      },
+      [drop, answer, digest = job.setup.digest](Mill& mill, const Result<Known>& known) {
+        drop();
+        repeat_done(known, [&](const Result<void>& done) {
+          if (!done) return answer(tl::unexpected(done.error()));
+          mill.post([&mill, digest, answer](rml1::MillController& controller, TimePoint now) {
+            const auto same = [&](const rml1::Job& one) { return one.setup.digest == digest; };
+            const auto found = std::ranges::find_if(controller.jobs(), same);
+            if (found != controller.jobs().end()) return answer(CurrentJob{&mill, *found, server::moment_of(now)});
+            answer(fail(Reason::not_found, "the job was sent before, and has ended", "`axisctl history` has it"));
+          });
+        });
+      });
+}
+
+Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_view device, JobToSend job) const {
+  const auto admitted = pipeline_.admit({RequestKind::send_job, call, find_mill(gateway_, device)});
+  if (!admitted) return tl::unexpected(admitted.error());
+  Mill& mill = *admitted->device;
+  const server::MillConfig& config = mill.config();
+  if (std::ranges::find(config.tools, job.tool) == config.tools.end()) {
+    return fail(Reason::invalid_request, fmt::format("{} has no tool \"{}\"", mill.name(), job.tool),
+                fmt::format("it has {}", fmt::join(config.tools, ", ")));
+  }
+  rml1::CheckOptions options;
+  if (!job.origin.empty()) {
+    const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
+    if (origin == config.origins.end()) {
+      return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), job.origin),
+                  "`axisctl mill queue` lists them; none is the one that is set at the panel");
+    }
+    options.origin = server::origin_of(*origin, config.profile);
+  }
+  auto spooled = mill.spool().begin(
+      mill.name(), {job.title, admitted->caller.who, server::identity_of(admitted->caller.who),
+                    server::facts_of({"", config.profile.name, job.origin, job.tool}, 0, 0), server::calendar_now()});
+  if (!spooled) return tl::unexpected(spooled.error());
+  return std::make_unique<JobUpload>(call, mill, pipeline_, std::move(job), options, *std::move(spooled));
+}
+
+void Mills::get(const Call& call, std::string_view device, Answer<MillState> answer) const {
+  pipeline_.ask({RequestKind::get_mill, call, find_mill(gateway_, device)}, std::move(answer),
+                [](const MillTurn& turn, const Answer<MillState>& respond) {
+                  respond(MillState{&turn.device, std::make_shared<const server::MillNow>(turn.device.now(turn.now))});
+                });
+}
+
+Opened<MillState> Mills::watch(const Call& call, std::string_view device) const {
+  const auto admitted = pipeline_.admit({RequestKind::watch_mill, call, find_mill(gateway_, device)});
+  if (!admitted) return tl::unexpected(admitted.error());
+  Result<Streams::Place> place = streams_.take(RequestKind::watch_mill, admitted->caller.who);
+  if (!place) return tl::unexpected(place.error());
+  return std::make_shared<MillWatch>(*admitted->device, *std::move(place));
+}
+
+void Mills::act_on_job(RequestKind kind, const Call& call, std::string_view name, JobAct act,
+                       Answer<CurrentJob> answer) const {
+  const Result<JobName> found = find_job_name(gateway_, name);
+  const rml1::JobNumber number = found ? found->number : 0;
+  pipeline_.act(
+      {kind, call, device_of(found)},
+      [kind, number](const MillTurn& turn) -> Result<std::string> {
+        const Result<rml1::Job> job = find_job(turn.controller, number);
+        if (!job) return tl::unexpected(job.error());
+        return fmt::format("{} {}", api::name(kind), number);
+      },
+      [number, act, answer](const MillTurn& turn, const MutationPtr& mutation) {
+        const Result<rml1::Job> job = find_job(turn.controller, number);
+        const Result<void> done = job ? act(turn.controller, *job, turn) : tl::unexpected(job.error());
+        if (!done) {
+          mutation->failed(done.error());
+          return answer(tl::unexpected(done.error()));
+        }
+        mutation->acted(server::journal::answer_done());
+        answer(current(turn, *job));
+      },
+      [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
+      [number, answer](Mill& mill, const Result<Known>& known) { repeat_job(mill, known, number, answer); });
+}
+
+void Mills::confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen,
+                    Answer<CurrentJob> answer) const {
+  act_on_job(
+      RequestKind::confirm_job, call, job,
+      [seen](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+        if (!is_at_station(turn.device, turn.caller.who)) {
+          return fail(Reason::not_allowed,
+                      fmt::format("{} is not at the station of {}", turn.caller.who, turn.device.name()),
+                      "confirm as " + station_text(turn.device) + ": `station` in the configuration");
+        }
+        return mill.confirm(it.number, seen, turn.caller.who, turn.now);
+      },
+      std::move(answer));
+}
+
+void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
+  const Result<JobName> found = find_job_name(gateway_, name);
+  const auto admitted = pipeline_.admit({RequestKind::start_job, call, device_of(found)});
+  if (!admitted) return answer(tl::unexpected(admitted.error()));
+  // Here, since it reads the whole job.
+  const Mill& device = *admitted->device;
+  auto prepared = server::prepared_job(device.spool(), device.name(), device.config(), found->number);
+  if (!prepared) return answer(tl::unexpected(prepared.error()));
+  act_on_job(
+      RequestKind::start_job, call, name,
+      [prepared = *std::move(prepared)](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
+        return mill.start(it.number, prepared, turn.now);
+      },
+      std::move(answer));
+}
+
+void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
+  act_on_job(
+      RequestKind::cancel_job, call, job,
+      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+        if (!server::is_certainly(turn.caller.who, it.owner) && turn.caller.role != server::Role::admin) {
+          return fail(Reason::not_allowed, fmt::format("{} is not yours", text_of(it)),
+                      "its owner or an administrator can cancel it");
+        }
+        return mill.cancel(it.number, turn.now);
+      },
+      std::move(answer));
+}
+
+void Mills::done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
+  act_on_job(
+      RequestKind::report_job_done, call, job,
+      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
+        return mill.done(it.number, turn.now);
+      },
+      std::move(answer));
+}
+
+void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,
+                       Answer<CurrentRun> answer) const {
+  const auto now = [](const MillTurn& turn) {
+    return CurrentRun{&turn.device, turn.controller.running(turn.now), server::moment_of(turn.now)};
+  };
+  pipeline_.act(
+      {kind, call, find_mill(gateway_, device)},
+      [kind](const MillTurn&) { return Result<std::string>(std::string(api::name(kind))); },
+      [act, now, answer](const MillTurn& turn, const MutationPtr& mutation) {
+        const Result<void> done = act(turn.controller, turn.now);
+        if (!done) {
+          mutation->failed(done.error());
+          return answer(tl::unexpected(done.error()));
+        }
+        mutation->acted(server::journal::answer_done());
+        answer(now(turn));
+      },
+      [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
+      [answer](Mill& mill, const Result<Known>& known) {
+        repeat_done(known, [&](const Result<void>& done) {
+          if (!done) return answer(tl::unexpected(done.error()));
+          mill.post([&mill, answer](rml1::MillController& controller, TimePoint at) {
+            answer(CurrentRun{&mill, controller.running(at), server::moment_of(at)});
+          });
+        });
+      });
+}
+
+void Mills::pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
+  act_on_run(
+      RequestKind::pause_job, call, device, [](rml1::MillController& mill, TimePoint now) { return mill.pause(now); },
+      std::move(answer));
+}
+
+void Mills::resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
+  act_on_run(
+      RequestKind::resume_job, call, device, [](rml1::MillController& mill, TimePoint now) { return mill.resume(now); },
+      std::move(answer));
+}
+
+// No id: an abort always acts, as a stop.
+void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
+  pipeline_.ask({RequestKind::abort_job, call, find_mill(gateway_, device)}, std::move(answer),
+                [](const MillTurn& turn, const Answer<CurrentRun>& respond) {
+                  turn.controller.abort(fmt::format("requested by {}", turn.caller.who), turn.now);
+                  respond(CurrentRun{&turn.device, turn.controller.running(turn.now), server::moment_of(turn.now)});
+                });
+}
+
+}  // namespace axisgate::api

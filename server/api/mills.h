@@ -1,0 +1,112 @@
+// The jobs of mills: their queue, confirmation at the machine, and the one that runs.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/rml1/check.h"
+#include "device/rml1/mill/mill_controller.h"
+#include "server/api/call.h"
+#include "server/api/pipeline.h"
+#include "server/api/subscription.h"
+#include "server/devices/mill.h"
+#include "server/gateway.h"
+#include "server/spool/spool.h"
+
+namespace axisgate::api {
+
+using MillPipeline = PipelineOf<server::Mill>;
+
+// A job as it is now.
+struct CurrentJob {
+  const server::Mill* mill = nullptr;  // never null
+  rml1::Job job;
+  server::Moment clock;                 // by which its times are shown
+  std::optional<rml1::RunOn> run_on{};  // of one that runs
+};
+
+// What runs; nothing: no job.
+struct CurrentRun {
+  const server::Mill* mill = nullptr;  // never null
+  std::optional<rml1::RunningJob> running;
+  server::Moment clock;
+};
+
+struct MillState {
+  const server::Mill* mill = nullptr;          // never null
+  std::shared_ptr<const server::MillNow> now;  // never null
+};
+
+// What is said of a job before its bytes come.
+struct JobToSend {
+  std::string title, origin, tool;
+  std::set<std::string, std::less<>> accepted_warnings;  // sections of the guideline, "5-2"
+};
+
+// A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
+class JobUpload {
+ public:
+  JobUpload(const Call& call, server::Mill& mill, const MillPipeline& pipeline, JobToSend job,
+            const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
+
+  // queue_full, where the spool has no room for more.
+  Result<void> append(std::string_view bytes);
+  // `digest`: of the whole request. invalid_request, where the check of the job finds errors, or warnings that are not
+  // accepted.
+  void finish(std::string digest, const Answer<CurrentJob>& answer);
+
+ private:
+  Result<void> judge() const;
+
+  Call call_;
+  server::Mill& mill_;
+  const MillPipeline& pipeline_;
+  const JobToSend job_;
+  const std::unique_ptr<server::spool::Upload> spooled_;
+  rml1::Check check_;
+};
+
+// Thread safe. The members' problems are those of MillPipeline::admit() and of rml1::MillController.
+class Mills {
+ public:
+  // All outlive this.
+  Mills(server::Gateway& gateway, const MillPipeline& pipeline, Streams& streams)
+      : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
+
+  // invalid_request, where there is no such tool or origin; queue_full.
+  Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
+
+  void get(const Call& call, std::string_view device, Answer<MillState> answer) const;
+  // The mill whenever it has changed.
+  Opened<MillState> watch(const Call& call, std::string_view device) const;
+
+  // not_allowed, where the caller is not at the mill's station.
+  void confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen, Answer<CurrentJob> answer) const;
+  void start(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  void pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
+  void resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
+  // Always acts.
+  void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
+  // not_allowed: the job is somebody else's.
+  void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+
+ private:
+  using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
+  void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
+                  Answer<CurrentJob> answer) const;
+  using RunAct = std::function<Result<void>(rml1::MillController&, TimePoint)>;
+  void act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,
+                  Answer<CurrentRun> answer) const;
+
+  server::Gateway& gateway_;
+  const MillPipeline& pipeline_;
+  Streams& streams_;
+};
+
+}  // namespace axisgate::api

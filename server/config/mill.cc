@@ -1,0 +1,191 @@
+#include "server/config/mill.h"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+
+#include "device/config/config_file.h"
+#include "device/rml1/profile_files.h"
+#include "device/rml1/simulator/options.h"
+#include "server/config/caller.h"
+#include "server/config/name.h"
+#include "server/config/words.h"
+#include "server/explain.h"
+
+namespace axisgate::server {
+namespace {
+
+constexpr std::string_view kProfileRule = "the name of a profile, \"mdx-20\", or the absolute path of a file";
+constexpr std::string_view kStationRule =
+    "\"unix\", everybody on this machine's Unix socket, or a caller, \"unix LOGIN\", \"cert NAME\" or \"token NAME\"";
+
+// A number of steps has at most 24 bits (guideline 2-3).
+constexpr std::int64_t kStepsMax = 8'388'607;
+
+// Empty where there is none, which is an error then.
+std::string profile_path(ConfigTable& table, const std::string& name) {
+  if (name.starts_with('/')) return name;
+  if (name.find('/') != std::string::npos || name.ends_with(".toml")) {
+    table.error("profile", fmt::format("\"{}\" is not an absolute path; use {}", name, kProfileRule));
+    return {};
+  }
+  const auto file = rml1::profile_file(name);
+  if (file) return file->string();
+  table.error("profile", explain(file.error()));
+  return {};
+}
+
+std::optional<rml1::Profile> read_mill_profile(ConfigTable& table, const std::string& name,
+                                               std::vector<ConfigError>& errors) {
+  const std::string path = profile_path(table, name);
+  if (path.empty()) return std::nullopt;
+  const auto text = read_config_file(path);
+  if (!text) {
+    table.error("profile", fmt::format("{} {}; use {}", path, text.error(), kProfileRule));
+    return std::nullopt;
+  }
+  auto profile = rml1::parse_profile(*text, path);
+  if (profile) return *std::move(profile);
+  errors.insert(errors.end(), profile.error().begin(), profile.error().end());
+  return std::nullopt;
+}
+
+void read_bytes(ConfigTable& table, std::string_view key, std::int64_t minimum, std::int64_t maximum,
+                std::size_t& into) {
+  if (const auto bytes = table.integer(key, minimum, maximum)) into = static_cast<std::size_t>(*bytes);
+}
+
+void read_sending(ConfigTable& table, rml1::SendSettings& sending) {
+  sending.streaming = table.choice<rml1::Streaming>("streaming", kStreamings).value_or(sending.streaming);
+  read_bytes(table, "window", 16, 4096, sending.window);
+  read_bytes(table, "buffer", 16, 1 << 20, sending.buffer);
+  read_bytes(table, "converter", 0, 65'536, sending.converter);
+  if (sending.window > sending.buffer) {
+    table.error("window", fmt::format("{} bytes do not fit the mill's buffer of {} bytes; use a window that does",
+                                      sending.window, sending.buffer));
+  }
+}
+
+void read_station(ConfigTable& table, std::vector<std::string>& station) {
+  const auto callers = table.texts("station");
+  if (!callers) return;
+  if (callers->empty()) {
+    table.error("station", fmt::format("is empty, so nobody could confirm at the mill; use {}", kStationRule));
+  }
+  for (const std::string& caller : *callers) {
+    if (caller == kAnybodyOnUnix) continue;
+    const std::string wrong = wrong_with_caller(caller, "is not a caller as the daemon names them");
+    if (!wrong.empty()) table.error("station", fmt::format("\"{}\" {}; use {}", caller, wrong, kStationRule));
+  }
+  station = *callers;
+}
+
+void read_tools(ConfigTable& table, std::vector<std::string>& tools) {
+  const auto names = table.texts("tools");
+  if (!names) return;
+  if (names->empty()) table.error("tools", "is empty; use at least one name, [\"T1\"]");
+  std::set<std::string> known;
+  for (const std::string& name : *names) {
+    if (!is_name(name)) {
+      table.error("tools", fmt::format("\"{}\" is not a name; use {}", name, kNameRule));
+    } else if (!known.insert(name).second) {
+      table.error("tools", fmt::format("\"{}\" is the name of another tool, too; names must differ", name));
+    }
+  }
+  tools = *names;
+}
+
+std::string read_origin_name(ConfigTable& table, std::set<std::string>& known) {
+  const std::optional<std::string> name = table.text("name");
+  if (!name && !table.has("name")) table.missing("name", kNameRule);
+  if (!name) return {};
+  if (!is_name(*name)) {
+    table.error("name", fmt::format("\"{}\" is not a name; use {}", *name, kNameRule));
+  } else if (!known.insert(*name).second) {
+    table.error("name", fmt::format("\"{}\" is the name of another origin of this device, too", *name));
+  }
+  return *name;
+}
+
+std::int64_t read_steps(ConfigTable& table, std::string_view key, std::int64_t most) {
+  const std::optional<std::int64_t> steps = table.integer(key, 0, most);
+  if (!steps && !table.has(key)) {
+    table.missing(key, fmt::format("the mill's steps from its home corner, a whole number from 0 to {}", most));
+  }
+  return steps.value_or(0);
+}
+
+std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<rml1::Profile>& profile,
+                                      std::string_view file, std::vector<ConfigError>& errors) {
+  // A quotient such as 203.2 / 0.025 is not always the whole number that it stands for.
+  constexpr double kRounding = 1e-6;
+  const auto whole_steps = [&profile](double mm) {
+    return static_cast<std::int64_t>(std::floor(profile->steps(mm) + kRounding));
+  };
+  const std::int64_t most_x = profile ? whole_steps(profile->x_mm) : kStepsMax;
+  const std::int64_t most_y = profile ? whole_steps(profile->y_mm) : kStepsMax;
+  std::set<std::string> names;
+  std::vector<NamedOrigin> origins;
+  for (const toml::table* source : device.tables("origin")) {
+    ConfigTable table(*source, "device.origin", file, errors);
+    std::string name = read_origin_name(table, names);
+    const std::int64_t x = read_steps(table, "x", most_x), y = read_steps(table, "y", most_y);
+    origins.push_back({std::move(name), x, y});
+    table.refuse_unknown();
+  }
+  return origins;
+}
+
+// Paced, what is sent ahead fits the buffer by computation. In full, only the line can hold the host back.
+void check_streaming(ConfigTable& table, const DeviceConfig& device, rml1::Streaming streaming) {
+  if (streaming != rml1::Streaming::full) return;
+  constexpr std::string_view kWhy =
+      "\"full\" sends as fast as the line takes it, and {}, so bytes would be lost when the mill's buffer is full; use "
+      "{}";
+  const auto* serial = std::get_if<SerialSettings>(&device.connection);
+  if (serial != nullptr && serial->flow == FlowControl::none) {
+    table.error("streaming", fmt::format(fmt::runtime(kWhy), "with flow_control = \"none\" nothing holds the host back",
+                                         "\"paced\", or flow_control = \"rtscts\""));
+  } else if (std::holds_alternative<SimulatedConnection>(device.connection)) {
+    table.error("streaming", fmt::format(fmt::runtime(kWhy), "nothing holds the host back from the built-in simulator",
+                                         "\"paced\", or rml1-sim behind a port"));
+  }
+}
+
+}  // namespace
+
+MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
+                     ConnectionReader& connections, DeviceConfig& device) {
+  MillConfig mill;
+  const std::optional<std::string> name = table.text("profile");
+  if (!name && !table.has("profile")) table.missing("profile", kProfileRule);
+  std::optional<rml1::Profile> profile;
+  if (name) profile = read_mill_profile(table, *name, errors);
+  mill.profile_name = name.value_or("");
+  mill.profile = profile.value_or(rml1::Profile{});
+  const auto check = [](std::string_view option, std::string_view value) {
+    return rml1::simulator::Options().set(option, value);
+  };
+  const auto connection = connections.read(table, mill.profile.baud.value_or(mill.sending.baud), check, device);
+  if (!connection || *connection == ConnectionKind::simulated) {
+    mill.slower_percent = table.number("slower", 0, 1000, "percent from 0 to 1000").value_or(mill.slower_percent);
+  }
+  read_sending(table, mill.sending);
+  mill.sending.baud = device.baud;
+  if (connection) check_streaming(table, device, mill.sending.streaming);
+  read_station(table, mill.station);
+  if (const auto minutes = table.integer("confirmation_minutes", 1, 1440)) {
+    mill.confirmation = std::chrono::minutes(*minutes);
+  }
+  read_tools(table, mill.tools);
+  if (const auto limit = table.integer("busy_limit_s", 10, 86'400)) mill.busy_limit = std::chrono::seconds(*limit);
+  mill.at_exit = table.choice<MillConfig::AtExit>("at_exit", kMillAtExit).value_or(mill.at_exit);
+  mill.origins = read_origins(table, profile, file, errors);
+  return mill;
+}
+
+}  // namespace axisgate::server

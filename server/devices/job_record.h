@@ -1,0 +1,49 @@
+// Which job a mill was sent, and how far, kept in a file so that a run after this one knows it if this one is killed.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/rml1/mill/job.h"
+
+namespace axisgate::server {
+
+struct LastJob {
+  rml1::JobNumber job = 0;
+  rml1::JobState state = rml1::JobState::running;
+  std::uint64_t through = 0;  // bytes of the job that may have gone to the line
+};
+
+// On the device's strand. The file is mapped, as that of MotionRecord: nothing waits for the disk, and a crash of the
+// machine loses it.
+class JobRecord {
+ public:
+  // `boot` names this boot of the machine. internal, where the file cannot be made or is no regular one.
+  static Result<std::unique_ptr<JobRecord>> open(const std::string& path, std::string_view boot);
+  ~JobRecord();
+  JobRecord(const JobRecord&) = delete;
+  JobRecord& operator=(const JobRecord&) = delete;
+
+  // As the run before left it; nothing where no job was sent. After a boot of the machine any byte may have gone.
+  const std::optional<LastJob>& before() const { return before_; }
+
+  void begin(rml1::JobNumber job);
+  // Before these bytes are written.
+  void going_to(std::uint64_t through);
+  // Of another job than the last that was begun: nothing.
+  void set_state(rml1::JobNumber job, rml1::JobState state);
+
+ private:
+  struct Content;
+
+  JobRecord(Content* content, std::string_view boot);
+
+  Content* const content_;
+  std::optional<LastJob> before_;
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,134 @@
+#include "server/devices/mill.h"
+
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <boost/asio/post.hpp>
+#include <utility>
+
+#include "device/link/clock.h"
+#include "server/devices/spooled_jobs.h"
+#include "server/explain.h"
+#include "server/journal/job_entries.h"
+
+namespace axisgate::server {
+namespace {
+
+rml1::MillSettings settings_of(const MillConfig& config) {
+  return {.sending = config.sending, .confirmation_lasts = config.confirmation, .busy_limit = config.busy_limit};
+}
+
+}  // namespace
+
+Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
+           Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
+           std::unique_ptr<JobRecord> record, journal::Journal* journal)
+    : Device(device.name, {.device = device.name, .baud = device.baud}, std::move(line), thread, metrics, readers,
+             lease_tokens),
+      config_(config),
+      spool_(spool),
+      record_(std::move(record)),
+      journal_(journal),
+      newest_(readers),
+      controller_(config.profile, settings_of(config), runner(), *this) {
+  restore_jobs();
+  runner().attach(controller_, [this] { after_call(); });
+}
+
+Mill::~Mill() { spool_thread_.join(); }
+
+// What had not ended when the run before ended. A confirmation is void by then.
+void Mill::restore_jobs() {
+  const auto last = record_ ? record_->before() : std::nullopt;
+  for (rml1::Job& job : unended_jobs(spool_, name())) {
+    if (!last || last->job != job.number) {
+      controller_.inherit(std::move(job));
+    } else if (rml1::is_end(last->state)) {
+      end_spooled(spool_, name(), job.number);
+    } else {
+      job = as_it_was_left(std::move(job), *last);
+      note(job, "the daemon ended", monotonic_now());
+      controller_.inherit(std::move(job));
+    }
+  }
+}
+
+void Mill::drop_spooled(rml1::JobNumber job) {
+  boost::asio::post(spool_thread_, [this, job] {
+    if (const auto removed = spool_.remove(name(), job); !removed) spdlog::warn("{}", explain(removed.error()));
+  });
+}
+
+// In the log and the journal.
+void Mill::note(const rml1::Job& job, std::string_view why, TimePoint now) {
+  spdlog::info("{}: {} is {}{}{}", name(), text_of(job), rml1::name(job.state), why.empty() ? "" : ": ", why);
+  if (journal_ != nullptr) journal_->append({journal::entry_of(job, name(), now)});
+}
+
+void Mill::post(Request request) {
+  runner().post([this, request = std::move(request)](TimePoint now) { request(controller_, now); });
+}
+
+void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint) {
+  changed_ = true;
+  const bool open = link == rml1::MillLink::open;
+  metrics().on_event(stage::LinkChanged{open ? stage::LinkState::up : stage::LinkState::down, std::string(why)});
+  if (open) return spdlog::info("{}: the line is open", name());
+  spdlog::warn("{}: the line is closed: {}", name(), why);
+}
+
+void Mill::job_changed(const rml1::Job& job, std::string_view why, TimePoint now) {
+  changed_ = true;
+  note(job, why, now);
+  if (record_ && job.state == rml1::JobState::running) record_->begin(job.number);
+  if (record_) record_->set_state(job.number, job.state);
+  if (rml1::is_end(job.state)) {
+    boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });
+  }
+}
+
+void Mill::sender_changed(const rml1::RunningJob& running, TimePoint) {
+  changed_ = true;
+  if (running.busy) spdlog::warn("{}: the mill takes nothing: look at it", name());
+}
+
+void Mill::about_to_write(rml1::JobNumber, std::uint64_t through) {
+  if (record_) record_->going_to(through);
+}
+
+void Mill::after_call() {
+  const TimePoint now = monotonic_now();
+  if (changed_ || (controller_.running_job() != 0 && now - published_ >= kPublishPause)) publish(now);
+  look_whether_wound_down();
+}
+
+void Mill::publish(TimePoint at) {
+  changed_ = false;
+  published_ = at;
+  newest_.publish(now(at));
+}
+
+MillNow Mill::now(TimePoint at) {
+  return {controller_.link(), controller_.jobs(), controller_.running(at), moment_of(at)};
+}
+
+void Mill::wind_down(std::function<void()> done) {
+  post([this, done = std::move(done)](rml1::MillController& mill, TimePoint now) {
+    wound_down_ = done;
+    if (config_.at_exit == MillConfig::AtExit::abort) mill.abort("the daemon ends", now);
+  });
+}
+
+void Mill::look_whether_wound_down() {
+  if (!wound_down_ || controller_.running_job() != 0) return;
+  const auto done = std::exchange(wound_down_, {});
+  shutdown();
+  spdlog::info("{}: the line is closed", name());
+  done();
+}
+
+Duration Mill::wind_down_limit() const {
+  return config_.at_exit == MillConfig::AtExit::finish ? kFinishLimit : kAbortLimit;
+}
+
+}  // namespace axisgate::server

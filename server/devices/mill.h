@@ -1,0 +1,89 @@
+// A mill: a device that is sent jobs and never answers. Its controller, and what others may see of its state.
+#pragma once
+
+#include <boost/asio/thread_pool.hpp>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/mill/mill_controller.h"
+#include "server/config/config.h"
+#include "server/devices/device.h"
+#include "server/devices/job_record.h"
+#include "server/events/newest.h"
+#include "server/events/wall_time.h"
+#include "server/journal/journal.h"
+#include "server/spool/spool.h"
+
+namespace axisgate::server {
+
+struct MillNow {
+  rml1::MillLink link = rml1::MillLink::closed;
+  std::vector<rml1::Job> jobs;  // as MillController::jobs()
+  std::optional<rml1::RunningJob> running;
+  Moment clock;  // by which its times are shown
+};
+
+class Mill final : public Device, private rml1::MillEvents {
+ public:
+  using Controller = rml1::MillController;
+
+  // `config`, `metrics`, `thread`, `lease_tokens` and `spool` outlive this. `record` and `journal` may be null.
+  Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
+       Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
+       std::unique_ptr<JobRecord> record, journal::Journal* journal);
+  ~Mill() override;
+
+  // From any thread.
+  std::string_view kind_name() const override { return config_.kind; }
+  const MillConfig& config() const { return config_; }
+  Newest<MillNow>& newest() { return newest_; }
+  spool::Spool& spool() const { return spool_; }
+  // A job that came twice: it never was in the queue.
+  void drop_spooled(rml1::JobNumber job);
+
+  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  using Request = std::function<void(rml1::MillController&, TimePoint)>;
+  void post(Request request);
+
+  // On the strand only.
+  MillNow now(TimePoint at);
+
+  // At once where nothing runs. As `at_exit` says, the job that runs is aborted, or runs to its end.
+  void wind_down(std::function<void()> done) override;
+  Duration wind_down_limit() const override;
+
+  // The abort is a few dozen bytes; a line that takes none by then is closed with them.
+  static constexpr Duration kAbortLimit = std::chrono::seconds(3);
+  static constexpr Duration kFinishLimit = std::chrono::seconds(60);
+  // A job that runs is published as often.
+  static constexpr Duration kPublishPause = std::chrono::milliseconds(500);
+
+ private:
+  void link_changed(rml1::MillLink link, std::string_view why, TimePoint now) override;
+  void job_changed(const rml1::Job& job, std::string_view why, TimePoint now) override;
+  void sender_changed(const rml1::RunningJob& running, TimePoint now) override;
+  void about_to_write(rml1::JobNumber job, std::uint64_t through) override;
+
+  void restore_jobs();
+  void note(const rml1::Job& job, std::string_view why, TimePoint now);
+  void after_call();
+  void publish(TimePoint at);
+  void look_whether_wound_down();
+
+  const MillConfig& config_;
+  spool::Spool& spool_;
+  const std::unique_ptr<JobRecord> record_;
+  journal::Journal* const journal_;
+  Newest<MillNow> newest_;
+  rml1::MillController controller_;
+  bool changed_ = true;  // since publish()
+  TimePoint published_{};
+  std::function<void()> wound_down_;          // empty: nobody waits
+  boost::asio::thread_pool spool_thread_{1};  // last: its tasks use the spool
+};
+
+}  // namespace axisgate::server

@@ -1,0 +1,36 @@
+// The jobs of a mill, as they stand in the spool: bytes, and what they need set up at the mill.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/mill/job.h"
+#include "device/rml1/mill/prepared_job.h"
+#include "server/config/config.h"
+#include "server/devices/job_record.h"
+#include "server/spool/spool.h"
+
+namespace axisgate::server {
+
+// What the spool keeps beside the bytes, as JSON. Without the digest, which the spool knows.
+std::string facts_of(const rml1::JobSetup& setup, double least_s, double most_s);
+// QUEUED.
+rml1::Job job_of(const spool::Job& spooled);
+
+// Those that have not ended, in the order of their numbers.
+std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string& device);
+// As the run before left a job that it had begun to send.
+rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
+// It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
+void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job);
+
+// The work origin as the check of a job takes it; Z0 is where the profile has it.
+rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
+
+// Reads the whole job, so not on the device's strand. not_found; internal, where the bytes are others than they were.
+Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
+                                                              const MillConfig& config, rml1::JobNumber job);
+
+}  // namespace axisgate::server

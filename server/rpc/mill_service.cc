@@ -1,0 +1,107 @@
+#include "server/rpc/mill_service.h"
+
+#include "server/rpc/call.h"
+#include "server/rpc/job_upload_run.h"
+#include "server/rpc/mills.h"
+#include "server/rpc/subscribed_stream.h"
+#include "server/rpc/unary_call.h"
+
+namespace axisgate::rpc {
+namespace {
+
+template <class Request>
+api::Call to_acting_call(const grpc::CallbackServerContext& context, const Request& request) {
+  api::Call made = to_call(context, request.context());
+  if (!made.request_id.empty()) made.digest = digest_of(request);
+  return made;
+}
+
+template <class Response>
+api::Answer<api::CurrentJob> answering_with_job(std::shared_ptr<UnaryCall<Response>> call) {
+  return answering<api::CurrentJob>(
+      std::move(call), [](Response& response, const api::CurrentJob& job) { *response.mutable_job() = to_proto(job); });
+}
+
+template <class Response>
+api::Answer<api::CurrentRun> answering_with_run(std::shared_ptr<UnaryCall<Response>> call) {
+  return answering<api::CurrentRun>(std::move(call), [](Response& response, const api::CurrentRun& run) {
+    if (run.running) *response.mutable_running() = to_proto(run);
+  });
+}
+
+}  // namespace
+
+grpc::ServerReadReactor<v1::SendJobRequest>* MillService::SendJob(grpc::CallbackServerContext* context,
+                                                                  v1::SendJobResponse* response) {
+  return JobUploadRun::start(mills_, *context, half_close_, response);
+}
+
+grpc::ServerUnaryReactor* MillService::GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
+                                               v1::GetMillResponse* response) {
+  const auto call = UnaryCall<v1::GetMillResponse>::start(response);
+  mills_.get(to_call(*context), request->device(),
+             answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
+               *answer.mutable_mill() = to_proto(state);
+             }));
+  return call.get();
+}
+
+grpc::ServerWriteReactor<v1::WatchMillResponse>* MillService::WatchMill(grpc::CallbackServerContext* context,
+                                                                        const v1::WatchMillRequest* request) {
+  return serve<v1::WatchMillResponse>(
+      mills_.watch(to_call(*context), request->device()),
+      [](v1::WatchMillResponse& response, const api::MillState& state) { *response.mutable_mill() = to_proto(state); });
+}
+
+grpc::ServerUnaryReactor* MillService::ConfirmJob(grpc::CallbackServerContext* context,
+                                                  const v1::ConfirmJobRequest* request,
+                                                  v1::ConfirmJobResponse* response) {
+  const auto call = UnaryCall<v1::ConfirmJobResponse>::start(response);
+  mills_.confirm(to_acting_call(*context, *request), request->job(), to_setup(request->seen()),
+                 answering_with_job(call));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::StartJob(grpc::CallbackServerContext* context,
+                                                const v1::StartJobRequest* request, v1::StartJobResponse* response) {
+  const auto call = UnaryCall<v1::StartJobResponse>::start(response);
+  mills_.start(to_acting_call(*context, *request), request->job(),
+               answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
+                 *answer.mutable_job() = to_proto(job);
+                 if (job.run_on) *answer.mutable_run_on() = to_proto(*job.run_on);
+               }));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::PauseJob(grpc::CallbackServerContext* context,
+                                                const v1::PauseJobRequest* request, v1::PauseJobResponse* response) {
+  const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
+  mills_.pause(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* context,
+                                                 const v1::ResumeJobRequest* request, v1::ResumeJobResponse* response) {
+  const auto call = UnaryCall<v1::ResumeJobResponse>::start(response);
+  mills_.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::CancelJob(grpc::CallbackServerContext* context,
+                                                 const v1::CancelJobRequest* request, v1::CancelJobResponse* response) {
+  const auto call = UnaryCall<v1::CancelJobResponse>::start(response);
+  mills_.cancel(to_acting_call(*context, *request), request->job(),
+                answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::ReportJobDone(grpc::CallbackServerContext* context,
+                                                     const v1::ReportJobDoneRequest* request,
+                                                     v1::ReportJobDoneResponse* response) {
+  const auto call = UnaryCall<v1::ReportJobDoneResponse>::start(response);
+  mills_.done(to_acting_call(*context, *request), request->job(),
+              answering<api::CurrentJob>(call, [](v1::ReportJobDoneResponse&, const api::CurrentJob&) {}));
+  return call.get();
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,39 @@
+// MillService: jobs of mills. AbortJob is answered by the front (own_answers.h).
+#pragma once
+
+#include "axisgate/v1/mill.grpc.pb.h"
+#include "server/api/mills.h"
+#include "server/rpc/half_close.h"
+
+namespace axisgate::rpc {
+
+class MillService final : public v1::MillService::CallbackService {
+ public:
+  // Both outlive this.
+  MillService(const api::Mills& mills, const HalfClose& half_close) : mills_(mills), half_close_(half_close) {}
+
+  grpc::ServerReadReactor<v1::SendJobRequest>* SendJob(grpc::CallbackServerContext* context,
+                                                       v1::SendJobResponse* response) override;
+  grpc::ServerUnaryReactor* GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
+                                    v1::GetMillResponse* response) override;
+  grpc::ServerWriteReactor<v1::WatchMillResponse>* WatchMill(grpc::CallbackServerContext* context,
+                                                             const v1::WatchMillRequest* request) override;
+  grpc::ServerUnaryReactor* ConfirmJob(grpc::CallbackServerContext* context, const v1::ConfirmJobRequest* request,
+                                       v1::ConfirmJobResponse* response) override;
+  grpc::ServerUnaryReactor* StartJob(grpc::CallbackServerContext* context, const v1::StartJobRequest* request,
+                                     v1::StartJobResponse* response) override;
+  grpc::ServerUnaryReactor* PauseJob(grpc::CallbackServerContext* context, const v1::PauseJobRequest* request,
+                                     v1::PauseJobResponse* response) override;
+  grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context, const v1::ResumeJobRequest* request,
+                                      v1::ResumeJobResponse* response) override;
+  grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
+                                      v1::CancelJobResponse* response) override;
+  grpc::ServerUnaryReactor* ReportJobDone(grpc::CallbackServerContext* context, const v1::ReportJobDoneRequest* request,
+                                          v1::ReportJobDoneResponse* response) override;
+
+ private:
+  const api::Mills& mills_;
+  const HalfClose& half_close_;
+};
+
+}  // namespace axisgate::rpc

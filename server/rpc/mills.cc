@@ -1,0 +1,130 @@
+#include "server/rpc/mills.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "server/api/names.h"
+#include "server/rpc/to_proto.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using rml1::JobState;
+using rml1::SenderState;
+
+v1::JobState to_job_state(JobState state) {
+  static_assert(static_cast<int>(JobState::queued) + 1 == v1::JOB_STATE_QUEUED);
+  static_assert(static_cast<int>(JobState::running) + 1 == v1::JOB_STATE_RUNNING);
+  static_assert(static_cast<int>(JobState::cancelled) + 1 == v1::JOB_STATE_CANCELLED);
+  return static_cast<v1::JobState>(static_cast<int>(state) + 1);
+}
+
+// Of the others none is seen: a job that has ended does not run.
+v1::SendingState to_sending_state(SenderState state) {
+  switch (state) {
+    case SenderState::sending:
+      return v1::SENDING_STATE_SENDING;
+    case SenderState::paused:
+      return v1::SENDING_STATE_PAUSED;
+    case SenderState::finishing:
+      return v1::SENDING_STATE_FINISHING;
+    case SenderState::aborting:
+      return v1::SENDING_STATE_ABORTING;
+    default:
+      return v1::SENDING_STATE_UNSPECIFIED;
+  }
+}
+
+google::protobuf::Duration duration_of(double seconds) {
+  google::protobuf::Duration duration;
+  const double whole = std::floor(seconds);
+  duration.set_seconds(static_cast<std::int64_t>(whole));
+  duration.set_nanos(static_cast<std::int32_t>((seconds - whole) * 1e9));
+  return duration;
+}
+
+v1::JobSetup setup_of(const rml1::JobSetup& setup) {
+  v1::JobSetup proto;
+  proto.set_digest(setup.digest);
+  proto.set_profile(setup.profile);
+  proto.set_origin(setup.origin);
+  proto.set_tool(setup.tool);
+  return proto;
+}
+
+}  // namespace
+
+v1::Job to_proto(const api::CurrentJob& current) {
+  const rml1::Job& job = current.job;
+  v1::Job proto;
+  proto.set_name(api::job_name(current.mill->name(), job.number));
+  proto.set_title(job.name);
+  proto.set_owner(job.owner);
+  *proto.mutable_setup() = setup_of(job.setup);
+  proto.set_bytes(static_cast<std::int64_t>(job.bytes));
+  *proto.mutable_shortest() = duration_of(job.least_s);
+  *proto.mutable_longest() = duration_of(job.most_s);
+  proto.set_state(to_job_state(job.state));
+  if (job.confirmation) {
+    proto.set_confirmed_by(job.confirmation->by);
+    *proto.mutable_confirmed_until() = to_proto(current.clock.at(job.confirmation->until));
+  }
+  if (job.written) {
+    proto.set_sent_least(static_cast<std::int64_t>(job.written->least));
+    proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
+  }
+  return proto;
+}
+
+v1::RunOn to_proto(const rml1::RunOn& run_on) {
+  v1::RunOn proto;
+  proto.set_at_most(static_cast<std::int64_t>(run_on.at_most));
+  proto.set_if_held(static_cast<std::int64_t>(run_on.if_held));
+  return proto;
+}
+
+v1::RunningJob to_proto(const api::CurrentRun& run) {
+  v1::RunningJob proto;
+  if (!run.running) return proto;
+  const rml1::RunningJob& job = *run.running;
+  proto.set_job(api::job_name(run.mill->name(), job.number));
+  proto.set_sending(to_sending_state(job.sender));
+  proto.set_written(static_cast<std::int64_t>(job.progress.written));
+  proto.set_unsent(static_cast<std::int64_t>(job.progress.unsent));
+  proto.set_executed_least(static_cast<std::int64_t>(job.progress.executed_least));
+  proto.set_executed_most(static_cast<std::int64_t>(job.progress.executed_most));
+  *proto.mutable_run_on() = to_proto(job.run_on);
+  proto.set_busy(job.busy);
+  *proto.mutable_started() = to_proto(run.clock.at(job.started));
+  return proto;
+}
+
+v1::Mill to_proto(const api::MillState& state) {
+  v1::Mill proto;
+  const server::MillConfig& config = state.mill->config();
+  proto.set_name(api::device_name(state.mill->name()));
+  proto.set_profile(config.profile.name);
+  proto.set_line_open(state.now->link == rml1::MillLink::open);
+  for (const rml1::Job& job : state.now->jobs) {
+    *proto.add_jobs() = to_proto(api::CurrentJob{state.mill, job, state.now->clock});
+  }
+  if (state.now->running) {
+    *proto.mutable_running() = to_proto(api::CurrentRun{state.mill, state.now->running, state.now->clock});
+  }
+  for (const std::string& tool : config.tools) proto.add_tools(tool);
+  for (const server::NamedOrigin& origin : config.origins) proto.add_origins(origin.name);
+  return proto;
+}
+
+rml1::JobSetup to_setup(const v1::JobSetup& proto) {
+  return {proto.digest(), proto.profile(), proto.origin(), proto.tool()};
+}
+
+api::JobToSend to_job(const v1::SendJobRequest& request) {
+  return {request.title(),
+          request.origin(),
+          request.tool(),
+          {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+}
+
+}  // namespace axisgate::rpc

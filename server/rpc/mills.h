@@ -1,0 +1,19 @@
+// Mills and their jobs, as callers read them.
+#pragma once
+
+#include "axisgate/v1/mill.pb.h"
+#include "server/api/mills.h"
+
+namespace axisgate::rpc {
+
+v1::Job to_proto(const api::CurrentJob& job);
+v1::RunOn to_proto(const rml1::RunOn& run_on);
+// Of what runs; without a job where nothing does.
+v1::RunningJob to_proto(const api::CurrentRun& run);
+v1::Mill to_proto(const api::MillState& state);
+
+rml1::JobSetup to_setup(const v1::JobSetup& proto);
+// Of the first message of a job.
+api::JobToSend to_job(const v1::SendJobRequest& request);
+
+}  // namespace axisgate::rpc

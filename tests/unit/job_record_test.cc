@@ -1,0 +1,119 @@
+// What a killed daemon leaves of the job that it sent.
+#include "server/devices/job_record.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <limits>
+#include <string>
+
+#include "server/devices/spooled_jobs.h"
+#include "tests/unit/link_fixtures.h"
+
+namespace axisgate::server {
+namespace {
+
+using rml1::JobState;
+constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+class JobRecordTest : public testing::Test {
+ protected:
+  std::unique_ptr<JobRecord> open(std::string_view boot = "this boot") const { return *JobRecord::open(path_, boot); }
+
+  const link_test::TemporaryDirectory directory_;
+  const std::string path_ = directory_ / "job-mill";
+};
+
+TEST_F(JobRecordTest, HasNothingBeforeTheFirstJob) {
+  EXPECT_FALSE(open()->before());
+  EXPECT_FALSE(open()->before());
+}
+
+TEST_F(JobRecordTest, KeepsHowFarTheLastJobMayHaveGone) {
+  {
+    const auto record = open();
+    record->begin(7);
+    record->going_to(40);
+    record->going_to(52);
+  }
+  const auto before = open()->before();
+  ASSERT_TRUE(before);
+  EXPECT_EQ(before->job, 7u);
+  EXPECT_EQ(before->state, JobState::running);
+  EXPECT_EQ(before->through, 52u);
+}
+
+TEST_F(JobRecordTest, ANewJobBeginsAtItsFirstByte) {
+  const auto record = open();
+  record->begin(7);
+  record->going_to(52);
+  record->set_state(7, JobState::fed);
+  record->begin(8);
+  const auto before = open()->before();
+  EXPECT_EQ(before->job, 8u);
+  EXPECT_EQ(before->state, JobState::running);
+  EXPECT_EQ(before->through, 0u);
+}
+
+TEST_F(JobRecordTest, StatesAreThoseOfTheLastJob) {
+  const auto record = open();
+  record->begin(7);
+  record->set_state(9, JobState::cancelled);
+  EXPECT_EQ(open()->before()->state, JobState::running);
+  record->set_state(7, JobState::aborted);
+  EXPECT_EQ(open()->before()->state, JobState::aborted);
+}
+
+TEST_F(JobRecordTest, AfterABootOfTheMachineAnyByteMayHaveGone) {
+  {
+    const auto record = open();
+    record->begin(7);
+    record->going_to(52);
+  }
+  EXPECT_EQ(open("another boot")->before()->through, kAll);
+}
+
+TEST_F(JobRecordTest, AnotherFileIsNoRecord) {
+  std::ofstream(path_) << std::string(200, 'x');
+  EXPECT_FALSE(open()->before());
+}
+
+TEST_F(JobRecordTest, WhatCannotBeMadeIsSaid) { EXPECT_FALSE(JobRecord::open("/proc/job", "this boot")); }
+
+rml1::Job job() {
+  return {.number = 7, .name = "part.rml", .owner = "unix anna", .setup = {"d", "mdx-20", "", "T1"}, .bytes = 500};
+}
+
+TEST(JobAsItWasLeft, WhatMayHaveGoneIsWithinTheJob) {
+  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 52});
+  EXPECT_EQ(left.state, JobState::paused_unknown);
+  EXPECT_EQ(left.written, (rml1::WrittenRange{0, 52}));
+  left = as_it_was_left(job(), {7, JobState::running, kAll});
+  EXPECT_EQ(left.written, (rml1::WrittenRange{0, 500}));
+}
+
+TEST(JobAsItWasLeft, WhatWasFedIsFed) {
+  const rml1::Job left = as_it_was_left(job(), {7, JobState::fed, 500});
+  EXPECT_EQ(left.state, JobState::fed);
+  EXPECT_FALSE(left.written);
+}
+
+TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
+  const spool::Job spooled{.id = 3,
+                           .name = "part.rml",
+                           .who = "unix anna",
+                           .bytes = 500,
+                           .sha256 = "d",
+                           .facts = facts_of({"", "mdx-20", "corner", "T2"}, 1.5, 2.5)};
+  const rml1::Job made = job_of(spooled);
+  EXPECT_EQ(made.number, 3u);
+  EXPECT_EQ(made.owner, "unix anna");
+  EXPECT_EQ(made.setup, (rml1::JobSetup{"d", "mdx-20", "corner", "T2"}));
+  EXPECT_EQ(made.bytes, 500u);
+  EXPECT_EQ(made.least_s, 1.5);
+  EXPECT_EQ(made.most_s, 2.5);
+  EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
+}
+
+}  // namespace
+}  // namespace axisgate::server
