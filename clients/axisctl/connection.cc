@@ -98,7 +98,8 @@ Connection::Connection(const Target& target, std::string request_id)
       settings(v1::SettingService::NewStub(channel_)),
       simulators(v1::SimulatorService::NewStub(channel_)),
       positions(v1::PositionService::NewStub(channel_)),
-      history(v1::HistoryService::NewStub(channel_)) {}
+      history(v1::HistoryService::NewStub(channel_)),
+      mills(v1::MillService::NewStub(channel_)) {}
 
 void Connection::repeat_by(const v1::ListDevicesResponse& there) const {
   if (there.requests_kept()) request_memory_ = there.request_memory();

@@ -6,6 +6,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "axisgate/v1/access.grpc.pb.h"
 #include "axisgate/v1/command.grpc.pb.h"
@@ -14,6 +15,7 @@
 #include "axisgate/v1/diagnostics.grpc.pb.h"
 #include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/history.grpc.pb.h"
+#include "axisgate/v1/mill.grpc.pb.h"
 #include "axisgate/v1/position.grpc.pb.h"
 #include "axisgate/v1/settings.grpc.pb.h"
 #include "axisgate/v1/simulator.grpc.pb.h"
@@ -51,23 +53,28 @@ class Connection {
   Response call(const std::unique_ptr<Stub>& stub,
                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), const Request& request,
                 std::chrono::seconds limit) const {
-    const auto deadline = std::chrono::system_clock::now() + limit;
     Request repeatable = request;
-    if constexpr (requires { repeatable.mutable_context(); }) {
-      repeatable.mutable_context()->set_request_memory(request_memory_);
-    }
-    for (bool again = false;; again = true) {
-      grpc::ClientContext context;
-      context.set_deadline(deadline);
-      context.set_wait_for_ready(again);
-      Response response;
-      const grpc::Status status = (stub.get()->*method)(&context, repeatable, &response);
-      if constexpr (requires { repeatable.mutable_context(); }) {
-        if (asks_again(status, deadline)) continue;
+    constexpr bool changes = requires { repeatable.mutable_context(); };
+    if constexpr (changes) repeatable.mutable_context()->set_request_memory(request_memory_);
+    return attempt<Response>(changes, limit, [&](grpc::ClientContext& context, Response& response) {
+      return (stub.get()->*method)(&context, repeatable, &response);
+    });
+  }
+
+  // The same for a request in several messages, of which the first has the context; there is at least one.
+  template <class Stub, class Request, class Response>
+  Response upload(const std::unique_ptr<Stub>& stub,
+                  std::unique_ptr<grpc::ClientWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*),
+                  std::vector<Request> messages, std::chrono::seconds limit) const {
+    messages.front().mutable_context()->set_request_memory(request_memory_);
+    return attempt<Response>(true, limit, [&](grpc::ClientContext& context, Response& response) {
+      const auto writer = (stub.get()->*method)(&context, &response);
+      for (const Request& message : messages) {
+        if (!writer->Write(message)) break;  // the daemon has refused: why is in the status
       }
-      check(status);
-      return response;
-    }
+      writer->WritesDone();
+      return writer->Finish();
+    });
   }
 
   // Throws Failure unless the call ended well.
@@ -76,6 +83,22 @@ class Connection {
   const std::string& target() const { return target_; }  // its address
 
  private:
+  // Attempts until one is answered; more than one only of what `changes` something. Throws Failure.
+  template <class Response, class Once>
+  Response attempt(bool changes, std::chrono::seconds limit, Once once) const {
+    const auto deadline = std::chrono::system_clock::now() + limit;
+    for (bool again = false;; again = true) {
+      grpc::ClientContext context;
+      context.set_deadline(deadline);
+      context.set_wait_for_ready(again);
+      Response response;
+      const grpc::Status status = once(context, response);
+      if (changes && asks_again(status, deadline)) continue;
+      check(status);
+      return response;
+    }
+  }
+
   // Whether the answer was lost, and it is worth another attempt.
   bool asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const;
 
@@ -95,6 +118,7 @@ class Connection {
   const std::unique_ptr<v1::SimulatorService::Stub> simulators;
   const std::unique_ptr<v1::PositionService::Stub> positions;
   const std::unique_ptr<v1::HistoryService::Stub> history;
+  const std::unique_ptr<v1::MillService::Stub> mills;
 };
 
 // What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.

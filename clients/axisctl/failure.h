@@ -11,7 +11,7 @@ namespace axisgate::axisctl {
 // Documented in README.md and `axisctl help`.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,  // a motion, or it was stopped, or nobody can say; a job that has an error
+  kFailed = 1,  // a motion, or it was stopped, or nobody can say; a mill job that has an error, or is not FED
   kUsage = 2,
   kRefused = 3,      // the request or the device's state
   kUnavailable = 4,  // no daemon, or the line is down

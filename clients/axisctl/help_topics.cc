@@ -142,16 +142,31 @@ axisctl lease list)"},
     {"replay", "", "axisctl replay stage.recording"},
     {"support", "", "axisctl support --output report.txt"},
     {"mill",
-     R"(Reads a job in RML-1, plays it on a model of the machine and checks it. Nothing is sent, and no daemon is needed. The
-profile describes the machine: the name of one in deploy/mills, or your own changed copy. --origin is the work origin:
-X and Y from the home corner, and how far Z0 is below the top of the travel. Without it only sizes are checked. With
---stock there is a warning for a cut beside or below the workpiece. With --tool, the diameter of the tool, the report
-says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from above, from
-the front and from the side, and reports the same errors and warnings.)",
+     R"(`mill check` reads a job in RML-1, plays it on a model of the machine and checks it. Nothing is sent, and no daemon is
+needed. The profile describes the machine: the name of one in deploy/mills, or your own changed copy. --origin is the
+work origin: X and Y from the home corner, and how far Z0 is below the top of the travel. Without it only sizes are
+checked. With --stock there is a warning for a cut beside or below the workpiece. With --tool, the diameter of the tool,
+the report says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from
+above, from the front and from the side, and reports the same errors and warnings.
+
+The other commands call the daemon, and need --device with the name of the mill. `mill send` puts a job into the queue,
+unless the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
+material, tool and origin, and says so with `mill confirm`. Then `mill start` starts the job.
+
+A mill never replies: what it has executed is a range, computed from its profile. `mill pause` and `mill abort` send no
+more of the job, but what the mill has received may run on, and after a pause the cutter keeps turning in the cut. An
+abort also sends what discards the mill's buffer, raises the tool and stops the spindle. Whether the mill has done so is
+not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
+have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.)",
      R"(printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill check - --profile mdx-20
 printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
-printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg)"},
+printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg
+printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl --device mill mill send - --title frame
+axisctl --device mill mill queue
+axisctl --device mill mill confirm --yes
+axisctl --device mill mill start
+axisctl --device mill mill abort)"},
     {"units",
      R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the unit of the axis, which the
 configuration names. A speed is an amount per second; the /s may be left out. Nothing is rounded: an amount that is not a

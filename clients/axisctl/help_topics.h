@@ -13,7 +13,8 @@ struct HelpTopic {
   std::string_view examples;  // lines for a shell; they end with "until Ctrl-C" where they do not end by themselves
 };
 
-// In the order in which the examples can be run, on a stage with at least 2 mm of travel on either side.
+// In the order in which the examples can be run, on a stage with at least 2 mm of travel on either side, and
+// on a mill with that name.
 std::span<const HelpTopic> help_topics();
 
 // The text, then the examples; empty when there is no such topic.

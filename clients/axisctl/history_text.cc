@@ -87,6 +87,14 @@ std::string elapsed_text(std::int64_t micros) {
                              : fmt::format("{:.1f} s", static_cast<double>(micros) / 1e6);
 }
 
+std::string job_entry_text(const v1::HistoryEntry& entry, const Json& details) {
+  const Json sent = details.value("sent", Json::array());
+  const std::string range =
+      sent.size() == 2 ? fmt::format("; {} to {} bytes were sent", sent[0].dump(), sent[1].dump()) : "";
+  return fmt::format("job {} of {} is {}{}", details.value("job", std::uint64_t{}), entry.who(),
+                     details.value("state", "?"), range);
+}
+
 std::string text_of(const v1::HistoryEntry& entry) {
   const Json details = Json::parse(entry.details(), nullptr, false);
   if (!details.is_object()) return entry.details();
@@ -134,6 +142,8 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return fmt::format("{} is held back from {} until they rearm", entry.who(), axes_text(details));
     case v1::HISTORY_KIND_REARMED:
       return fmt::format("{} rearmed {}", entry.who(), axes_text(details));
+    case v1::HISTORY_KIND_JOB_CHANGED:
+      return job_entry_text(entry, details);
     default:
       return fmt::format("kind {}: {}", static_cast<int>(entry.kind()), entry.details());
   }

@@ -1,12 +1,23 @@
 #include "clients/axisctl/live_display.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include <cstddef>
 #include <cstdio>
 
 #include "clients/axisctl/print.h"
 
 namespace axisgate::axisctl {
+namespace {
+
+// No limit where the terminal does not know its size.
+std::size_t terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : std::string::npos;
+}
+
+}  // namespace
 
 LiveDisplay::LiveDisplay() : terminal_(::isatty(STDOUT_FILENO) == 1) {}
 
@@ -16,22 +27,16 @@ void LiveDisplay::fact(std::string_view line) {
   const std::lock_guard lock(mutex_);
   erase();
   print_line(line);
-  if (terminal_ && !shown_.empty()) {
-    std::fputs(shown_.c_str(), stdout);
-    std::fflush(stdout);
-    in_place_ = true;
-  }
+  if (terminal_ && !shown_.empty()) put_in_place();
 }
 
-void LiveDisplay::positions(const std::string& line) {
+void LiveDisplay::in_place(const std::string& line) {
   const std::lock_guard lock(mutex_);
   if (line == shown_) return;
   shown_ = line;
   if (!terminal_) return print_line(line);
   erase();
-  std::fputs(line.c_str(), stdout);
-  std::fflush(stdout);
-  in_place_ = true;
+  put_in_place();
 }
 
 void LiveDisplay::finish() {
@@ -43,8 +48,14 @@ void LiveDisplay::finish() {
 std::chrono::milliseconds LiveDisplay::interval() const { return std::chrono::milliseconds(terminal_ ? 100 : 500); }
 
 void LiveDisplay::erase() {
-  if (in_place_) std::fputs("\r\033[K", stdout);
-  in_place_ = false;
+  if (is_in_place_) std::fputs("\r\033[K", stdout);
+  is_in_place_ = false;
+}
+
+void LiveDisplay::put_in_place() {
+  std::fputs(shown_.substr(0, terminal_columns()).c_str(), stdout);
+  std::fflush(stdout);
+  is_in_place_ = true;
 }
 
 }  // namespace axisgate::axisctl

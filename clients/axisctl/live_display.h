@@ -1,5 +1,5 @@
-// Progress on the standard output: facts line by line; positions rewritten in place at the bottom of a terminal, and
-// line by line when the output is none.
+// Progress on the standard output: facts line by line; one line rewritten in place at the bottom of a terminal, such as
+// positions, and line by line when the output is none.
 #pragma once
 
 #include <chrono>
@@ -16,8 +16,9 @@ class LiveDisplay {
   ~LiveDisplay();
 
   void fact(std::string_view line);
-  // Nothing is shown when it is what was shown before.
-  void positions(const std::string& line);
+  // Nothing is shown when it is what was shown before. A terminal shows as much of it as fits into a row, because only
+  // one row is rewritten.
+  void in_place(const std::string& line);
   // Takes the line in place away.
   void finish();
 
@@ -26,11 +27,12 @@ class LiveDisplay {
 
  private:
   void erase();
+  void put_in_place();
 
   const bool terminal_;
   std::mutex mutex_;
   std::string shown_;
-  bool in_place_ = false;
+  bool is_in_place_ = false;
 };
 
 }  // namespace axisgate::axisctl

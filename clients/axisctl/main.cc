@@ -79,6 +79,16 @@ constexpr Row kRows[] = {
     {Verb::audit_erase, audit_erase},
     {Verb::mill_check, nullptr, false, mill_check},
     {Verb::mill_preview, nullptr, false, mill_preview},
+    {Verb::mill_send, mill_send},
+    {Verb::mill_queue, mill_queue},
+    {Verb::mill_confirm, mill_confirm},
+    {Verb::mill_start, mill_start},
+    {Verb::mill_watch, mill_watch},
+    {Verb::mill_pause, mill_pause},
+    {Verb::mill_resume, mill_resume},
+    {Verb::mill_abort, mill_abort},
+    {Verb::mill_cancel, mill_cancel},
+    {Verb::mill_done, mill_done},
 };
 
 constexpr bool in_order() {
@@ -87,7 +97,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_preview) + 1);
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_done) + 1);
 
 int run(const Options& options) {
   const Row& row = kRows[static_cast<std::size_t>(options.verb)];

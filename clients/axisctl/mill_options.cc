@@ -5,16 +5,13 @@
 #include "clients/axisctl/verb_options.h"
 
 namespace axisgate::axisctl {
+namespace {
 
-void add_mill_verbs(CLI::App& app, Options& options) {
-  CLI::App* mill =
-      app.add_subcommand("mill", "check and preview RML-1 jobs for Roland milling machines; needs no daemon");
-  mill->require_subcommand(1);
-  mill->fallthrough();
-  mill->footer(help_text("mill"));
-  CLI::App* check = add_verb(*mill, options, Verb::mill_check, "check",
-                             "show what a job would do, its errors, and risks to the workpiece");
-  CLI::App* preview = add_verb(*mill, options, Verb::mill_preview, "preview", "draw what a job would do");
+void add_checks(CLI::App& mill, Options& options) {
+  CLI::App* check = add_verb(mill, options, Verb::mill_check, "check",
+                             "show what a job would do, its errors, and risks to the workpiece; needs no daemon");
+  CLI::App* preview =
+      add_verb(mill, options, Verb::mill_preview, "preview", "draw what a job would do; needs no daemon");
   for (CLI::App* verb : {check, preview}) {
     verb->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
     verb->add_option("--profile", options.mill.profile, "the machine: a name, e.g. mdx-20, or the file of a profile")
@@ -29,6 +26,67 @@ void add_mill_verbs(CLI::App& app, Options& options) {
         ->type_name("MM");
   }
   preview->add_option("-o,--output", options.mill.output, "an .svg or a .png file")->required()->type_name("FILE");
+}
+
+// `watch` and `cancel` have help texts as commands of their own, which are not about mills.
+CLI::App* add_job_verb(CLI::App& mill, Options& options, Verb verb, const char* name, const char* description) {
+  CLI::App* added = add_verb(mill, options, verb, name, description);
+  added->footer("");
+  return added;
+}
+
+void add_send(CLI::App& mill, Options& options) {
+  JobOptions& job = options.job;
+  CLI::App* send = add_job_verb(mill, options, Verb::mill_send, "send", "check a job and send it into the queue");
+  send->add_option("FILE", options.file, "the job; - reads the standard input")->required()->type_name("");
+  send->add_option("--tool", job.tool, "a tool of the configuration (default: its first)")->type_name("NAME");
+  send->add_option("--origin", job.origin,
+                   "a work origin of the configuration (default: as it is set at the mill's panel)")
+      ->type_name("NAME");
+  send->add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
+  send->add_option("--accept", job.accepted,
+                   "sections of the guideline whose warnings do not keep the job from the queue, e.g. 5-1,5-2")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NUMBER");
+}
+
+CLI::Option* add_number(CLI::App& verb, Options& options, const char* description) {
+  return verb.add_option("JOB", options.job.number, description)->type_name("");
+}
+
+void add_starts(CLI::App& mill, Options& options) {
+  CLI::App* confirm =
+      add_job_verb(mill, options, Verb::mill_confirm, "confirm", "at the mill: say that all is set up for a job");
+  add_number(*confirm, options, "its number (default: the first that waits)");
+  confirm->add_flag("--yes", options.yes, "all is set up: do not ask");
+  confirm->add_flag("--start", options.job.start, "start the job, too");
+  CLI::App* start = add_job_verb(mill, options, Verb::mill_start, "start", "start a job that is confirmed");
+  add_number(*start, options, "its number (default: the first that waits)");
+  start->add_flag("--follow", options.follow, "show the job until it has ended");
+}
+
+}  // namespace
+
+void add_mill_verbs(CLI::App& app, Options& options) {
+  CLI::App* mill = app.add_subcommand("mill", "jobs for Roland milling machines (RML-1): check, send, start, abort");
+  mill->require_subcommand(1);
+  mill->fallthrough();
+  mill->footer(help_text("mill"));
+  add_checks(*mill, options);
+  add_send(*mill, options);
+  add_job_verb(*mill, options, Verb::mill_queue, "queue", "show the mill, its queue, and the job that runs");
+  add_starts(*mill, options);
+  add_job_verb(*mill, options, Verb::mill_watch, "watch", "show the job that runs until it has ended");
+  add_job_verb(*mill, options, Verb::mill_pause, "pause", "send no more of the job; what was sent runs on");
+  add_job_verb(*mill, options, Verb::mill_resume, "resume", "send the rest of the job");
+  add_job_verb(*mill, options, Verb::mill_abort, "abort", "end the job that runs; look at the mill afterwards");
+  add_number(*add_job_verb(*mill, options, Verb::mill_cancel, "cancel", "take a job out of the queue"), options,
+             "its number")
+      ->required();
+  add_number(*add_job_verb(*mill, options, Verb::mill_done, "done", "say that the workpiece of a job was seen"),
+             options, "its number")
+      ->required();
 }
 
 }  // namespace axisgate::axisctl

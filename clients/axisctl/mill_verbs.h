@@ -1,4 +1,4 @@
-// The verbs of `axisctl mill`. They ask no daemon. Each returns its exit code or throws Failure.
+// The verbs of `axisctl mill` that ask no daemon. Each returns its exit code or throws Failure.
 #pragma once
 
 #include "clients/axisctl/options.h"

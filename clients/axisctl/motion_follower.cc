@@ -82,7 +82,7 @@ void MotionFollower::show_positions() {
       google::protobuf::util::TimeUtil::MillisecondsToDuration(display_.interval().count());
   const auto reader = session_.connection.devices->WatchDevice(&positions_context_, request);
   v1::WatchDeviceResponse response;
-  while (reader->Read(&response)) display_.positions(positions_text(response.device()));
+  while (reader->Read(&response)) display_.in_place(positions_text(response.device()));
   reader->Finish();
 }
 

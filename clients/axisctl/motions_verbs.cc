@@ -3,7 +3,6 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <string>
 #include <string_view>
@@ -12,6 +11,7 @@
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/print.h"
+#include "clients/axisctl/table.h"
 #include "clients/axisctl/verbs.h"
 
 namespace axisgate::axisctl {
@@ -38,10 +38,8 @@ std::vector<v1::Motion> shown_of(const v1::ListMotionsResponse& there, bool all)
   return shown;
 }
 
-using Cells = std::array<std::string, 7>;
-
 // A motion without an outcome has its time until `now` instead of its end.
-Cells cells_of(const v1::Motion& motion, const google::protobuf::Timestamp& now) {
+std::vector<std::string> cells_of(const v1::Motion& motion, const google::protobuf::Timestamp& now) {
   const auto& since = motion.has_start_time() ? motion.start_time() : motion.create_time();
   return {std::string(last_part(motion.name())),
           kind_name(motion.kind()),
@@ -50,18 +48,6 @@ Cells cells_of(const v1::Motion& motion, const google::protobuf::Timestamp& now)
           motion.who(),
           motion.has_start_time() ? time_text(motion.start_time()) : "not started",
           motion.has_end_time() ? time_text(motion.end_time()) : "for " + duration_text(since, now)};
-}
-
-void print_table(const std::vector<Cells>& rows) {
-  std::array<std::size_t, std::tuple_size_v<Cells>> widths{};
-  for (const Cells& row : rows) {
-    for (std::size_t i = 0; i < row.size(); ++i) widths[i] = std::max(widths[i], row[i].size());
-  }
-  for (const Cells& row : rows) {
-    std::string line;
-    for (std::size_t i = 0; i + 1 < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    print_line(line + row.back());
-  }
 }
 
 // "devices/stage/motions/12" of that or of "12".
@@ -110,9 +96,9 @@ int motions(const Session& session) {
     print_line("no motions");
     return kDone;
   }
-  std::vector<Cells> rows{{"number", "kind", "axes", "state", "who", "started", "ended"}};
+  std::vector<std::vector<std::string>> rows{{"number", "kind", "axes", "state", "who", "started", "ended"}};
   for (const v1::Motion& motion : shown) rows.push_back(cells_of(motion, TimeUtil::GetCurrentTime()));
-  print_table(rows);
+  for (const std::string& line : table_lines(rows)) print_line(line);
   return kDone;
 }
 

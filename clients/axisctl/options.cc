@@ -38,12 +38,13 @@ constexpr const char* kExitCodes = R"(
 
 Exit codes:
   0    done
-  1    the motion failed, was stopped, or its outcome is unknown; or a replay differs; or a mill job has an error
+  1    the motion or the mill job failed, was stopped, or its outcome is unknown; or a replay differs; or a mill job
+       has an error, or is not confirmed
   2    wrong usage
   3    refused: a wrong request, a lease of somebody else, or the state of the controller
   4    unavailable: no daemon, or the serial connection is down
   5    not in time: the axes did not become free, or the daemon did not answer
-  130  Ctrl-C while axisctl waited for a motion
+  130  Ctrl-C while axisctl waited for a motion or a mill job
 
 axisctl is not a safety function. Keep the wired emergency stop within reach.)";
 

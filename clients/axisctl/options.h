@@ -69,7 +69,17 @@ enum class Verb {
   audit_verify,
   audit_erase,
   mill_check,
-  mill_preview
+  mill_preview,
+  mill_send,
+  mill_queue,
+  mill_confirm,
+  mill_start,
+  mill_watch,
+  mill_pause,
+  mill_resume,
+  mill_abort,
+  mill_cancel,
+  mill_done
 };
 
 // The way to the daemon.
@@ -91,6 +101,16 @@ struct MillOptions {
   std::string output;                 // preview: the picture
 };
 
+// Of the verbs that call a mill.
+struct JobOptions {
+  std::string title;                    // send; empty: the last part of the file's name
+  std::string origin;                   // send: a configured one; empty: as it is set at the panel
+  std::string tool;                     // send: a configured one; empty: the first
+  std::vector<std::string> accepted;    // send: sections of the guideline
+  std::optional<std::uint64_t> number;  // of the job; none: the first that waits
+  bool start = false;                   // confirm: start it, too
+};
+
 struct Options {
   Target target;
   std::string device;  // "devices/stage"; empty: the only one
@@ -101,7 +121,7 @@ struct Options {
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
   std::vector<std::string> lines;   // exec; lease run, sim: the command and its words; line, arc: the segment's
-  std::string file;                 // path, replay; "-" is the standard input
+  std::string file;                 // path, replay, mill send; "-" is the standard input
   std::string output;               // record, support: a file; empty: as the verb does by itself
   std::string command;              // commands: one row only
   std::string speed;                // motions; empty: as the axis is set, jog: its lowest
@@ -127,12 +147,12 @@ struct Options {
   std::optional<std::uint64_t> from_revision;  // watch
   std::optional<int> wait_s;                   // motions, lease run: for a lease that another holds
   bool take_over = false;                      // lease run
-  bool follow = false;                         // lease list, history
+  bool follow = false;                         // lease list, history, mill start
   std::string at_loss = "stop";                // lease run
   std::string purpose;                         // lease run
   std::string holder;                          // lease hand-over: to whom
   std::string name;                            // token create, token revoke, save, go, forget; cancel: a motion
-  bool yes = false;                            // audit erase
+  bool yes = false;                            // audit erase, mill confirm
   bool coordinates = false;                    // save
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
@@ -147,6 +167,7 @@ struct Options {
   bool all = false;                            // motions: also older ones
   std::string head;                            // audit verify: that was noted before
   MillOptions mill;
+  JobOptions job;
 };
 
 // The options, or the exit code with which to leave at once: help was shown, or the usage was wrong and that was said.

@@ -1,14 +1,13 @@
 #include "clients/axisctl/outcome.h"
 
 #include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <thread>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/interrupt.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
 
@@ -30,12 +29,6 @@ Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
   if (const std::string ends = ends_text(device, motion); !ends.empty()) failure.message += "; now " + ends;
   failure.message += scan_of(device, motion);
   return failure;
-}
-
-extern "C" void leave_motion_running(int) {
-  constexpr char text[] = "\naxisctl: the motion continues; to stop it: axisctl stop\n";
-  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text, sizeof text - 1);
-  ::_exit(128 + SIGINT);
 }
 
 // A stream was refused: other streams of the same caller may take all its places. Calls have places of their own.
@@ -145,10 +138,6 @@ int start_and_wait(const Session& session, const v1::Device& device, const std::
   return report_outcome(session, device, outcome);
 }
 
-void say_on_interrupt_that_motion_continues() {
-  struct sigaction action = {};
-  action.sa_handler = leave_motion_running;
-  sigaction(SIGINT, &action, nullptr);
-}
+void say_on_interrupt_that_motion_continues() { say_on_interrupt("the motion continues; to stop it: axisctl stop"); }
 
 }  // namespace axisgate::axisctl

@@ -12,15 +12,6 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Names and messages may quote a device; no byte of it may steer a terminal or break the line.
-std::string on_one_line(std::string_view text) {
-  std::string clean(text);
-  std::replace_if(
-      clean.begin(), clean.end(), [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7f; },
-      ' ');
-  return clean;
-}
-
 void write(std::FILE* stream, std::string_view text) {
   std::fwrite(text.data(), 1, text.size(), stream);
   std::fputc('\n', stream);
@@ -92,6 +83,14 @@ std::string describe_start(const v1::DaemonStarted& started) {
 }
 
 }  // namespace
+
+std::string on_one_line(std::string_view text) {
+  std::string clean(text);
+  std::replace_if(
+      clean.begin(), clean.end(), [](char byte) { return static_cast<unsigned char>(byte) < 0x20 || byte == 0x7f; },
+      ' ');
+  return clean;
+}
 
 void print_line(std::string_view text) { write(stdout, text); }
 
@@ -271,9 +270,13 @@ std::string time_text(const google::protobuf::Timestamp& time) {
 }
 
 std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to) {
+  return duration_text(to - from);
+}
+
+std::string duration_text(const google::protobuf::Duration& duration) {
   using google::protobuf::util::TimeUtil;
   constexpr std::int64_t minute = 60, hour = 60 * minute, day = 24 * hour;
-  const std::int64_t ms = std::max<std::int64_t>(0, TimeUtil::DurationToMilliseconds(to - from));
+  const std::int64_t ms = std::max<std::int64_t>(0, TimeUtil::DurationToMilliseconds(duration));
   const std::int64_t tenths = (ms + 50) / 100, s = (ms + 500) / 1000;
   if (tenths < 100 && tenths % 10 != 0) return fmt::format("{}.{} s", tenths / 10, tenths % 10);
   if (s < minute) return fmt::format("{} s", s);

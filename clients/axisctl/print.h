@@ -1,6 +1,7 @@
 // Everything that axisctl writes.
 #pragma once
 
+#include <google/protobuf/duration.pb.h>
 #include <google/protobuf/message.h>
 #include <google/protobuf/timestamp.pb.h>
 
@@ -26,6 +27,9 @@ void print_failure(const Failure& failure);
 
 // "axisctl: message" on the standard error: something that a person wants to know meanwhile.
 void print_note(std::string_view message);
+
+// Names and messages may quote a device or a caller: no byte of it steers a terminal or breaks the line.
+std::string on_one_line(std::string_view text);
 
 // "axis x", or "axis 1" of an axis without a name. A position is never printed after a bare number: a person reads
 // "1 2500 um" as 12500 um.
@@ -72,6 +76,7 @@ std::string time_text(const google::protobuf::Timestamp& time);
 
 // "1.5 s", "3 min 20 s", "2 h 5 min", "3 d 4 h". Of a clock that was set back in between: "0 s".
 std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to);
+std::string duration_text(const google::protobuf::Duration& duration);
 
 // "5" of "devices/stage/motions/5".
 std::string_view last_part(std::string_view resource);

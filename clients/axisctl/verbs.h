@@ -63,6 +63,16 @@ int motions(const Session& session);
 int cancel(const Session& session);
 int audit_verify(const Session& session);
 int audit_erase(const Session& session);
+int mill_send(const Session& session);
+int mill_queue(const Session& session);
+int mill_confirm(const Session& session);
+int mill_start(const Session& session);
+int mill_watch(const Session& session);
+int mill_pause(const Session& session);
+int mill_resume(const Session& session);
+int mill_abort(const Session& session);
+int mill_cancel(const Session& session);
+int mill_done(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

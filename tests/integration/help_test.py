@@ -19,6 +19,13 @@ socket = "{socket}"
 [[device]]
 name = "stage"
 connection = "simulated"
+
+[[device]]
+name = "mill"
+kind = "rml1"
+profile = "mdx-20"
+connection = "simulated"
+tools = ["T1", "T2"]
 """
 
 ENDLESS = "until Ctrl-C"
@@ -86,9 +93,13 @@ class Examples(unittest.TestCase):
         endless.process.send_signal(signal.SIGINT)
         self.assertIn(endless.end(), (0, -signal.SIGINT), f"{line}: {endless.errors}")
 
+    def is_up(self):
+        return "  UP" in self.daemon.run("devices").stdout and \
+            "  line open\n" in self.daemon.run("--device", "mill", "mill", "queue").stdout
+
     def wait_until_up(self):
         deadline = time.monotonic() + LIMIT_S
-        while "  UP" not in self.daemon.run("devices").stdout:
+        while not self.is_up():
             self.assertLess(time.monotonic(), deadline, "the device does not come back")
             time.sleep(0.05)  # between two looks; the deadline above decides
 

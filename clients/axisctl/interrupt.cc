@@ -1,0 +1,35 @@
+#include "clients/axisctl/interrupt.h"
+
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <string_view>
+
+namespace axisgate::axisctl {
+namespace {
+
+std::atomic<const char*> said_on_interrupt{nullptr};
+
+void write_error(std::string_view text) {
+  [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
+}
+
+// Calls only what a signal handler may call (signal-safety(7)).
+extern "C" void leave_on_interrupt(int) {
+  write_error("\naxisctl: ");
+  write_error(said_on_interrupt.load());
+  write_error("\n");
+  ::_exit(128 + SIGINT);
+}
+
+}  // namespace
+
+void say_on_interrupt(const char* what) {
+  said_on_interrupt = what;
+  struct sigaction action = {};
+  action.sa_handler = leave_on_interrupt;
+  sigaction(SIGINT, &action, nullptr);
+}
+
+}  // namespace axisgate::axisctl

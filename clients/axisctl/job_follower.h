@@ -1,0 +1,39 @@
+// Shows a job of a mill while it runs, until it has ended.
+#pragma once
+
+#include <string>
+
+#include "axisgate/v1/mill.pb.h"
+#include "clients/axisctl/live_display.h"
+#include "clients/axisctl/session.h"
+
+namespace axisgate::axisctl {
+
+// Starts the job of that name, which was confirmed, and with --follow shows it to its end. Returns the exit code, or
+// throws Failure.
+int start_job(const Session& session, const v1::CallContext& context, const std::string& job);
+
+class JobFollower {
+ public:
+  // `job`: Job.name, of one that was started; empty: the one that runs, or the next that does.
+  JobFollower(const Session& session, const std::string& job);
+
+  // Until the job is FED: kDone. Throws the Failure that another end is, and when the daemon reports no more of it.
+  int follow();
+
+ private:
+  // Whether the job has ended.
+  bool show(const v1::Mill& mill);
+  void show_progress(const v1::RunningJob& running);
+  void say_once_that_none_runs();
+  int report_end() const;
+
+  const Session& session_;
+  const bool was_started_;  // by this run, which has said so
+  LiveDisplay display_;
+  v1::Job job_;             // as last seen; without a name: none has run
+  v1::RunningJob running_;  // as last seen
+  bool gone_ = false, said_none_runs_ = false;
+};
+
+}  // namespace axisgate::axisctl

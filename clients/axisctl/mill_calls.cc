@@ -1,0 +1,39 @@
+#include "clients/axisctl/mill_calls.h"
+
+#include <fmt/format.h>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/print.h"
+
+namespace axisgate::axisctl {
+
+const std::string& named_mill(const Session& session) {
+  if (!session.options.device.empty()) return session.options.device;
+  throw usage("no mill is named", "name one of the configuration: axisctl --device NAME mill ...");
+}
+
+const std::string& mill_to_change(const Session& session) {
+  const std::string& device = named_mill(session);
+  const Connection& connection = session.connection;
+  connection.repeat_by(connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
+                                       v1::ListDevicesRequest(), kQuestionLimit));
+  return device;
+}
+
+v1::Mill mill_now(const Session& session, const std::string& device) {
+  v1::GetMillRequest request;
+  request.set_device(device);
+  return session.connection.call(session.connection.mills, &v1::MillService::Stub::GetMill, request, kQuestionLimit)
+      .mill();
+}
+
+std::string wanted_job(const Session& session, const v1::Mill& mill) {
+  if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);
+  for (const v1::Job& job : mill.jobs()) {
+    if (job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_CONFIRMED) return job.name();
+  }
+  throw Failure{kRefused, "NOT_FOUND", fmt::format("no job waits at {}", last_part(mill.name())),
+                "send one with `axisctl mill send`"};
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,22 @@
+// What the verbs share that call a mill. All throw Failure.
+#pragma once
+
+#include <string>
+
+#include "axisgate/v1/mill.pb.h"
+#include "clients/axisctl/session.h"
+
+namespace axisgate::axisctl {
+
+// "devices/mill": --device must name it, because the daemon lists stages only.
+const std::string& named_mill(const Session& session);
+
+// The same for a request that changes something: from now on it is repeated where its answer is lost.
+const std::string& mill_to_change(const Session& session);
+
+v1::Mill mill_now(const Session& session, const std::string& device);
+
+// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits or is confirmed.
+std::string wanted_job(const Session& session, const v1::Mill& mill);
+
+}  // namespace axisgate::axisctl

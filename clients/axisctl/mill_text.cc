@@ -1,0 +1,188 @@
+#include "clients/axisctl/mill_text.h"
+
+#include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/table.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+constexpr std::size_t kDigestShown = 12;  // digits of it
+
+// "QUEUED" of JOB_STATE_QUEUED; a number where a newer daemon knows more.
+std::string name_without(std::string_view prefix, const std::string& name, int number) {
+  return name.empty() ? fmt::format("({})", number) : name.substr(prefix.size());
+}
+
+std::string name_of(v1::JobState state) { return name_without("JOB_STATE_", v1::JobState_Name(state), state); }
+
+std::string name_of(v1::SendingState state) {
+  return name_without("SENDING_STATE_", v1::SendingState_Name(state), state);
+}
+
+// How many of `steps` a number of the job's bytes makes, all of them at most.
+std::int64_t whole_steps(std::int64_t bytes, std::int64_t all, std::int64_t steps) {
+  return all <= 0 ? 0 : std::clamp<std::int64_t>(bytes, 0, all) * steps / all;
+}
+
+std::int64_t begun_steps(std::int64_t bytes, std::int64_t all, std::int64_t steps) {
+  return all <= 0 ? steps : (std::clamp<std::int64_t>(bytes, 0, all) * steps + all - 1) / all;
+}
+
+std::string range_text(std::string_view least, std::string_view most) {
+  return least == most ? std::string(most) : fmt::format("{} to {}", least, most);
+}
+
+std::string range_text(std::int64_t least, std::int64_t most) {
+  return range_text(std::to_string(least), std::to_string(most));
+}
+
+std::string takes_text(const v1::Job& job) {
+  return range_text(duration_text(job.shortest()), duration_text(job.longest()));
+}
+
+google::protobuf::Duration part_left(const google::protobuf::Duration& whole, std::int64_t executed, std::int64_t all) {
+  using google::protobuf::util::TimeUtil;
+  if (all <= 0) return whole;
+  const double left = static_cast<double>(all - std::clamp<std::int64_t>(executed, 0, all)) / static_cast<double>(all);
+  return TimeUtil::MillisecondsToDuration(
+      std::llround(static_cast<double>(TimeUtil::DurationToMilliseconds(whole)) * left));
+}
+
+std::string time_left_text(const v1::Job& job, const v1::RunningJob& running) {
+  return range_text(duration_text(part_left(job.shortest(), running.executed_most(), job.bytes())),
+                    duration_text(part_left(job.longest(), running.executed_least(), job.bytes())));
+}
+
+std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
+  constexpr std::size_t width = 10;
+  const auto executed = static_cast<std::size_t>(whole_steps(running.executed_least(), job.bytes(), width));
+  const auto maybe = static_cast<std::size_t>(begun_steps(running.executed_most(), job.bytes(), width));
+  std::string bar(executed, '=');
+  bar.append(std::max(maybe, executed) - executed, '-');
+  bar.resize(width, ' ');
+  return bar;
+}
+
+std::string held_text(const v1::RunOn& run_on) {
+  return run_on.if_held() <= run_on.at_most()
+             ? ""
+             : fmt::format(", at most {} if the panel holds the mill (VIEW, an open cover)", run_on.if_held());
+}
+
+std::string bytes_text(std::string_view number) { return fmt::format("{} byte{}", number, number == "1" ? "" : "s"); }
+
+std::string named_or(const std::string& name, std::string_view otherwise) {
+  return name.empty() ? std::string(otherwise) : on_one_line(name);
+}
+
+std::string confirmation_text(const v1::Job& job) {
+  return fmt::format("by {} until {}", on_one_line(job.confirmed_by()), time_text(job.confirmed_until()));
+}
+
+std::vector<std::string> job_cells(const v1::Job& job) {
+  return {std::string(last_part(job.name())),
+          on_one_line(job.title()),
+          on_one_line(job.owner()),
+          name_of(job.state()),
+          named_or(job.setup().tool(), "-"),
+          named_or(job.setup().origin(), "panel"),
+          takes_text(job),
+          job.state() == v1::JOB_STATE_CONFIRMED ? confirmation_text(job) : "-"};
+}
+
+std::string running_line(const v1::Mill& mill) {
+  const v1::Job* const job = find_job(mill, mill.running().job());
+  if (job == nullptr) return fmt::format("job {} runs", last_part(mill.running().job()));
+  const std::string text = fmt::format("{} {}", job_text(*job), progress_text(*job, mill.running()));
+  return mill.running().busy() ? fmt::format("{}; {}", text, kBusyText) : text;
+}
+
+}  // namespace
+
+const v1::Job* find_job(const v1::Mill& mill, std::string_view name) {
+  const auto found = std::ranges::find_if(mill.jobs(), [&](const v1::Job& job) { return job.name() == name; });
+  return found == mill.jobs().end() ? nullptr : &*found;
+}
+
+std::string job_text(const v1::Job& job) {
+  return fmt::format("job {} ({})", last_part(job.name()), on_one_line(job.title()));
+}
+
+std::string state_text(const v1::Job& job) {
+  return fmt::format("{} {}; takes {}", job_text(job), name_of(job.state()), takes_text(job));
+}
+
+std::string confirmed_text(const v1::Job& job) {
+  return fmt::format("{} is confirmed {}", job_text(job), confirmation_text(job));
+}
+
+std::string run_on_text(const v1::RunOn& run_on) {
+  return fmt::format("after an abort at most {} run on{}", bytes_text(std::to_string(run_on.at_most())),
+                     held_text(run_on));
+}
+
+std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
+  constexpr std::int64_t percent = 100;
+  const std::string executed = range_text(whole_steps(running.executed_least(), job.bytes(), percent),
+                                          begun_steps(running.executed_most(), job.bytes(), percent));
+  return fmt::format("{} [{}] {} %, {} of {} bytes written, {} left", name_of(running.sending()),
+                     bar_text(job, running), executed, running.written(), job.bytes(), time_left_text(job, running));
+}
+
+// Bytes that have not left this host may stay here, and the fastest mill has executed the most.
+std::string paused_text(const v1::RunningJob& running) {
+  const std::int64_t most = std::max<std::int64_t>(0, running.run_on().at_most());
+  const std::int64_t least =
+      std::clamp<std::int64_t>(running.written() - running.unsent() - running.executed_most(), 0, most);
+  return fmt::format("job {} is paused: {} of it still run{}; the cutter keeps turning in the cut",
+                     last_part(running.job()), bytes_text(range_text(least, most)), held_text(running.run_on()));
+}
+
+std::string aborted_text(const v1::AbortJobResponse& response) {
+  if (!response.has_running()) return "the abort was sent; no job ran; look at the mill";
+  const v1::RunOn& run_on = response.running().run_on();
+  return fmt::format("the abort was sent: at most {} of job {} may run on{}; look at the mill",
+                     bytes_text(std::to_string(run_on.at_most())), last_part(response.running().job()),
+                     held_text(run_on));
+}
+
+std::vector<std::string> queue_lines(const v1::Mill& mill) {
+  std::vector<std::string> lines{
+      fmt::format("{}  {}  line {}", last_part(mill.name()), mill.profile(), mill.line_open() ? "open" : "closed")};
+  lines.push_back(mill.has_running() ? running_line(mill) : "no job runs");
+  if (mill.jobs().empty()) {
+    lines.emplace_back("no jobs");
+    return lines;
+  }
+  std::vector<std::vector<std::string>> rows{
+      {"job", "title", "owner", "state", "tool", "origin", "takes", "confirmed"}};
+  for (const v1::Job& job : mill.jobs()) rows.push_back(job_cells(job));
+  for (const std::string& line : table_lines(rows)) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> setup_lines(const v1::Job& job) {
+  const v1::JobSetup& setup = job.setup();
+  return {fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
+          fmt::format("  material  for {}", on_one_line(job.title())),
+          fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
+          fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
+          fmt::format("  profile   {}", on_one_line(setup.profile())),
+          fmt::format("  takes     {}", takes_text(job)),
+          fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
+}
+
+std::string setup_question(const v1::JobSetup& setup) {
+  const auto with = [](const std::string& name) { return name.empty() ? "" : " " + on_one_line(name); };
+  return fmt::format("The material is in, the tool{} is in, the origin{} is set, and nothing is in the way? [yes/no]",
+                     with(setup.tool()), with(setup.origin()));
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,48 @@
+// What is said about mills and their jobs. What a mill has executed, and what still runs, is a range: it never answers.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "axisgate/v1/mill.pb.h"
+
+namespace axisgate::axisctl {
+
+// Nothing where the mill has no such job.
+const v1::Job* find_job(const v1::Mill& mill, std::string_view name);
+
+// "job 7 (part.rml)".
+std::string job_text(const v1::Job& job);
+
+// "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s".
+std::string state_text(const v1::Job& job);
+
+// "job 7 (part.rml) is confirmed by unix anna until 2026-11-21 16:10:00".
+std::string confirmed_text(const v1::Job& job);
+
+// "after an abort at most 64 bytes run on, at most 2048 if the panel holds the mill (VIEW, an open cover)".
+std::string run_on_text(const v1::RunOn& run_on);
+
+// "SENDING [====-     ] 41 to 44 %, 12300 of 30000 bytes written, 3 min 5 s to 5 min 20 s left". In the bar `=` is
+// executed and `-` may be. The time left is the job's, in the ratio of the bytes not yet executed.
+std::string progress_text(const v1::Job& job, const v1::RunningJob& running);
+
+inline constexpr std::string_view kBusyText = "the mill is busy: look at it";
+
+// "job 7 is paused: 10 to 64 bytes of it still run, ...; the cutter keeps turning in the cut".
+std::string paused_text(const v1::RunningJob& running);
+
+// "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill". Never that anything has stopped.
+std::string aborted_text(const v1::AbortJobResponse& response);
+
+// The mill in one line, what runs in another, and the queue as a table.
+std::vector<std::string> queue_lines(const v1::Mill& mill);
+
+// What a person sets up for the job, a line each.
+std::vector<std::string> setup_lines(const v1::Job& job);
+
+// "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]"
+std::string setup_question(const v1::JobSetup& setup);
+
+}  // namespace axisgate::axisctl

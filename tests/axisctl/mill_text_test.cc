@@ -1,0 +1,185 @@
+// What axisctl says about a mill's jobs. Sizes, times and ranges are typed by hand: of 30,000 bytes 12,300 are 41 %.
+#include "clients/axisctl/mill_text.h"
+
+#include <google/protobuf/util/time_util.h>
+#include <gtest/gtest.h>
+#include <stdlib.h>
+#include <time.h>
+
+#include <string>
+#include <vector>
+
+namespace axisgate::axisctl {
+namespace {
+
+using google::protobuf::util::TimeUtil;
+using Lines = std::vector<std::string>;
+
+v1::Job frame(int number, v1::JobState state) {
+  v1::Job job;
+  job.set_name("devices/mill/jobs/" + std::to_string(number));
+  job.set_title("frame.rml");
+  job.set_owner("unix anna");
+  job.mutable_setup()->set_digest("3f5a9c001b2d77");
+  job.mutable_setup()->set_profile("MDX-20");
+  job.mutable_setup()->set_tool("T1");
+  job.set_bytes(30'000);
+  *job.mutable_shortest() = TimeUtil::SecondsToDuration(600);
+  *job.mutable_longest() = TimeUtil::SecondsToDuration(1000);
+  job.set_state(state);
+  return job;
+}
+
+v1::RunningJob running(std::int64_t written, std::int64_t executed_least, std::int64_t executed_most) {
+  v1::RunningJob running;
+  running.set_job("devices/mill/jobs/7");
+  running.set_sending(v1::SENDING_STATE_SENDING);
+  running.set_written(written);
+  running.set_executed_least(executed_least);
+  running.set_executed_most(executed_most);
+  return running;
+}
+
+v1::RunOn run_on(std::int64_t at_most, std::int64_t if_held) {
+  v1::RunOn run_on;
+  run_on.set_at_most(at_most);
+  run_on.set_if_held(if_held);
+  return run_on;
+}
+
+std::string progress(std::int64_t written, std::int64_t executed_least, std::int64_t executed_most) {
+  return progress_text(frame(7, v1::JOB_STATE_RUNNING), running(written, executed_least, executed_most));
+}
+
+TEST(MillProgress, ARangeWithItsTimeLeft) {
+  EXPECT_EQ(progress(15'000, 12'300, 13'200),
+            "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 5 min 36 s to 9 min 50 s left");
+}
+
+// What may not be executed yet never counts as executed, and the other way round.
+TEST(MillProgress, RoundsOutwards) {
+  EXPECT_EQ(progress(15'000, 299, 301).substr(0, 31), "SENDING [-         ] 0 to 2 %, ");
+  EXPECT_EQ(progress(30'000, 29'999, 30'000),
+            "SENDING [=========-] 99 to 100 %, 30000 of 30000 bytes written, 0 s left");
+}
+
+TEST(MillProgress, OneNumberWhereBothEndsAreTheSame) {
+  EXPECT_EQ(progress(0, 0, 0), "SENDING [          ] 0 %, 0 of 30000 bytes written, 10 min 0 s to 16 min 40 s left");
+  EXPECT_EQ(progress(30'000, 30'000, 30'000), "SENDING [==========] 100 %, 30000 of 30000 bytes written, 0 s left");
+}
+
+// Numbers beyond the job, or a job without a size, come from a daemon that is wrong: the line stays a line.
+TEST(MillProgress, WithinTheJob) {
+  EXPECT_EQ(progress(30'000, -5, 40'000),
+            "SENDING [----------] 0 to 100 %, 30000 of 30000 bytes written, 0 s to 16 min 40 s left");
+  v1::Job empty = frame(7, v1::JOB_STATE_RUNNING);
+  empty.set_bytes(0);
+  EXPECT_EQ(progress_text(empty, running(0, 0, 0)),
+            "SENDING [----------] 0 to 100 %, 0 of 0 bytes written, 10 min 0 s to 16 min 40 s left");
+}
+
+TEST(MillProgress, EachState) {
+  v1::RunningJob now = running(0, 0, 0);
+  const auto begins = [&now](v1::SendingState state) {
+    now.set_sending(state);
+    const std::string text = progress_text(frame(7, v1::JOB_STATE_RUNNING), now);
+    return text.substr(0, text.find(' '));
+  };
+  EXPECT_EQ(begins(v1::SENDING_STATE_PAUSED), "PAUSED");
+  EXPECT_EQ(begins(v1::SENDING_STATE_FINISHING), "FINISHING");
+  EXPECT_EQ(begins(v1::SENDING_STATE_ABORTING), "ABORTING");
+  EXPECT_EQ(begins(static_cast<v1::SendingState>(99)), "(99)");
+}
+
+TEST(MillTexts, AJob) {
+  EXPECT_EQ(state_text(frame(7, v1::JOB_STATE_QUEUED)), "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s");
+  v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
+  job.set_title("a\x1b[2Jb\n");
+  EXPECT_EQ(job_text(job), "job 7 (a [2Jb )");
+}
+
+TEST(MillTexts, WhatRunsOn) {
+  EXPECT_EQ(run_on_text(run_on(64, 2048)),
+            "after an abort at most 64 bytes run on, at most 2048 if the panel holds the mill (VIEW, an open cover)");
+  EXPECT_EQ(run_on_text(run_on(1, 1)), "after an abort at most 1 byte run on");
+}
+
+// 15,000 written, 20 of them still here, 14,970 executed at most: 10 of those that the mill has still run.
+TEST(MillTexts, APauseSaysWhatStillRuns) {
+  v1::RunningJob paused = running(15'000, 14'000, 14'970);
+  paused.set_unsent(20);
+  *paused.mutable_run_on() = run_on(64, 64);
+  EXPECT_EQ(paused_text(paused),
+            "job 7 is paused: 10 to 64 bytes of it still run; the cutter keeps turning in the cut");
+  paused.set_executed_most(15'000);
+  *paused.mutable_run_on() = run_on(64, 2048);
+  EXPECT_EQ(paused_text(paused),
+            "job 7 is paused: 0 to 64 bytes of it still run, at most 2048 if the panel holds the mill (VIEW, an open "
+            "cover); the cutter keeps turning in the cut");
+  paused.set_executed_most(0);
+  *paused.mutable_run_on() = run_on(64, 64);
+  EXPECT_EQ(paused_text(paused), "job 7 is paused: 64 bytes of it still run; the cutter keeps turning in the cut");
+}
+
+TEST(MillTexts, AnAbortNeverSaysThatTheMillHasStopped) {
+  v1::AbortJobResponse response;
+  EXPECT_EQ(aborted_text(response), "the abort was sent; no job ran; look at the mill");
+  *response.mutable_running() = running(15'000, 12'300, 13'200);
+  *response.mutable_running()->mutable_run_on() = run_on(64, 64);
+  EXPECT_EQ(aborted_text(response), "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill");
+}
+
+TEST(MillTexts, WhatIsSetUp) {
+  v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(setup_lines(job), (Lines{"job 7 (frame.rml) of unix anna", "  material  for frame.rml", "  tool      T1",
+                                     "  origin    as it is set at the panel", "  profile   MDX-20",
+                                     "  takes     10 min 0 s to 16 min 40 s", "  digest    3f5a9c001b2d..."}));
+  EXPECT_EQ(setup_question(job.setup()),
+            "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
+  job.mutable_setup()->set_origin("left vice");
+  job.mutable_setup()->clear_tool();
+  EXPECT_EQ(setup_question(job.setup()),
+            "The material is in, the tool is in, the origin left vice is set, and nothing is in the way? [yes/no]");
+}
+
+TEST(MillQueue, NothingToDo) {
+  v1::Mill mill;
+  mill.set_name("devices/mill");
+  mill.set_profile("MDX-20");
+  EXPECT_EQ(queue_lines(mill), (Lines{"mill  MDX-20  line closed", "no job runs", "no jobs"}));
+}
+
+TEST(MillQueue, ATable) {
+  ::setenv("TZ", "UTC", 1);
+  ::tzset();
+  v1::Mill mill;
+  mill.set_name("devices/mill");
+  mill.set_profile("MDX-20");
+  mill.set_line_open(true);
+  *mill.add_jobs() = frame(7, v1::JOB_STATE_CONFIRMED);
+  mill.mutable_jobs(0)->set_confirmed_by("unix bert");
+  *mill.mutable_jobs(0)->mutable_confirmed_until() = TimeUtil::SecondsToTimestamp(1'795'000'200);
+  *mill.add_jobs() = frame(12, v1::JOB_STATE_QUEUED);
+  mill.mutable_jobs(1)->mutable_setup()->clear_tool();
+  mill.mutable_jobs(1)->mutable_setup()->set_origin("vice");
+  EXPECT_EQ(queue_lines(mill),
+            (Lines{"mill  MDX-20  line open", "no job runs",
+                   "job  title      owner      state      tool  origin  takes                      confirmed",
+                   "7    frame.rml  unix anna  CONFIRMED  T1    panel   10 min 0 s to 16 min 40 s  by unix bert until "
+                   "2026-11-18 11:10:00",
+                   "12   frame.rml  unix anna  QUEUED     -     vice    10 min 0 s to 16 min 40 s  -"}));
+}
+
+TEST(MillQueue, WhatRuns) {
+  v1::Mill mill;
+  *mill.add_jobs() = frame(7, v1::JOB_STATE_RUNNING);
+  *mill.mutable_running() = running(15'000, 12'300, 13'200);
+  EXPECT_EQ(queue_lines(mill)[1],
+            "job 7 (frame.rml) SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 5 min 36 s to 9 min 50 s "
+            "left");
+  mill.mutable_running()->set_busy(true);
+  EXPECT_TRUE(queue_lines(mill)[1].ends_with(" left; the mill is busy: look at it"));
+}
+
+}  // namespace
+}  // namespace axisgate::axisctl

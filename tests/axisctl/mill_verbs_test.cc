@@ -1,0 +1,232 @@
+// The verbs of `axisctl mill` that call the daemon: what they request, what they print, and how they exit.
+#include <gmock/gmock.h>
+#include <google/protobuf/util/message_differencer.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <fstream>
+#include <string>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/verbs.h"
+#include "tests/axisctl/scripted_mill.h"
+#include "tests/axisctl/terminal.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::size_t kPieceSent = 1 << 16;
+
+class MillSend : public MillVerbs {
+ protected:
+  MillSend() {
+    options_.file = folder_ / "frame.rml";
+    write_job("^IN;PU0,0;");
+    add_job(v1::JOB_STATE_QUEUED);
+  }
+
+  void write_job(const std::string& content) const { std::ofstream(options_.file, std::ios::binary) << content; }
+};
+
+TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
+  options_.job.accepted = {"5-1", "5-2"};
+  EXPECT_EQ(run(mill_send).output, "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s\n");
+  ASSERT_EQ(mill_.sent.size(), 2U);
+  const v1::SendJobRequest& first = mill_.sent[0];
+  EXPECT_EQ(first.device(), "devices/mill");
+  EXPECT_EQ(first.title(), "frame.rml");
+  EXPECT_EQ(first.tool(), "T1");  // the first one of the mill
+  EXPECT_EQ(first.origin(), "");
+  EXPECT_THAT(first.accepted_warnings(), ElementsAre("5-1", "5-2"));
+  EXPECT_EQ(first.data(), "");
+  EXPECT_THAT(first.context().request_id(), HasSubstr("axisctl-"));
+  EXPECT_EQ(first.context().request_memory(), "since noon");
+  EXPECT_EQ(mill_.sent[1].data(), "^IN;PU0,0;");
+}
+
+TEST_F(MillSend, WhatWasNamedIsSent) {
+  options_.job.title = "lid";
+  options_.job.tool = "T2";
+  options_.job.origin = "vice";
+  EXPECT_EQ(run(mill_send).exit_code, kDone);
+  EXPECT_EQ(mill_.sent[0].title(), "lid");
+  EXPECT_EQ(mill_.sent[0].tool(), "T2");
+  EXPECT_EQ(mill_.sent[0].origin(), "vice");
+}
+
+TEST_F(MillSend, AMillWithoutTools) {
+  mill_.mill.clear_tools();
+  EXPECT_EQ(run(mill_send).exit_code, kDone);
+  EXPECT_EQ(mill_.sent[0].tool(), "");
+}
+
+TEST_F(MillSend, InPieces) {
+  std::string job(2 * kPieceSent + 5, ';');
+  job.back() = '\0';  // any bytes
+  write_job(job);
+  EXPECT_EQ(run(mill_send).exit_code, kDone);
+  std::string received;
+  for (const v1::SendJobRequest& message : mill_.sent) {
+    EXPECT_LE(message.data().size(), kPieceSent);
+    received += message.data();
+  }
+  EXPECT_EQ(mill_.sent.size(), 4U);
+  EXPECT_TRUE(received == job);
+}
+
+TEST_F(MillSend, ALostAnswerIsRequestedAgainWithTheSameId) {
+  mill_.statuses = {{grpc::StatusCode::UNAVAILABLE, "Socket closed"}, grpc::Status::OK};
+  options_.request_id = "lid-1";
+  EXPECT_EQ(run(mill_send).exit_code, kDone);
+  EXPECT_THAT(mill_.calls, ElementsAre("ListDevices", "GetMill", "SendJob", "SendJob"));
+  EXPECT_EQ(mill_.sent.size(), 2U);
+  EXPECT_EQ(mill_.sent[0].context().request_id(), "lid-1");
+}
+
+TEST_F(MillSend, ARefusal) {
+  mill_.statuses = {{grpc::StatusCode::RESOURCE_EXHAUSTED, "the spool is full"}};
+  const Ended ended = run(mill_send);
+  EXPECT_EQ(ended.exit_code, kRefused);
+  EXPECT_EQ(ended.message, "the spool is full");
+}
+
+TEST_F(MillSend, AFileThatCannotBeReadIsNotSent) {
+  options_.file = folder_ / "missing.rml";
+  const Ended ended = run(mill_send);
+  EXPECT_EQ(ended.exit_code, kUsage);
+  EXPECT_THAT(ended.message, HasSubstr("missing.rml cannot be read: No such file"));
+  EXPECT_THAT(mill_.sent, IsEmpty());
+  options_.file = folder_;
+  EXPECT_THAT(run(mill_send).message, HasSubstr("cannot be read: Is a directory"));
+}
+
+class MillConfirm : public MillVerbs {};
+
+TEST_F(MillConfirm, WhatWasShownIsConfirmed) {
+  add_job(v1::JOB_STATE_FED);
+  v1::Job& job = add_job(v1::JOB_STATE_QUEUED);
+  options_.yes = true;
+  EXPECT_THAT(run(mill_confirm).output, HasSubstr("job 8 (frame.rml) of unix anna\n  material  for frame.rml\n"));
+  ASSERT_EQ(mill_.confirmed.size(), 1U);
+  EXPECT_EQ(mill_.confirmed[0].job(), "devices/mill/jobs/8");  // job 7 does not wait
+  EXPECT_TRUE(google::protobuf::util::MessageDifferencer::Equals(mill_.confirmed[0].seen(), job.setup()));
+}
+
+TEST_F(MillConfirm, NeedsATerminalOrYes) {
+  add_job(v1::JOB_STATE_QUEUED);
+  const int input = ::dup(STDIN_FILENO);
+  ASSERT_NE(std::freopen("/dev/null", "r", stdin), nullptr);
+  EXPECT_EQ(run(mill_confirm).exit_code, kUsage);
+  ::dup2(input, STDIN_FILENO);
+  ::close(input);
+  EXPECT_THAT(mill_.calls, IsEmpty());
+}
+
+TEST_F(MillConfirm, OnlyYesCounts) {
+  add_job(v1::JOB_STATE_QUEUED);
+  for (const char* answer : {"\n", "y\n", "Yes\n", "yes please\n", "no\n"}) {
+    Terminal terminal(STDIN_FILENO);
+    terminal.type(answer);
+    const Ended ended = run(mill_confirm);
+    EXPECT_EQ(ended.exit_code, kFailed) << answer;
+    EXPECT_EQ(ended.reason, "NOT_CONFIRMED");
+    EXPECT_THAT(ended.output, HasSubstr("\nThe material is in, the tool T1 is in, the origin is set, and nothing is in "
+                                        "the way? [yes/no]\n"));
+  }
+  EXPECT_THAT(mill_.confirmed, IsEmpty());
+  Terminal terminal(STDIN_FILENO);
+  terminal.type("yes\n");
+  EXPECT_EQ(run(mill_confirm).exit_code, kDone);
+  EXPECT_EQ(mill_.confirmed.size(), 1U);
+}
+
+TEST_F(MillConfirm, JsonAsksNobody) {
+  add_job(v1::JOB_STATE_QUEUED);
+  options_.json = true;
+  Terminal terminal(STDIN_FILENO);
+  terminal.type("yes\n");
+  EXPECT_EQ(run(mill_confirm).exit_code, kUsage);
+  options_.yes = true;
+  EXPECT_EQ(run(mill_confirm).output.front(), '{');
+}
+
+TEST_F(MillConfirm, AndStart) {
+  add_job(v1::JOB_STATE_QUEUED);
+  options_.yes = options_.job.start = true;
+  options_.request_id = "lid-1";
+  EXPECT_EQ(run(mill_confirm).exit_code, kDone);
+  ASSERT_EQ(mill_.started.size(), 1U);
+  EXPECT_EQ(mill_.confirmed[0].context().request_id(), "lid-1");
+  EXPECT_EQ(mill_.started[0].context().request_id(), "lid-1-start");
+}
+
+TEST_F(MillConfirm, NothingStartsThatIsNotConfirmed) {
+  add_job(v1::JOB_STATE_QUEUED);
+  options_.yes = options_.job.start = true;
+  mill_.statuses = {{grpc::StatusCode::PERMISSION_DENIED, "not at the station"}};
+  EXPECT_EQ(run(mill_confirm).exit_code, kRefused);
+  EXPECT_THAT(mill_.started, IsEmpty());
+}
+
+TEST_F(MillConfirm, AJobThatIsNotThere) {
+  options_.yes = true;
+  EXPECT_EQ(run(mill_confirm).message, "no job waits at mill");
+  options_.job.number = 12;
+  EXPECT_EQ(run(mill_confirm).message, "mill has no job 12");
+  EXPECT_THAT(mill_.confirmed, IsEmpty());
+}
+
+using MillCalls = MillVerbs;
+
+TEST_F(MillCalls, StartSaysWhatRunsOn) {
+  add_job(v1::JOB_STATE_CONFIRMED);
+  EXPECT_THAT(run(mill_start).output, HasSubstr("; after an abort at most 64 bytes run on\n"));
+  EXPECT_EQ(mill_.started[0].job(), "devices/mill/jobs/7");
+  options_.job.number = 12;
+  run(mill_start);
+  EXPECT_EQ(mill_.started[1].job(), "devices/mill/jobs/12");
+}
+
+TEST_F(MillCalls, PauseResumeCancelDone) {
+  add_job(v1::JOB_STATE_RUNNING);
+  mill_.mill.mutable_running()->set_job("devices/mill/jobs/7");
+  EXPECT_THAT(run(mill_pause).output, HasSubstr("job 7 is paused: "));
+  EXPECT_THAT(run(mill_resume).output, HasSubstr("job 7 is resumed; "));
+  EXPECT_THAT(mill_.devices, ElementsAre("devices/mill", "devices/mill"));
+  options_.job.number = 7;
+  EXPECT_EQ(run(mill_cancel).output, "job 7 is CANCELLED\n");
+  EXPECT_EQ(run(mill_done).output, "job 7 is DONE\n");
+  EXPECT_THAT(mill_.jobs, ElementsAre("devices/mill/jobs/7", "devices/mill/jobs/7"));
+}
+
+TEST_F(MillCalls, ALostAnswerIsRequestedAgain) {
+  mill_.statuses = {{grpc::StatusCode::UNAVAILABLE, "Socket closed"}, grpc::Status::OK};
+  options_.job.number = 7;
+  EXPECT_EQ(run(mill_cancel).exit_code, kDone);
+  EXPECT_THAT(mill_.calls, ElementsAre("ListDevices", "CancelJob", "CancelJob"));
+}
+
+TEST_F(MillCalls, NothingIsAskedBeforeAnAbort) {
+  EXPECT_EQ(run(mill_abort).output, "the abort was sent; no job ran; look at the mill\n");
+  EXPECT_THAT(mill_.calls, ElementsAre("AbortJob"));
+}
+
+TEST_F(MillCalls, AMillMustBeNamed) {
+  options_.device = "";
+  for (const auto verb : {mill_send, mill_queue, mill_start, mill_watch, mill_pause, mill_resume, mill_abort}) {
+    EXPECT_EQ(run(verb).exit_code, kUsage);
+  }
+  EXPECT_THAT(mill_.calls, IsEmpty());
+}
+
+TEST_F(MillCalls, QueueAsJson) {
+  options_.json = true;
+  EXPECT_THAT(run(mill_queue).output, HasSubstr(R"("name":"devices/mill")"));
+}
+
+}  // namespace
+}  // namespace axisgate::axisctl

@@ -1,0 +1,154 @@
+// How axisctl follows a job, and how it exits at the job's end.
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/verbs.h"
+#include "tests/axisctl/scripted_mill.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+using ::testing::HasSubstr;
+
+class MillWatch : public MillVerbs {
+ protected:
+  MillWatch() { add_job(v1::JOB_STATE_RUNNING); }
+
+  // The mill as it is reported next.
+  v1::Mill& report(v1::SendingState sending, std::int64_t executed) {
+    v1::Mill& state = mill_.watched.emplace_back(mill_.mill);
+    v1::RunningJob& running = *state.mutable_running();
+    running.set_job("devices/mill/jobs/7");
+    running.set_sending(sending);
+    running.set_written(15'000);
+    running.set_executed_least(executed);
+    running.set_executed_most(executed);
+    running.mutable_run_on()->set_at_most(64);
+    return state;
+  }
+
+  void report_end(v1::JobState state) { mill_.watched.emplace_back(mill_.mill).mutable_jobs(0)->set_state(state); }
+};
+
+TEST_F(MillWatch, EachChangeOnALineUntilItIsFed) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report(v1::SENDING_STATE_SENDING, 0);
+  report(v1::SENDING_STATE_SENDING, 15'000);
+  report_end(v1::JOB_STATE_FED);
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kDone);
+  EXPECT_EQ(ended.output,
+            "job 7 (frame.rml) RUNNING; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 bytes run on\n"
+            "SENDING [          ] 0 %, 15000 of 30000 bytes written, 10 min 0 s to 16 min 40 s left\n"
+            "SENDING [=====     ] 50 %, 15000 of 30000 bytes written, 5 min 0 s to 8 min 20 s left\n"
+            "job 7 (frame.rml) FED: all was sent, and the slowest mill has executed it by now; look at the workpiece, "
+            "then `axisctl mill done 7`\n");
+}
+
+TEST_F(MillWatch, BusyIsSaidOnceEachTime) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report(v1::SENDING_STATE_SENDING, 1).mutable_running()->set_busy(true);
+  report(v1::SENDING_STATE_SENDING, 2).mutable_running()->set_busy(true);
+  report(v1::SENDING_STATE_SENDING, 3);
+  report(v1::SENDING_STATE_SENDING, 4).mutable_running()->set_busy(true);
+  report_end(v1::JOB_STATE_FED);
+  const std::string output = run(mill_watch).output;
+  const std::string busy = "the mill is busy: look at it\n";
+  const std::size_t first = output.find(busy), second = output.find(busy, first + 1);
+  EXPECT_NE(second, std::string::npos);
+  EXPECT_EQ(output.find(busy, second + 1), std::string::npos);
+}
+
+TEST_F(MillWatch, AnAbortedJobHasLeftTheQueue) {
+  report(v1::SENDING_STATE_ABORTING, 0);
+  mill_.watched.emplace_back(mill_.mill).clear_jobs();
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_EQ(ended.reason, "ABORTED");
+}
+
+TEST_F(MillWatch, AbortedIsNoSuccess) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_ABORTED);
+  EXPECT_EQ(run(mill_watch).reason, "ABORTED");
+}
+
+// As a newer daemon may send it.
+TEST_F(MillWatch, AnUnknownStateIsNoSuccess) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(static_cast<v1::JobState>(99));
+  EXPECT_EQ(run(mill_watch).exit_code, kFailed);
+}
+
+TEST_F(MillWatch, AJobThatIsGoneIsNotSaidToBeAborted) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  mill_.watched.emplace_back(mill_.mill).clear_jobs();
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_EQ(ended.reason, "OUTCOME_UNKNOWN");
+}
+
+TEST_F(MillWatch, AfterALostLine) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_PAUSED_UNKNOWN);
+  mill_.watched.back().mutable_jobs(0)->set_sent_least(1000);
+  mill_.watched.back().mutable_jobs(0)->set_sent_most(1200);
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_EQ(ended.message,
+            "job 7 (frame.rml): the line broke, or the daemon was killed; the mill was sent 1000 to 1200 of 30000 "
+            "bytes");
+}
+
+TEST_F(MillWatch, ADaemonThatEnds) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  mill_.watch_ends = true;
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kFailed);
+  EXPECT_EQ(ended.message, "the daemon reports no more of job 7: the daemon ends");
+  mill_.watched.clear();
+  EXPECT_EQ(run(mill_watch).exit_code, kUnavailable);  // nothing was seen to run
+}
+
+TEST_F(MillWatch, TheNextJobWhereNoneRuns) {
+  mill_.watched.resize(2, mill_.mill);
+  mill_.watched[0].mutable_jobs(0)->set_state(v1::JOB_STATE_CONFIRMED);
+  mill_.watched[1].mutable_jobs(0)->set_state(v1::JOB_STATE_CONFIRMED);
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_FED);
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kDone);
+  EXPECT_EQ(ended.output.find("no job runs\njob 7 (frame.rml) RUNNING; "), 0U);
+}
+
+TEST_F(MillWatch, OneObjectAMessage) {
+  options_.json = true;
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_FED);
+  const std::string output = run(mill_watch).output;
+  EXPECT_EQ(std::count(output.begin(), output.end(), '\n'), 2);
+  EXPECT_THAT(output, HasSubstr("\"running\":{\"job\":\"devices/mill/jobs/7\""));
+}
+
+// The newest state may be from before the start.
+TEST_F(MillWatch, AJobThatWasJustStarted) {
+  mill_.watched.push_back(mill_.mill);
+  mill_.watched[0].mutable_jobs(0)->set_state(v1::JOB_STATE_CONFIRMED);
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_FED);
+  mill_.mill.mutable_jobs(0)->set_state(v1::JOB_STATE_CONFIRMED);
+  options_.follow = true;
+  const Ended ended = run(mill_start);
+  EXPECT_EQ(ended.exit_code, kDone);
+  EXPECT_EQ(ended.output.find("job 7 (frame.rml) CONFIRMED; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 "
+                              "bytes run on\nSENDING "),
+            0U);
+  EXPECT_THAT(ended.output, HasSubstr("job 7 (frame.rml) FED: "));
+}
+
+}  // namespace
+}  // namespace axisgate::axisctl

@@ -1,0 +1,232 @@
+#!/usr/bin/env python3
+"""Jobs of people at a mill: sent, confirmed, started, paused, aborted, cancelled, and seen. Both mills are simulated;
+`quick` is an MDX-20 that executes a small job within a second."""
+
+import os
+import pathlib
+import pty
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from programs import BIN, LIMIT_S, ROOT, Daemon
+
+CONFIG = """
+listen = "127.0.0.1:0"
+metrics = "127.0.0.1:0"
+socket = "{socket}"
+
+[[device]]
+name = "stage"
+connection = "simulated"
+
+[[device]]
+name = "mill"
+kind = "rml1"
+profile = "mdx-20"
+connection = "simulated"
+tools = ["T1", "T2"]
+
+[[device]]
+name = "quick"
+kind = "rml1"
+profile = "%s"
+connection = "simulated"
+tools = ["T1"]
+"""
+
+# What an MDX-20 takes 50 s for.
+SMALL = "^IN;!PZ-50,200;PU100,100;PU;H;\n"
+# Moves with the tool up, 200 mm each: more than ten minutes.
+LONG = "^IN;!MC0;!PZ-50,200;" + "PU8000,0;PU0,0;" * 50 + "H;\n"
+
+
+def quick_profile():
+    """That of the MDX-20, but for what takes time."""
+    text = (ROOT / "deploy" / "mills" / "mdx-20.toml").read_text(encoding="utf-8")
+    for key, value in (("travel", 1000), ("travel_z", 1000), ("cutting_maximum", 1000), ("z_maximum", 1000),
+                       ("z_default", 1000), ("best", 10000), ("worst", 10000), ("slower", 0), ("spin_up_s", 0)):
+        text, count = re.subn(rf"(?m)^{key} = \S+", f"{key} = {value}", text)
+        if count != 1:
+            raise AssertionError(f"the profile of the MDX-20 has {key} {count} times")
+    return text
+
+
+class MillJobs(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="axisctl-jobs-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        profile = self.folder / "quick.toml"
+        profile.write_text(quick_profile(), encoding="utf-8")
+        self.daemon = Daemon(folder.name, CONFIG % profile)
+        self.addCleanup(lambda: self.daemon.stop())
+        for device in ("mill", "quick"):
+            self.await_queue("  line open\n", device)
+
+    def run_mill(self, *arguments, device="mill", stdin=""):
+        return self.daemon.run("--device", device, "mill", *arguments, stdin=stdin)
+
+    def run_well(self, *arguments, **more):
+        answer = self.run_mill(*arguments, **more)
+        self.assertEqual((answer.returncode, answer.stderr), (0, ""), answer.stdout)
+        return answer.stdout
+
+    def refused(self, pattern, *arguments, code=3, **more):
+        answer = self.run_mill(*arguments, **more)
+        self.assertEqual(answer.returncode, code, answer.stdout + answer.stderr)
+        self.assertRegex(answer.stderr, pattern)
+
+    def run_as_stranger(self, *arguments, stdin=""):
+        return subprocess.run([BIN / "axisctl", "--target", self.daemon.address(), "--device", "mill", "mill", *arguments],
+                              input=stdin, capture_output=True, text=True, timeout=LIMIT_S, check=False)
+
+    def send(self, job, *options, **more):
+        """The number of the job."""
+        sent = self.run_well("send", "-", "--title", "frame", *options, stdin=job, **more)
+        return re.fullmatch(r"job (\d+) \(frame\) QUEUED; takes .+\n", sent)[1]
+
+    def start_long(self):
+        number = self.send(LONG)
+        self.run_well("confirm", "--yes", "--start")
+        self.await_queue(rf"job {number} \(frame\) SENDING ")
+        return number
+
+    def await_queue(self, pattern, device="mill"):
+        deadline = time.monotonic() + LIMIT_S
+        while True:
+            answer = self.run_mill("queue", device=device)
+            if re.search(pattern, answer.stdout):
+                return answer.stdout
+            self.assertLess(time.monotonic(), deadline, answer.stdout + answer.stderr)
+            time.sleep(0.05)  # between two looks; the deadline above decides
+
+    def test_from_the_file_to_the_workpiece(self):
+        file = self.folder / "lid.rml"
+        file.write_text(SMALL, encoding="ascii")
+        sent = self.run_well("send", str(file), device="quick")
+        number = re.fullmatch(r"job (\d+) \(lid\.rml\) QUEUED; takes .+\n", sent)[1]
+        self.assertRegex(self.run_well("queue", device="quick"), rf"(?m)^{number} +lid\.rml +unix \S+ +QUEUED +T1 +panel ")
+        self.refused("NOT_ALLOWED", "start", number, device="quick")
+        self.refused("a person at the mill must confirm", "confirm", code=2, device="quick")
+        confirmed = self.run_well("confirm", "--yes", device="quick")
+        self.assertRegex(confirmed, r"\n  tool      T1\n  origin    as it is set at the panel\n")
+        self.assertRegex(confirmed, rf"\njob {number} \(lid\.rml\) is confirmed by unix \S+ until 20\d\d-")
+        self.assertRegex(self.run_well("queue", device="quick"), r" CONFIRMED .* by unix \S+ until ")
+        followed = self.run_well("start", "--follow", device="quick")
+        self.assertRegex(followed, r"; after an abort at most \d+ bytes run on")
+        self.assertRegex(followed, rf"\njob {number} \(lid\.rml\) FED: all was sent, ")
+        self.assertRegex(self.run_well("queue", device="quick"), r"no job runs\n(.*\n)*.* FED ")
+        self.assertEqual(self.run_well("done", number, device="quick"), f"job {number} is DONE\n")
+        self.assertRegex(self.run_well("queue", device="quick"), r"\nno jobs\n\Z")
+
+    def answer(self, text):
+        """What `confirm` exits with after this answer at a terminal."""
+        person, terminal = pty.openpty()
+        self.addCleanup(os.close, person)
+        os.write(person, text)
+        asked = subprocess.run(self.daemon.command("--device", "mill", "mill", "confirm"), stdin=terminal,
+                               capture_output=True, text=True, timeout=LIMIT_S, check=False)
+        os.close(terminal)
+        self.assertRegex(asked.stdout, r"\nThe material is in, the tool T2 is in, the origin is set, and nothing is in the "
+                                       r"way\? \[yes/no\]\n")
+        return asked.returncode
+
+    def test_a_person_answers(self):
+        self.send(SMALL, "--tool", "T2")
+        self.assertEqual(self.answer(b"y\n"), 1)
+        self.assertRegex(self.run_well("queue"), " QUEUED ")
+        self.assertEqual(self.answer(b"yes\n"), 0)
+        self.assertRegex(self.run_well("queue"), " CONFIRMED ")
+
+    def test_abort_in_the_middle(self):
+        number = self.start_long()
+        watching = self.daemon.start("--device", "mill", "mill", "watch")
+        self.addCleanup(lambda: watching.process.poll() is None and watching.kill())
+        watching.until(r"\ASENDING \[.{10}\] \d+( to \d+)? %, \d+ of \d+ bytes written, ")
+        self.send(SMALL)
+        self.assertRegex(self.run_well("abort"), rf"\Athe abort was sent: at most \d+ bytes of job {number} may run on")
+        self.assertEqual(watching.end(), 1)
+        self.assertRegex(watching.errors, rf"ABORTED: the abort of job {number} |OUTCOME_UNKNOWN: job {number} has left")
+        self.assertNotRegex(self.run_well("queue"), rf"(?m)^{number} ")
+        self.refused("NOT_ALLOWED", "start")  # the next one is not confirmed by that
+
+    def test_the_history_has_what_became_of_a_job(self):
+        number = self.send(SMALL)
+        self.run_well("cancel", number)
+        history = self.daemon.run("--device", "mill", "history")
+        self.assertEqual((history.returncode, history.stderr), (0, ""))
+        self.assertRegex(history.stdout, rf"  mill  job {number} of unix \S+ is CANCELLED")
+        self.assertRegex(history.stdout, rf"  mill  job {number} of unix \S+ is QUEUED")
+
+    def test_abort_where_none_runs(self):
+        self.assertEqual(self.run_well("abort"), "the abort was sent; no job ran; look at the mill\n")
+
+    def test_pause_and_resume(self):
+        number = self.start_long()
+        self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it still run.*; the "
+                                                 r"cutter keeps turning in the cut\n\Z")
+        self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) PAUSED \[")
+        self.refused("WRONG_MODE", "pause")
+        self.assertRegex(self.run_well("resume"), rf"\Ajob {number} is resumed; ")
+        self.await_queue(rf"\njob {number} \(frame\) SENDING \[")
+        self.refused("WRONG_MODE", "resume")
+        self.run_well("abort")
+
+    def test_cancel(self):
+        first, second = self.send(SMALL), self.send(SMALL)
+        self.assertEqual(self.run_well("cancel", first), f"job {first} is CANCELLED\n")
+        self.assertEqual(re.findall(r"(?m)^(\d+) ", self.run_well("queue")), [second])
+        self.refused("NOT_FOUND", "cancel", first)
+        self.refused("WRONG_MODE", "done", second)
+
+    def test_the_job_of_another_person_waits(self):
+        running, mine = self.start_long(), self.send(SMALL)
+        sent = self.run_as_stranger("send", "-", "--title", "lid", stdin=SMALL)
+        self.assertEqual(sent.returncode, 0, sent.stderr)
+        theirs = re.match(r"job (\d+) \(lid\) QUEUED", sent.stdout)[1]
+        queue = self.run_well("queue")
+        self.assertEqual(re.findall(r"(?m)^(\d+) ", queue), [running, mine, theirs])
+        self.assertRegex(queue, rf"(?m)^{theirs} +lid +tcp 127\.0\.0\.1\S* +QUEUED ")
+        self.refused("WRONG_MODE", "confirm", theirs, "--yes")
+        refused = self.run_as_stranger("cancel", mine)
+        self.assertEqual(refused.returncode, 3)
+        self.assertRegex(refused.stderr, "NOT_ALLOWED")
+        aborted = self.run_as_stranger("abort")  # as a stop: everybody may
+        self.assertEqual(aborted.returncode, 0, aborted.stderr)
+        self.assertRegex(aborted.stdout, rf"of job {running} may run on")
+
+    def test_the_same_request_is_one_job(self):
+        command = ("--device", "mill", "--request-id", "lid-1", "mill", "send", "-")
+        first, again = (self.daemon.run(*command, stdin=SMALL) for _ in range(2))
+        self.assertEqual((first.returncode, again.returncode), (0, 0), first.stderr + again.stderr)
+        self.assertEqual(first.stdout, again.stdout)
+        self.assertEqual(len(re.findall(r"(?m)^\d+ ", self.run_well("queue"))), 1)
+
+    def test_what_is_not_sent_into_the_queue(self):
+        self.refused("INVALID_REQUEST", "send", "-", stdin="Q;")
+        self.refused("INVALID_REQUEST", "send", "-", stdin=SMALL + "!NR;")  # a warning
+        self.refused("INVALID_REQUEST", "send", "-", "--tool", "T9", stdin=SMALL)
+        self.refused("missing.rml cannot be read", "send", str(self.folder / "missing.rml"), code=2)
+        self.assertRegex(self.run_well("queue"), r"\nno jobs\n\Z")
+
+    def test_ctrl_c_does_not_end_a_job(self):
+        number = self.start_long()
+        watching = self.daemon.start("--device", "mill", "mill", "watch")
+        watching.until(r"\ASENDING ")
+        watching.process.send_signal(signal.SIGINT)
+        self.assertEqual(watching.end(), 130)
+        self.assertIn("axisctl: the job continues; to end it: axisctl mill abort\n", watching.errors)
+        self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) SENDING \[")
+
+    def test_a_mill_must_be_named(self):
+        answer = self.daemon.run("mill", "queue")
+        self.assertEqual(answer.returncode, 2)
+        self.assertRegex(answer.stderr, r"no mill is named \(.*--device NAME")
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,149 @@
+#!/usr/bin/env python3
+"""The daemon is killed in the middle of a job, and the line of a mill is unplugged: what the mill was sent lies within
+what is said of it, nothing is resumed, and no command is sent twice. AXISGATE_MILL_KILLS=50 does each so often; the
+ordinary run does it 4 times. AXISGATE_KILL_SEED chooses when."""
+
+import json
+import os
+import pathlib
+import random
+import signal
+import tempfile
+import time
+import unittest
+
+from mill_jobs_test import quick_profile
+from programs import BIN, LIMIT_S, Daemon, Lines
+
+KILLS = int(os.environ.get("AXISGATE_MILL_KILLS", "4"))
+SEED = int(os.environ.get("AXISGATE_KILL_SEED", random.randrange(1_000_000)))
+CONFIG = """
+listen = "127.0.0.1:0"
+metrics = "127.0.0.1:0"
+socket = "{socket}"
+
+[[device]]
+name = "stage"
+connection = "simulated"
+
+[[device]]
+name = "mill"
+kind = "rml1"
+profile = "PROFILE"
+connection = "serial"
+path = "TTY"
+baud = 9600
+window = 64
+converter = 0
+"""
+BEGINNING = "!MC0;PA;"
+COMMANDS = 4000
+
+
+def job(run):
+    """Each command has a number that no other has."""
+    return BEGINNING + "".join(f"PU{number},{run};" for number in range(1, COMMANDS + 1))
+
+
+def end_of(number, run):
+    """How many bytes of the job there are up to that command's end."""
+    return len(job(run).partition(f"PU{number + 1},{run};")[0])
+
+
+class MillKill(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="axisgate-mill-kill-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.profile = self.folder / "quick.toml"
+        self.profile.write_text(quick_profile(), encoding="utf-8")
+        self.random = random.Random(SEED)
+        self.simulators = 0
+        self.plug_in()
+        config = CONFIG.replace("PROFILE", str(self.profile)).replace("TTY", str(self.folder / "tty"))
+        self.config = config
+        self.daemon = Daemon(folder.name, config)
+        self.addCleanup(lambda: self.daemon.stop())
+
+    def plug_in(self):
+        """A new mill at the same place, with a record of its own."""
+        self.simulators += 1
+        self.record = self.folder / f"record-{self.simulators}.json"
+        self.mill = Lines([BIN / "rml1-sim", "--pty", self.folder / "tty", "--profile", self.profile, "--baud", "9600",
+                           "--record", self.record])
+        self.addCleanup(self.mill.kill)
+        self.mill.until("simulator on")
+
+    def entries(self):
+        lines = self.record.read_text(encoding="ascii").splitlines(keepends=True)
+        return [json.loads(line) for line in lines if line.endswith("\n")]
+
+    def numbers(self, run):
+        """Those of the job's commands that the mill has begun, in their order."""
+        begun = [entry["numbers"] for entry in self.entries() if entry.get("command") == "PU" and entry.get("numbers")]
+        return [int(first) for first, *rest in begun if [int(number) for number in rest] == [run]]
+
+    def axisctl(self, *words, stdin=""):
+        answer = self.daemon.run("--device", "mill", *words, stdin=stdin)
+        self.assertEqual(answer.returncode, 0, f"{words}: {answer.stdout}{answer.stderr}")
+        return answer.stdout
+
+    def jobs(self):
+        return json.loads(self.axisctl("--json", "mill", "queue")).get("jobs", [])
+
+    def await_true(self, condition, what):
+        deadline = time.monotonic() + LIMIT_S
+        while not condition():
+            self.assertLess(time.monotonic(), deadline, f"seed {SEED}: {what}")
+            time.sleep(0.02)  # between two looks; the deadline above decides
+
+    def begin(self, run):
+        self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
+        self.axisctl("mill", "send", "-", "--title", "numbers", "--accept", "5-1,5-2", stdin=job(run))
+        self.axisctl("mill", "confirm", "--yes", "--start")
+        least = self.random.randint(3, 150)
+        self.await_true(lambda: len(self.numbers(run)) >= least, "the job does not run")
+
+    def check(self, run, numbers):
+        """What the mill was sent, and what is said of it."""
+        self.await_true(lambda: [one["state"] for one in self.jobs()] == ["JOB_STATE_PAUSED_UNKNOWN"], "no outcome")
+        self.assertEqual(numbers, list(range(1, len(numbers) + 1)), f"seed {SEED}")
+        left = self.jobs()[0]
+        most = int(left["sent_most"])
+        self.assertLessEqual(end_of(len(numbers), run), most, f"seed {SEED}: more than it is said to have")
+        self.assertLessEqual(int(left.get("sent_least", 0)), most)
+        self.axisctl("mill", "cancel", left["name"].rpartition("/")[2])
+
+    def aborted(self):
+        """The abort of the daemon has come: the tool is raised by !ZM."""
+        return any(entry.get("command") == "!ZM" for entry in self.entries())
+
+    def test_killed_daemons(self):
+        for run in range(1, KILLS + 1):
+            with self.subTest(run=run, seed=SEED):
+                self.begin(run)
+                aborts = sum(entry.get("command") == "!ZM" for entry in self.entries())
+                self.daemon.signal(signal.SIGKILL)
+                self.daemon.wait(LIMIT_S)
+                self.daemon = Daemon(str(self.folder), self.config)
+                self.await_true(
+                    lambda: sum(entry.get("command") == "!ZM" for entry in self.entries()) > aborts, "no abort")
+                numbers = self.numbers(run)
+                self.check(run, numbers)
+                self.assertEqual(self.numbers(run), numbers, "something was sent after the restart")
+
+    def test_unplugged_lines(self):
+        for run in range(1, KILLS + 1):
+            with self.subTest(run=run, seed=SEED):
+                self.begin(run)
+                self.mill.kill()
+                numbers = self.numbers(run)
+                self.await_true(lambda: [one["state"] for one in self.jobs()] == ["JOB_STATE_PAUSED_UNKNOWN"], "no outcome")
+                self.plug_in()
+                self.await_true(self.aborted, "no abort")
+                self.check(run, numbers)
+                self.assertEqual(self.numbers(run), [], "something of the job was sent again")
+
+
+if __name__ == "__main__":
+    unittest.main()
