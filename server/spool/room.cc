@@ -25,6 +25,17 @@ Result<std::unique_ptr<Place>> Room::take(std::string identity) {
   return std::unique_ptr<Place>(new Place(*this, std::move(identity), 0));
 }
 
+bool Room::is_short() {
+  const std::lock_guard lock(mutex_);
+  return jobs_ >= bounds_.jobs || bytes_ + bounds_.bytes_of_one > bounds_.bytes;
+}
+
+bool Room::is_short_for(const std::string& identity) {
+  const std::lock_guard lock(mutex_);
+  const auto found = bytes_of_.find(identity);
+  return found != bytes_of_.end() && found->second + bounds_.bytes_of_one > bounds_.bytes_of_identity;
+}
+
 std::unique_ptr<Place> Room::hold(std::string identity, std::int64_t bytes) {
   const std::lock_guard lock(mutex_);
   return std::unique_ptr<Place>(new Place(*this, std::move(identity), bytes));

@@ -32,6 +32,9 @@ class Room {
 
   // For a job without bytes yet. queue_full, where there are as many as may be.
   Result<std::unique_ptr<Place>> take(std::string identity);
+  // Whether a job of the greatest size may not fit: beside all jobs, or beside those of the identity.
+  bool is_short();
+  bool is_short_for(const std::string& identity);
   // For a job that is there already, also beyond the bounds.
   std::unique_ptr<Place> hold(std::string identity, std::int64_t bytes);
 

@@ -67,6 +67,7 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
   if (!is_name(device)) return fail(Reason::unknown_device, fmt::format("there is no device {}", quoted_bytes(device)));
   auto name = job_name(fresh.name);
   if (!name) return tl::unexpected(name.error());
+  make_room(fresh.identity, fresh.created);
   auto place = room_.take(fresh.identity);
   if (!place) return tl::unexpected(place.error());
   Device& home = device_of(device);
@@ -84,6 +85,31 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
   return std::make_unique<Upload>(
       home.folder, *std::move(file), std::move(job), *std::move(place),
       [this, &home](const Job& whole, std::unique_ptr<Place> held) { return keep(home, whole, std::move(held)); });
+}
+
+// A problem of the disk shows again where the job is written.
+void Spool::make_room(const std::string& identity, std::chrono::sys_seconds now) {
+  (void)drop_old(now);
+  const std::lock_guard writing(writing_);
+  while (room_.is_short_for(identity) && drop_oldest_ended(&identity)) continue;
+  while (room_.is_short() && drop_oldest_ended(nullptr)) continue;
+}
+
+bool Spool::drop_oldest_ended(const std::string* identity) {
+  Device* home = nullptr;
+  const Job* oldest = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    for (auto& [name, device] : devices_) {
+      for (const auto& [id, kept] : device.jobs) {
+        const bool gives_way = kept.job.ended && (identity == nullptr || kept.job.identity == *identity);
+        if (!gives_way || (oldest != nullptr && *oldest->ended <= *kept.job.ended)) continue;
+        home = &device;
+        oldest = &kept.job;
+      }
+    }
+  }
+  return oldest != nullptr && drop(*home, oldest->id).has_value();
 }
 
 Result<void> Spool::keep(Device& device, const Job& job, std::unique_ptr<Place> place) {

@@ -27,7 +27,8 @@ class Spool {
   // write there.
   static Result<std::unique_ptr<Spool>> open(std::string directory, const Bounds& bounds);
 
-  // The Spool outlives the upload. invalid_request as job_name(); unknown_device for what is no name of one; queue_full
+  // Jobs that have ended give way to it, where there may be too little room: the oldest first. The Spool outlives the
+  // upload. invalid_request as job_name(); unknown_device for what is no name of one; queue_full
   // as Room::take(); internal, where the disk refuses it.
   Result<std::unique_ptr<Upload>> begin(const std::string& device, NewJob fresh);
 
@@ -63,6 +64,8 @@ class Spool {
 
   Spool(std::string directory, const Bounds& bounds);
   Result<void> read_all();
+  void make_room(const std::string& identity, std::chrono::sys_seconds now);
+  bool drop_oldest_ended(const std::string* identity);  // false: there is none
   Device& device_of(const std::string& name);
   Result<Found> find(const std::string& device, std::uint64_t id) const;
   Result<void> keep(Device& device, const Job& job, std::unique_ptr<Place> place);

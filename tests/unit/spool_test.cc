@@ -232,6 +232,33 @@ TEST_F(SpoolBounds, WhatIsRemovedMakesRoom) {
   EXPECT_TRUE(upload("0123456789"));
 }
 
+TEST_F(SpoolBounds, JobsThatHaveEndedGiveWayTheOldestFirst) {
+  for (int job = 1; job <= 4; ++job) ASSERT_TRUE(upload("0"));
+  ASSERT_TRUE(spool_->end("mill", 3, kNow));
+  ASSERT_TRUE(spool_->end("mill", 2, kNow + std::chrono::seconds(1)));
+  EXPECT_TRUE(upload("0"));
+  EXPECT_THAT(ids(), ElementsAre(1, 2, 4, 5));
+  EXPECT_TRUE(upload("0"));
+  EXPECT_THAT(ids(), ElementsAre(1, 4, 5, 6));
+  EXPECT_EQ(why(upload("0")), "QUEUE_FULL: 4 jobs are kept already, as many as may be");
+}
+
+TEST_F(SpoolBounds, OnlyOnesOwnGiveWayWhereOnesOwnAreTooMany) {
+  ASSERT_TRUE(upload("0123456789", "unix bert"));
+  ASSERT_TRUE(spool_->end("mill", 1, kNow));
+  ASSERT_TRUE(upload("0123456789"));
+  ASSERT_TRUE(spool_->end("mill", 2, kNow + std::chrono::seconds(1)));
+  EXPECT_TRUE(upload("012345"));
+  EXPECT_THAT(ids(), ElementsAre(1, 3));
+}
+
+TEST_F(SpoolBounds, WhatIsTooOldGoesWithTheNextUpload) {
+  ASSERT_TRUE(upload("0"));
+  ASSERT_TRUE(spool_->end("mill", 1, kNow - std::chrono::days(30)));
+  EXPECT_TRUE(upload("1"));
+  EXPECT_THAT(ids(), ElementsAre(2));
+}
+
 TEST_F(SpoolBounds, AJobThatLacksAPieceIsNone) {
   auto begun = begin();
   ASSERT_TRUE((*begun)->append("01234567"));
