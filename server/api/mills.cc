@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/asio/post.hpp>
 #include <utility>
 
+#include "server/api/audit.h"
 #include "server/api/names.h"
 #include "server/devices/spooled_jobs.h"
 
@@ -54,16 +56,62 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
               "`axisctl mill queue` lists them; `axisctl history` has those that have ended");
 }
 
-// A repeat acts no more: the job as it is now.
-void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, const Answer<CurrentJob>& answer) {
+// The job of the first of two requests with one id: the newest that is the same in all.
+Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
+  const auto same = [&](const rml1::Job& one) {
+    return one.setup == again.setup && one.owner == again.owner && one.name == again.name;
+  };
+  const auto found = std::find_if(jobs.rbegin(), jobs.rend(), same);
+  if (found != jobs.rend()) return CurrentJob{&mill, *found, server::moment_of(now)};
+  return fail(Reason::not_found, "the job was sent before, and has ended", "`axisctl history` has it");
+}
+
+// A repeat acts no more: the job as it is now. One that has left the queue meanwhile had `then` come of it.
+void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, rml1::JobState then,
+                const Answer<CurrentJob>& answer) {
   repeat_done(known, [&](const Result<void>& done) {
     if (!done) return answer(tl::unexpected(done.error()));
-    mill.post([&mill, number, answer](rml1::MillController& controller, TimePoint now) {
+    mill.post([&mill, number, then, answer](rml1::MillController& controller, TimePoint now) {
       const Result<rml1::Job> job = find_job(controller, number);
-      if (!job) return answer(tl::unexpected(job.error()));
-      answer(CurrentJob{&mill, *job, server::moment_of(now)});
+      if (!job && !rml1::is_end(then)) return answer(tl::unexpected(job.error()));
+      rml1::Job ended;
+      ended.number = number;
+      ended.state = then;
+      CurrentJob current{&mill, job.value_or(ended), server::moment_of(now)};
+      const auto running = controller.running(now);
+      if (running && running->number == number) current.run_on = running->run_on;
+      answer(std::move(current));
     });
   });
+}
+
+// While it was posted or waited for the journal, its caller may have left.
+Result<void> check_in_time(const MillTurn& turn) {
+  if (turn.now <= turn.context.not_after) return {};
+  return fail(Reason::deadline_passed, "the request came to the mill after its not_after",
+              "ask again, with a later not_after");
+}
+
+// The configuration may have changed since the job was sent.
+Result<void> check_setup(const Mill& mill, const rml1::Job& job) {
+  const server::MillConfig& config = mill.config();
+  const bool has_origin =
+      job.setup.origin.empty() ||
+      std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
+  const bool has_tool = std::ranges::find(config.tools, job.setup.tool) != config.tools.end();
+  if (job.setup.profile == config.profile.name && has_origin && has_tool) return {};
+  return fail(
+      Reason::stale_setpoint,
+      fmt::format(
+          "{} was checked for the profile {}, the origin \"{}\" and the tool {}, and {} is configured otherwise now",
+          text_of(job), job.setup.profile, job.setup.origin, job.setup.tool, mill.name()),
+      "cancel it, and send it again");
+}
+
+// What a job has come to by a request of the kind.
+rml1::JobState outcome_of(RequestKind kind) {
+  if (kind == RequestKind::cancel_job) return rml1::JobState::cancelled;
+  return kind == RequestKind::report_job_done ? rml1::JobState::done : rml1::JobState::running;
 }
 
 // "unix" is anybody on the Unix socket, "unix anna" one of them.
@@ -77,11 +125,18 @@ std::string station_text(const Mill& mill) { return fmt::format("{}", fmt::join(
 
 }  // namespace
 
-JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline, JobToSend job,
-                     const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
+Problem not_sent_to(const Mill& mill) {
+  return {.reason = Reason::link_down,
+          .message = fmt::format("the line to {} is closed: the abort is sent when it is back", mill.name()),
+          .hint = "use the mill's own switch"};
+}
+
+JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline, boost::asio::thread_pool& worker,
+                     JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
     : call_(call),
       mill_(mill),
       pipeline_(pipeline),
+      worker_(worker),
       job_(std::move(job)),
       spooled_(std::move(spooled)),
       check_(mill.config().profile, options) {}
@@ -110,8 +165,12 @@ Result<void> JobUpload::judge() const {
                     : "correct the job; `axisctl mill check` shows all errors");
 }
 
-// A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
 void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
+  boost::asio::post(worker_, [this, digest = std::move(digest), answer] { keep(digest, answer); });
+}
+
+// A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
+void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   check_.finish();
   if (const Result<void> good = judge(); !good) return answer(tl::unexpected(good.error()));
   Result<server::spool::Job> spooled = spooled_->finish();
@@ -135,15 +194,12 @@ void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
         drop();
         answer(tl::unexpected(problem));
       },
-      [drop, answer, digest = job.setup.digest](Mill& mill, const Result<Known>& known) {
+      [drop, answer, job](Mill& mill, const Result<Known>& known) {
         drop();
         repeat_done(known, [&](const Result<void>& done) {
           if (!done) return answer(tl::unexpected(done.error()));
-          mill.post([&mill, digest, answer](rml1::MillController& controller, TimePoint now) {
-            const auto same = [&](const rml1::Job& one) { return one.setup.digest == digest; };
-            const auto found = std::ranges::find_if(controller.jobs(), same);
-            if (found != controller.jobs().end()) return answer(CurrentJob{&mill, *found, server::moment_of(now)});
-            answer(fail(Reason::not_found, "the job was sent before, and has ended", "`axisctl history` has it"));
+          mill.post([&mill, job, answer](rml1::MillController& controller, TimePoint now) {
+            answer(sent_before(mill, controller.jobs(), job, now));
           });
         });
       });
@@ -171,7 +227,7 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
       mill.name(), {job.title, admitted->caller.who, server::identity_of(admitted->caller.who),
                     server::facts_of({"", config.profile.name, job.origin, job.tool}, 0, 0), server::calendar_now()});
   if (!spooled) return tl::unexpected(spooled.error());
-  return std::make_unique<JobUpload>(call, mill, pipeline_, std::move(job), options, *std::move(spooled));
+  return std::make_unique<JobUpload>(call, mill, pipeline_, worker_, std::move(job), options, *std::move(spooled));
 }
 
 void Mills::get(const Call& call, std::string_view device, Answer<MillState> answer) const {
@@ -196,6 +252,7 @@ void Mills::act_on_job(RequestKind kind, const Call& call, std::string_view name
   pipeline_.act(
       {kind, call, device_of(found)},
       [kind, number](const MillTurn& turn) -> Result<std::string> {
+        if (const Result<void> in_time = check_in_time(turn); !in_time) return tl::unexpected(in_time.error());
         const Result<rml1::Job> job = find_job(turn.controller, number);
         if (!job) return tl::unexpected(job.error());
         return fmt::format("{} {}", api::name(kind), number);
@@ -211,7 +268,9 @@ void Mills::act_on_job(RequestKind kind, const Call& call, std::string_view name
         answer(current(turn, *job));
       },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
-      [number, answer](Mill& mill, const Result<Known>& known) { repeat_job(mill, known, number, answer); });
+      [number, then = outcome_of(kind), answer](Mill& mill, const Result<Known>& known) {
+        repeat_job(mill, known, number, then, answer);
+      });
 }
 
 void Mills::confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen,
@@ -224,7 +283,8 @@ void Mills::confirm(const Call& call, std::string_view job, const rml1::JobSetup
                       fmt::format("{} is not at the station of {}", turn.caller.who, turn.device.name()),
                       "confirm as " + station_text(turn.device) + ": `station` in the configuration");
         }
-        return mill.confirm(it.number, seen, turn.caller.who, turn.now);
+        const Result<void> fits = check_setup(turn.device, it);
+        return fits ? mill.confirm(it.number, seen, turn.caller.who, turn.now) : fits;
       },
       std::move(answer));
 }
@@ -233,16 +293,22 @@ void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> an
   const Result<JobName> found = find_job_name(gateway_, name);
   const auto admitted = pipeline_.admit({RequestKind::start_job, call, device_of(found)});
   if (!admitted) return answer(tl::unexpected(admitted.error()));
-  // Here, since it reads the whole job.
-  const Mill& device = *admitted->device;
-  auto prepared = server::prepared_job(device.spool(), device.name(), device.config(), found->number);
-  if (!prepared) return answer(tl::unexpected(prepared.error()));
+  boost::asio::post(worker_, [this, call, name = std::string(name), &mill = *admitted->device, number = found->number,
+                              answer = std::move(answer)] { start_on_worker(call, name, mill, number, answer); });
+}
+
+// Where it cannot be prepared it is refused for that, unless the request came before.
+void Mills::start_on_worker(const Call& call, const std::string& name, const Mill& mill, rml1::JobNumber number,
+                            const Answer<CurrentJob>& answer) const {
+  const auto prepared = server::prepared_job(mill.spool(), mill.name(), mill.config(), number);
   act_on_job(
       RequestKind::start_job, call, name,
-      [prepared = *std::move(prepared)](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
-        return mill.start(it.number, prepared, turn.now);
+      [prepared](rml1::MillController& controller, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+        if (!prepared) return tl::unexpected(prepared.error());
+        const Result<void> fits = check_setup(turn.device, it);
+        return fits ? controller.start(it.number, *prepared, turn.caller.who, turn.now) : fits;
       },
-      std::move(answer));
+      answer);
 }
 
 void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
@@ -253,7 +319,7 @@ void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> an
           return fail(Reason::not_allowed, fmt::format("{} is not yours", text_of(it)),
                       "its owner or an administrator can cancel it");
         }
-        return mill.cancel(it.number, turn.now);
+        return mill.cancel(it.number, turn.caller.who, turn.now);
       },
       std::move(answer));
 }
@@ -262,7 +328,7 @@ void Mills::done(const Call& call, std::string_view job, Answer<CurrentJob> answ
   act_on_job(
       RequestKind::report_job_done, call, job,
       [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
-        return mill.done(it.number, turn.now);
+        return mill.done(it.number, turn.caller.who, turn.now);
       },
       std::move(answer));
 }
@@ -274,7 +340,7 @@ void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view devi
   };
   pipeline_.act(
       {kind, call, find_mill(gateway_, device)},
-      [kind](const MillTurn&) { return Result<std::string>(std::string(api::name(kind))); },
+      [kind](const MillTurn& turn) { return check_in_time(turn).map([kind] { return std::string(api::name(kind)); }); },
       [act, now, answer](const MillTurn& turn, const MutationPtr& mutation) {
         const Result<void> done = act(turn.controller, turn.now);
         if (!done) {
@@ -311,8 +377,13 @@ void Mills::resume(const Call& call, std::string_view device, Answer<CurrentRun>
 void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
   pipeline_.ask({RequestKind::abort_job, call, find_mill(gateway_, device)}, std::move(answer),
                 [](const MillTurn& turn, const Answer<CurrentRun>& respond) {
-                  turn.controller.abort(fmt::format("requested by {}", turn.caller.who), turn.now);
-                  respond(CurrentRun{&turn.device, turn.controller.running(turn.now), server::moment_of(turn.now)});
+                  audit(RequestKind::abort_job, turn.device, turn.context, "abort");
+                  CurrentRun run{&turn.device, turn.controller.running(turn.now), server::moment_of(turn.now)};
+                  if (!turn.controller.abort(turn.caller.who, turn.now)) {
+                    return respond(tl::unexpected(not_sent_to(turn.device)));
+                  }
+                  if (turn.controller.running_job() != 0) run.running = turn.controller.running(turn.now);
+                  respond(std::move(run));
                 });
 }
 

@@ -1,7 +1,9 @@
 // The jobs of mills: their queue, confirmation at the machine, and the one that runs.
 #pragma once
 
+#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <set>
@@ -51,25 +53,30 @@ struct JobToSend {
 // A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
 class JobUpload {
  public:
-  JobUpload(const Call& call, server::Mill& mill, const MillPipeline& pipeline, JobToSend job,
-            const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
+  JobUpload(const Call& call, server::Mill& mill, const MillPipeline& pipeline, boost::asio::thread_pool& worker,
+            JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
 
   // queue_full, where the spool has no room for more.
   Result<void> append(std::string_view bytes);
   // `digest`: of the whole request. invalid_request, where the check of the job finds errors, or warnings that are not
-  // accepted.
+  // accepted. What `answer` holds outlives this.
   void finish(std::string digest, const Answer<CurrentJob>& answer);
 
  private:
   Result<void> judge() const;
+  void keep(std::string digest, const Answer<CurrentJob>& answer);
 
   Call call_;
   server::Mill& mill_;
   const MillPipeline& pipeline_;
+  boost::asio::thread_pool& worker_;
   const JobToSend job_;
   const std::unique_ptr<server::spool::Upload> spooled_;
   rml1::Check check_;
 };
+
+// Of an abort: the line is closed.
+Problem not_sent_to(const server::Mill& mill);
 
 // Thread safe. The members' problems are those of MillPipeline::admit() and of rml1::MillController.
 class Mills {
@@ -77,6 +84,7 @@ class Mills {
   // All outlive this.
   Mills(server::Gateway& gateway, const MillPipeline& pipeline, Streams& streams)
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
+  ~Mills() { worker_.join(); }
 
   // invalid_request, where there is no such tool or origin; queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
@@ -90,7 +98,7 @@ class Mills {
   void start(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   void pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   void resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
-  // Always acts.
+  // Always acts. link_down: it is sent when the line is back.
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   // not_allowed: the job is somebody else's.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
@@ -100,6 +108,8 @@ class Mills {
   using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
   void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
                   Answer<CurrentJob> answer) const;
+  void start_on_worker(const Call& call, const std::string& name, const server::Mill& mill, rml1::JobNumber number,
+                       const Answer<CurrentJob>& answer) const;
   using RunAct = std::function<Result<void>(rml1::MillController&, TimePoint)>;
   void act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,
                   Answer<CurrentRun> answer) const;
@@ -107,6 +117,9 @@ class Mills {
   server::Gateway& gateway_;
   const MillPipeline& pipeline_;
   Streams& streams_;
+  // What reads or writes a whole job: one at a time, and neither on a device's strand nor on a thread that serves
+  // others.
+  mutable boost::asio::thread_pool worker_{1};
 };
 
 }  // namespace axisgate::api

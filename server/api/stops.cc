@@ -1,12 +1,15 @@
 #include "server/api/stops.h"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <cstddef>
 #include <memory>
 #include <utility>
 
+#include "device/core/escape.h"
+#include "server/api/mills.h"
 #include "server/api/names.h"
 
 namespace axisgate::api {
@@ -39,20 +42,22 @@ class Gathering {
   const Answer<std::vector<DeviceStop>> answer_;
 };
 
-StopReport report_of_abort(std::string_view mill, bool job_ran) {
+StopReport report_of_abort(const Mill& mill, bool job_ran, bool sent) {
+  if (!sent) return {.axes = {}, .problem = not_sent_to(mill)};
   if (!job_ran) return {};
-  return {
-      .axes = {},
-      .problem = Problem{.reason = Reason::outcome_unknown,
-                         .message = fmt::format("the abort was sent to {}; whether it has stopped is not known", mill),
-                         .hint = "look at the machine"}};
+  return {.axes = {},
+          .problem = Problem{
+              .reason = Reason::outcome_unknown,
+              .message = fmt::format("the abort was sent to {}; whether it has stopped is not known", mill.name()),
+              .hint = "look at the machine"}};
 }
 
 void stop_mill(Mill& mill, const std::string& who, const std::shared_ptr<Gathering>& gathering, std::size_t index) {
   mill.post([&mill, who, gathering, index](rml1::MillController& controller, TimePoint now) {
     const bool job_ran = controller.running_job() != 0;
-    controller.abort(fmt::format("requested by {}", who), now);
-    gathering->add(index, report_of_abort(mill.name(), job_ran), {});
+    const bool sent = controller.abort(who, now);
+    spdlog::warn("{}: stop by {}", mill.name(), escaped(who));
+    gathering->add(index, report_of_abort(mill, job_ran, sent), {});
   });
 }
 

@@ -52,6 +52,7 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
     before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll};
   }
   if (!known) content->job = 0;
+  if (!same_boot) content->through = kAll;  // also for the run after this one
   content->mark = kMark;
   content->boot.fill(0);
   std::ranges::copy(boot.substr(0, 47), content->boot.begin());

@@ -47,7 +47,7 @@ void Mill::restore_jobs() {
       end_spooled(spool_, name(), job.number);
     } else {
       job = as_it_was_left(std::move(job), *last);
-      note(job, "the daemon ended", monotonic_now());
+      note(job, "", "the daemon ended", monotonic_now());
       controller_.inherit(std::move(job));
     }
   }
@@ -60,9 +60,10 @@ void Mill::drop_spooled(rml1::JobNumber job) {
 }
 
 // In the log and the journal.
-void Mill::note(const rml1::Job& job, std::string_view why, TimePoint now) {
-  spdlog::info("{}: {} is {}{}{}", name(), text_of(job), rml1::name(job.state), why.empty() ? "" : ": ", why);
-  if (journal_ != nullptr) journal_->append({journal::entry_of(job, name(), now)});
+void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
+  spdlog::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
+               why.empty() ? "" : ": ", why);
+  if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, name(), now)});
 }
 
 void Mill::post(Request request) {
@@ -77,9 +78,9 @@ void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint) {
   spdlog::warn("{}: the line is closed: {}", name(), why);
 }
 
-void Mill::job_changed(const rml1::Job& job, std::string_view why, TimePoint now) {
+void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
   changed_ = true;
-  note(job, why, now);
+  note(job, by, why, now);
   if (record_ && job.state == rml1::JobState::running) record_->begin(job.number);
   if (record_) record_->set_state(job.number, job.state);
   if (rml1::is_end(job.state)) {
@@ -99,7 +100,7 @@ void Mill::about_to_write(rml1::JobNumber, std::uint64_t through) {
 void Mill::after_call() {
   const TimePoint now = monotonic_now();
   if (changed_ || (controller_.running_job() != 0 && now - published_ >= kPublishPause)) publish(now);
-  look_whether_wound_down();
+  look_whether_wound_down(now);
 }
 
 void Mill::publish(TimePoint at) {
@@ -113,22 +114,30 @@ MillNow Mill::now(TimePoint at) {
 }
 
 void Mill::wind_down(std::function<void()> done) {
-  post([this, done = std::move(done)](rml1::MillController& mill, TimePoint now) {
+  post([this, done = std::move(done)](rml1::MillController&, TimePoint now) {
     wound_down_ = done;
-    if (config_.at_exit == MillConfig::AtExit::abort) mill.abort("the daemon ends", now);
+    abort_at_ = config_.at_exit == MillConfig::AtExit::finish ? now + kFinishLimit : now;
   });
 }
 
-void Mill::look_whether_wound_down() {
-  if (!wound_down_ || controller_.running_job() != 0) return;
-  const auto done = std::exchange(wound_down_, {});
-  shutdown();
-  spdlog::info("{}: the line is closed", name());
-  done();
+// Also while a job runs on: its controller is called at least every kLook.
+void Mill::look_whether_wound_down(TimePoint now) {
+  if (!wound_down_) return;
+  if (controller_.is_idle()) {
+    const auto done = std::exchange(wound_down_, {});
+    shutdown();
+    spdlog::info("{}: the line is closed", name());
+    return done();
+  }
+  const auto running = controller_.running(now);
+  const bool waits = running && running->sender == rml1::SenderState::paused;
+  if (!running || abort_at_ == TimePoint::max() || (now < abort_at_ && !waits)) return;
+  abort_at_ = TimePoint::max();
+  post([](rml1::MillController& mill, TimePoint at) { mill.abort("the daemon, which ends", at); });
 }
 
 Duration Mill::wind_down_limit() const {
-  return config_.at_exit == MillConfig::AtExit::finish ? kFinishLimit : kAbortLimit;
+  return kAbortLimit + (config_.at_exit == MillConfig::AtExit::finish ? kFinishLimit : Duration::zero());
 }
 
 }  // namespace axisgate::server

@@ -52,7 +52,8 @@ class Mill final : public Device, private rml1::MillEvents {
   // On the strand only.
   MillNow now(TimePoint at);
 
-  // At once where nothing runs. As `at_exit` says, the job that runs is aborted, or runs to its end.
+  // At once where nothing runs. As `at_exit` says, the job that runs is aborted, or runs on for kFinishLimit, and is
+  // aborted then; so is one that is paused.
   void wind_down(std::function<void()> done) override;
   Duration wind_down_limit() const override;
 
@@ -64,15 +65,15 @@ class Mill final : public Device, private rml1::MillEvents {
 
  private:
   void link_changed(rml1::MillLink link, std::string_view why, TimePoint now) override;
-  void job_changed(const rml1::Job& job, std::string_view why, TimePoint now) override;
+  void job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
   void sender_changed(const rml1::RunningJob& running, TimePoint now) override;
   void about_to_write(rml1::JobNumber job, std::uint64_t through) override;
 
   void restore_jobs();
-  void note(const rml1::Job& job, std::string_view why, TimePoint now);
+  void note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now);
   void after_call();
   void publish(TimePoint at);
-  void look_whether_wound_down();
+  void look_whether_wound_down(TimePoint now);
 
   const MillConfig& config_;
   spool::Spool& spool_;
@@ -82,6 +83,7 @@ class Mill final : public Device, private rml1::MillEvents {
   rml1::MillController controller_;
   bool changed_ = true;  // since publish()
   TimePoint published_{};
+  TimePoint abort_at_{};                      // while the daemon ends: the job has run for long enough
   std::function<void()> wound_down_;          // empty: nobody waits
   boost::asio::thread_pool spool_thread_{1};  // last: its tasks use the spool
 };

@@ -78,7 +78,7 @@ Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool
   if (!bytes) return tl::unexpected(bytes.error());
   const auto named = std::ranges::find(config.origins, job_of(*found).setup.origin, &NamedOrigin::name);
   const auto origin = named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
-  return std::make_shared<const rml1::PreparedJob>(*bytes, found->sha256, config.profile, origin);
+  return std::make_shared<const rml1::PreparedJob>(*bytes, found->sha256, config.profile, origin, config.sending);
 }
 
 }  // namespace axisgate::server

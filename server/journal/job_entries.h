@@ -2,13 +2,14 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 #include "device/rml1/mill/job.h"
 #include "server/journal/entry.h"
 
 namespace axisgate::server::journal {
 
-// Without the job's name, which is text of a person.
-Entry entry_of(const rml1::Job& job, std::string device, TimePoint now);
+// Without the job's name, which is text of a person. `by`: who requested it; empty: nobody.
+Entry entry_of(const rml1::Job& job, std::string_view by, std::string device, TimePoint now);
 
 }  // namespace axisgate::server::journal

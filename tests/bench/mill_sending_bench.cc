@@ -93,7 +93,8 @@ void cost(const Job& job, Streaming streaming) {
   const Timeline timeline(text, profile, kAtHome);
   const double planned = cpu_s();
   Drain line;
-  Sender sender(text, timeline, profile, {.streaming = streaming}, line);
+  const SendSettings settings{.streaming = streaming};
+  Sender sender(text, timeline, profile, settings, plan_of(text, timeline, settings), line);
   const double ready = cpu_s();
   double most = allocated_mib();
   TimePoint end{};
@@ -131,7 +132,7 @@ void progress(const Job& job, const Pair& pair, SendSettings settings) {
   const Timeline timeline(text, pair.profile, kAtHome);
   const double begin = cpu_s();
   FedMill line(text, setup_of(pair), settings.baud);
-  Sender sender(text, timeline, pair.profile, settings, line);
+  Sender sender(text, timeline, pair.profile, settings, plan_of(text, timeline, settings), line);
   Width width;
   feed_all(sender, line, kMinute, [&](TimePoint now) { width.take(sender.progress(now), line.executed()); });
   const auto part = [&](double bytes) { return bytes / static_cast<double>(text.size()) * 100; };
@@ -144,7 +145,7 @@ void progress(const Job& job, const Pair& pair, SendSettings settings) {
 double seconds(const std::string& job, const Pair& pair, SendSettings settings) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, setup_of(pair), settings.baud);
-  Sender sender(job, timeline, pair.profile, settings, line);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
   feed_all(sender, line, kMinute, [](TimePoint) {});
   return line.seconds();
 }
@@ -158,7 +159,7 @@ void loss(const Job& job, const Pair& pair, double slack) {
   }
   const Timeline timeline(text, pair.profile, kAtHome);
   Drain line;
-  fmt::print(" {} |\n", Sender(text, timeline, pair.profile, {.slack = slack}, line).run_on().at_most);
+  fmt::print(" {} |\n", plan_of(text, timeline, {.slack = slack}).run_on.at_most);
 }
 
 void print_all() {

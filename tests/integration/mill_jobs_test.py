@@ -159,8 +159,8 @@ class MillJobs(unittest.TestCase):
         self.run_well("cancel", number)
         history = self.daemon.run("--device", "mill", "history")
         self.assertEqual((history.returncode, history.stderr), (0, ""))
-        self.assertRegex(history.stdout, rf"  mill  job {number} of unix \S+ is CANCELLED")
-        self.assertRegex(history.stdout, rf"  mill  job {number} of unix \S+ is QUEUED")
+        self.assertRegex(history.stdout, rf"  mill  job {number} is CANCELLED, by unix \S+")
+        self.assertRegex(history.stdout, rf"  mill  job {number} is QUEUED, by unix \S+")
 
     def test_abort_where_none_runs(self):
         self.assertEqual(self.run_well("abort"), "the abort was sent; no job ran; look at the mill\n")

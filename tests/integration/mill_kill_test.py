@@ -132,6 +132,39 @@ class MillKill(unittest.TestCase):
                 self.check(run, numbers)
                 self.assertEqual(self.numbers(run), numbers, "something was sent after the restart")
 
+    def end_daemon(self):
+        self.daemon.signal(signal.SIGTERM)
+        self.daemon.wait(LIMIT_S)
+        self.assertEqual(self.daemon.exit_code(), 0)
+
+    def test_an_ended_daemon_aborts_first(self):
+        self.begin(1)
+        self.end_daemon()
+        self.await_true(self.aborted, "no abort")
+        self.assertRegex(self.daemon.log(), r"mill: job 1 .* is ABORTED, by the daemon, which ends")
+
+    def test_a_paused_job_does_not_keep_the_daemon(self):
+        self.daemon.stop()
+        self.daemon = Daemon(str(self.folder), self.config + 'at_exit = "finish"\n')
+        self.begin(1)
+        self.axisctl("mill", "pause")
+        self.end_daemon()
+        self.await_true(self.aborted, "no abort")
+
+    def test_an_idle_mill_is_sent_nothing_at_the_end(self):
+        self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
+        self.end_daemon()
+        self.assertEqual(self.entries(), [])
+
+    def test_a_closed_line_is_said(self):
+        self.begin(1)
+        self.mill.kill()
+        self.await_true(lambda: [one["state"] for one in self.jobs()] == ["JOB_STATE_PAUSED_UNKNOWN"], "no outcome")
+        for words in (("--device", "mill", "mill", "abort"), ("--device", "mill", "stop")):
+            answer = self.daemon.run(*words)
+            self.assertNotEqual(answer.returncode, 0, words)
+            self.assertIn("LINK_DOWN", answer.stderr)
+
     def test_unplugged_lines(self):
         for run in range(1, KILLS + 1):
             with self.subTest(run=run, seed=SEED):

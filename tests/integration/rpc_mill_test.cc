@@ -232,6 +232,40 @@ TEST_F(RpcMill, AJobIsCancelled) {
   EXPECT_EQ(sent(vectors(4)).name(), "devices/mill/jobs/2") << "no number is given twice";
 }
 
+TEST_F(RpcMill, ARequestThatComesAgainIsAnsweredAsTheFirst) {
+  const v1::Job job = sent(vectors(4));
+  v1::CancelJobRequest request;
+  request.mutable_context()->set_request_id("cancel-1");
+  request.set_job(job.name());
+  EXPECT_TRUE(ask(&v1::MillService::Stub::CancelJob, request).ok());
+  EXPECT_TRUE(ask(&v1::MillService::Stub::CancelJob, request).ok());
+  request.mutable_context()->set_request_id("cancel-2");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJob, request)), v1::REASON_NOT_FOUND);
+}
+
+TEST_F(RpcMill, ARepeatOfAStartSaysWhatMayRunOn) {
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::StartJobRequest request;
+  request.mutable_context()->set_request_id("start-1");
+  request.set_job(job.name());
+  v1::StartJobResponse first, again;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &first).ok());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &again).ok());
+  EXPECT_GT(again.run_on().at_most(), 0);
+  EXPECT_EQ(again.run_on().at_most(), first.run_on().at_most());
+}
+
+TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
+  const v1::Job job = sent(vectors(4));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::StartJobRequest request;
+  request.mutable_context()->mutable_not_after()->set_seconds(1);
+  request.set_job(job.name());
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::StartJob, request)), v1::REASON_DEADLINE_PASSED);
+  EXPECT_FALSE(now().has_running());
+}
+
 TEST_F(RpcMill, AMillHasNoAxesAndAStageNoJobs) {
   v1::MoveRequest request = move_request(1, "1");
   request.set_device(kMill);

@@ -63,7 +63,9 @@ char LineToMill::take() {
 
 AbortBench::AbortBench(std::string_view job, const Timeline& timeline, simulator::MillSetup mill, SendSettings settings,
                        LineToMill::Setup line, std::string_view before)
-    : mill_(std::move(mill)), line_(mill_, line), sender_(job, timeline, profile_, settings, line_) {
+    : mill_(std::move(mill)),
+      line_(mill_, line),
+      sender_(job, timeline, profile_, settings, plan_of(job, timeline, settings), line_) {
   mill_.send(before);
   mill_.finish();
   lines_read_ = mill_.lines.size();

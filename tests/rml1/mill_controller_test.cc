@@ -40,12 +40,13 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     mill_.add(std::move(job), now_);
   }
   std::shared_ptr<const PreparedJob> prepared(int count = 20, std::string digest = "d1") {
-    return std::make_shared<const PreparedJob>(vectors(count), std::move(digest), profile_, std::nullopt);
+    return std::make_shared<const PreparedJob>(vectors(count), std::move(digest), profile_, std::nullopt,
+                                               settings_.sending);
   }
   Result<void> confirm(JobNumber number) { return mill_.confirm(number, setup(), "unix bert", now_); }
   void run_job(JobNumber number, int count = 20) {
     ASSERT_TRUE(confirm(number));
-    ASSERT_TRUE(mill_.start(number, prepared(count), now_));
+    ASSERT_TRUE(mill_.start(number, prepared(count), "unix anna", now_));
   }
   void run_for(Duration time) {
     for (const TimePoint end = now_ + time; now_ < end; now_ += 1ms) {
@@ -67,9 +68,10 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   static Reason reason(const Result<void>& result) { return result ? Reason::unspecified : result.error().reason; }
 
   void link_changed(MillLink, std::string_view, TimePoint) override {}
-  void job_changed(const Job& job, std::string_view why, TimePoint) override {
+  void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override {
     ended_[job.number] = job.state;
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
+    by_[job.state] = by;
   }
   void sender_changed(const RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
@@ -86,6 +88,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   MillSettings settings_;
   std::map<JobNumber, JobState> ended_;
   std::vector<std::string> said_;
+  std::map<JobState, std::string> by_;
   std::uint64_t noted_ = 0;
   std::size_t written_before_note_ = 0;
   MillController mill_{profile_, settings_, line_, *this};
@@ -98,15 +101,19 @@ TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
   run_for(60s);
   EXPECT_EQ(state(1), fed);
   EXPECT_EQ(written(), prologue() + vectors(4) + epilogue(profile_, true));
-  EXPECT_TRUE(mill_.done(1, now_));
+  EXPECT_TRUE(mill_.done(1, "unix bert", now_));
   EXPECT_EQ(state(1), done);
   EXPECT_THAT(mill_.jobs(), IsEmpty());
+  EXPECT_EQ(
+      by_,
+      (std::map<JobState, std::string>{
+          {queued, "unix anna"}, {confirmed, "unix bert"}, {running, "unix anna"}, {fed, ""}, {done, "unix bert"}}));
   EXPECT_THAT(said_, ElementsAre("QUEUED", "CONFIRMED", "RUNNING", "SENDING", "FINISHING", "FED", "FED", "DONE"));
 }
 
 TEST_F(MillControllerTest, WithoutAConfirmationNothingIsWritten) {
   add(1);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
   EXPECT_THAT(line_.writes, IsEmpty());
   EXPECT_EQ(state(1), queued);
 }
@@ -118,7 +125,8 @@ TEST_F(MillControllerTest, AConfirmationExpires) {
   mill_.advance(now_);
   EXPECT_EQ(state(1), confirmed);
   now_ += 1ms;
-  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed) << "also before time was let pass";
+  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed)
+      << "also before time was let pass";
   mill_.advance(now_);
   EXPECT_EQ(state(1), queued);
   EXPECT_THAT(said_, Contains(HasSubstr("expired")));
@@ -136,7 +144,7 @@ TEST_F(MillControllerTest, AConfirmationIsForWhatTheJobNeeds) {
 TEST_F(MillControllerTest, OtherBytesThanThoseConfirmedDoNotStart) {
   add(1);
   ASSERT_TRUE(confirm(1));
-  EXPECT_EQ(reason(mill_.start(1, prepared(20, "d2"), now_)), Reason::internal);
+  EXPECT_EQ(reason(mill_.start(1, prepared(20, "d2"), "unix anna", now_)), Reason::internal);
   EXPECT_THAT(line_.writes, IsEmpty());
 }
 
@@ -147,42 +155,61 @@ TEST_F(MillControllerTest, OnlyTheFirstOfTheQueueIsConfirmed) {
   EXPECT_EQ(reason(second), Reason::wrong_mode);
   EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is before"));
   EXPECT_EQ(reason(confirm(3)), Reason::not_found);
-  ASSERT_TRUE(mill_.move_to_front(2, now_));
+  ASSERT_TRUE(mill_.cancel(1, "unix bert", now_));
   EXPECT_TRUE(confirm(2));
-  EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
 }
 
-TEST_F(MillControllerTest, AnotherThatIsPutBeforeItVoidsAConfirmation) {
+TEST_F(MillControllerTest, WhileItIsNotKnownWhatBecameOfAJobNoOtherStarts) {
   add(1);
   add(2);
-  ASSERT_TRUE(confirm(1));
-  ASSERT_TRUE(mill_.move_to_front(2, now_));
-  EXPECT_EQ(state(1), queued);
-  EXPECT_EQ(mill_.jobs().front().number, 2u);
+  run_job(1, 4);
+  run_for(60s);
+  ASSERT_EQ(state(1), fed);
+  const Result<void> second = confirm(2);
+  EXPECT_EQ(reason(second), Reason::wrong_mode);
+  EXPECT_THAT(second.error().message, HasSubstr("job 1 (part.rml, by unix anna) is FED"));
+  ASSERT_TRUE(mill_.done(1, "unix bert", now_));
+  run_job(2, 200);
+  mill_.link_down(now_, "unplugged");
+  mill_.link_up(now_);
+  add(3);
+  EXPECT_EQ(reason(confirm(3)), Reason::wrong_mode);
+  ASSERT_TRUE(mill_.cancel(2, "unix bert", now_));
+  EXPECT_TRUE(confirm(3));
+}
+
+TEST_F(MillControllerTest, AnAbortWithoutAJobLeavesAlsoWhereTheMillHoldsTheLine) {
+  line_.busy = true;
+  EXPECT_TRUE(mill_.abort("unix bert", now_));
+  EXPECT_FALSE(mill_.is_idle());
+  run_for(1s);
+  EXPECT_EQ(line_.received, abort_words(profile_, true));
+  EXPECT_TRUE(mill_.is_idle());
+  EXPECT_FALSE(line_.ignores);
 }
 
 TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
   add(1);
   ASSERT_TRUE(confirm(1));
   mill_.setup_changed("unix bert has moved the mill", now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
   ASSERT_TRUE(confirm(1));
-  mill_.abort("requested by unix bert", now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  mill_.abort("unix bert", now_);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
   ASSERT_TRUE(confirm(1));
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
 }
 
 TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
   mill_.link_down(now_, "unplugged");
-  mill_.abort("requested by unix bert", now_);
+  EXPECT_FALSE(mill_.abort("unix bert", now_));
   EXPECT_THAT(line_.writes, IsEmpty());
   mill_.link_up(now_);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "when the line is back";
-  mill_.abort("requested by unix bert", now_);
+  mill_.abort("unix bert", now_);
   EXPECT_THAT(line_.writes, SizeIs(2));
 }
 
@@ -191,8 +218,8 @@ TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
   add(2);
   run_job(1);
   EXPECT_EQ(reason(confirm(2)), Reason::wrong_mode);
-  EXPECT_EQ(reason(mill_.start(2, prepared(), now_)), Reason::wrong_mode);
-  EXPECT_EQ(reason(mill_.cancel(1, now_)), Reason::wrong_mode) << "it is aborted, not cancelled";
+  EXPECT_EQ(reason(mill_.start(2, prepared(), "unix anna", now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.cancel(1, "unix bert", now_)), Reason::wrong_mode) << "it is aborted, not cancelled";
 }
 
 TEST_F(MillControllerTest, PauseAndResume) {
@@ -216,9 +243,10 @@ TEST_F(MillControllerTest, AnAbortEndsTheJobAndVoidsNothingElse) {
   run_job(1);
   run_for(2s);
   const std::size_t before = line_.writes.size();
-  mill_.abort("requested by unix bert", now_);
+  mill_.abort("unix bert", now_);
   run_for(1s);
   EXPECT_EQ(state(1), aborted);
+  EXPECT_EQ(by_[aborted], "unix bert");
   EXPECT_THAT(line_.writes, SizeIs(before + 1));
   EXPECT_THAT(line_.writes.back(), HasSubstr("\x1B.K\x1B.K"));
   EXPECT_EQ(mill_.jobs().front().number, 2u);
@@ -246,9 +274,9 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
   mill_.link_up(now_);
   run_for(60s);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "the mill is stopped once, nothing else";
-  EXPECT_EQ(reason(mill_.start(1, prepared(200), now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(200), "unix anna", now_)), Reason::not_allowed);
   EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
-  EXPECT_TRUE(mill_.cancel(1, now_));
+  EXPECT_TRUE(mill_.cancel(1, "unix bert", now_));
 }
 
 TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
@@ -299,7 +327,7 @@ TEST_F(MillControllerTest, WithAClosedLineNothingIsConfirmed) {
 // Prologue ";^DF;", so five bytes are none of the job's.
 TEST(PreparedJobTest, BytesOfTheTextAndOfTheJob) {
   const Profile profile = test_profile();
-  const PreparedJob job("PU1000,0;", "d", profile, std::nullopt);
+  const PreparedJob job("PU1000,0;", "d", profile, std::nullopt, {});
   EXPECT_EQ(job.text(), ";^DF;PU1000,0;" + epilogue(profile, true)) << "PU starts a spindle that DF permits";
   EXPECT_EQ(job.of_body(0), 0u);
   EXPECT_EQ(job.of_body(5), 0u);

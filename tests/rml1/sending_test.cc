@@ -25,10 +25,8 @@ using enum SenderState;
 
 std::vector<std::string> pieces(const std::string& job, std::size_t window = 64) {
   std::vector<std::string> all;
-  for (std::size_t begin = 0; begin < job.size();) {
-    const std::size_t end = next_cut(job, begin, window);
-    all.push_back(job.substr(begin, end - begin));
-    begin = end;
+  for (Cutter cutter(job, window); cutter.begin() < job.size(); cutter.next()) {
+    all.push_back(job.substr(cutter.begin(), cutter.end() - cutter.begin()));
   }
   return all;
 }
@@ -48,6 +46,17 @@ TEST(Cut, OfALongListIsBehindASet) {
   EXPECT_THAT(pieces("Z10,20,30,40,50,60;", 8), ElementsAre("Z10,20,30,", "40,50,60;"));
   EXPECT_THAT(pieces("^PD10,20,30,40;", 8), ElementsAre("^PD10,20,", "30,40;"));
   EXPECT_THAT(pieces("!ZE X10Y20:Z30;PU;", 8), ElementsAre("!ZE X10Y20:Z30;", "PU;")) << "it has no sets";
+}
+
+// A list may be as long as the job. If each cut read it to its end, this would take minutes.
+TEST(Cut, OfAListOfAMillionNumbers) {
+  std::string job = "PD";
+  for (int i = 0; i < 500'000; ++i) job += "10,20,";
+  job.back() = ';';
+  const auto all = pieces(job);
+  EXPECT_EQ(all.size(), 50'000u) << "ten sets of six bytes fit the window";
+  EXPECT_EQ(all.front(), "PD10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,");
+  EXPECT_EQ(all.back().back(), ';');
 }
 
 // By hand, from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
@@ -81,7 +90,7 @@ class SenderTest : public testing::Test {
   void begin(const std::string& job, SendSettings settings = {}) {
     job_ = job;
     timeline_.emplace(job_, profile_, std::nullopt);
-    sender_.emplace(job_, *timeline_, profile_, settings, line_);
+    sender_.emplace(job_, *timeline_, profile_, settings, plan_of(job_, *timeline_, settings), line_);
     sender_->start(now_);
   }
   void run_for(Duration time) {
@@ -272,7 +281,7 @@ TEST_F(SenderTest, TheTableOfStates) {
         sender_->line_lost(now_);
         break;
       case ready:
-        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, line_);
+        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, plan_of(job_, *timeline_, {}), line_);
     }
     ASSERT_EQ(sender_->state(), state);
   };

@@ -45,7 +45,7 @@ Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Durat
   setup.flow = simulator::Flow::rts;
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, setup, settings.baud);
-  Sender sender(job, timeline, pair.profile, settings, line);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
   Sent found;
   found.at_most = sender.run_on().at_most;
   feed_all(sender, line, period, [&](TimePoint now) {

@@ -71,6 +71,7 @@ TEST_F(JobRecordTest, AfterABootOfTheMachineAnyByteMayHaveGone) {
     record->going_to(52);
   }
   EXPECT_EQ(open("another boot")->before()->through, kAll);
+  EXPECT_EQ(open("another boot")->before()->through, kAll) << "also for the second run after it";
 }
 
 TEST_F(JobRecordTest, AnotherFileIsNoRecord) {

@@ -31,7 +31,7 @@ MillController::MillController(const Profile& profile, const MillSettings& setti
 void MillController::add(Job job, TimePoint now) {
   job.state = JobState::queued;
   jobs_.push_back(std::move(job));
-  events_.job_changed(jobs_.back(), "", now);
+  events_.job_changed(jobs_.back(), jobs_.back().owner, "", now);
 }
 
 Result<Job*> MillController::find(JobNumber number) {
@@ -41,20 +41,20 @@ Result<Job*> MillController::find(JobNumber number) {
               "`axisctl mill queue` lists them");
 }
 
-void MillController::change(Job& job, JobEvent event, std::string_view why, TimePoint now) {
+void MillController::change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   job.state = *next(job.state, event);
   if (job.state != JobState::confirmed) job.confirmation.reset();
-  events_.job_changed(job, why, now);
+  events_.job_changed(job, by, why, now);
 }
 
-Result<void> MillController::change(JobNumber number, JobEvent event, TimePoint now) {
+Result<void> MillController::change(JobNumber number, JobEvent event, std::string_view by, TimePoint now) {
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
   if (!next((*job)->state, event)) {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
                 "`axisctl mill queue` shows what can be done with it");
   }
-  change(**job, event, "", now);
+  change(**job, event, by, "", now);
   leave_queue_if_ended(number);
   return {};
 }
@@ -63,18 +63,15 @@ void MillController::leave_queue_if_ended(JobNumber number) {
   std::erase_if(jobs_, [number](const Job& job) { return job.number == number && is_end(job.state); });
 }
 
-Result<void> MillController::move_to_front(JobNumber number, TimePoint now) {
-  const Result<Job*> job = find(number);
-  if (!job) return tl::unexpected(job.error());
-  if ((*job)->state != JobState::queued) {
-    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
-                "only a job that is QUEUED can be moved");
-  }
-  const auto first = std::ranges::find_if(jobs_, waits);
-  setup_changed("another job was put before it", now);
-  std::rotate(first, std::ranges::find(jobs_, number, &Job::number),
-              std::ranges::find(jobs_, number, &Job::number) + 1);
-  return {};
+// The workpiece of a job that ran may still be in the mill.
+Result<void> MillController::check_settled() const {
+  const auto open = std::ranges::find_if(
+      jobs_, [](const Job& job) { return job.state == JobState::fed || job.state == JobState::paused_unknown; });
+  if (open == jobs_.end()) return {};
+  const bool fed = open->state == JobState::fed;
+  return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(*open), name(open->state)),
+              fed ? "look at its workpiece, then say that it is done: `axisctl mill done`"
+                  : "look at the mill, then take the job out of the queue: `axisctl mill cancel`");
 }
 
 Result<void> MillController::check_next(const Job& job) const {
@@ -82,6 +79,7 @@ Result<void> MillController::check_next(const Job& job) const {
     return fail(Reason::wrong_mode, fmt::format("job {} runs", running_->number),
                 "confirm the next one when it has ended");
   }
+  if (const Result<void> settled = check_settled(); !settled) return settled;
   const auto first = std::ranges::find_if(jobs_, waits);
   if (first != jobs_.end() && first->number == job.number) return {};
   if (first == jobs_.end() || !waits(job)) {
@@ -89,7 +87,7 @@ Result<void> MillController::check_next(const Job& job) const {
                 "only a job that waits can be confirmed");
   }
   return fail(Reason::wrong_mode, fmt::format("{} is before {}", text_of(*first), text_of(job)),
-              "confirm that one, or put this one first");
+              "confirm that one, or have it cancelled");
 }
 
 Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now) {
@@ -105,8 +103,8 @@ Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std
                     text_of(**job), (*job)->setup.tool, (*job)->setup.origin, (*job)->setup.profile),
         "look at the job again, then confirm what it needs");
   }
-  (*job)->confirmation = Confirmation{std::move(by), now + settings_.confirmation_lasts};
-  change(**job, JobEvent::confirm, "", now);
+  (*job)->confirmation = Confirmation{by, now + settings_.confirmation_lasts};
+  change(**job, JobEvent::confirm, by, "", now);
   return {};
 }
 
@@ -126,14 +124,15 @@ Result<void> MillController::check_startable(const Job& job, const PreparedJob& 
   return {};
 }
 
-Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared, TimePoint now) {
+Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared, std::string_view by,
+                                   TimePoint now) {
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
   if (const Result<void> startable = check_startable(**job, *prepared, now); !startable) return startable;
-  change(**job, JobEvent::start, "", now);
+  change(**job, JobEvent::start, by, "", now);
   const PreparedJob& it = *prepared;
   running_.reset(new Running{number, std::move(prepared), now,
-                             Sender(it.text(), it.timeline(), profile_, settings_.sending, noted_line_),
+                             Sender(it.text(), it.timeline(), profile_, settings_.sending, it.plan(), noted_line_),
                              SenderState::ready, 0, 0, now, false, ""});
   running_->sender.start(now);
   look_at_sender(now);
@@ -145,8 +144,10 @@ Result<void> MillController::pause(TimePoint now) {
     return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
   }
   running_->sender.pause(now);
+  const bool paused = running_->sender.state() == SenderState::paused;
   look_at_sender(now);
-  return {};
+  if (paused) return {};
+  return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
 }
 
 Result<void> MillController::resume(TimePoint now) {
@@ -158,27 +159,43 @@ Result<void> MillController::resume(TimePoint now) {
   return {};
 }
 
-void MillController::abort(std::string_view why, TimePoint now) {
-  setup_changed(why, now);
-  if (!running_) return send_abort();
-  running_->aborted_why = why;
+bool MillController::abort(std::string_view by, TimePoint now) {
+  setup_changed("an abort", now);
+  if (!running_) return send_abort(now);
+  running_->aborted_by = by;
   running_->sender.abort(now);
   look_at_sender(now);
+  return true;
 }
 
 // Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.
-void MillController::send_abort() {
+bool MillController::send_abort(TimePoint now) {
   must_abort_ = link_ != MillLink::open;
-  if (!must_abort_) line_.write(abort_words(profile_, true));
+  if (must_abort_) return false;
+  line_.write(abort_words(profile_, true));
+  abort_since_ = now;
+  return true;
 }
 
-Result<void> MillController::cancel(JobNumber job, TimePoint now) { return change(job, JobEvent::cancel, now); }
+// As Sender does it.
+void MillController::look_after_abort(TimePoint now) {
+  if (!abort_since_) return;
+  const bool gone = line_.unsent() == 0;
+  if (gone || now - *abort_since_ >= Sender::kHeldBeforeIgnored) line_.ignore_flow_control(!gone);
+  if (gone) abort_since_.reset();
+}
 
-Result<void> MillController::done(JobNumber job, TimePoint now) { return change(job, JobEvent::done, now); }
+Result<void> MillController::cancel(JobNumber job, std::string_view by, TimePoint now) {
+  return change(job, JobEvent::cancel, by, now);
+}
+
+Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint now) {
+  return change(job, JobEvent::done, by, now);
+}
 
 void MillController::setup_changed(std::string_view why, TimePoint now) {
   for (Job& job : jobs_) {
-    if (job.state == JobState::confirmed) change(job, JobEvent::make_void, why, now);
+    if (job.state == JobState::confirmed) change(job, JobEvent::make_void, "", why, now);
   }
 }
 
@@ -201,9 +218,8 @@ void MillController::look_at_sender(TimePoint now) {
   look_whether_busy(now);
   const SenderState state = running_->sender.state();
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
-  if (state == SenderState::fed) end_run(JobEvent::fed, "", now);
-  if (state == SenderState::aborted)
-    end_run(JobEvent::aborted, fmt::format("the abort was sent, {}", running_->aborted_why), now);
+  if (state == SenderState::fed) end_run(JobEvent::fed, "", "", now);
+  if (state == SenderState::aborted) end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
@@ -219,12 +235,13 @@ void MillController::look_whether_busy(TimePoint now) {
   if (std::exchange(running_->busy, busy) != busy) events_.sender_changed(view(now), now);
 }
 
-void MillController::end_run(JobEvent event, std::string_view why, TimePoint now) {
+void MillController::end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
+  const std::string requested_by(by);  // it may be of what runs
   const JobNumber number = running_->number;
   Job& job = **find(number);
   if (event == JobEvent::lost) job.written = written_at_loss();
   running_.reset();
-  change(job, event, why, now);
+  change(job, event, requested_by, why, now);
   leave_queue_if_ended(number);
 }
 
@@ -244,7 +261,7 @@ void MillController::link_up(TimePoint now) {
   link_ = MillLink::open;
   reopen_ = kReopenFirst;
   events_.link_changed(link_, "", now);
-  if (must_abort_) send_abort();
+  if (must_abort_) send_abort(now);
 }
 
 void MillController::link_down(TimePoint now, std::string_view why) {
@@ -252,10 +269,11 @@ void MillController::link_down(TimePoint now, std::string_view why) {
   link_ = MillLink::closed;
   events_.link_changed(link_, why, now);
   setup_changed("the line was lost", now);
+  abort_since_.reset();
   if (running_) {
     running_->sender.line_lost(now);
     must_abort_ = settings_.at_loss == AtLoss::abort;
-    end_run(JobEvent::lost, why, now);
+    end_run(JobEvent::lost, "", why, now);
   }
   line_.reopen(reopen_);
   reopen_ = std::min(2 * reopen_, kReopenLast);
@@ -264,6 +282,7 @@ void MillController::link_down(TimePoint now, std::string_view why) {
 void MillController::advance(TimePoint now) {
   now_ = now;
   if (const auto until = confirmed_until(); until && *until <= now) setup_changed(kExpired, now);
+  look_after_abort(now);
   if (!running_) return;
   running_->sender.advance(now);
   look_at_sender(now);
@@ -275,6 +294,7 @@ std::optional<TimePoint> MillController::confirmed_until() const {
 }
 
 std::optional<TimePoint> MillController::next_deadline() const {
+  if (abort_since_) return now_ + Sender::kLook;
   if (!running_) return confirmed_until();
   const TimePoint look = now_ + kLook;
   return std::min(running_->sender.next_deadline(now_).value_or(look), look);

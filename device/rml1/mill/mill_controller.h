@@ -46,8 +46,8 @@ class MillEvents {
   virtual ~MillEvents() = default;
 
   virtual void link_changed(MillLink link, std::string_view why, TimePoint now) = 0;
-  // It was added, or has another state. `why`: for people, where it is not as requested; may be empty.
-  virtual void job_changed(const Job& job, std::string_view why, TimePoint now) = 0;
+  // It was added, or has another state. `by`: who requested that; empty: nobody. `why`: for people; may be empty.
+  virtual void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint now) = 0;
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
   // Bytes of the job up to `through` go to the line next. What must outlive a killed daemon is kept before it returns.
   virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
@@ -64,29 +64,31 @@ class MillController : public LineMachine {
   void inherit(Job job);
   // Behind all others. The number ascends.
   void add(Job job, TimePoint now);
-  // It comes first. not_found; wrong_mode, where it is not QUEUED.
-  Result<void> move_to_front(JobNumber job, TimePoint now);
-  // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or the line is closed;
+  // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
+  // became of the last one is not known; link_down;
   // stale_setpoint: `seen` is not what the job needs.
   Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
   // Its first byte goes out, if the mill takes it. `prepared` is of the job's bytes. not_found; wrong_mode;
   // not_allowed, where it is not confirmed any more; link_down.
-  Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, TimePoint now);
+  Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, std::string_view by, TimePoint now);
   // Of the running job; wrong_mode where none runs, or not so.
   Result<void> pause(TimePoint now);
   Result<void> resume(TimePoint now);
-  // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same.
-  void abort(std::string_view why, TimePoint now);
+  // By `by`. Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False:
+  // the line is closed, and it is sent when the line is back.
+  bool abort(std::string_view by, TimePoint now);
   // not_found; wrong_mode, where the job's state does not have it.
-  Result<void> cancel(JobNumber job, TimePoint now);
-  Result<void> done(JobNumber job, TimePoint now);
-  // What was confirmed is not so any more.
+  Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
+  Result<void> done(JobNumber job, std::string_view by, TimePoint now);
+  // What was confirmed is not so any more. `why`: for people.
   void setup_changed(std::string_view why, TimePoint now);
 
   // Those without an end, in the order of the queue; the one that runs is among them.
   const std::vector<Job>& jobs() const { return jobs_; }
   std::optional<RunningJob> running(TimePoint now);
   JobNumber running_job() const { return running_ ? running_->number : 0; }
+  // No job runs, and no abort is on its way to the line.
+  bool is_idle() const { return !running_ && !abort_since_; }
   MillLink link() const { return link_; }
   const MillSettings& settings() const { return settings_; }
 
@@ -127,20 +129,22 @@ class MillController : public LineMachine {
     std::uint64_t taken = 0;  // by the mill, at `taken_at`
     TimePoint taken_at{};
     bool busy = false;
-    std::string aborted_why;  // for people
+    std::string aborted_by;
   };
 
   Result<Job*> find(JobNumber number);
-  Result<void> change(JobNumber number, JobEvent event, TimePoint now);
-  void change(Job& job, JobEvent event, std::string_view why, TimePoint now);
+  Result<void> change(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
+  void change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   void leave_queue_if_ended(JobNumber number);
+  Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
-  void send_abort();
+  bool send_abort(TimePoint now);
+  void look_after_abort(TimePoint now);
   void look_at_sender(TimePoint now);
   void look_whether_busy(TimePoint now);
   WrittenRange written_at_loss();
-  void end_run(JobEvent event, std::string_view why, TimePoint now);
+  void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   RunningJob view(TimePoint now);
   std::optional<TimePoint> confirmed_until() const;
 
@@ -153,8 +157,9 @@ class MillController : public LineMachine {
   Duration reopen_ = kReopenFirst;
   std::vector<Job> jobs_;
   std::unique_ptr<Running> running_;
-  bool must_abort_ = false;  // when the line is back
-  TimePoint now_{};          // of the last call
+  bool must_abort_ = false;               // when the line is back
+  std::optional<TimePoint> abort_since_;  // without a job: until it has left the host
+  TimePoint now_{};                       // of the last call
 };
 
 }  // namespace axisgate::rml1

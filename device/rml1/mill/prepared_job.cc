@@ -18,11 +18,12 @@ std::string wrapped(std::string_view body, const Profile& profile, std::optional
 }  // namespace
 
 PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profile& profile,
-                         std::optional<Origin> origin)
+                         std::optional<Origin> origin, const SendSettings& settings)
     : digest_(std::move(digest)),
       body_size_(body.size()),
       text_(wrapped(body, profile, origin)),
-      timeline_(text_, profile, origin) {}
+      timeline_(text_, profile, origin),
+      plan_(plan_of(text_, timeline_, settings)) {}
 
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
   const std::uint64_t before = prologue().size();

@@ -6,22 +6,13 @@
 namespace axisgate::rml1 {
 namespace {
 
-bool is_delimiter(char c) { return c == ';' || static_cast<unsigned char>(c) <= ' '; }
-bool ends_command(char c) { return is_delimiter(c) && c != ' ' && c != '\t'; }
+bool is_between_commands(char c) { return c == ';' || static_cast<unsigned char>(c) <= ' '; }
+bool ends_command(char c) { return is_between_commands(c) && c != ' ' && c != '\t'; }
 
 // A circumflex waits for the next command, across delimiters (guideline 1-2).
 bool calls(std::string_view command) {
-  const auto last = std::ranges::find_if_not(command.rbegin(), command.rend(), is_delimiter);
+  const auto last = std::ranges::find_if_not(command.rbegin(), command.rend(), is_between_commands);
   return last != command.rend() && *last == '^';
-}
-
-std::size_t end_of_command(std::string_view job, std::size_t begin) {
-  auto end = begin;
-  do {
-    while (end < job.size() && !ends_command(job[end])) ++end;
-    while (end < job.size() && is_delimiter(job[end])) ++end;
-  } while (end < job.size() && calls(job.substr(begin, end - begin)));
-  return end;
 }
 
 // How many numbers make a set; 0: the command takes no list of sets (guideline 5-1).
@@ -40,21 +31,35 @@ std::size_t set_of(std::string_view command) {
 
 }  // namespace
 
-std::size_t next_cut(std::string_view job, std::size_t begin, std::size_t window) {
-  const std::size_t end = end_of_command(job, begin);
-  if (end - begin <= window) return end;
-  std::size_t first = begin;  // of the command to which a list belongs
-  while (first > 0 && job[first - 1] == ',') {
-    first = job.find_last_of(";\r\n", first - 1);
-    first = first == std::string_view::npos ? 0 : first + 1;
-  }
-  const std::size_t numbers = set_of(job.substr(first, end - first));
-  if (numbers == 0) return end;
-  std::size_t cut = 0, commas = 0;
-  for (std::size_t at = begin; at < end && (cut == 0 || at < begin + window); ++at) {
-    if (job[at] == ',' && ++commas % numbers == 0) cut = at + 1;
-  }
-  return cut == 0 ? end : cut;
+Cutter::Cutter(std::string_view job, std::size_t window) : job_(job), window_(window), end_(find_end()) {}
+
+void Cutter::next() {
+  begin_ = end_;
+  end_ = find_end();
+}
+
+std::size_t Cutter::end_of_delimiters(std::size_t at) const {
+  while (at < job_.size() && is_between_commands(job_[at])) ++at;
+  return at;
+}
+
+// A list is read no further than the window, if it can be cut there.
+std::size_t Cutter::find_end() {
+  const std::size_t numbers = set_ != 0 ? set_ : set_of(job_.substr(begin_));
+  std::size_t at = begin_, cut = 0, commas = 0;
+  do {
+    for (; at < job_.size() && !ends_command(job_[at]); ++at) {
+      if (cut != 0 && at >= begin_ + window_) {
+        set_ = numbers;
+        return cut;
+      }
+      if (numbers != 0 && job_[at] == ',' && ++commas % numbers == 0) cut = at + 1;
+    }
+    at = end_of_delimiters(at);
+  } while (at < job_.size() && calls(job_.substr(begin_, at - begin_)));
+  const bool whole = at - begin_ <= window_ || cut == 0;
+  set_ = whole ? 0 : numbers;
+  return whole ? at : cut;
 }
 
 }  // namespace axisgate::rml1

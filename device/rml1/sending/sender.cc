@@ -14,13 +14,6 @@ namespace {
 constexpr std::array<std::string_view, 8> kNames = {"READY", "SENDING",  "PAUSED",  "FINISHING",
                                                     "FED",   "ABORTING", "ABORTED", "LOST"};
 
-SendSettings with_window(SendSettings settings, std::string_view job, const Timeline& timeline) {
-  if (settings.window > 0) return settings;
-  const bool paced = settings.streaming == Streaming::paced;
-  settings.window = paced ? adapted_window(job, timeline, settings.slack, settings.baud) : kWindows[0];
-  return settings;
-}
-
 }  // namespace
 
 std::string_view name(SenderState state) { return kNames.at(static_cast<std::size_t>(state)); }
@@ -29,16 +22,17 @@ bool is_end(SenderState state) {
   return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost;
 }
 
-Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, SendSettings settings,
-               FlowLink& line)
+Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
+               const SendPlan& plan, FlowLink& line)
     : job_(job),
       timeline_(timeline),
       profile_(profile),
-      settings_(with_window(settings, job, timeline)),
+      settings_(settings),
+      plan_(plan),
       line_(line),
-      run_on_(computed_run_on()),
       slowest_(timeline, &Step::most_s, settings.slack),
-      fastest_(timeline, &Step::least_s, 1) {}
+      fastest_(timeline, &Step::least_s, 1),
+      cutter_(job, plan.window) {}
 
 bool Sender::change(Event event) {
   using enum SenderState;
@@ -107,32 +101,32 @@ void Sender::advance(TimePoint now) {
 }
 
 void Sender::send(TimePoint now) {
-  while (written_ < job_.size()) {
-    const std::size_t end = next_cut(job_, written_, settings_.window);
-    if (line_.unsent() > 0 || line_.held() || !has_room(end, now)) return;
-    write(end, now);
+  while (cutter_.begin() < job_.size()) {
+    if (line_.unsent() > 0 || line_.held() || !has_room(now)) return;
+    write(now);
   }
   change(Event::all_written);
 }
 
-void Sender::write(std::size_t end, TimePoint now) {
-  line_.write(job_.substr(written_, end - written_));
-  arrives_ = std::max(arrives_, now) + transmit_time(end - written_, settings_.baud);
+void Sender::write(TimePoint now) {
+  const std::size_t begin = cutter_.begin(), end = cutter_.end();
+  line_.write(job_.substr(begin, end - begin));
+  arrives_ = std::max(arrives_, now) + transmit_time(end - begin, settings_.baud);
   slowest_.arrived(end, arrives_);
   fastest_.arrived(end, now);
-  written_ = end;
+  cutter_.next();
 }
 
-bool Sender::has_room(std::size_t end, TimePoint now) {
+bool Sender::has_room(TimePoint now) {
   if (settings_.streaming == Streaming::full) return true;
   const std::uint64_t executed = slowest_.executed(now);
-  return executed == written_ || end - executed <= settings_.window;
+  return executed == cutter_.begin() || cutter_.end() - executed <= plan_.window;
 }
 
 // What has left the host and has been read by the mill fits neither into its buffer nor between the two. So says flow
 // control alone: without it a mill loses what it has no room for.
 void Sender::learn(TimePoint now) {
-  const std::size_t left = written_ - std::min(line_.unsent(), written_);
+  const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
   const std::size_t unread = settings_.buffer + settings_.converter;
   if (left > unread) slowest_.has_read(left - unread, now);
 }
@@ -142,7 +136,7 @@ bool Sender::may_rest(TimePoint now) {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, slowest_.executed(now), {}, &Step::end);
   if (next == steps.begin()) return true;
-  const auto unknown = std::ranges::upper_bound(steps, written_, {}, &Step::end);  // to the mill
+  const auto unknown = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);  // to the mill
   if (unknown == steps.end() && !timeline_.turns_at_end()) return true;
   const auto last = unknown == steps.end() ? unknown : unknown + 1;
   return !std::all_of(next - 1, last, [](const Step& one) { return one.turning; });
@@ -169,27 +163,13 @@ Duration Sender::until_next_look() const {
 
 // For the next command.
 std::optional<TimePoint> Sender::room_at() const {
-  const std::size_t end = next_cut(job_, written_, settings_.window);
-  const std::size_t over = end > settings_.window ? end - settings_.window : 0;
-  return slowest_.when(std::min<std::uint64_t>(over, written_));
+  const std::size_t over = cutter_.end() > plan_.window ? cutter_.end() - plan_.window : 0;
+  return slowest_.when(std::min<std::uint64_t>(over, cutter_.begin()));
 }
 
 SendProgress Sender::progress(TimePoint now) {
   learn(now);
-  return {written_, std::min(line_.unsent(), written_), slowest_.executed(now), fastest_.executed(now)};
-}
-
-// The mill's buffer may be full while it executes a command, and another one is in the host.
-RunOn Sender::computed_run_on() const {
-  std::size_t longest = 0;
-  for (std::size_t begin = 0; begin < job_.size();) {
-    const std::size_t end = next_cut(job_, begin, settings_.window);
-    longest = std::max(longest, end - begin);
-    begin = end;
-  }
-  const std::size_t full = settings_.buffer + settings_.converter + 2 * longest;
-  if (settings_.streaming == Streaming::full) return {full, full};
-  return {std::min(std::max(settings_.window, longest), full), full};
+  return {cutter_.begin(), std::min(line_.unsent(), cutter_.begin()), slowest_.executed(now), fastest_.executed(now)};
 }
 
 }  // namespace axisgate::rml1

@@ -9,27 +9,13 @@
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/pace.h"
+#include "device/rml1/sending/plan.h"
+#include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
-
-enum class Streaming { paced, full };
-
-struct SendSettings {
-  Streaming streaming = Streaming::paced;
-  std::size_t window = 0;       // bytes, of paced streaming; 0: adapted to the job (window.h)
-  double slack = 1.5;           // by how much a mill may be slower than the slow end of its profile
-  std::size_t buffer = 1024;    // bytes, the mill's
-  std::size_t converter = 512;  // bytes, between host and mill
-  int baud = 9600;
-};
-
-// What may be executed after an abort, in bytes of the job.
-struct RunOn {
-  std::size_t at_most = 0;  // of a mill that executes, and began at the top above the work origin
-  std::size_t if_held = 0;  // of one that its panel holds, for when it is released
-};
 
 enum class SenderState { ready, sending, paused, finishing, fed, aborting, aborted, lost };
 std::string_view name(SenderState state);  // "READY", "SENDING" ...
@@ -46,10 +32,12 @@ struct SendProgress {
 // Not thread safe. Each call may change the state; `now` never goes back.
 class Sender {
  public:
-  // `job`: with prologue and epilogue, checked. All that is referred to outlives this.
-  Sender(std::string_view job, const Timeline& timeline, const Profile& profile, SendSettings settings, FlowLink& line);
+  // `job`: with prologue and epilogue, checked. `plan`: of the job and the settings. All that is referred to outlives
+  // this.
+  Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
+         const SendPlan& plan, FlowLink& line);
 
-  RunOn run_on() const { return run_on_; }
+  RunOn run_on() const { return plan_.run_on; }
 
   // What the present state does not have changes nothing.
   void start(TimePoint now);
@@ -75,25 +63,24 @@ class Sender {
   enum class Event { start, pause, resume, all_written, all_executed, abort, abort_written, line_lost };
   bool change(Event event);
   void send(TimePoint now);
-  void write(std::size_t end, TimePoint now);
-  bool has_room(std::size_t end, TimePoint now);
+  void write(TimePoint now);
+  bool has_room(TimePoint now);
   void learn(TimePoint now);
   Duration until_next_look() const;
   std::optional<TimePoint> room_at() const;
   void look_after_abort(TimePoint now);
   bool may_rest(TimePoint now);
-  RunOn computed_run_on() const;
 
   const std::string_view job_;
   const Timeline& timeline_;
   const Profile& profile_;
   const SendSettings settings_;
+  const SendPlan plan_;
   FlowLink& line_;
-  const RunOn run_on_;
   Pace slowest_, fastest_;
   SenderState state_ = SenderState::ready;
-  std::size_t written_ = 0;  // bytes of the job, whole commands
-  TimePoint arrives_{};      // the last of them, at the mill: a converter may hold what has left the host
+  Cutter cutter_;        // written up to its begin()
+  TimePoint arrives_{};  // the last of them, at the mill: a converter may hold what has left the host
   TimePoint abort_since_{};
 };
 

@@ -17,14 +17,13 @@ constexpr double kHardlyLonger = 1.01;
 Duration job_time(std::string_view job, const Timeline& timeline, double slower, int baud, std::size_t window) {
   Pace pace(timeline, &Step::most_s, slower);
   TimePoint now{};
-  for (std::size_t begin = 0; begin < job.size();) {
-    const std::size_t end = next_cut(job, begin, window);
+  for (Cutter cutter(job, window); cutter.begin() < job.size(); cutter.next()) {
+    const std::size_t begin = cutter.begin(), end = cutter.end();
     const std::size_t over = end > window ? end - window : 0;
     now = std::max(now, pace.when(std::min(over, begin)));
     pace.executed(now);
     now += transmit_time(end - begin, baud);
     pace.arrived(end, now);
-    begin = end;
   }
   return pace.when(job.size()).time_since_epoch();
 }

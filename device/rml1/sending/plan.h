@@ -1,0 +1,25 @@
+// What is computed of a job before it is sent. It reads the whole job, so not on a device's strand.
+#pragma once
+
+#include <cstddef>
+#include <string_view>
+
+#include "device/rml1/sending/settings.h"
+#include "device/rml1/sending/timeline.h"
+
+namespace axisgate::rml1 {
+
+// What may be executed after an abort, in bytes of the job.
+struct RunOn {
+  std::size_t at_most = 0;  // of a mill that executes, and began at the top above the work origin
+  std::size_t if_held = 0;  // of one that its panel holds, for when it is released
+};
+
+struct SendPlan {
+  std::size_t window = 0;  // bytes, of paced streaming
+  RunOn run_on;
+};
+
+SendPlan plan_of(std::string_view job, const Timeline& timeline, const SendSettings& settings);
+
+}  // namespace axisgate::rml1

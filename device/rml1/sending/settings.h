@@ -1,0 +1,19 @@
+// How the jobs of a mill are sent.
+#pragma once
+
+#include <cstddef>
+
+namespace axisgate::rml1 {
+
+enum class Streaming { paced, full };
+
+struct SendSettings {
+  Streaming streaming = Streaming::paced;
+  std::size_t window = 0;       // bytes, of paced streaming; 0: adapted to the job (window.h)
+  double slack = 1.5;           // by how much a mill may be slower than the slow end of its profile
+  std::size_t buffer = 1024;    // bytes, the mill's
+  std::size_t converter = 512;  // bytes, between host and mill
+  int baud = 9600;
+};
+
+}  // namespace axisgate::rml1
