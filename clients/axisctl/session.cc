@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <optional>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
@@ -18,9 +19,8 @@ v1::Device only_device(const v1::ListDevicesResponse& there) {
               names.empty() ? "configure one" : fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
 }
 
-}  // namespace
-
-v1::Device chosen_device(const Session& session) {
+// Nothing: the daemon lists none of the name that was typed.
+std::optional<v1::Device> listed_device(const Session& session) {
   const Connection& connection = session.connection;
   // The one question that the daemon answers even when it has no connection left but for a stop.
   const v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
@@ -30,10 +30,26 @@ v1::Device chosen_device(const Session& session) {
   for (const v1::Device& device : there.devices()) {
     if (device.name() == session.options.device) return device;
   }
+  return std::nullopt;
+}
+
+}  // namespace
+
+v1::Device chosen_device(const Session& session) {
+  if (const auto listed = listed_device(session)) return *listed;
+  const Connection& connection = session.connection;
   // The daemon says what is wrong with the name.
   v1::GetDeviceRequest request;
   request.set_name(session.options.device);
   return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
+}
+
+// The daemon lists stages only.
+v1::Device leased_device(const Session& session) {
+  if (const auto listed = listed_device(session)) return *listed;
+  v1::Device mill;
+  mill.set_name(session.options.device);
+  return mill;
 }
 
 }  // namespace axisgate::axisctl

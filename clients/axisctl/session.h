@@ -14,5 +14,7 @@ struct Session {
 
 // The device that was named, or the only one, as the daemon knows it without asking. Throws Failure.
 v1::Device chosen_device(const Session& session);
+// The same for leases; of a mill its name alone.
+v1::Device leased_device(const Session& session);
 
 }  // namespace axisgate::axisctl

@@ -6,14 +6,20 @@
 
 namespace axisgate::stage {
 
-std::string occupation_by(const Motion& motion, TimePoint now) {
+std::string text_of(const Occupation& occupation, TimePoint now) {
   std::string left;
-  if (motion.due && *motion.due > now) {
-    left = fmt::format(", {} left", for_people(std::chrono::ceil<std::chrono::seconds>(*motion.due - now)));
+  if (occupation.due && *occupation.due > now) {
+    left = fmt::format(", {} left", for_people(std::chrono::ceil<std::chrono::seconds>(*occupation.due - now)));
   }
-  const std::string what = fmt::format("motion {} ({} by {}{})", motion.id, name(motion.kind), motion.who, left);
-  if (motion.axes.empty()) return what + " sets the controller";
-  return fmt::format("{} {} in {}", to_string(motion.axes), motion.axes.count() == 1 ? "is" : "are", what);
+  return fmt::format("{} ({}{}){}", occupation.before, occupation.by, left, occupation.after);
+}
+
+Occupation occupation_by(const Motion& motion) {
+  const std::string by = fmt::format("{} by {}", name(motion.kind), motion.who);
+  const std::string what = fmt::format("motion {}", motion.id);
+  if (motion.axes.empty()) return {by, what, " sets the controller", motion.due};
+  const std::string_view verb = motion.axes.count() == 1 ? "is" : "are";
+  return {by, fmt::format("{} {} in {}", to_string(motion.axes), verb, what), "", motion.due};
 }
 
 std::string_view name(MotionKind kind) {

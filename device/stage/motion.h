@@ -55,8 +55,15 @@ struct Motion {
   std::optional<ScanResult> scan;
 };
 
-// "axis 1 is in motion 1312 (move by unix bert, 4 s left)", for those who wait for its axes.
-std::string occupation_by(const Motion& motion, TimePoint now);
+// What others wait for, as they are shown it.
+struct Occupation {
+  std::string by;                // "move by unix bert"
+  std::string before, after;     // of what stands in parentheses: "axis 1 is in motion 1312", ""
+  std::optional<TimePoint> due;  // it should be over by then; nothing where that is not known
+};
+// "axis 1 is in motion 1312 (move by unix bert, 4 s left)".
+std::string text_of(const Occupation& occupation, TimePoint now);
+Occupation occupation_by(const Motion& motion);
 
 std::string_view name(MotionKind kind);    // "move", "home", "return-to-origin", "path", "execute", "jog", "scan"
 std::string_view name(MotionState state);  // "QUEUED", "RUNNING", ...

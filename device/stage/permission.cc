@@ -5,7 +5,7 @@ namespace {
 
 class EverybodyMay final : public Permission {
   Result<void> authorize(const Use&, TimePoint) override { return {}; }
-  void begin(const Use&, const Motion&, TimePoint) override {}
+  void begin(const Use&, Occupation, TimePoint) override {}
   void due(MotionId, TimePoint) override {}
   void end(MotionId, TimePoint) override {}
   void stop_asked(const Use&, const std::vector<Use>&, TimePoint) override {}

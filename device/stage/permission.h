@@ -19,7 +19,7 @@ struct Use {
   std::string who;
   std::uint64_t lease = 0;  // the fencing token; 0: none, the axes are borrowed for the motion's own duration
   AxisSet axes;
-  MotionId motion = 0;  // 0: not yet one
+  MotionId motion = 0;  // of a mill, its job; 0: not yet one
 };
 
 // Axes that are to be stopped, since their user may not move them any longer.
@@ -48,8 +48,9 @@ class Permission {
   // lease_held, lease_lost or stopped_by, where the caller may not use all of these axes now.
   virtual Result<void> authorize(const Use& use, TimePoint now) = 0;
 
-  // The motion has its turn on its axes; should be over by then; and has left them, whatever became of it.
-  virtual void begin(const Use& use, const Motion& motion, TimePoint now) = 0;
+  // The motion has its turn on its axes; should be over by then; and has left them, whatever became of it. What others
+  // are shown of it is `occupation`.
+  virtual void begin(const Use& use, Occupation occupation, TimePoint now) = 0;
   virtual void due(MotionId motion, TimePoint over) = 0;
   virtual void end(MotionId motion, TimePoint now) = 0;
 

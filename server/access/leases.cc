@@ -215,19 +215,19 @@ std::optional<Problem> Leases::in_the_way(AxisSet axes, TimePoint now) const {
   for (const auto& [id, running] : running_) {
     if (!running.use.axes.touches(axes)) continue;
     return Problem{.reason = Reason::lease_held,
-                   .message = occupation_by(running.motion, now),
+                   .message = text_of(running.occupation, now),
                    .hint = "to wait until it has ended, add --wait SECONDS; or stop it"};
   }
   return {};
 }
 
-void Leases::begin(const Use& use, const stage::Motion& motion, TimePoint) {
-  running_[use.motion] = {use, motion, false};
+void Leases::begin(const Use& use, stage::Occupation occupation, TimePoint) {
+  running_[use.motion] = {use, std::move(occupation), false};
 }
 
 void Leases::due(MotionId motion, TimePoint over) {
   const auto found = running_.find(motion);
-  if (found != running_.end()) found->second.motion.due = over;
+  if (found != running_.end()) found->second.occupation.due = over;
 }
 
 void Leases::end(MotionId motion, TimePoint now) {

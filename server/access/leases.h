@@ -74,7 +74,7 @@ class Leases : public stage::Permission {
   std::function<void(const LeaseEvent& event, TimePoint now)> on_event;
 
   Result<void> authorize(const stage::Use& use, TimePoint now) override;
-  void begin(const stage::Use& use, const stage::Motion& motion, TimePoint now) override;
+  void begin(const stage::Use& use, stage::Occupation occupation, TimePoint now) override;
   void due(MotionId motion, TimePoint over) override;
   void end(MotionId motion, TimePoint now) override;
   void stop_asked(const stage::Use& stop, const std::vector<stage::Use>& waiting, TimePoint now) override;
@@ -101,7 +101,7 @@ class Leases : public stage::Permission {
   };
   struct Running {
     stage::Use use;
-    stage::Motion motion;  // as it began
+    stage::Occupation occupation;
     bool revoked = false;  // taken over: not a byte more
   };
   struct Mover {  // moved something a moment ago

@@ -34,11 +34,12 @@ class Api {
         mutations(gateway),
         pipeline(admission, mutations),
         mill_pipeline(admission, mutations),
+        lease_pipeline(admission, mutations),
         stops(gateway, admission),
         motions(gateway, pipeline, streams),
         paths(gateway, pipeline, streams),
         jogs(gateway, pipeline, streams),
-        leases(gateway, admission, pipeline, streams),
+        leases(gateway, admission, lease_pipeline, streams),
         settings(gateway, access, pipeline),
         positions(gateway, pipeline, saved_positions),
         commands(gateway, access, pipeline, streams),
@@ -55,6 +56,7 @@ class Api {
   const Mutations mutations;
   const Pipeline pipeline;
   const MillPipeline mill_pipeline;
+  const LeasePipeline lease_pipeline;
   const Stops stops;
   const Motions motions;
   const Paths paths;

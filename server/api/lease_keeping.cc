@@ -7,15 +7,16 @@
 namespace axisgate::api {
 
 void LeaseKeeping::keep(std::string_view device, std::string_view lease_token) {
-  const Result<server::Stage*> found = find_stage(gateway_, device);
+  const Result<server::Device*> found = find_device(gateway_, device);
   if (!found) return end({found.error()});
   const Result<server::LeaseToken> opened = gateway_.lease_tokens().open(lease_token);
   if (!opened) return end({opened.error()});
-  (*found)->post([self = self<LeaseKeeping>(), &kept_on = **found, token = *opened](
-                     stage::StageController&, TimePoint now) { self->keep_on(kept_on, token, now); });
+  (*found)->post([self = self<LeaseKeeping>(), &kept_on = **found, token = *opened](server::Leases&, TimePoint now) {
+    self->keep_on(kept_on, token, now);
+  });
 }
 
-void LeaseKeeping::keep_on(server::Stage& device, server::LeaseToken token, TimePoint now) {
+void LeaseKeeping::keep_on(server::Device& device, server::LeaseToken token, TimePoint now) {
   const Result<server::Lease> lease = device.leases().keep_alive(token, now);
   if (!lease) return end({lease.error()});
   {
@@ -32,7 +33,7 @@ void LeaseKeeping::refuse(const Problem& problem) { end({problem}); }
 void LeaseKeeping::finish() { end({}); }
 
 void LeaseKeeping::break_off() {
-  server::Stage* device = nullptr;
+  server::Device* device = nullptr;
   server::LeaseToken token = 0;
   {
     const std::lock_guard lock(mutex_);
@@ -40,7 +41,7 @@ void LeaseKeeping::break_off() {
     token = kept_;
   }
   if (device == nullptr) return;
-  device->post([device, token](stage::StageController&, TimePoint now) { device->leases().lost(token, now); });
+  device->post([token](server::Leases& leases, TimePoint now) { leases.lost(token, now); });
 }
 
 void LeaseKeeping::end(StreamEnd end) {

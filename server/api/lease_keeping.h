@@ -28,7 +28,7 @@ class LeaseKeeping final : public Subscription<server::Lease> {
   void break_off() override;
 
  private:
-  void keep_on(server::Stage& device, server::LeaseToken token, TimePoint now);
+  void keep_on(server::Device& device, server::LeaseToken token, TimePoint now);
   void end(StreamEnd end);
   void begin() override {}
   Reading read() override;
@@ -37,8 +37,8 @@ class LeaseKeeping final : public Subscription<server::Lease> {
 
   // Under mutex_.
   std::optional<server::Lease> due_;
-  std::optional<StreamEnd> end_;      // after what is due
-  server::Stage* kept_on_ = nullptr;  // null: nothing has been kept alive yet
+  std::optional<StreamEnd> end_;       // after what is due
+  server::Device* kept_on_ = nullptr;  // null: nothing has been kept alive yet
   server::LeaseToken kept_ = 0;
 };
 

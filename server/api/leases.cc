@@ -13,6 +13,7 @@ namespace {
 
 using server::Lease;
 using server::LeaseTerms;
+using LeaseTurn = TurnOf<server::Device>;
 
 constexpr Duration kWaitMax = std::chrono::hours(24);
 constexpr Duration kExpectedUseMax = std::chrono::hours(24 * 365);
@@ -63,24 +64,23 @@ Answer<std::optional<Lease>> answering(std::shared_ptr<LeaseSeeker> seeker) {
 }
 
 // A caller who has gone meanwhile does not keep what nobody would give back.
-server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::Stage& device) {
+server::Leases::OnLease handing_to(std::shared_ptr<LeaseSeeker> seeker, server::Device& device) {
   return [seeker = std::move(seeker), &device](const Result<Lease>& lease) {
     if (!lease) return static_cast<void>(seeker->answer(tl::unexpected(lease.error())));
     if (seeker->answer(*lease)) return;
-    device.post([&device, token = lease->token](stage::StageController&, TimePoint later) {
-      (void)device.leases().release(token, later);
-    });
+    device.post(
+        [token = lease->token](server::Leases& leases, TimePoint later) { (void)leases.release(token, later); });
   };
 }
 
 // What was stopped since stays stopped.
-void repeat_rearm(server::Stage&, const Result<Known>& known, const Answer<std::vector<server::Latch>>& answer) {
+void repeat_rearm(server::Device&, const Result<Known>& known, const Answer<std::vector<server::Latch>>& answer) {
   known ? answer(std::vector<server::Latch>()) : answer(tl::unexpected(known.error()));
 }
 
 class LeaseWatch final : public Subscription<Board> {
  public:
-  LeaseWatch(server::Stage& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
+  LeaseWatch(server::Device& device, Streams::Place place) : Subscription(std::move(place)), device_(device) {}
 
  private:
   void begin() override {
@@ -94,7 +94,7 @@ class LeaseWatch final : public Subscription<Board> {
     return newest.value;
   }
 
-  server::Stage& device_;
+  server::Device& device_;
   std::optional<std::uint64_t> taken_;  // the version that was taken last
 };
 
@@ -106,51 +106,50 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
                      const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);
   const Result<Duration> waits = terms ? check_span(wait, kWaitMax, "wait") : tl::unexpected(terms.error());
-  pipeline_.ask(
-      {RequestKind::acquire_lease, call, find_stage(gateway_, device), fault_of(waits)}, answering(seeker),
-      [seeker, terms, wait = waits.value_or(Duration()), validate_only = call.validate_only](
-          const Turn& turn, const Answer<std::optional<Lease>>& respond) {
-        if (validate_only) return respond(std::nullopt);
-        server::Stage& here = turn.device;
-        const std::uint64_t id = here.leases().acquire(*terms, turn.context.who, wait > Duration::zero(),
-                                                       turn.now + wait, turn.now, handing_to(seeker, here));
-        if (id == 0) return;
-        seeker->when_gone([&here, id] {
-          here.post([&here, id](stage::StageController&, TimePoint later) { here.leases().withdraw(id, later); });
-        });
-      });
+  pipeline_.ask({RequestKind::acquire_lease, call, find_device(gateway_, device), fault_of(waits)}, answering(seeker),
+                [seeker, terms, wait = waits.value_or(Duration()), validate_only = call.validate_only](
+                    const LeaseTurn& turn, const Answer<std::optional<Lease>>& respond) {
+                  if (validate_only) return respond(std::nullopt);
+                  server::Device& here = turn.device;
+                  const std::uint64_t id = turn.controller.acquire(*terms, turn.context.who, wait > Duration::zero(),
+                                                                   turn.now + wait, turn.now, handing_to(seeker, here));
+                  if (id == 0) return;
+                  seeker->when_gone([&here, id] {
+                    here.post([id](server::Leases& leases, TimePoint later) { leases.withdraw(id, later); });
+                  });
+                });
 }
 
 void Leases::take_over(const Call& call, std::string_view device, const Result<LeaseWish>& wish,
                        const std::shared_ptr<LeaseSeeker>& seeker) const {
   const Result<LeaseTerms> terms = checked_terms(wish);
-  pipeline_.ask({RequestKind::take_over_lease, call, find_stage(gateway_, device), fault_of(terms)}, answering(seeker),
-                [seeker, terms, validate_only = call.validate_only](const Turn& turn,
+  pipeline_.ask({RequestKind::take_over_lease, call, find_device(gateway_, device), fault_of(terms)}, answering(seeker),
+                [seeker, terms, validate_only = call.validate_only](const LeaseTurn& turn,
                                                                     const Answer<std::optional<Lease>>& respond) {
                   if (validate_only) return respond(std::nullopt);
-                  turn.device.leases().take_over(*terms, turn.context.who, turn.now, handing_to(seeker, turn.device));
+                  turn.controller.take_over(*terms, turn.context.who, turn.now, handing_to(seeker, turn.device));
                 });
 }
 
 void Leases::release(const Call& call, std::string_view device, Answer<void> answer) const {
-  pipeline_.once({RequestKind::release_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                 [](const Turn& turn, const Answer<void>& respond) {
-                   respond(turn.device.leases().release(turn.context.lease, turn.now));
+  pipeline_.once({RequestKind::release_lease, call, find_device(gateway_, device)}, std::move(answer),
+                 [](const LeaseTurn& turn, const Answer<void>& respond) {
+                   respond(turn.controller.release(turn.context.lease, turn.now));
                  });
 }
 
 void Leases::hand_over(const Call& call, std::string_view device, const std::string& to, Answer<void> answer) const {
-  pipeline_.once({RequestKind::hand_over_lease, call, find_stage(gateway_, device)}, std::move(answer),
-                 [to](const Turn& turn, const Answer<void>& respond) {
-                   respond(turn.device.leases().hand_over(turn.context.lease, to, turn.now));
+  pipeline_.once({RequestKind::hand_over_lease, call, find_device(gateway_, device)}, std::move(answer),
+                 [to](const LeaseTurn& turn, const Answer<void>& respond) {
+                   respond(turn.controller.hand_over(turn.context.lease, to, turn.now));
                  });
 }
 
 void Leases::rearm(const Call& call, std::string_view device, Answer<std::vector<server::Latch>> answer) const {
   pipeline_.once(
-      {RequestKind::rearm, call, find_stage(gateway_, device)}, std::move(answer),
-      [](const Turn& turn, const Answer<std::vector<server::Latch>>& respond) {
-        respond(turn.device.leases().rearm(turn.context.lease, turn.context.who, turn.now));
+      {RequestKind::rearm, call, find_device(gateway_, device)}, std::move(answer),
+      [](const LeaseTurn& turn, const Answer<std::vector<server::Latch>>& respond) {
+        respond(turn.controller.rearm(turn.context.lease, turn.context.who, turn.now));
       },
       repeat_rearm);
 }
@@ -164,7 +163,7 @@ Result<std::shared_ptr<LeaseKeeping>> Leases::keep_alive(const Call& call) const
 }
 
 Opened<Board> Leases::watch(const Call& call, std::string_view device) const {
-  const auto admitted = pipeline_.admit({RequestKind::watch_leases, call, find_stage(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::watch_leases, call, find_device(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::watch_leases, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());

@@ -14,7 +14,7 @@
 #include "server/api/lease_keeping.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
-#include "server/devices/stage.h"
+#include "server/devices/device.h"
 #include "server/gateway.h"
 
 namespace axisgate::api {
@@ -39,13 +39,16 @@ class LeaseSeeker {
   virtual void when_gone(std::function<void()> leave) = 0;
 };
 
+// To what every device has.
+using LeasePipeline = PipelineOf<server::Device>;
+
 using Board = std::shared_ptr<const server::LeaseBoard>;  // never null
 
-// Thread safe. The members' problems are those of Pipeline::admit() and of server::Leases.
+// Thread safe. The members' problems are those of LeasePipeline::admit() and of server::Leases.
 class Leases {
  public:
   // All outlive this.
-  Leases(server::Gateway& gateway, const Admission& admission, const Pipeline& pipeline, Streams& streams)
+  Leases(server::Gateway& gateway, const Admission& admission, const LeasePipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
   // Waits for as long as `wait` says, a day at most; 0: not at all. invalid_request.
@@ -69,7 +72,7 @@ class Leases {
  private:
   server::Gateway& gateway_;
   const Admission& admission_;
-  const Pipeline& pipeline_;
+  const LeasePipeline& pipeline_;
   Streams& streams_;
 };
 

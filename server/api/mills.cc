@@ -306,7 +306,7 @@ void Mills::start_on_worker(const Call& call, const std::string& name, const Mil
       [prepared](rml1::MillController& controller, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
         if (!prepared) return tl::unexpected(prepared.error());
         const Result<void> fits = check_setup(turn.device, it);
-        return fits ? controller.start(it.number, *prepared, turn.caller.who, turn.now) : fits;
+        return fits ? controller.start(it.number, *prepared, turn.context, turn.now) : fits;
       },
       answer);
 }
@@ -342,7 +342,7 @@ void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view devi
       {kind, call, find_mill(gateway_, device)},
       [kind](const MillTurn& turn) { return check_in_time(turn).map([kind] { return std::string(api::name(kind)); }); },
       [act, now, answer](const MillTurn& turn, const MutationPtr& mutation) {
-        const Result<void> done = act(turn.controller, turn.now);
+        const Result<void> done = act(turn);
         if (!done) {
           mutation->failed(done.error());
           return answer(tl::unexpected(done.error()));
@@ -363,14 +363,14 @@ void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view devi
 
 void Mills::pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
   act_on_run(
-      RequestKind::pause_job, call, device, [](rml1::MillController& mill, TimePoint now) { return mill.pause(now); },
+      RequestKind::pause_job, call, device, [](const MillTurn& turn) { return turn.controller.pause(turn.now); },
       std::move(answer));
 }
 
 void Mills::resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
   act_on_run(
-      RequestKind::resume_job, call, device, [](rml1::MillController& mill, TimePoint now) { return mill.resume(now); },
-      std::move(answer));
+      RequestKind::resume_job, call, device,
+      [](const MillTurn& turn) { return turn.controller.resume(turn.context, turn.now); }, std::move(answer));
 }
 
 // No id: an abort always acts, as a stop.
@@ -379,7 +379,7 @@ void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> 
                 [](const MillTurn& turn, const Answer<CurrentRun>& respond) {
                   audit(RequestKind::abort_job, turn.device, turn.context, "abort");
                   CurrentRun run{&turn.device, turn.controller.running(turn.now), server::moment_of(turn.now)};
-                  if (!turn.controller.abort(turn.caller.who, turn.now)) {
+                  if (!turn.controller.abort(turn.context, turn.now)) {
                     return respond(tl::unexpected(not_sent_to(turn.device)));
                   }
                   if (turn.controller.running_job() != 0) run.running = turn.controller.running(turn.now);

@@ -110,7 +110,7 @@ class Mills {
                   Answer<CurrentJob> answer) const;
   void start_on_worker(const Call& call, const std::string& name, const server::Mill& mill, rml1::JobNumber number,
                        const Answer<CurrentJob>& answer) const;
-  using RunAct = std::function<Result<void>(rml1::MillController&, TimePoint)>;
+  using RunAct = std::function<Result<void>(const TurnOf<server::Mill>&)>;
   void act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,
                   Answer<CurrentRun> answer) const;
 

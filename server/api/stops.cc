@@ -52,23 +52,24 @@ StopReport report_of_abort(const Mill& mill, bool job_ran, bool sent) {
               .hint = "look at the machine"}};
 }
 
-void stop_mill(Mill& mill, const std::string& who, const std::shared_ptr<Gathering>& gathering, std::size_t index) {
-  mill.post([&mill, who, gathering, index](rml1::MillController& controller, TimePoint now) {
+void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
+               std::size_t index) {
+  mill.post([&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
     const bool job_ran = controller.running_job() != 0;
-    const bool sent = controller.abort(who, now);
-    spdlog::warn("{}: stop by {}", mill.name(), escaped(who));
+    const bool sent = controller.abort(context, now);
+    spdlog::warn("{}: stop by {}", mill.name(), escaped(context.who));
     gathering->add(index, report_of_abort(mill, job_ran, sent), {});
   });
 }
 
 // `start(controller, now, done)` stops one stage.
 template <class Start>
-void stop_each(const std::vector<Device*>& devices, const std::string& who, Answer<std::vector<DeviceStop>> answer,
-               Start start) {
+void stop_each(const std::vector<Device*>& devices, const stage::RequestContext& context,
+               Answer<std::vector<DeviceStop>> answer, Start start) {
   const auto gathering = std::make_shared<Gathering>(devices, std::move(answer));
   for (std::size_t index = 0; index < devices.size(); ++index) {
     if (auto* mill = dynamic_cast<Mill*>(devices[index])) {
-      stop_mill(*mill, who, gathering, index);
+      stop_mill(*mill, context, gathering, index);
       continue;
     }
     auto& stage = dynamic_cast<Stage&>(*devices[index]);
@@ -101,7 +102,7 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
                        "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
   const stage::RequestContext context = admission_.context_of_stop(call);
-  stop_each(*devices, context.who, std::move(answer),
+  stop_each(*devices, context, std::move(answer),
             [axes = *axes, context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.stop(axes, context, now, std::move(done));
             });
@@ -111,7 +112,7 @@ void Stops::emergency_stop(const Call& call, std::string_view device, Answer<std
   const auto devices = find_devices(device);
   if (!devices) return answer(tl::unexpected(devices.error()));
   const stage::RequestContext context = admission_.context_of_stop(call);
-  stop_each(*devices, context.who, std::move(answer),
+  stop_each(*devices, context, std::move(answer),
             [context](StageController& controller, TimePoint now, StageController::OnStopped done) {
               controller.emergency_stop(context, now, std::move(done));
             });

@@ -74,8 +74,8 @@ void Tokens::cut_off(const std::string& token, const std::string& by) const {
   streams_.cut_off(who, {.reason = Reason::unauthenticated,
                          .message = fmt::format("{} revoked the token {}", by, token),
                          .hint = "an administrator makes another one with `axisctl token create`"});
-  for (server::Stage* stage : gateway_.stages()) {
-    stage->post([stage, who, by](stage::StageController&, TimePoint now) { stage->leases().cut_off(who, by, now); });
+  for (const auto& device : gateway_.devices()) {
+    device->post([who, by](server::Leases& leases, TimePoint now) { leases.cut_off(who, by, now); });
   }
 }
 

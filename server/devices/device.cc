@@ -2,10 +2,12 @@
 
 #include <utility>
 
+#include "server/journal/lease_entries.h"
+
 namespace axisgate::server {
 
 Device::Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, LineThread& thread,
-               Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens)
+               Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, journal::Journal* journal)
     : name_(std::move(name)),
       line_(std::move(line)),
       newest_leases_(readers),
@@ -16,6 +18,14 @@ Device::Device(std::string name, const stage::RecordingHeader& header, std::uniq
   leases_.on_change = [this](TimePoint now) {
     newest_leases_.publish({leases_.held(), leases_.waiting(now), leases_.held_back()});
   };
+  if (journal == nullptr) return;
+  leases_.on_event = [this, journal](const LeaseEvent& event, TimePoint now) {
+    journal->append({journal::entry_of(event, name_, now)});
+  };
+}
+
+void Device::post(Request request) {
+  runner_.post([this, request = std::move(request)](TimePoint now) { request(leases_, now); });
 }
 
 void Device::start() {

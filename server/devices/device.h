@@ -13,6 +13,7 @@
 #include "server/access/leases.h"
 #include "server/devices/line.h"
 #include "server/events/newest.h"
+#include "server/journal/journal.h"
 #include "server/metrics/metrics.h"
 #include "server/recording/recorder.h"
 
@@ -39,6 +40,12 @@ class Device {
   Newest<LeaseBoard>& newest_leases() { return newest_leases_; }
   DeviceRecorder& recorder() { return recorder_; }
 
+  // For what is requested of every device, whatever its kind.
+  using Controller = Leases;
+  using Request = std::function<void(Leases&, TimePoint)>;
+  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  void post(Request request);
+
   // On the device's strand only.
   Leases& leases() { return leases_; }
 
@@ -50,9 +57,9 @@ class Device {
   void shutdown();
 
  protected:
-  // `metrics`, `lease_tokens` and `thread` outlive this.
+  // `metrics`, `lease_tokens`, `thread` and `journal` outlive this. A null journal: none is kept.
   Device(std::string name, const stage::RecordingHeader& header, std::unique_ptr<Line> line, LineThread& thread,
-         Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens);
+         Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, journal::Journal* journal);
 
   Runner& runner() { return runner_; }
   DeviceMetrics& metrics() { return metrics_; }

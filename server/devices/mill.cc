@@ -24,13 +24,13 @@ Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr
            Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
            std::unique_ptr<JobRecord> record, journal::Journal* journal)
     : Device(device.name, {.device = device.name, .baud = device.baud}, std::move(line), thread, metrics, readers,
-             lease_tokens),
+             lease_tokens, journal),
       config_(config),
       spool_(spool),
       record_(std::move(record)),
       journal_(journal),
       newest_(readers),
-      controller_(config.profile, settings_of(config), runner(), *this) {
+      controller_(config.profile, settings_of(config), runner(), *this, leases()) {
   restore_jobs();
   runner().attach(controller_, [this] { after_call(); });
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "server/explain.h"
-#include "server/journal/lease_entries.h"
 
 namespace axisgate::server {
 namespace {
@@ -37,7 +36,7 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
              EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
              std::unique_ptr<MotionRecord> record, journal::Journal* journal, journal::RequestMemory& requests)
     : Device(device.name, recording_header(profile_of(device, config)), std::move(line), thread, metrics, readers,
-             lease_tokens),
+             lease_tokens, journal),
       kind_(*config.kind),
       profile_(profile_of(device, config)),
       newest_state_(readers),
@@ -48,15 +47,8 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
           [this](DeviceEvents::Due due) { on_due(due); }, record_.get(), &entries_),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
-  if (journal != nullptr) keep_history(*journal);
+  if (journal != nullptr) number_motions_after(*journal);
   runner().attach(*controller_, [this] { publish_due(); });
-}
-
-void Stage::keep_history(journal::Journal& journal) {
-  leases().on_event = [this, &journal](const LeaseEvent& event, TimePoint now) {
-    journal.append({journal::entry_of(event, name(), now)});
-  };
-  number_motions_after(journal);
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {

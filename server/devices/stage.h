@@ -49,7 +49,6 @@ class Stage final : public Device {
   Duration wind_down_limit() const override;
 
  private:
-  void keep_history(journal::Journal& journal);
   void number_motions_after(const journal::Journal& journal);
   void on_wound_down(const stage::WindDownReport& report);
   void on_due(DeviceEvents::Due due);

@@ -111,7 +111,7 @@ TEST_F(LeasesOfApi, WhileSomethingMovesTheRefusalNamesIt) {
     motion.id = 7;
     motion.axes = stage::AxisSet::of(1);
     motion.who = "unix bert";
-    world_.device().leases().begin({motion.who, 0, motion.axes, motion.id}, motion, now);
+    world_.device().leases().begin({motion.who, 0, motion.axes, motion.id}, stage::occupation_by(motion), now);
   });
   const auto seeker = std::make_shared<WaitingSeeker>();
   world_.api->leases.acquire(World::by(kAnna), kDevice, LeaseWish(), {}, seeker);

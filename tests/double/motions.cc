@@ -58,7 +58,7 @@ bool Controller::take_turn() {
     return true;
   }
   live.has_turn = true;
-  permission_.begin(use, live.motion, now_);
+  permission_.begin(use, stage::occupation_by(live.motion), now_);
   ask_status(
       Lane::motion, live.context.who, [this, id = id](const Answer& looked) { at_turn(id, looked); },
       live.context.not_after);

@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 
+#include "axisgate/v1/control.grpc.pb.h"
 #include "axisgate/v1/mill.grpc.pb.h"
 #include "tests/integration/rpc_fixture.h"
 
@@ -184,6 +185,32 @@ TEST_F(RpcMill, AnAbortEndsTheJobAndVoidsTheNextConfirmation) {
   ASSERT_TRUE(confirm(second).ok());
   ASSERT_TRUE(on_mill(&v1::MillService::Stub::AbortJob).ok()) << "it always acts";
   EXPECT_EQ(reason(start(second)), v1::REASON_NOT_ALLOWED);
+}
+
+TEST_F(RpcMill, ALeaseKeepsOthersOutAndATakeOverAborts) {
+  const auto control = v1::ControlService::NewStub(channel_);
+  v1::AcquireLeaseRequest acquire;
+  acquire.set_device(kMill);
+  v1::AcquireLeaseResponse acquired;
+  grpc::ClientContext first;
+  limit(first);
+  ASSERT_TRUE(control->AcquireLease(&first, acquire, &acquired).ok());
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  const grpc::Status refused = start(job);
+  EXPECT_EQ(reason(refused), v1::REASON_LEASE_HELD) << refused.error_message();
+  v1::StartJobRequest leased;
+  leased.set_job(job.name());
+  leased.mutable_context()->set_lease_token(acquired.lease().token());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, leased).ok());
+  v1::TakeOverLeaseRequest take;
+  take.set_device(kMill);
+  v1::TakeOverLeaseResponse taken;
+  grpc::ClientContext second;
+  limit(second);
+  ASSERT_TRUE(control->TakeOverLease(&second, take, &taken).ok());
+  EXPECT_THAT(watch_until([](const v1::Mill& it) { return !it.has_running(); }).jobs(), IsEmpty())
+      << "it was granted when the job was ABORTED";
 }
 
 TEST_F(RpcMill, AStopOfAllDevicesIsTheAbort) {

@@ -11,6 +11,7 @@
 
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/fake_mill_line.h"
+#include "tests/rml1/fake_permission.h"
 #include "tests/rml1/mill.h"
 
 namespace axisgate::rml1 {
@@ -46,7 +47,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   Result<void> confirm(JobNumber number) { return mill_.confirm(number, setup(), "unix bert", now_); }
   void run_job(JobNumber number, int count = 20) {
     ASSERT_TRUE(confirm(number));
-    ASSERT_TRUE(mill_.start(number, prepared(count), "unix anna", now_));
+    ASSERT_TRUE(mill_.start(number, prepared(count), {.who = "unix anna"}, now_));
   }
   void run_for(Duration time) {
     for (const TimePoint end = now_ + time; now_ < end; now_ += 1ms) {
@@ -91,7 +92,8 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   std::map<JobState, std::string> by_;
   std::uint64_t noted_ = 0;
   std::size_t written_before_note_ = 0;
-  MillController mill_{profile_, settings_, line_, *this};
+  FakePermission permission_;
+  MillController mill_{profile_, settings_, line_, *this, permission_};
 };
 
 TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
@@ -111,9 +113,47 @@ TEST_F(MillControllerTest, AConfirmedJobIsSentWithPrologueAndEpilogueAndIsFed) {
   EXPECT_THAT(said_, ElementsAre("QUEUED", "CONFIRMED", "RUNNING", "SENDING", "FINISHING", "FED", "FED", "DONE"));
 }
 
+TEST_F(MillControllerTest, WhoMayNotUseTheMillStartsAndResumesNothing) {
+  add(1);
+  ASSERT_TRUE(confirm(1));
+  permission_.allowed = false;
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna", .lease = 9}, now_)), Reason::lease_held);
+  EXPECT_THAT(line_.writes, IsEmpty());
+  EXPECT_EQ(state(1), confirmed) << "it can be started by who may";
+  EXPECT_EQ(permission_.asked.back().lease, 9);
+  EXPECT_EQ(permission_.asked.back().axes, stage::AxisSet::all());
+  permission_.allowed = true;
+  ASSERT_TRUE(mill_.start(1, prepared(200), {.who = "unix anna"}, now_));
+  ASSERT_TRUE(mill_.pause(now_));
+  permission_.allowed = false;
+  EXPECT_EQ(reason(mill_.resume({.who = "unix carl"}, now_)), Reason::lease_held);
+}
+
+TEST_F(MillControllerTest, AJobOccupiesTheMillUntilItHasEnded) {
+  add(1);
+  run_job(1, 4);
+  EXPECT_EQ(permission_.users[1], "job 1 runs, part.rml, started by unix anna");
+  run_for(60s);
+  EXPECT_EQ(state(1), fed);
+  EXPECT_THAT(permission_.users, IsEmpty());
+}
+
+TEST_F(MillControllerTest, WhoLosesTheRightHasTheJobAborted) {
+  add(1);
+  run_job(1, 200);
+  permission_.orders.stops.push_back({7, stage::AxisSet::all(), "unix carl"});
+  run_for(1s);
+  EXPECT_EQ(state(1), aborted);
+  EXPECT_EQ(by_[aborted], "unix carl");
+  EXPECT_THAT(permission_.answered, ElementsAre(7));
+  EXPECT_THAT(permission_.stops, IsEmpty()) << "nobody stopped it";
+  EXPECT_TRUE(mill_.abort({.who = "unix bert"}, now_));
+  EXPECT_THAT(permission_.stops, ElementsAre("unix bert"));
+}
+
 TEST_F(MillControllerTest, WithoutAConfirmationNothingIsWritten) {
   add(1);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
   EXPECT_THAT(line_.writes, IsEmpty());
   EXPECT_EQ(state(1), queued);
 }
@@ -125,7 +165,7 @@ TEST_F(MillControllerTest, AConfirmationExpires) {
   mill_.advance(now_);
   EXPECT_EQ(state(1), confirmed);
   now_ += 1ms;
-  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed)
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed)
       << "also before time was let pass";
   mill_.advance(now_);
   EXPECT_EQ(state(1), queued);
@@ -144,7 +184,7 @@ TEST_F(MillControllerTest, AConfirmationIsForWhatTheJobNeeds) {
 TEST_F(MillControllerTest, OtherBytesThanThoseConfirmedDoNotStart) {
   add(1);
   ASSERT_TRUE(confirm(1));
-  EXPECT_EQ(reason(mill_.start(1, prepared(20, "d2"), "unix anna", now_)), Reason::internal);
+  EXPECT_EQ(reason(mill_.start(1, prepared(20, "d2"), {.who = "unix anna"}, now_)), Reason::internal);
   EXPECT_THAT(line_.writes, IsEmpty());
 }
 
@@ -180,7 +220,7 @@ TEST_F(MillControllerTest, WhileItIsNotKnownWhatBecameOfAJobNoOtherStarts) {
 
 TEST_F(MillControllerTest, AnAbortWithoutAJobLeavesAlsoWhereTheMillHoldsTheLine) {
   line_.busy = true;
-  EXPECT_TRUE(mill_.abort("unix bert", now_));
+  EXPECT_TRUE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_FALSE(mill_.is_idle());
   run_for(1s);
   EXPECT_EQ(line_.received, abort_words(profile_, true));
@@ -192,24 +232,24 @@ TEST_F(MillControllerTest, AJogAnAbortAndALostLineVoidAConfirmation) {
   add(1);
   ASSERT_TRUE(confirm(1));
   mill_.setup_changed("unix bert has moved the mill", now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
   ASSERT_TRUE(confirm(1));
-  mill_.abort("unix bert", now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
+  mill_.abort({.who = "unix bert"}, now_);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
   ASSERT_TRUE(confirm(1));
   mill_.link_down(now_, "unplugged");
   mill_.link_up(now_);
-  EXPECT_EQ(reason(mill_.start(1, prepared(), "unix anna", now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(), {.who = "unix anna"}, now_)), Reason::not_allowed);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
 }
 
 TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
   mill_.link_down(now_, "unplugged");
-  EXPECT_FALSE(mill_.abort("unix bert", now_));
+  EXPECT_FALSE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_THAT(line_.writes, IsEmpty());
   mill_.link_up(now_);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "when the line is back";
-  mill_.abort("unix bert", now_);
+  mill_.abort({.who = "unix bert"}, now_);
   EXPECT_THAT(line_.writes, SizeIs(2));
 }
 
@@ -218,7 +258,7 @@ TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
   add(2);
   run_job(1);
   EXPECT_EQ(reason(confirm(2)), Reason::wrong_mode);
-  EXPECT_EQ(reason(mill_.start(2, prepared(), "unix anna", now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.start(2, prepared(), {.who = "unix anna"}, now_)), Reason::wrong_mode);
   EXPECT_EQ(reason(mill_.cancel(1, "unix bert", now_)), Reason::wrong_mode) << "it is aborted, not cancelled";
 }
 
@@ -226,13 +266,13 @@ TEST_F(MillControllerTest, PauseAndResume) {
   add(1);
   EXPECT_EQ(reason(mill_.pause(now_)), Reason::wrong_mode);
   run_job(1);
-  EXPECT_EQ(reason(mill_.resume(now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.resume({.who = "unix anna"}, now_)), Reason::wrong_mode);
   run_for(2s);
   ASSERT_TRUE(mill_.pause(now_));
   const std::size_t before = line_.writes.size();
   run_for(60s);
   EXPECT_THAT(line_.writes, SizeIs(before));
-  ASSERT_TRUE(mill_.resume(now_));
+  ASSERT_TRUE(mill_.resume({.who = "unix anna"}, now_));
   run_for(120s);
   EXPECT_EQ(state(1), fed);
 }
@@ -243,7 +283,7 @@ TEST_F(MillControllerTest, AnAbortEndsTheJobAndVoidsNothingElse) {
   run_job(1);
   run_for(2s);
   const std::size_t before = line_.writes.size();
-  mill_.abort("unix bert", now_);
+  mill_.abort({.who = "unix bert"}, now_);
   run_for(1s);
   EXPECT_EQ(state(1), aborted);
   EXPECT_EQ(by_[aborted], "unix bert");
@@ -274,13 +314,13 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
   mill_.link_up(now_);
   run_for(60s);
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "the mill is stopped once, nothing else";
-  EXPECT_EQ(reason(mill_.start(1, prepared(200), "unix anna", now_)), Reason::not_allowed);
+  EXPECT_EQ(reason(mill_.start(1, prepared(200), {.who = "unix anna"}, now_)), Reason::not_allowed);
   EXPECT_EQ(reason(confirm(1)), Reason::wrong_mode);
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_));
 }
 
 TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
-  MillController after(profile_, settings_, line_, *this);
+  MillController after(profile_, settings_, line_, *this, permission_);
   after.inherit({.number = 7,
                  .name = "part.rml",
                  .owner = "unix anna",
@@ -297,7 +337,7 @@ TEST_F(MillControllerTest, AJobOfAKilledDaemonIsStoppedWhenTheLineOpens) {
 
 TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
   settings_.at_loss = AtLoss::leave;
-  MillController other(profile_, settings_, line_, *this);
+  MillController other(profile_, settings_, line_, *this, permission_);
   other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
   other.link_up(now_);
   EXPECT_THAT(line_.writes, IsEmpty());

@@ -33,7 +33,7 @@ class Lathe : public Device {
  public:
   Lathe(CountedLine::Counts& counts, LineThread& thread, Metrics& metrics, const Executor& readers, LeaseTokens& tokens)
       : Device("turning", {.device = "turning"}, std::make_unique<CountedLine>(counts), thread, metrics, readers,
-               tokens) {}
+               tokens, nullptr) {}
 
   std::string_view kind_name() const override { return "lathe"; }
   void wind_down(std::function<void()> done) override {

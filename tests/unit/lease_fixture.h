@@ -46,7 +46,7 @@ class LeaseFixture : public testing::Test {
     what.id = motion;
     what.axes = axes;
     what.who = who;
-    leases_.begin({who, lease, axes, motion}, what, now_);
+    leases_.begin({who, lease, axes, motion}, occupation_by(what), now_);
   }
   void pass(Duration time) {
     now_ += time;

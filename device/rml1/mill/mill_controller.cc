@@ -14,6 +14,21 @@ constexpr std::string_view kExpired = "the confirmation has expired";
 
 bool waits(const Job& job) { return job.state == JobState::queued || job.state == JobState::confirmed; }
 
+// A mill is used as a whole.
+stage::Use use_of(const stage::RequestContext& by, JobNumber job) {
+  return {by.who, by.lease, stage::AxisSet::all(), job};
+}
+
+stage::Occupation occupation_by(const Job& job, const std::string& who, TimePoint now) {
+  const auto longest = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.most_s));
+  return {fmt::format("{}, started by {}", job.name, who), fmt::format("job {} runs", job.number), "", now + longest};
+}
+
+std::optional<TimePoint> sooner(std::optional<TimePoint> one, std::optional<TimePoint> other) {
+  if (!one || !other) return one ? one : other;
+  return std::min(*one, *other);
+}
+
 }  // namespace
 
 void MillController::NotedLine::write(std::string_view bytes) {
@@ -25,8 +40,14 @@ void MillController::NotedLine::write(std::string_view bytes) {
   line_.write(bytes);
 }
 
-MillController::MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events)
-    : profile_(profile), settings_(settings), line_(line), noted_line_(*this, line), events_(events) {}
+MillController::MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
+                               stage::Permission& permission)
+    : profile_(profile),
+      settings_(settings),
+      line_(line),
+      noted_line_(*this, line),
+      events_(events),
+      permission_(permission) {}
 
 void MillController::add(Job job, TimePoint now) {
   job.state = JobState::queued;
@@ -124,12 +145,14 @@ Result<void> MillController::check_startable(const Job& job, const PreparedJob& 
   return {};
 }
 
-Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared, std::string_view by,
-                                   TimePoint now) {
+Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared,
+                                   const stage::RequestContext& by, TimePoint now) {
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
   if (const Result<void> startable = check_startable(**job, *prepared, now); !startable) return startable;
-  change(**job, JobEvent::start, by, "", now);
+  if (const Result<void> may = authorize(by, number, now); !may) return may;
+  change(**job, JobEvent::start, by.who, "", now);
+  permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
   running_.reset(new Running{number, std::move(prepared), now,
                              Sender(it.text(), it.timeline(), profile_, settings_.sending, it.plan(), noted_line_),
@@ -150,13 +173,33 @@ Result<void> MillController::pause(TimePoint now) {
   return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
 }
 
-Result<void> MillController::resume(TimePoint now) {
+Result<void> MillController::resume(const stage::RequestContext& by, TimePoint now) {
   if (!running_ || running_->sender.state() != SenderState::paused) {
     return fail(Reason::wrong_mode, "no job is paused", "`axisctl mill watch` shows what the mill does");
   }
+  if (const Result<void> may = authorize(by, 0, now); !may) return may;
   running_->sender.resume(now);
   look_at_sender(now);
   return {};
+}
+
+Result<void> MillController::authorize(const stage::RequestContext& by, JobNumber job, TimePoint now) {
+  return permission_.authorize(use_of(by, job), now);
+}
+
+// Those who may not use the mill any longer have their job aborted.
+void MillController::follow_leases(TimePoint now) {
+  const stage::Orders orders = permission_.advance(now);
+  for (const stage::StopOrder& order : orders.stops) {
+    if (running_) abort(order.who, now);
+    permission_.stopped(order.id, now);
+  }
+  for (const stage::EndedLease& lease : orders.restoring) permission_.settings_restored(lease.token, now);
+}
+
+bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
+  permission_.stop_asked(use_of(by, 0), {}, now);
+  return abort(by.who, now);
 }
 
 bool MillController::abort(std::string_view by, TimePoint now) {
@@ -241,6 +284,7 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
   Job& job = **find(number);
   if (event == JobEvent::lost) job.written = written_at_loss();
   running_.reset();
+  permission_.end(number, now);
   change(job, event, requested_by, why, now);
   leave_queue_if_ended(number);
 }
@@ -281,6 +325,7 @@ void MillController::link_down(TimePoint now, std::string_view why) {
 
 void MillController::advance(TimePoint now) {
   now_ = now;
+  follow_leases(now);
   if (const auto until = confirmed_until(); until && *until <= now) setup_changed(kExpired, now);
   look_after_abort(now);
   if (!running_) return;
@@ -295,9 +340,10 @@ std::optional<TimePoint> MillController::confirmed_until() const {
 
 std::optional<TimePoint> MillController::next_deadline() const {
   if (abort_since_) return now_ + Sender::kLook;
-  if (!running_) return confirmed_until();
+  const auto lease = permission_.next_deadline();
+  if (!running_) return sooner(confirmed_until(), lease);
   const TimePoint look = now_ + kLook;
-  return std::min(running_->sender.next_deadline(now_).value_or(look), look);
+  return std::min({running_->sender.next_deadline(now_).value_or(look), look, lease.value_or(look)});
 }
 
 }  // namespace axisgate::rml1

@@ -16,6 +16,8 @@
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/sender.h"
+#include "device/stage/permission.h"
+#include "device/stage/requests.h"
 
 namespace axisgate::rml1 {
 
@@ -57,7 +59,8 @@ class MillEvents {
 class MillController : public LineMachine {
  public:
   // All outlive this.
-  MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events);
+  MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
+                 stage::Permission& permission);
 
   // A job of the run of the daemon before this one: QUEUED, FED, or PAUSED_UNKNOWN with what is known to be `written`.
   // Before link_up().
@@ -69,13 +72,18 @@ class MillController : public LineMachine {
   // stale_setpoint: `seen` is not what the job needs.
   Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
   // Its first byte goes out, if the mill takes it. `prepared` is of the job's bytes. not_found; wrong_mode;
-  // not_allowed, where it is not confirmed any more; link_down.
-  Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, std::string_view by, TimePoint now);
+  // not_allowed, where it is not confirmed any more; link_down; what Permission::authorize() refuses.
+  Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
+                     TimePoint now);
   // Of the running job; wrong_mode where none runs, or not so.
   Result<void> pause(TimePoint now);
-  Result<void> resume(TimePoint now);
-  // By `by`. Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False:
-  // the line is closed, and it is sent when the line is back.
+  // Also what Permission::authorize() refuses.
+  Result<void> resume(const stage::RequestContext& by, TimePoint now);
+  // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False: the line is
+  // closed, and it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns, may start
+  // another one before they rearm.
+  bool abort(const stage::RequestContext& by, TimePoint now);
+  // The same without that, by what ends the job and is no stop.
   bool abort(std::string_view by, TimePoint now);
   // not_found; wrong_mode, where the job's state does not have it.
   Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
@@ -132,6 +140,9 @@ class MillController : public LineMachine {
     std::string aborted_by;
   };
 
+  Result<void> authorize(const stage::RequestContext& by, JobNumber job, TimePoint now);
+  void follow_leases(TimePoint now);
+
   Result<Job*> find(JobNumber number);
   Result<void> change(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
   void change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now);
@@ -153,6 +164,7 @@ class MillController : public LineMachine {
   FlowLink& line_;
   NotedLine noted_line_;
   MillEvents& events_;
+  stage::Permission& permission_;
   MillLink link_ = MillLink::closed;
   Duration reopen_ = kReopenFirst;
   std::vector<Job> jobs_;

@@ -204,7 +204,7 @@ std::string Motions::occupation_of(AxisSet axes) const {
   std::string text;
   for (const auto& [id, live] : live_) {
     if (!gate_.axes_of(id).touches(axes)) continue;
-    text += (text.empty() ? "" : ", ") + occupation_by(live->motion, tasks_.now());
+    text += (text.empty() ? "" : ", ") + text_of(occupation_by(live->motion), tasks_.now());
   }
   return text;
 }

@@ -25,7 +25,7 @@ class Rights {
   Result<void> still_authorized(const Use& use) { return permission_.authorize(use, tasks_.now()); }
 
   // A motion has its turn, should be over by then, or has left its axes.
-  void begin(const Use& use, const Motion& motion) { permission_.begin(use, motion, tasks_.now()); }
+  void begin(const Use& use, const Motion& motion) { permission_.begin(use, occupation_by(motion), tasks_.now()); }
   void due(MotionId motion, TimePoint over) { permission_.due(motion, over); }
   void end(MotionId motion) { permission_.end(motion, tasks_.now()); }
   void stop_asked(const Use& stop, const std::vector<Use>& waiting) {
