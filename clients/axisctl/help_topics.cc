@@ -157,7 +157,10 @@ A mill never replies: what it has executed is a range, computed from its profile
 more of the job, but what the mill has received may run on, and after a pause the cutter keeps turning in the cut. An
 abort also sends what discards the mill's buffer, raises the tool and stops the spindle. Whether the mill has done so is
 not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
-have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.)",
+have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.
+
+While no job runs, `mill jog` moves the tool by a short step, `mill origin` sets Z0, and `mill spindle` and `mill raise` do as
+they say. Where the tool is, is not known, so nothing checks where a step leads. A confirmation is void after each.)",
      R"(printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill check - --profile mdx-20
 printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
@@ -166,7 +169,10 @@ printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl --device mill mill
 axisctl --device mill mill queue
 axisctl --device mill mill confirm --yes
 axisctl --device mill mill start
-axisctl --device mill mill abort)"},
+axisctl --device mill mill abort
+axisctl --device mill mill jog x=5 z=-0.5
+axisctl --device mill mill origin
+axisctl --device mill mill raise)"},
     {"units",
      R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the unit of the axis, which the
 configuration names. A speed is an amount per second; the /s may be left out. Nothing is rounded: an amount that is not a

@@ -89,6 +89,10 @@ constexpr Row kRows[] = {
     {Verb::mill_abort, mill_abort},
     {Verb::mill_cancel, mill_cancel},
     {Verb::mill_done, mill_done},
+    {Verb::mill_jog, mill_jog},
+    {Verb::mill_origin, mill_origin},
+    {Verb::mill_spindle, mill_spindle},
+    {Verb::mill_raise, mill_raise},
 };
 
 constexpr bool in_order() {
@@ -97,7 +101,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_done) + 1);
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_raise) + 1);
 
 int run(const Options& options) {
   const Row& row = kRows[static_cast<std::size_t>(options.verb)];

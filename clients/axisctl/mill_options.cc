@@ -66,6 +66,25 @@ void add_starts(CLI::App& mill, Options& options) {
   start->add_flag("--follow", options.follow, "show the job until it has ended");
 }
 
+void add_hand_verbs(CLI::App& mill, Options& options) {
+  JobOptions& job = options.job;
+  CLI::App* jog = add_job_verb(mill, options, Verb::mill_jog, "jog",
+                               "move the tool by a short step, unchecked; the spindle stops before it");
+  jog->add_option("AXIS=MM", job.ways, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
+      ->required()
+      ->type_name("");
+  jog->add_option("--speed", job.mm_per_s, "in mm/s (default: the mill's)")->type_name("MM/S");
+  CLI::App* origin =
+      add_job_verb(mill, options, Verb::mill_origin, "origin", "set Z0; X and Y are set at the mill's panel");
+  CLI::Option* name = origin->add_option(
+      "NAME", job.origin, "an origin of the configuration that has a height (default: where the tool is)");
+  name->type_name("");
+  origin->add_option("--z", job.z, "a machine coordinate, in steps")->type_name("STEPS")->excludes(name);
+  CLI::App* spindle = add_job_verb(mill, options, Verb::mill_spindle, "spindle", "start or stop the spindle");
+  spindle->add_option("on|off", job.spindle, "")->required()->check(CLI::IsMember({"on", "off"}))->type_name("");
+  add_job_verb(mill, options, Verb::mill_raise, "raise", "stop the spindle, and raise the tool to the top");
+}
+
 }  // namespace
 
 void add_mill_verbs(CLI::App& app, Options& options) {
@@ -87,6 +106,7 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   add_number(*add_job_verb(*mill, options, Verb::mill_done, "done", "say that the workpiece of a job was seen"),
              options, "its number")
       ->required();
+  add_hand_verbs(*mill, options);
 }
 
 }  // namespace axisgate::axisctl

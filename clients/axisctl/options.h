@@ -79,7 +79,11 @@ enum class Verb {
   mill_resume,
   mill_abort,
   mill_cancel,
-  mill_done
+  mill_done,
+  mill_jog,
+  mill_origin,
+  mill_spindle,
+  mill_raise
 };
 
 // The way to the daemon.
@@ -109,6 +113,10 @@ struct JobOptions {
   std::vector<std::string> accepted;    // send: sections of the guideline
   std::optional<std::uint64_t> number;  // of the job; none: the first that waits
   bool start = false;                   // confirm: start it, too
+  std::vector<std::string> ways;        // jog: "x=5", mm
+  std::optional<double> mm_per_s;       // jog
+  std::optional<std::int64_t> z;        // origin: a machine coordinate, in steps
+  std::string spindle;                  // "on", "off"
 };
 
 struct Options {

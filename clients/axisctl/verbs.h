@@ -73,6 +73,10 @@ int mill_resume(const Session& session);
 int mill_abort(const Session& session);
 int mill_cancel(const Session& session);
 int mill_done(const Session& session);
+int mill_jog(const Session& session);
+int mill_origin(const Session& session);
+int mill_spindle(const Session& session);
+int mill_raise(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.
 int with_lease(const Session& session, int (*verb)(const Session&));

@@ -10,6 +10,7 @@
 #include "server/api/history.h"
 #include "server/api/jogs.h"
 #include "server/api/leases.h"
+#include "server/api/mill_operation.h"
 #include "server/api/mills.h"
 #include "server/api/motions.h"
 #include "server/api/paths.h"
@@ -49,7 +50,8 @@ class Api {
         diagnostics(gateway, admission, pipeline, streams),
         simulators(gateway, pipeline),
         tokens(gateway, access, admission, streams),
-        mills(gateway, mill_pipeline, streams) {}
+        mills(gateway, mill_pipeline, streams),
+        mill_operation(gateway, mill_pipeline) {}
 
   Admission admission;
   Streams streams;
@@ -72,6 +74,7 @@ class Api {
   const Simulators simulators;
   const Tokens tokens;
   const Mills mills;
+  const MillOperation mill_operation;
 };
 
 }  // namespace axisgate::api

@@ -85,13 +85,6 @@ void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, 
   });
 }
 
-// While it was posted or waited for the journal, its caller may have left.
-Result<void> check_in_time(const MillTurn& turn) {
-  if (turn.now <= turn.context.not_after) return {};
-  return fail(Reason::deadline_passed, "the request came to the mill after its not_after",
-              "ask again, with a later not_after");
-}
-
 // The configuration may have changed since the job was sent.
 Result<void> check_setup(const Mill& mill, const rml1::Job& job) {
   const server::MillConfig& config = mill.config();
@@ -124,6 +117,12 @@ bool is_at_station(const Mill& mill, std::string_view who) {
 std::string station_text(const Mill& mill) { return fmt::format("{}", fmt::join(mill.config().station, ", ")); }
 
 }  // namespace
+
+Result<void> check_in_time(const MillTurn& turn) {
+  if (turn.now <= turn.context.not_after) return {};
+  return fail(Reason::deadline_passed, "the request came to the mill after its not_after",
+              "ask again, with a later not_after");
+}
 
 Problem not_sent_to(const Mill& mill) {
   return {.reason = Reason::link_down,

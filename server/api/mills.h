@@ -75,6 +75,9 @@ class JobUpload {
   rml1::Check check_;
 };
 
+// deadline_passed. While a request was posted or waited for the journal, its caller may have left.
+Result<void> check_in_time(const TurnOf<server::Mill>& turn);
+
 // Of an abort: the line is closed.
 Problem not_sent_to(const server::Mill& mill);
 

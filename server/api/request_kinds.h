@@ -66,6 +66,7 @@ enum class RequestKind {
   abort_job,
   cancel_job,
   report_job_done,
+  operate_mill,
   ask_door,    // what a door says of itself in one answer: its health
   watch_door,  // the same as a stream
   unlisted,    // no kind that this table knows

@@ -55,7 +55,8 @@ struct StageConfig {
 // A place of the work origin.
 struct NamedOrigin {
   std::string name;
-  std::int64_t x = 0, y = 0;  // the mill's steps from its home corner, within its work area
+  std::int64_t x = 0, y = 0;        // the mill's steps from its home corner, within its work area
+  std::optional<std::int64_t> z{};  // of Z0: a machine coordinate, in steps; none: as it is set at the mill
 };
 
 // As an entry of MillConfig::station: every user of the Unix socket.

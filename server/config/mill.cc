@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <set>
@@ -119,6 +120,12 @@ std::int64_t read_steps(ConfigTable& table, std::string_view key, std::int64_t m
   return steps.value_or(0);
 }
 
+// Machine coordinates.
+std::pair<std::int64_t, std::int64_t> travel_of_z(const rml1::Profile& profile) {
+  const double bottom = profile.top - profile.up * std::round(profile.steps(profile.z_mm));
+  return {std::llround(std::min(profile.top, bottom)), std::llround(std::max(profile.top, bottom))};
+}
+
 std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<rml1::Profile>& profile,
                                       std::string_view file, std::vector<ConfigError>& errors) {
   // A quotient such as 203.2 / 0.025 is not always the whole number that it stands for.
@@ -134,7 +141,8 @@ std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<r
     ConfigTable table(*source, "device.origin", file, errors);
     std::string name = read_origin_name(table, names);
     const std::int64_t x = read_steps(table, "x", most_x), y = read_steps(table, "y", most_y);
-    origins.push_back({std::move(name), x, y});
+    const auto [lowest, highest] = profile ? travel_of_z(*profile) : std::pair(-kStepsMax, kStepsMax);
+    origins.push_back({std::move(name), x, y, table.integer("z", lowest, highest)});
     table.refuse_unknown();
   }
   return origins;

@@ -195,6 +195,7 @@ void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) 
     out.text("name", origin.name);
     out.number("x", origin.x);
     out.number("y", origin.y);
+    if (origin.z) out.number("z", *origin.z);
   }
 }
 

@@ -65,8 +65,9 @@ void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber
 }
 
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
+  const double z0 = named.z ? static_cast<double>(*named.z) : profile.default_z0;
   return {static_cast<double>(named.x) * profile.step_mm, static_cast<double>(named.y) * profile.step_mm,
-          std::abs(profile.top - profile.default_z0) * profile.step_mm};
+          std::abs(profile.top - z0) * profile.step_mm};
 }
 
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,

@@ -26,7 +26,7 @@ rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
 // It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
 void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 
-// The work origin as the check of a job takes it; Z0 is where the profile has it.
+// The work origin as the check of a job takes it. Without a height of its own, Z0 is where the profile has it.
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 
 // Reads the whole job, so not on the device's strand. not_found; internal, where the bytes are others than they were.

@@ -104,4 +104,15 @@ grpc::ServerUnaryReactor* MillService::ReportJobDone(grpc::CallbackServerContext
   return call.get();
 }
 
+grpc::ServerUnaryReactor* MillService::OperateMill(grpc::CallbackServerContext* context,
+                                                   const v1::OperateMillRequest* request,
+                                                   v1::OperateMillResponse* response) {
+  const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
+  operation_.operate(to_acting_call(*context, *request), request->device(), to_hand_request(*request),
+                     answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
+                       *answer.mutable_longest() = to_proto(longest);
+                     }));
+  return call.get();
+}
+
 }  // namespace axisgate::rpc

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "axisgate/v1/mill.grpc.pb.h"
+#include "server/api/mill_operation.h"
 #include "server/api/mills.h"
 #include "server/rpc/half_close.h"
 
@@ -9,8 +10,9 @@ namespace axisgate::rpc {
 
 class MillService final : public v1::MillService::CallbackService {
  public:
-  // Both outlive this.
-  MillService(const api::Mills& mills, const HalfClose& half_close) : mills_(mills), half_close_(half_close) {}
+  // All outlive this.
+  MillService(const api::Mills& mills, const api::MillOperation& operation, const HalfClose& half_close)
+      : mills_(mills), operation_(operation), half_close_(half_close) {}
 
   grpc::ServerReadReactor<v1::SendJobRequest>* SendJob(grpc::CallbackServerContext* context,
                                                        v1::SendJobResponse* response) override;
@@ -30,9 +32,12 @@ class MillService final : public v1::MillService::CallbackService {
                                       v1::CancelJobResponse* response) override;
   grpc::ServerUnaryReactor* ReportJobDone(grpc::CallbackServerContext* context, const v1::ReportJobDoneRequest* request,
                                           v1::ReportJobDoneResponse* response) override;
+  grpc::ServerUnaryReactor* OperateMill(grpc::CallbackServerContext* context, const v1::OperateMillRequest* request,
+                                        v1::OperateMillResponse* response) override;
 
  private:
   const api::Mills& mills_;
+  const api::MillOperation& operation_;
   const HalfClose& half_close_;
 };
 

@@ -120,6 +120,28 @@ rml1::JobSetup to_setup(const v1::JobSetup& proto) {
   return {proto.digest(), proto.profile(), proto.origin(), proto.tool()};
 }
 
+Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) {
+  const auto given = [](bool has, auto value) { return has ? std::optional(value) : std::nullopt; };
+  switch (request.act_case()) {
+    case v1::OperateMillRequest::kStep: {
+      const v1::JogStep& step = request.step();
+      return api::HandRequest{
+          rml1::JogStep{step.x_mm(), step.y_mm(), step.z_mm(), given(step.has_mm_per_s(), step.mm_per_s())}};
+    }
+    case v1::OperateMillRequest::kSurface: {
+      const v1::SetSurface& surface = request.surface();
+      return api::HandRequest{rml1::SetSurface{given(surface.has_z(), std::int64_t{surface.z()})}, surface.origin()};
+    }
+    case v1::OperateMillRequest::kSpindle:
+      return api::HandRequest{rml1::TurnSpindle{request.spindle()}};
+    case v1::OperateMillRequest::kRaise:
+      return api::HandRequest{rml1::RaiseTool{}};
+    case v1::OperateMillRequest::ACT_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "the request names no act", "set step, surface, spindle or raise");
+}
+
 api::JobToSend to_job(const v1::SendJobRequest& request) {
   return {request.title(),
           request.origin(),

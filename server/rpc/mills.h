@@ -2,6 +2,7 @@
 #pragma once
 
 #include "axisgate/v1/mill.pb.h"
+#include "server/api/mill_operation.h"
 #include "server/api/mills.h"
 
 namespace axisgate::rpc {
@@ -13,6 +14,8 @@ v1::RunningJob to_proto(const api::CurrentRun& run);
 v1::Mill to_proto(const api::MillState& state);
 
 rml1::JobSetup to_setup(const v1::JobSetup& proto);
+// invalid_request, where it names no act.
+Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
 // Of the first message of a job.
 api::JobToSend to_job(const v1::SendJobRequest& request);
 

@@ -147,6 +147,10 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
       return answer_of<CurrentJob>(with(&Mills::cancel), call, kJob);
     case RequestKind::report_job_done:
       return answer_of<CurrentJob>(with(&Mills::done), call, kJob);
+    case RequestKind::operate_mill: {
+      const auto operate = [&world](const auto&... all) { world.api->mill_operation.operate(all...); };
+      return answer_of<Duration>(operate, call, kDevice, HandRequest{rml1::RaiseTool()});
+    }
     default:
       return reason_of(mills.watch(call, kDevice));
   }

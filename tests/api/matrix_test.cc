@@ -115,6 +115,8 @@ const std::vector<Row> kRows = {
      Reason::invalid_request},
     {Kind::report_job_done, "report_job_done", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
+    {Kind::operate_mill, "operate_mill", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
 };
 
 // Those without a device behind them, which only a door has.

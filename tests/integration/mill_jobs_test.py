@@ -176,6 +176,24 @@ class MillJobs(unittest.TestCase):
         self.refused("WRONG_MODE", "resume")
         self.run_well("abort")
 
+    def test_by_hand(self):
+        self.send(LONG)
+        self.run_well("confirm", "--yes")
+        stepped = self.run_well("jog", "x=5", "Z=-0.5mm")
+        self.assertRegex(stepped, r"the step, unchecked .*, was sent; by its profile the mill has done it within \d+\.\d s\n")
+        self.refused("AXIS_BUSY: the mill may still do what it was sent by hand", "jog", "y=1")
+        self.refused("NOT_ALLOWED.* is not confirmed at the mill, or not any more", "start")
+        self.refused("a step of 6 mm down is too long", "jog", "z=-6")
+        self.refused("\"5\" is no way .*x=5", "jog", "5", code=2)
+        self.refused("\"a=5\" is no way", "jog", "a=5", code=2)
+        self.run_well("abort")
+        self.await_queue("no job runs")
+        self.assertEqual(self.run_well("origin", device="quick"), "Z0 was sent\n")
+        self.assertEqual(self.run_well("origin", "--z", "-40", device="quick"), "Z0 was sent\n")
+        self.refused("there is no|has no origin \"vice\"", "origin", "vice", device="quick")
+        self.refused("OUT_OF_RANGE", "origin", "--z", "40", device="quick")
+        self.assertEqual(self.run_well("spindle", "off", device="quick"), "spindle off was sent\n")
+
     def test_cancel(self):
         first, second = self.send(SMALL), self.send(SMALL)
         self.assertEqual(self.run_well("cancel", first), f"job {first} is CANCELLED\n")

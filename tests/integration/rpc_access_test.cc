@@ -66,7 +66,8 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "MillService/PauseJob",
                                          "MillService/ResumeJob",
                                          "MillService/CancelJob",
-                                         "MillService/ReportJobDone"};
+                                         "MillService/ReportJobDone",
+                                         "MillService/OperateMill"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",
                                       "AccessService/RevokeToken", "ControlService/TakeOverLease",
                                       "DeviceService/ClearErrors", "SettingService/ResetDevice",

@@ -293,6 +293,27 @@ TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
   EXPECT_FALSE(now().has_running());
 }
 
+TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
+  const v1::Job job = sent(vectors(4));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::OperateMillRequest request;
+  request.set_device(kMill);
+  request.mutable_context()->set_request_id("step-1");
+  request.mutable_step()->set_x_mm(5);
+  v1::OperateMillResponse first, again;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &first).ok());
+  EXPECT_GT(first.longest().seconds(), 0);
+  ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &again).ok()) << "the answer of the first";
+  EXPECT_EQ(again.longest().seconds(), first.longest().seconds());
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  v1::OperateMillRequest named;
+  named.set_device(kMill);
+  named.mutable_surface()->set_origin("vice");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
+  named.clear_act();
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
+}
+
 TEST_F(RpcMill, AMillHasNoAxesAndAStageNoJobs) {
   v1::MoveRequest request = move_request(1, "1");
   request.set_device(kMill);

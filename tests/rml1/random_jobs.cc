@@ -26,10 +26,11 @@ std::string turn_command(std::mt19937& random) {
 
 std::string command(std::mt19937& random) {
   constexpr std::array kFlat = {"PU", "PD", "PA", "PR", "M", "R", "D", "I", "^PU", "pd"};
-  constexpr std::array kOthers = {"Z", "!ZZ", "!ZEX", "!ZEZ", "H",   "IN",  "DF", "F",   "V",   "W", "@",
-                                  "J", "!PZ", "!ZM",  "!ZO",  "!MC", "!RC", "VS", "!VZ", "!DW", "Q"};
+  constexpr std::array kOtherCommands = {"Z", "!ZZ", "!ZEX", "!ZEZ", "H",   "IN",  "DF", "F",   "V",   "W", "@",
+                                         "J", "!PZ", "!ZM",  "!ZO",  "!MC", "!RC", "VS", "!VZ", "!DW", "Q"};
   const bool flat = below(random, 2) == 0;
-  std::string text = flat ? kFlat.at(below(random, kFlat.size())) : kOthers.at(below(random, kOthers.size()));
+  std::string text =
+      flat ? kFlat.at(below(random, kFlat.size())) : kOtherCommands.at(below(random, kOtherCommands.size()));
   for (std::size_t count = below(random, 7), i = 0; i < count; ++i) {
     if (i > 0) text += below(random, 4) == 0 ? " " : ",";
     text += std::to_string(std::uniform_int_distribution(-15000, 15000)(random));

@@ -71,6 +71,7 @@ at_exit = "finish"
 name = "vice"
 x = 400
 y = 0
+z = -800
 
 [[device.origin]]
 name = "corner"
@@ -108,6 +109,8 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(mill.origins[0].name, "vice");
   EXPECT_EQ(mill.origins[0].x, 400);
   EXPECT_EQ(mill.origins[1].y, 6096);
+  EXPECT_EQ(mill.origins[0].z, -800);
+  EXPECT_EQ(mill.origins[1].z, std::nullopt);
 }
 
 TEST(ConfigMill, Defaults) {
@@ -286,14 +289,15 @@ TEST(ConfigMill, OriginsLieWithinTheWorkArea) {
                           "number from 0 to 6096"));
   EXPECT_THAT(
       errors_with("[[device.origin]]\nname = \"2\"\nx = 8129\ny = -1\n"
-                  "[[device.origin]]\nname = \"vice\"\nx = \"10mm\"\ny = 0\nz = 0\n"
+                  "[[device.origin]]\nname = \"vice\"\nx = \"10mm\"\ny = 0\nz = 1\nw = 0\n"
                   "[[device.origin]]\nname = \"vice\"\nx = 0\ny = 0\n"),
       ElementsAre(StartsWith("lab.toml:8: device.origin.name: \"2\" is not a name; use a letter"),
                   "lab.toml:9: device.origin.x: 8129 is out of range; use a whole number from 0 to 8128",
                   "lab.toml:10: device.origin.y: -1 is out of range; use a whole number from 0 to 6096",
                   StartsWith("lab.toml:13: device.origin.x: the text \"10mm\" will not do"),
-                  "lab.toml:15: device.origin.z: is not a key here; use name, x, y",
-                  "lab.toml:17: device.origin.name: \"vice\" is the name of another origin of this device, too"));
+                  "lab.toml:15: device.origin.z: 1 is out of range; use a whole number from -2420 to 0",
+                  "lab.toml:16: device.origin.w: is not a key here; use name, x, y, z",
+                  "lab.toml:18: device.origin.name: \"vice\" is the name of another origin of this device, too"));
 }
 
 TEST(ConfigMill, KeysOfStagesAreUnknown) {

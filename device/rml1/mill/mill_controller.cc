@@ -129,11 +129,29 @@ Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std
   return {};
 }
 
-Result<void> MillController::check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const {
+Result<void> MillController::check_free() const {
   if (running_)
     return fail(Reason::wrong_mode, fmt::format("job {} runs", running_->number), "wait until it has ended");
   if (link_ != MillLink::open)
-    return fail(Reason::link_down, "the line to the mill is closed", "start it when it is open");
+    return fail(Reason::link_down, "the line to the mill is closed", "ask again when it is open");
+  return {};
+}
+
+Result<void> MillController::check_taken() const {
+  if (!abort_since_ && line_.unsent() == 0) return {};
+  return fail(Reason::axis_busy, "the mill has not taken what it was sent before",
+              "look at the mill: its panel may hold it, or it is off");
+}
+
+// A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
+Result<void> MillController::check_still(TimePoint now) const {
+  if (by_hand_until_ <= now) return {};
+  return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
+              fmt::format("ask again after {:.1f} s", std::chrono::duration<double>(by_hand_until_ - now).count()));
+}
+
+Result<void> MillController::check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const {
+  if (const Result<void> free = check_free(); !free) return free;
   if (job.state != JobState::confirmed || job.confirmation->until <= now) {
     return fail(Reason::not_allowed, fmt::format("{} is not confirmed at the mill, or not any more", text_of(job)),
                 "somebody at the mill confirms it: `axisctl mill confirm`");
@@ -142,7 +160,8 @@ Result<void> MillController::check_startable(const Job& job, const PreparedJob& 
     return fail(Reason::internal, fmt::format("the bytes of {} are not those that were confirmed", text_of(job)),
                 "send the job again");
   }
-  return {};
+  const Result<void> taken = check_taken();
+  return taken ? check_still(now) : taken;
 }
 
 Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared,
@@ -204,6 +223,7 @@ bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
 
 bool MillController::abort(std::string_view by, TimePoint now) {
   setup_changed("an abort", now);
+  by_hand_until_ = now;
   if (!running_) return send_abort(now);
   running_->aborted_by = by;
   running_->sender.abort(now);
@@ -234,6 +254,27 @@ Result<void> MillController::cancel(JobNumber job, std::string_view by, TimePoin
 
 Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint now) {
   return change(job, JobEvent::done, by, now);
+}
+
+// Steps do not add up while nobody looks.
+Result<void> MillController::check_operable(const HandAct& act, TimePoint now) const {
+  if (const Result<void> free = check_free(); !free) return free;
+  if (const Result<void> taken = check_taken(); !taken) return taken;
+  if (line_.held()) {
+    return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
+  }
+  return std::holds_alternative<JogStep>(act) ? check_still(now) : Result<void>();
+}
+
+Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
+  const Result<HandWords> words = words_of(act, profile_);
+  if (!words) return tl::unexpected(words.error());
+  if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
+  if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
+  setup_changed(fmt::format("by hand: {}", text_of(act)), now);
+  line_.write(words->bytes);
+  by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
+  return by_hand_until_ - now;
 }
 
 void MillController::setup_changed(std::string_view why, TimePoint now) {

@@ -12,6 +12,7 @@
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/rml1/mill/by_hand.h"
 #include "device/rml1/mill/job.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile.h"
@@ -88,6 +89,10 @@ class MillController : public LineMachine {
   // not_found; wrong_mode, where the job's state does not have it.
   Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
   Result<void> done(JobNumber job, std::string_view by, TimePoint now);
+  // While no job runs. What was confirmed is void. The answer: after that time it is done, with all that was sent
+  // before; until then no job is started, and no other step. wrong_mode; link_down; axis_busy: the mill takes nothing,
+  // or the step before may not be done; what Permission::authorize() and words_of() refuse.
+  Result<Duration> operate(const HandAct& act, const stage::RequestContext& by, TimePoint now);
   // What was confirmed is not so any more. `why`: for people.
   void setup_changed(std::string_view why, TimePoint now);
 
@@ -147,6 +152,10 @@ class MillController : public LineMachine {
   Result<void> change(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
   void change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   void leave_queue_if_ended(JobNumber number);
+  Result<void> check_free() const;
+  Result<void> check_taken() const;
+  Result<void> check_still(TimePoint now) const;
+  Result<void> check_operable(const HandAct& act, TimePoint now) const;
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
@@ -170,6 +179,7 @@ class MillController : public LineMachine {
   std::vector<Job> jobs_;
   std::unique_ptr<Running> running_;
   bool must_abort_ = false;               // when the line is back
+  TimePoint by_hand_until_{};             // what a person does with it ends, at the latest
   std::optional<TimePoint> abort_since_;  // without a job: until it has left the host
   TimePoint now_{};                       // of the last call
 };

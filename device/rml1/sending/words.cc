@@ -5,14 +5,11 @@
 #include <cmath>
 
 namespace axisgate::rml1 {
-namespace {
 
 // Machine coordinates, whatever Z0 is (guideline 3-3 !ZM).
 std::string raise(const Profile& profile) {
   return fmt::format("!VZ{:g};!ZM{};", profile.speed.z_maximum, std::llround(profile.top));
 }
-
-}  // namespace
 
 std::string prologue() { return ";^DF;"; }
 

@@ -12,6 +12,8 @@ std::string prologue();
 // The tool up, the spindle off, the defaults. `turning`: the job leaves the spindle turning; then the tool is raised
 // before it stops.
 std::string epilogue(const Profile& profile, bool turning);
+// The tool to the top, at Z's highest speed. Behind PA.
+std::string raise(const Profile& profile);
 // README.md says why in this order. `may_rest`: the spindle may not be turning, and be permitted to.
 std::string abort_words(const Profile& profile, bool may_rest);
 

@@ -1,0 +1,112 @@
+#include "device/rml1/mill/by_hand.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "device/rml1/sending/settings.h"
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+// A mill may be so much slower than the high end of its profile (sending/README.md, "Streaming").
+const double kSlack = SendSettings().slack;
+
+// From one stop to the next, as the planner's high end has it.
+Duration longest_way(double mm, double mm_per_s, const Profile& profile) {
+  const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
+  return std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double>(kSlack * (1 + profile.acceleration.slower) * seconds));
+}
+
+Result<double> step_speed(const JogStep& step, const Profile& profile) {
+  const double lowest = profile.speed.z_minimum, highest = profile.speed.z_maximum;
+  const double speed = step.mm_per_s.value_or(std::clamp(profile.speed.z_default, lowest, highest));
+  if (speed >= lowest && speed <= highest) return speed;
+  return fail(Reason::too_fast, fmt::format("{:g} mm/s is no speed of the {}", speed, profile.name),
+              fmt::format("use {:g} to {:g} mm/s", lowest, highest));
+}
+
+Result<void> check_length(const JogStep& step) {
+  for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
+    if (!(std::abs(mm) <= kFarthestStepMm)) {
+      return fail(Reason::out_of_range, fmt::format("a step of {:g} mm in {} is too long", mm, axis),
+                  fmt::format("where the tool is, is not known: use steps of at most {:g} mm", kFarthestStepMm));
+    }
+  }
+  if (step.z_mm >= -kDeepestStepMm) return {};
+  return fail(Reason::out_of_range, fmt::format("a step of {:g} mm down is too long", -step.z_mm),
+              fmt::format("where the tool is, is not known: use steps of at most {:g} mm down", kDeepestStepMm));
+}
+
+// !ZZ starts a permitted spindle (guideline 5-2).
+Result<HandWords> step_words(const JogStep& step, const Profile& profile) {
+  if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
+  const Result<double> speed = step_speed(step, profile);
+  if (!speed) return tl::unexpected(speed.error());
+  const auto steps = [&profile](double mm) { return std::llround(profile.steps(mm)); };
+  const auto x = steps(step.x_mm), y = steps(step.y_mm), z = steps(step.z_mm);
+  if (x == 0 && y == 0 && z == 0) {
+    return fail(Reason::out_of_range, "the step is shorter than one of the mill's own",
+                fmt::format("the {} moves by {:g} mm", profile.name, profile.step_mm));
+  }
+  const double way = std::hypot(step.x_mm, step.y_mm, step.z_mm);
+  return HandWords{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
+                   longest_way(way, *speed, profile)};
+}
+
+// Behind PR a parameter of 0 is the present height, behind PA a machine coordinate (guideline 3-3 !ZO).
+Result<HandWords> surface_words(const SetSurface& surface, const Profile& profile) {
+  if (!surface.at) return HandWords{";^PR;!ZO0;^PA;"};
+  const double travel = std::round(profile.steps(profile.z_mm));
+  const double below_top = profile.up * (profile.top - static_cast<double>(*surface.at));
+  if (below_top >= 0 && below_top <= travel) return HandWords{fmt::format(";^PA;!ZO{};", *surface.at)};
+  const double bottom = profile.top - profile.up * travel;
+  return fail(Reason::out_of_range, fmt::format("{} is outside of Z's travel", *surface.at),
+              fmt::format("use a machine coordinate from {:g} to {:g}", std::min(profile.top, bottom),
+                          std::max(profile.top, bottom)));
+}
+
+// "Rotation is performed at the time of a command that involves movement", where it is not prohibited (guideline 5-2).
+Result<HandWords> spindle_words(const TurnSpindle& spindle, const Profile& profile) {
+  if (!spindle.on) return HandWords{";!MC0;"};
+  const std::chrono::duration<double> spin_up(kSlack * profile.spindle.spin_up_s);
+  return HandWords{";!MC1;^PR;!ZZ0,0,0;^PA;", std::chrono::duration_cast<Duration>(spin_up)};
+}
+
+std::string step_text(const JogStep& step) {
+  std::string text = "jog by";
+  const char* between = " ";
+  for (const auto& [axis, mm] : {std::pair('X', step.x_mm), std::pair('Y', step.y_mm), std::pair('Z', step.z_mm)}) {
+    if (mm == 0) continue;
+    text += fmt::format("{}{} {:g} mm", between, axis, mm);
+    between = ", ";
+  }
+  return step.mm_per_s ? fmt::format("{} at {:g} mm/s", text, *step.mm_per_s) : text;
+}
+
+std::string surface_text(const SetSurface& surface) {
+  return surface.at ? fmt::format("set Z0 to the machine coordinate {}", *surface.at) : "set Z0 to where the tool is";
+}
+
+}  // namespace
+
+std::string text_of(const HandAct& act) {
+  if (const auto* step = std::get_if<JogStep>(&act)) return step_text(*step);
+  if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_text(*surface);
+  if (const auto* spindle = std::get_if<TurnSpindle>(&act))
+    return spindle->on ? "start the spindle" : "stop the spindle";
+  return "raise the tool";
+}
+
+Result<HandWords> words_of(const HandAct& act, const Profile& profile) {
+  if (const auto* step = std::get_if<JogStep>(&act)) return step_words(*step, profile);
+  if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_words(*surface, profile);
+  if (const auto* spindle = std::get_if<TurnSpindle>(&act)) return spindle_words(*spindle, profile);
+  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile)};
+}
+
+}  // namespace axisgate::rml1
