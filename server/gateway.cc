@@ -98,8 +98,8 @@ void Gateway::add_mill(const DeviceConfig& device, const MillConfig& config, con
                        spool::Spool& spool) {
   auto record = JobRecord::open(fmt::format("{}/job-{}", state_directory, device.name), boot_id());
   if (!record) spdlog::warn("{}", explain(record.error()));
-  devices_.push_back(std::make_unique<Mill>(device, config, make_line(device, lines_.new_strand()), lines_, metrics_,
-                                            posting_to(readers_), lease_tokens_, spool,
+  devices_.push_back(std::make_unique<Mill>(device, config, make_line(device, lines_.new_strand()), lines_, events_,
+                                            metrics_, posting_to(readers_), lease_tokens_, spool,
                                             record ? *std::move(record) : nullptr, journal_));
 }
 

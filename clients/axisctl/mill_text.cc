@@ -119,6 +119,13 @@ std::string state_text(const v1::Job& job) {
   return fmt::format("{} {}; takes {}", job_text(job), name_of(job.state()), takes_text(job));
 }
 
+std::string change_text(const v1::JobChange& change) {
+  std::string text = fmt::format("{} {}", job_text(change.job()), name_of(change.job().state()));
+  if (change.sending() != v1::SENDING_STATE_UNSPECIFIED) text += ": " + name_of(change.sending());
+  if (!change.who().empty()) text += ", by " + change.who();
+  return change.why().empty() ? text : text + ": " + change.why();
+}
+
 std::string confirmed_text(const v1::Job& job) {
   return fmt::format("{} is confirmed {}", job_text(job), confirmation_text(job));
 }

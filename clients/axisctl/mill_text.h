@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "axisgate/v1/event.pb.h"
 #include "axisgate/v1/mill.pb.h"
 
 namespace axisgate::axisctl {
@@ -17,6 +18,9 @@ std::string job_text(const v1::Job& job);
 
 // "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s".
 std::string state_text(const v1::Job& job);
+
+// "job 7 (part.rml) RUNNING: PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort was sent".
+std::string change_text(const v1::JobChange& change);
 
 // "job 7 (part.rml) is confirmed by unix anna until 2026-11-21 16:10:00".
 std::string confirmed_text(const v1::Job& job);

@@ -9,6 +9,8 @@
 #include <ctime>
 #include <vector>
 
+#include "clients/axisctl/mill_text.h"
+
 namespace axisgate::axisctl {
 namespace {
 
@@ -53,6 +55,9 @@ std::string describe_link(const v1::LinkChange& link) {
 }
 
 std::string describe_stop(const v1::StopRequested& stop) {
+  if (stop.axes().empty()) {
+    return fmt::format("abort requested by {}", stop.who().empty() ? "an unknown caller" : stop.who());
+  }
   return fmt::format("{} of axes {} requested by {}", stop.emergency() ? "emergency stop" : "stop",
                      fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who());
 }
@@ -240,6 +245,8 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_notice(event.program_notice()));
     case v1::Event::kDaemonStarted:
       return describe_start(event.daemon_started());
+    case v1::Event::kJob:
+      return on_one_line(change_text(event.job()));
     case v1::Event::FACT_NOT_SET:
       break;
   }

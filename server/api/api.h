@@ -35,19 +35,19 @@ class Api {
         mutations(gateway),
         pipeline(admission, mutations),
         mill_pipeline(admission, mutations),
-        lease_pipeline(admission, mutations),
+        device_pipeline(admission, mutations),
         stops(gateway, admission),
         motions(gateway, pipeline, streams),
         paths(gateway, pipeline, streams),
         jogs(gateway, pipeline, streams),
-        leases(gateway, admission, lease_pipeline, streams),
+        leases(gateway, admission, device_pipeline, streams),
         settings(gateway, access, pipeline),
         positions(gateway, pipeline, saved_positions),
         commands(gateway, access, pipeline, streams),
         devices(gateway, admission, pipeline, streams),
         events(gateway, admission, streams),
         history(gateway, admission),
-        diagnostics(gateway, admission, pipeline, streams),
+        diagnostics(gateway, admission, device_pipeline, streams),
         simulators(gateway, pipeline),
         tokens(gateway, access, admission, streams),
         mills(gateway, mill_pipeline, streams),
@@ -58,7 +58,7 @@ class Api {
   const Mutations mutations;
   const Pipeline pipeline;
   const MillPipeline mill_pipeline;
-  const LeasePipeline lease_pipeline;
+  const DevicePipeline device_pipeline;
   const Stops stops;
   const Motions motions;
   const Paths paths;

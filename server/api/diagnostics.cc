@@ -12,14 +12,14 @@ namespace {
 
 class RecordingReader final : public Subscription<std::string> {
  public:
-  RecordingReader(server::Stage& device, bool skip_kept, bool follow, Streams::Place place)
+  RecordingReader(server::Device& device, bool skip_kept, bool follow, Streams::Place place)
       : Subscription(std::move(place)), device_(device), skip_kept_(skip_kept), follow_(follow) {}
 
  private:
   // Which line is the newest as the call begins is known on the device's strand.
   void begin() override {
     woken_by(device_.recorder());
-    device_.post([self = self<RecordingReader>()](stage::StageController&, TimePoint) { self->begin_here(); });
+    device_.post([self = self<RecordingReader>()](server::Leases&, TimePoint) { self->begin_here(); });
   }
 
   void begin_here() {
@@ -44,7 +44,7 @@ class RecordingReader final : public Subscription<std::string> {
     return StreamEnd{};
   }
 
-  server::Stage& device_;
+  server::Device& device_;
   const bool skip_kept_, follow_;
   std::optional<server::DeviceRecorder::Reader> reader_;  // nothing: not begun
   server::RecordingRing::Position end_;                   // of what was kept then
@@ -54,7 +54,7 @@ class RecordingReader final : public Subscription<std::string> {
 }  // namespace
 
 Opened<std::string> Diagnostics::record(const Call& call, std::string_view device, bool skip_kept, bool follow) const {
-  const auto admitted = pipeline_.admit({RequestKind::record, call, find_stage(gateway_, device)});
+  const auto admitted = pipeline_.admit({RequestKind::record, call, find_device(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   Result<Streams::Place> place = streams_.take(RequestKind::record, admitted->caller.who);
   if (!place) return tl::unexpected(place.error());

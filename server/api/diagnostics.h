@@ -25,7 +25,7 @@ struct DoorReport {
 class Diagnostics {
  public:
   // All outlive this.
-  Diagnostics(server::Gateway& gateway, const Admission& admission, const Pipeline& pipeline, Streams& streams)
+  Diagnostics(server::Gateway& gateway, const Admission& admission, const DevicePipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
   // What is kept of a device's recording, unless `skip_kept`, and with `follow` each new line; without it the stream
@@ -38,7 +38,7 @@ class Diagnostics {
  private:
   server::Gateway& gateway_;
   const Admission& admission_;
-  const Pipeline& pipeline_;
+  const DevicePipeline& pipeline_;
   Streams& streams_;
 };
 

@@ -60,7 +60,7 @@ Opened<Event> Events::watch(const Call& call, const EventRange& range) const {
   if (!caller) return tl::unexpected(caller.error());
   std::string device;
   if (!range.device.empty()) {
-    const Result<server::Stage*> found = find_stage(gateway_, range.device);
+    const Result<server::Device*> found = find_device(gateway_, range.device);
     if (!found) return tl::unexpected(found.error());
     device = (*found)->name();
   }

@@ -40,15 +40,14 @@ class LeaseSeeker {
 };
 
 // To what every device has.
-using LeasePipeline = PipelineOf<server::Device>;
 
 using Board = std::shared_ptr<const server::LeaseBoard>;  // never null
 
-// Thread safe. The members' problems are those of LeasePipeline::admit() and of server::Leases.
+// Thread safe. The members' problems are those of DevicePipeline::admit() and of server::Leases.
 class Leases {
  public:
   // All outlive this.
-  Leases(server::Gateway& gateway, const Admission& admission, const LeasePipeline& pipeline, Streams& streams)
+  Leases(server::Gateway& gateway, const Admission& admission, const DevicePipeline& pipeline, Streams& streams)
       : gateway_(gateway), admission_(admission), pipeline_(pipeline), streams_(streams) {}
 
   // Waits for as long as `wait` says, a day at most; 0: not at all. invalid_request.
@@ -72,7 +71,7 @@ class Leases {
  private:
   server::Gateway& gateway_;
   const Admission& admission_;
-  const LeasePipeline& pipeline_;
+  const DevicePipeline& pipeline_;
   Streams& streams_;
 };
 

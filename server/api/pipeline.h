@@ -120,6 +120,8 @@ class PipelineOf {
   const Mutations& mutations_;
 };
 using Pipeline = PipelineOf<server::Stage>;
+// For what is requested of every device, whatever its kind.
+using DevicePipeline = PipelineOf<server::Device>;
 
 template <class Device>
 Result<typename PipelineOf<Device>::Identified> PipelineOf<Device>::identify(const Asked& asked) const {

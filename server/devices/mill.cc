@@ -21,11 +21,12 @@ rml1::MillSettings settings_of(const MillConfig& config) {
 }  // namespace
 
 Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
-           Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
+           EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
            std::unique_ptr<JobRecord> record, journal::Journal* journal)
-    : Device(device.name, {.device = device.name, .baud = device.baud}, std::move(line), thread, metrics, readers,
-             lease_tokens, journal),
+    : Device(device.name, beginning_now({.kind = std::string(config.kind), .device = device.name, .baud = device.baud}),
+             std::move(line), thread, metrics, readers, lease_tokens, journal),
       config_(config),
+      bus_(bus),
       spool_(spool),
       record_(std::move(record)),
       journal_(journal),
@@ -59,10 +60,16 @@ void Mill::drop_spooled(rml1::JobNumber job) {
   });
 }
 
-// In the log and the journal.
+// By this moment the fact's times are shown.
+void Mill::publish_fact(Fact fact, TimePoint now) {
+  bus_.publish(name(), std::move(fact), to_wall(now), moment_of(now));
+}
+
+// For people who follow, in the log and in the journal.
 void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
   spdlog::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
                why.empty() ? "" : ": ", why);
+  publish_fact(JobChanged{job, {}, std::string(by), std::string(why)}, now);
   if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, name(), now)});
 }
 
@@ -70,10 +77,15 @@ void Mill::post(Request request) {
   runner().post([this, request = std::move(request)](TimePoint now) { request(controller_, now); });
 }
 
-void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint) {
+void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint now) {
   changed_ = true;
   const bool open = link == rml1::MillLink::open;
-  metrics().on_event(stage::LinkChanged{open ? stage::LinkState::up : stage::LinkState::down, std::string(why)});
+  const stage::LinkChanged change{open ? stage::LinkState::up : stage::LinkState::down, std::string(why)};
+  if (link_ && link_->link == change.link && link_->why == change.why) return;
+  link_ = change;
+  metrics().on_event(change);
+  recorder().on_event(change, now);
+  publish_fact(change, now);
   if (open) return spdlog::info("{}: the line is open", name());
   spdlog::warn("{}: the line is closed: {}", name(), why);
 }
@@ -88,13 +100,33 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   }
 }
 
-void Mill::sender_changed(const rml1::RunningJob& running, TimePoint) {
+void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   changed_ = true;
+  const auto job = std::ranges::find(controller_.jobs(), running.number, &rml1::Job::number);
+  if (job != controller_.jobs().end() && !is_end(running.sender)) {
+    publish_fact(JobChanged{*job, running.sender, "", running.busy ? "the mill takes nothing" : ""}, now);
+  }
   if (running.busy) spdlog::warn("{}: the mill takes nothing: look at it", name());
 }
 
 void Mill::about_to_write(rml1::JobNumber, std::uint64_t through) {
   if (record_) record_->going_to(through);
+}
+
+void Mill::written(std::string_view bytes, rml1::JobNumber job) {
+  stage::BytesWritten record;
+  record.bytes = bytes;
+  record.exchange = ++writes_;
+  record.lane = Lane::motion;
+  record.motion = job;
+  recorder().on_event(record, monotonic_now());
+}
+
+void Mill::abort_requested(std::string_view by, TimePoint now) {
+  const stage::StopRequested stop{.axes = {}, .who = std::string(by)};
+  spdlog::warn("{}: abort requested by {}", name(), by);
+  metrics().on_event(stop);
+  publish_fact(stop, now);
 }
 
 void Mill::after_call() {

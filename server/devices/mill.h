@@ -13,6 +13,7 @@
 #include "server/config/config.h"
 #include "server/devices/device.h"
 #include "server/devices/job_record.h"
+#include "server/events/event_bus.h"
 #include "server/events/newest.h"
 #include "server/events/wall_time.h"
 #include "server/journal/journal.h"
@@ -31,9 +32,9 @@ class Mill final : public Device, private rml1::MillEvents {
  public:
   using Controller = rml1::MillController;
 
-  // `config`, `metrics`, `thread`, `lease_tokens` and `spool` outlive this. `record` and `journal` may be null.
+  // `config`, `bus`, `metrics`, `thread`, `lease_tokens` and `spool` outlive this. `record` and `journal` may be null.
   Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
-       Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
+       EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
        std::unique_ptr<JobRecord> record, journal::Journal* journal);
   ~Mill() override;
 
@@ -68,20 +69,26 @@ class Mill final : public Device, private rml1::MillEvents {
   void job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
   void sender_changed(const rml1::RunningJob& running, TimePoint now) override;
   void about_to_write(rml1::JobNumber job, std::uint64_t through) override;
+  void written(std::string_view bytes, rml1::JobNumber job) override;
+  void abort_requested(std::string_view by, TimePoint now) override;
 
   void restore_jobs();
   void note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now);
+  void publish_fact(Fact fact, TimePoint now);
   void after_call();
   void publish(TimePoint at);
   void look_whether_wound_down(TimePoint now);
 
   const MillConfig& config_;
+  EventBus& bus_;
   spool::Spool& spool_;
   const std::unique_ptr<JobRecord> record_;
   journal::Journal* const journal_;
   Newest<MillNow> newest_;
   rml1::MillController controller_;
-  bool changed_ = true;  // since publish()
+  bool changed_ = true;                     // since publish()
+  std::optional<stage::LinkChanged> link_;  // a line that stays closed is tried again and again
+  std::uint64_t writes_ = 0;                // recorded, each by itself
   TimePoint published_{};
   TimePoint abort_at_{};                      // while the daemon ends: the job has run for long enough
   std::function<void()> wound_down_;          // empty: nobody waits

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +15,8 @@
 #include <vector>
 
 #include "device/core/time.h"
+#include "device/rml1/mill/job.h"
+#include "device/rml1/sending/sender.h"
 #include "device/stage/event.h"
 #include "server/events/wake_ups.h"
 #include "server/events/wall_time.h"
@@ -25,10 +28,18 @@ struct DaemonStarted {
   bool after_unclean_end = false;  // the run before was killed: the last of its facts may be missing
 };
 
+// A job of a mill was added, has another state, or is sent otherwise than before: paused, or on again.
+struct JobChanged {
+  rml1::Job job;
+  std::optional<rml1::SenderState> sending{};  // of one that runs
+  std::string who{};                           // who requested it; empty: nobody
+  std::string why{};                           // for people; may be empty
+};
+
 // What every watcher receives, each exactly once and in order. Telemetry is not part of it: newest.h.
 using Fact = std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
                           stage::StopRequested, stage::ForeignMotion, stage::SwitchesChanged, stage::ProgramNotice,
-                          DaemonStarted>;
+                          DaemonStarted, JobChanged>;
 
 struct FactRecord {
   std::uint64_t revision = 0;  // ascends over all devices, and over the runs of the daemon that are kept

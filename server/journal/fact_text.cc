@@ -152,6 +152,47 @@ struct Form<DaemonStarted> {
   static DaemonStarted read(const Json& json) { return {.after_unclean_end = json.at("after_unclean_end")}; }
 };
 
+template <>
+struct Form<JobChanged> {
+  static constexpr const char* key = "job";
+  static Json write(const JobChanged& change) {
+    const rml1::Job& job = change.job;
+    Json json{{"number", job.number},
+              {"name", job.name},
+              {"owner", job.owner},
+              {"setup", {job.setup.digest, job.setup.profile, job.setup.origin, job.setup.tool}},
+              {"bytes", job.bytes},
+              {"seconds", {job.least_s, job.most_s}},
+              {"state", static_cast<int>(job.state)},
+              {"who", change.who},
+              {"why", change.why}};
+    if (job.confirmation) json["confirmed"] = {job.confirmation->by, nanos_of(job.confirmation->until)};
+    if (job.written) json["written"] = {job.written->least, job.written->most};
+    if (change.sending) json["sending"] = static_cast<int>(*change.sending);
+    return json;
+  }
+  static JobChanged read(const Json& json) {
+    const Json &setup = json.at("setup"), &seconds = json.at("seconds");
+    JobChanged change{.job = {.number = json.at("number"),
+                              .name = json.at("name"),
+                              .owner = json.at("owner"),
+                              .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3)},
+                              .bytes = json.at("bytes"),
+                              .least_s = seconds.at(0),
+                              .most_s = seconds.at(1),
+                              .state = static_cast<rml1::JobState>(json.at("state").get<int>())},
+                      .who = json.at("who"),
+                      .why = json.at("why")};
+    if (json.contains("confirmed")) {
+      const Json& confirmed = json.at("confirmed");
+      change.job.confirmation = rml1::Confirmation{confirmed.at(0), time_of(confirmed.at(1))};
+    }
+    if (json.contains("written")) change.job.written = {json.at("written").at(0), json.at("written").at(1)};
+    if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());
+    return change;
+  }
+};
+
 Json clock_json(const Moment& clock) {
   return {{"monotonic", nanos_of(clock.monotonic)}, {"wall", nanoseconds(clock.wall.time_since_epoch()).count()}};
 }

@@ -22,6 +22,10 @@ stage::RecordingHeader recording_header(const stage::Profile& profile) {
   header.serial_number = profile.serial_number;
   header.baud = profile.baud;
   header.reply_limit = profile.reply_limit;
+  return beginning_now(std::move(header));
+}
+
+stage::RecordingHeader beginning_now(stage::RecordingHeader header) {
   const auto now = std::chrono::floor<std::chrono::milliseconds>(std::chrono::system_clock::now());
   const auto seconds = std::chrono::floor<std::chrono::seconds>(now);
   header.started = fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z", fmt::gmtime(seconds), (now - seconds).count());

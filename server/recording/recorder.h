@@ -13,6 +13,7 @@
 namespace axisgate::server {
 
 // Of a recording that begins now.
+stage::RecordingHeader beginning_now(stage::RecordingHeader header);
 stage::RecordingHeader recording_header(const stage::Profile& profile);
 
 class DeviceRecorder {

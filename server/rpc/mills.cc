@@ -19,22 +19,6 @@ v1::JobState to_job_state(JobState state) {
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
 }
 
-// Of the others none is seen: a job that has ended does not run.
-v1::SendingState to_sending_state(SenderState state) {
-  switch (state) {
-    case SenderState::sending:
-      return v1::SENDING_STATE_SENDING;
-    case SenderState::paused:
-      return v1::SENDING_STATE_PAUSED;
-    case SenderState::finishing:
-      return v1::SENDING_STATE_FINISHING;
-    case SenderState::aborting:
-      return v1::SENDING_STATE_ABORTING;
-    default:
-      return v1::SENDING_STATE_UNSPECIFIED;
-  }
-}
-
 google::protobuf::Duration duration_of(double seconds) {
   google::protobuf::Duration duration;
   const double whole = std::floor(seconds);
@@ -54,10 +38,27 @@ v1::JobSetup setup_of(const rml1::JobSetup& setup) {
 
 }  // namespace
 
-v1::Job to_proto(const api::CurrentJob& current) {
-  const rml1::Job& job = current.job;
+// Of the others none is seen: a job that has ended does not run.
+v1::SendingState to_sending_state(SenderState state) {
+  switch (state) {
+    case SenderState::sending:
+      return v1::SENDING_STATE_SENDING;
+    case SenderState::paused:
+      return v1::SENDING_STATE_PAUSED;
+    case SenderState::finishing:
+      return v1::SENDING_STATE_FINISHING;
+    case SenderState::aborting:
+      return v1::SENDING_STATE_ABORTING;
+    default:
+      return v1::SENDING_STATE_UNSPECIFIED;
+  }
+}
+
+v1::Job to_proto(const api::CurrentJob& current) { return to_proto(current.mill->name(), current.job, current.clock); }
+
+v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock) {
   v1::Job proto;
-  proto.set_name(api::job_name(current.mill->name(), job.number));
+  proto.set_name(api::job_name(mill, job.number));
   proto.set_title(job.name);
   proto.set_owner(job.owner);
   *proto.mutable_setup() = setup_of(job.setup);
@@ -67,7 +68,7 @@ v1::Job to_proto(const api::CurrentJob& current) {
   proto.set_state(to_job_state(job.state));
   if (job.confirmation) {
     proto.set_confirmed_by(job.confirmation->by);
-    *proto.mutable_confirmed_until() = to_proto(current.clock.at(job.confirmation->until));
+    *proto.mutable_confirmed_until() = to_proto(clock.at(job.confirmation->until));
   }
   if (job.written) {
     proto.set_sent_least(static_cast<std::int64_t>(job.written->least));

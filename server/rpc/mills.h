@@ -1,13 +1,18 @@
 // Mills and their jobs, as callers read them.
 #pragma once
 
+#include <string_view>
+
 #include "axisgate/v1/mill.pb.h"
 #include "server/api/mill_operation.h"
 #include "server/api/mills.h"
 
 namespace axisgate::rpc {
 
+// Of the mill with that name in the configuration. `clock`: by which its times are shown.
+v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock);
 v1::Job to_proto(const api::CurrentJob& job);
+v1::SendingState to_sending_state(rml1::SenderState state);
 v1::RunOn to_proto(const rml1::RunOn& run_on);
 // Of what runs; without a job where nothing does.
 v1::RunningJob to_proto(const api::CurrentRun& run);

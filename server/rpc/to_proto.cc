@@ -11,6 +11,7 @@
 #include "device/stage/envelope.h"
 #include "server/api/names.h"
 #include "server/rpc/amounts.h"
+#include "server/rpc/mills.h"
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
@@ -143,6 +144,13 @@ struct EventFiller {
   }
   void operator()(const server::DaemonStarted& started) const {
     event.mutable_daemon_started()->set_after_unclean_end(started.after_unclean_end);
+  }
+  void operator()(const server::JobChanged& change) const {
+    v1::JobChange& proto = *event.mutable_job();
+    *proto.mutable_job() = to_proto(record.device, change.job, record.clock);
+    if (change.sending) proto.set_sending(to_sending_state(*change.sending));
+    proto.set_who(change.who);
+    proto.set_why(change.why);
   }
 };
 

@@ -176,6 +176,16 @@ class MillJobs(unittest.TestCase):
         self.refused("WRONG_MODE", "resume")
         self.run_well("abort")
 
+    def test_what_went_over_the_line_is_recorded(self):
+        self.send(SMALL, device="quick")
+        self.run_well("confirm", "--yes", "--start", device="quick")
+        self.await_queue(" FED ", "quick")
+        recorded = self.daemon.run("--device", "quick", "record", "--no-follow")
+        self.assertEqual((recorded.returncode, recorded.stderr), (0, ""))
+        self.assertRegex(recorded.stdout, r"\A# axisgate recording 1\n# kind: rml1\n# device: \"quick\"\n")
+        written = "".join(re.findall(r'(?m)^\S+ #\d+ motion "" > "(.*)"$', recorded.stdout))
+        self.assertTrue(written.startswith(";^DF;" + SMALL.replace("\n", "\\n")), written)
+
     def test_by_hand(self):
         self.send(LONG)
         self.run_well("confirm", "--yes")

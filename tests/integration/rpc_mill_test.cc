@@ -6,6 +6,7 @@
 #include <string>
 
 #include "axisgate/v1/control.grpc.pb.h"
+#include "axisgate/v1/event.grpc.pb.h"
 #include "axisgate/v1/mill.grpc.pb.h"
 #include "tests/integration/rpc_fixture.h"
 
@@ -291,6 +292,38 @@ TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
   request.set_job(job.name());
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::StartJob, request)), v1::REASON_DEADLINE_PASSED);
   EXPECT_FALSE(now().has_running());
+}
+
+TEST_F(RpcMill, WhoWatchesSeesWhatBecomesOfAJob) {
+  grpc::ClientContext context;
+  limit(context);
+  v1::WatchRequest from_now;
+  from_now.set_device(kMill);
+  const auto stream = v1::EventService::NewStub(channel_)->Watch(&context, from_now);
+  stream->WaitForInitialMetadata();
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  ASSERT_TRUE(on_mill(&v1::MillService::Stub::PauseJob).ok());
+  ASSERT_TRUE(on_mill(&v1::MillService::Stub::AbortJob).ok());
+  std::vector<std::string> seen;
+  v1::WatchResponse response;
+  while (stream->Read(&response)) {
+    const v1::Event& event = response.event();
+    EXPECT_EQ(event.device(), kMill);
+    if (event.has_stop_requested()) seen.push_back("abort");
+    if (!event.has_job()) continue;
+    EXPECT_EQ(event.job().job().name(), job.name());
+    seen.push_back(event.job().sending() != v1::SENDING_STATE_UNSPECIFIED
+                       ? v1::SendingState_Name(event.job().sending())
+                       : v1::JobState_Name(event.job().job().state()));
+    if (seen.back() == "JOB_STATE_ABORTED") break;
+  }
+  EXPECT_THAT(seen, testing::ElementsAre("JOB_STATE_QUEUED", "JOB_STATE_CONFIRMED", "JOB_STATE_RUNNING",
+                                         "SENDING_STATE_SENDING", "SENDING_STATE_PAUSED", "abort",
+                                         "SENDING_STATE_ABORTING", "JOB_STATE_ABORTED"));
+  EXPECT_THAT(response.event().job().who(), testing::StartsWith("unix "));
+  context.TryCancel();
 }
 
 TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {

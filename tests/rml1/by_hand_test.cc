@@ -94,6 +94,8 @@ class ByHandAtTheMill : public testing::Test, protected MillEvents {
     said_ = std::string(name(job.state)) + ": " + std::string(why);
   }
   void sender_changed(const RunningJob&, TimePoint) override {}
+  void written(std::string_view, JobNumber) override {}
+  void abort_requested(std::string_view, TimePoint) override {}
   void about_to_write(JobNumber, std::uint64_t) override {}
 
   Reason reason(const HandAct& act) {

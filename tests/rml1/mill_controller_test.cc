@@ -78,6 +78,8 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     said_.emplace_back(name(running.sender));
     if (running.busy) said_.emplace_back("busy");
   }
+  void written(std::string_view, JobNumber) override {}
+  void abort_requested(std::string_view, TimePoint) override {}
   void about_to_write(JobNumber, std::uint64_t through) override {
     noted_ = through;
     written_before_note_ = line_.writes.size();

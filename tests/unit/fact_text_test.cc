@@ -127,6 +127,39 @@ TEST(FactText, Stops) {
   EXPECT_EQ(stop.who, "unix bert");
 }
 
+TEST(FactText, AJobOfAMill) {
+  rml1::Job job{.number = 7,
+                .name = "part.rml",
+                .owner = "unix jürgen",
+                .setup = {"d1", "MDX-20", "vice", "T1"},
+                .bytes = 5000,
+                .least_s = 61.5,
+                .most_s = 90,
+                .state = rml1::JobState::paused_unknown};
+  job.confirmation = rml1::Confirmation{"unix bert", TimePoint(nanoseconds(1'000'000'001))};
+  job.written = rml1::WrittenRange{120, 248};
+  const auto read = read_again(JobChanged{job, rml1::SenderState::paused, "unix anna", "the line was lost"});
+  EXPECT_EQ(read.job.number, 7u);
+  EXPECT_EQ(read.job.name, "part.rml");
+  EXPECT_EQ(read.job.owner, "unix jürgen");
+  EXPECT_EQ(read.job.setup, job.setup);
+  EXPECT_EQ(read.job.bytes, 5000u);
+  EXPECT_EQ(read.job.least_s, 61.5);
+  EXPECT_EQ(read.job.most_s, 90);
+  EXPECT_EQ(read.job.state, rml1::JobState::paused_unknown);
+  ASSERT_TRUE(read.job.confirmation && read.job.written);
+  EXPECT_EQ(read.job.confirmation->by, "unix bert");
+  EXPECT_EQ(read.job.confirmation->until, TimePoint(nanoseconds(1'000'000'001)));
+  EXPECT_EQ(*read.job.written, (rml1::WrittenRange{120, 248}));
+  EXPECT_EQ(read.sending, rml1::SenderState::paused);
+  EXPECT_EQ(read.who, "unix anna");
+  EXPECT_EQ(read.why, "the line was lost");
+  const auto plain = read_again(JobChanged{});
+  EXPECT_FALSE(plain.job.confirmation);
+  EXPECT_FALSE(plain.job.written);
+  EXPECT_FALSE(plain.sending);
+}
+
 TEST(FactText, SwitchesAndPrograms) {
   const auto change = read_again(stage::SwitchesChanged{"unix anna", {{3, 1, "0", "1"}, {8, 0, "a\"b", ""}}, true});
   EXPECT_EQ(change.who, "unix anna");

@@ -32,12 +32,13 @@ std::optional<TimePoint> sooner(std::optional<TimePoint> one, std::optional<Time
 }  // namespace
 
 void MillController::NotedLine::write(std::string_view bytes) {
-  Running& running = *mill_.running_;
-  if (running.sender.state() == SenderState::sending) {
-    running.noted += bytes.size();
-    mill_.events_.about_to_write(running.number, running.prepared->of_body(running.noted));
+  Running* const running = mill_.running_.get();
+  if (running != nullptr && running->sender.state() == SenderState::sending) {
+    running->noted += bytes.size();
+    mill_.events_.about_to_write(running->number, running->prepared->of_body(running->noted));
   }
   line_.write(bytes);
+  mill_.events_.written(bytes, running == nullptr ? 0 : running->number);
 }
 
 MillController::MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
@@ -222,6 +223,7 @@ bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
 }
 
 bool MillController::abort(std::string_view by, TimePoint now) {
+  events_.abort_requested(by, now);
   setup_changed("an abort", now);
   by_hand_until_ = now;
   if (!running_) return send_abort(now);
@@ -235,7 +237,7 @@ bool MillController::abort(std::string_view by, TimePoint now) {
 bool MillController::send_abort(TimePoint now) {
   must_abort_ = link_ != MillLink::open;
   if (must_abort_) return false;
-  line_.write(abort_words(profile_, true));
+  noted_line_.write(abort_words(profile_, true));
   abort_since_ = now;
   return true;
 }
@@ -272,7 +274,7 @@ Result<Duration> MillController::operate(const HandAct& act, const stage::Reques
   if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
   if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
   setup_changed(fmt::format("by hand: {}", text_of(act)), now);
-  line_.write(words->bytes);
+  noted_line_.write(words->bytes);
   by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
   return by_hand_until_ - now;
 }

@@ -54,6 +54,9 @@ class MillEvents {
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
   // Bytes of the job up to `through` go to the line next. What must outlive a killed daemon is kept before it returns.
   virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
+  // These bytes were given to the line, for a job or, with 0, for none.
+  virtual void written(std::string_view bytes, JobNumber job) = 0;
+  virtual void abort_requested(std::string_view by, TimePoint now) = 0;
 };
 
 // Not thread safe: lives on its device's strand. Where a request is refused nothing has changed.
@@ -118,7 +121,7 @@ class MillController : public LineMachine {
   static constexpr Duration kLook = std::chrono::milliseconds(500);
 
  private:
-  // Passes on what a sender writes, behind the note of it.
+  // Passes on what is written, behind the note of it.
   class NotedLine : public FlowLink {
    public:
     NotedLine(MillController& mill, FlowLink& line) : mill_(mill), line_(line) {}

@@ -61,7 +61,7 @@ std::string to_text(const RecordingHeader& header) {
   const auto add = [&text](std::string_view key, const std::string& value) {
     text += fmt::format("# {}: {}\n", key, value);
   };
-  add(kKindKey, std::string(kKind));
+  add(kKindKey, header.kind);
   add(kDeviceKey, quoted_bytes(header.device));
   if (!header.serial_number.empty()) add(kSerialNumberKey, quoted_bytes(header.serial_number));
   add(kBaudKey, std::to_string(header.baud));

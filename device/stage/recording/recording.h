@@ -21,8 +21,9 @@ namespace axisgate::stage {
 
 // All times of a recording are in microseconds, truncated.
 struct RecordingHeader {
-  std::string device{};         // its name in the configuration
-  std::string serial_number{};  // the configured one; may be empty
+  std::string kind = "shrc203";  // as in the configuration; parse_recording() knows this one alone
+  std::string device{};          // its name in the configuration
+  std::string serial_number{};   // the configured one; may be empty
   int baud = Profile{}.baud;
   Duration reply_limit = Profile{}.reply_limit;
   std::string started{};  // the wall time of time 0, for people
