@@ -1,12 +1,15 @@
 #!/usr/bin/env bash
-# From a bare Debian 12 to a moving stage: installs what is missing, builds, starts axisgated with its built-in
-# simulated SHRC-203 and shows it moving. Stays up until Ctrl-C; with --once it leaves after the demonstration, non-zero
-# when a step failed.
+# From a bare Debian 12 to a moving stage: installs what is missing, builds, starts axisgated with a simulated SHRC-203
+# and a simulated mill, and shows both at work. Stays up until Ctrl-C; with --once it leaves after the demonstration,
+# non-zero when a step failed.
 set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 bin="$root/build/bin"
+config="$root/deploy/demo/axisgate.toml"
 log="$root/build/axisgated.log"
+# Of this demonstration alone: made again each time, so that no job of the one before waits in the queue.
+state="$root/build/quickstart-state"
 grpc_port=50203
 metrics_port=9203
 ready_limit_s=30
@@ -97,14 +100,19 @@ leave() {
 start_daemon() {
   require_free_port "$grpc_port" gRPC
   require_free_port "$metrics_port" metrics
-  "$bin/axisgated" >"$log" 2>&1 &
+  rm -rf "$state"
+  STATE_DIRECTORY="$state" "$bin/axisgated" --config "$config" >"$log" 2>&1 &
   daemon=$!
+}
+
+# A position is read from the controller, so its answer says that the handshake is over, too.
+is_ready() {
+  "$bin/axisctl" position >/dev/null 2>"$log.ready" && "$bin/axisctl" mill queue 2>"$log.ready" | grep -q 'line open'
 }
 
 wait_until_ready() {
   local deadline=$((SECONDS + ready_limit_s))
-  # A position is read from the controller, so its answer says that the handshake is over, too.
-  until "$bin/axisctl" position >/dev/null 2>"$log.ready"; do
+  until is_ready; do
     running || show_log_and_fail "the step 'start axisgated' failed: it ended at once"
     if ((SECONDS >= deadline)); then
       cat "$log.ready" >&2
@@ -133,6 +141,7 @@ Try next:
   $bin/axisctl watch
   $bin/axisctl move 1=+500um --relative
   $bin/axisctl exec 'Q:'
+  $bin/axisctl mill queue
 END
 }
 
@@ -155,6 +164,7 @@ main() {
   start_daemon
   wait_until_ready
   "$root/deploy/demo/run.sh" "$bin/axisctl" || fail "the step 'demonstration' failed"
+  "$root/deploy/demo/mill.sh" "$bin/axisctl" || fail "the step 'demonstration of the mill' failed"
   print_endpoints
   if $once; then
     end_daemon || show_log_and_fail "the step 'end axisgated' failed: exit code $?"

@@ -149,8 +149,8 @@ checked. With --stock there is a warning for a cut beside or below the workpiece
 the report says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from
 above, from the front and from the side, and reports the same errors and warnings.
 
-The other commands call the daemon, and need --device with the name of the mill. `mill send` puts a job into the queue,
-unless the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
+The other commands call the daemon; with several mills --device names one. `mill send` puts a job into the queue, unless
+the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
 material, tool and origin, and says so with `mill confirm`. Then `mill start` starts the job.
 
 A mill never replies: what it has executed is a range, computed from its profile. `mill pause` and `mill abort` send no
@@ -165,14 +165,14 @@ they say. Where the tool is, is not known, so nothing checks where a step leads.
 printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
 printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg
-printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl --device mill mill send - --title frame
-axisctl --device mill mill queue
-axisctl --device mill mill confirm --yes
-axisctl --device mill mill start
-axisctl --device mill mill abort
-axisctl --device mill mill jog x=5 z=-0.5
-axisctl --device mill mill origin
-axisctl --device mill mill raise)"},
+printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill send - --title frame
+axisctl mill queue
+axisctl mill confirm --yes
+axisctl mill start
+axisctl mill abort
+axisctl mill jog x=5 z=-0.5
+axisctl mill origin
+axisctl mill raise)"},
     {"units",
      R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the unit of the axis, which the
 configuration names. A speed is an amount per second; the /s may be left out. Nothing is rounded: an amount that is not a

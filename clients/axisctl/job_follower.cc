@@ -52,7 +52,7 @@ JobFollower::JobFollower(const Session& session, const std::string& job)
 
 int JobFollower::follow() {
   v1::WatchMillRequest request;
-  request.set_device(named_mill(session_));
+  request.set_device(chosen_mill(session_));
   grpc::ClientContext context;
   const auto reader = session_.connection.mills->WatchMill(&context, request);
   v1::WatchMillResponse response;

@@ -7,13 +7,13 @@
 
 namespace axisgate::axisctl {
 
-const std::string& named_mill(const Session& session) {
-  if (!session.options.device.empty()) return session.options.device;
-  throw usage("no mill is named", "name one of the configuration: axisctl --device NAME mill ...");
+std::string chosen_mill(const Session& session) {
+  return session.options.device.empty() ? only_mill(session).name() : session.options.device;
 }
 
-const std::string& mill_to_change(const Session& session) {
-  const std::string& device = named_mill(session);
+std::string mill_to_change(const Session& session) {
+  const std::string& device = session.options.device;
+  if (device.empty()) return only_mill(session).name();
   const Connection& connection = session.connection;
   connection.repeat_by(connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
                                        v1::ListDevicesRequest(), kQuestionLimit));

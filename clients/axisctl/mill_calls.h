@@ -8,11 +8,11 @@
 
 namespace axisgate::axisctl {
 
-// "devices/mill": --device must name it, because the daemon lists stages only.
-const std::string& named_mill(const Session& session);
+// "devices/mill", as it was named; otherwise the only one, for which the daemon is asked.
+std::string chosen_mill(const Session& session);
 
 // The same for a request that changes something: from now on it is repeated where its answer is lost.
-const std::string& mill_to_change(const Session& session);
+std::string mill_to_change(const Session& session);
 
 v1::Mill mill_now(const Session& session, const std::string& device);
 

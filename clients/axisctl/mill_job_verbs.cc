@@ -38,7 +38,7 @@ int report_answer(const Session& session, const google::protobuf::Message& respo
 }  // namespace
 
 int mill_queue(const Session& session) {
-  const v1::Mill mill = mill_now(session, named_mill(session));
+  const v1::Mill mill = mill_now(session, chosen_mill(session));
   if (session.options.json) {
     print_json(mill);
   } else {
@@ -70,11 +70,11 @@ int mill_resume(const Session& session) {
                                    run_on_text(response.running().run_on())));
 }
 
-// Nothing holds it up: no other call is made before.
+// Nothing holds it up: where the mill is named, no other call is made before.
 int mill_abort(const Session& session) {
   v1::AbortJobRequest request;
   *request.mutable_context() = new_stop_context();
-  request.set_device(named_mill(session));
+  request.set_device(chosen_mill(session));
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::AbortJob, request, kStopLimit);
   return report_answer(session, response, aborted_text(response));

@@ -54,7 +54,7 @@ std::string tool_of(const Session& session, const std::string& device) {
 
 int mill_send(const Session& session) {
   const Options& options = session.options;
-  const std::string& device = mill_to_change(session);
+  const std::string device = mill_to_change(session);
   std::vector<v1::SendJobRequest> messages(1);
   add_file(options.file, messages);
   v1::SendJobRequest& header = messages.front();

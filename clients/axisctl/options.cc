@@ -346,7 +346,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   CLI::App app{"Moves stages and watches them through axisgated.", "axisctl"};
   app.require_subcommand(1);
   add_target(app, options.target);
-  app.add_option("--device", options.device, "name of the device (default: the only one; needed if there are several)")
+  app.add_option("--device", options.device, "name of the device (default: the only stage, for `mill` the only mill)")
       ->type_name("NAME");
   app.add_option("--request-id", options.request_id,
                  "id of the request; if it comes again with the same id, it does not act again (default: a new one)")

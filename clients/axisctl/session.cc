@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <optional>
+#include <algorithm>
+#include <iterator>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
@@ -11,32 +14,44 @@
 namespace axisgate::axisctl {
 namespace {
 
-v1::Device only_device(const v1::ListDevicesResponse& there) {
-  if (there.devices_size() == 1) return there.devices(0);
-  std::vector<std::string_view> names;
-  for (const v1::Device& device : there.devices()) names.push_back(last_part(device.name()));
-  throw usage(fmt::format("the daemon has {} devices", names.size()),
-              names.empty() ? "configure one" : fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
-}
+// As `kind` in the configuration.
+bool is_mill(const v1::Device& device) { return device.kind() == "rml1"; }
+bool is_stage(const v1::Device& device) { return !is_mill(device); }
 
-// Nothing: the daemon lists none of the name that was typed.
-std::optional<v1::Device> listed_device(const Session& session) {
+v1::ListDevicesResponse listed_devices(const Session& session) {
   const Connection& connection = session.connection;
   // The one question that the daemon answers even when it has no connection left but for a stop.
-  const v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
-                                                        v1::ListDevicesRequest(), kQuestionLimit);
+  v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
+                                                  v1::ListDevicesRequest(), kQuestionLimit);
   connection.repeat_by(there);
-  if (session.options.device.empty()) return only_device(there);
-  for (const v1::Device& device : there.devices()) {
-    if (device.name() == session.options.device) return device;
-  }
-  return std::nullopt;
+  return there;
+}
+
+// Of those that are so. `kind`: for people.
+v1::Device only_one(const v1::ListDevicesResponse& there, bool (*is_so)(const v1::Device&), std::string_view kind) {
+  std::vector<v1::Device> such;
+  std::ranges::copy_if(there.devices(), std::back_inserter(such), is_so);
+  if (such.size() == 1) return such.front();
+  if (such.empty()) throw usage(fmt::format("the daemon has no {}", kind), "configure one");
+  std::vector<std::string_view> names;
+  for (const v1::Device& device : such) names.push_back(last_part(device.name()));
+  throw usage(fmt::format("the daemon has {} {}s", names.size(), kind),
+              fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
+}
+
+// Null: the daemon lists none of the name that was typed.
+const v1::Device* named_device(const v1::ListDevicesResponse& there, const std::string& name) {
+  const auto found = std::ranges::find(there.devices(), name, &v1::Device::name);
+  return found == there.devices().end() ? nullptr : &*found;
 }
 
 }  // namespace
 
 v1::Device chosen_device(const Session& session) {
-  if (const auto listed = listed_device(session)) return *listed;
+  const v1::ListDevicesResponse there = listed_devices(session);
+  if (session.options.device.empty()) return only_one(there, is_stage, "stage");
+  const v1::Device* const named = named_device(there, session.options.device);
+  if (named != nullptr && is_stage(*named)) return *named;
   const Connection& connection = session.connection;
   // The daemon says what is wrong with the name.
   v1::GetDeviceRequest request;
@@ -44,12 +59,18 @@ v1::Device chosen_device(const Session& session) {
   return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();
 }
 
-// The daemon lists stages only.
+v1::Device only_mill(const Session& session) { return only_one(listed_devices(session), is_mill, "mill"); }
+
 v1::Device leased_device(const Session& session) {
-  if (const auto listed = listed_device(session)) return *listed;
-  v1::Device mill;
-  mill.set_name(session.options.device);
-  return mill;
+  const v1::ListDevicesResponse there = listed_devices(session);
+  if (session.options.device.empty()) {
+    return std::ranges::any_of(there.devices(), is_stage) ? only_one(there, is_stage, "stage")
+                                                          : only_one(there, is_mill, "mill");
+  }
+  if (const v1::Device* const named = named_device(there, session.options.device)) return *named;
+  v1::Device unknown;
+  unknown.set_name(session.options.device);
+  return unknown;
 }
 
 }  // namespace axisgate::axisctl

@@ -12,9 +12,14 @@ struct Session {
   const Connection connection;
 };
 
-// The device that was named, or the only one, as the daemon knows it without asking. Throws Failure.
+// As the daemon knows them without asking; all throw Failure.
+
+// The stage that was named, or the only one.
 v1::Device chosen_device(const Session& session);
-// The same for leases; of a mill its name alone.
+// The only mill. For a mill that was named the daemon need not be asked.
+v1::Device only_mill(const Session& session);
+// The device that was named, whatever its kind. Otherwise the only stage, or where there is none, the only mill. One
+// that the daemon does not list has its name alone.
 v1::Device leased_device(const Session& session);
 
 }  // namespace axisgate::axisctl

@@ -61,7 +61,14 @@ Result<DeviceList> Devices::list(const Call& call) const {
   const auto caller = admission_.check_role(RequestKind::list_devices, call.credential);
   if (!caller) return tl::unexpected(caller.error());
   DeviceList all{{}, gateway_.requests().mark(), gateway_.journal() != nullptr && !gateway_.journal()->failure()};
-  for (const auto& device : gateway_.stages()) all.devices.push_back({device, device->newest_state().get().value});
+  for (const auto& device : gateway_.devices()) {
+    if (auto* mill = dynamic_cast<server::Mill*>(device.get())) {
+      all.devices.emplace_back(MillState{mill, mill->newest().get().value});
+    } else {
+      auto& stage = dynamic_cast<server::Stage&>(*device);
+      all.devices.emplace_back(DeviceState{&stage, stage.newest_state().get().value});
+    }
+  }
   return all;
 }
 

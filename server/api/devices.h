@@ -6,12 +6,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "device/core/problem.h"
 #include "device/stage/state.h"
 #include "server/api/admission.h"
 #include "server/api/call.h"
+#include "server/api/mills.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
 #include "server/gateway.h"
@@ -25,9 +27,9 @@ struct DeviceState {
 };
 
 struct DeviceList {
-  std::vector<DeviceState> devices;
-  std::string request_memory{};  // RequestMemory::mark()
-  bool requests_kept = false;    // also over a restart
+  std::vector<std::variant<DeviceState, MillState>> devices;  // in the order of the configuration
+  std::string request_memory{};                               // RequestMemory::mark()
+  bool requests_kept = false;                                 // also over a restart
 };
 
 // Not copied: valid during the call that hands it over.

@@ -83,7 +83,8 @@ void stop_each(const std::vector<Device*>& devices, const stage::RequestContext&
 
 }  // namespace
 
-Result<std::vector<Device*>> Stops::find_devices(std::string_view device) const {
+Result<std::vector<Device*>> Stops::find_devices(std::string_view device, bool axes) const {
+  if (device.empty() && axes) return std::vector<Device*>(gateway_.stages().begin(), gateway_.stages().end());
   std::vector<Device*> all;
   if (device.empty()) {
     for (const auto& one : gateway_.devices()) all.push_back(one.get());
@@ -94,10 +95,10 @@ Result<std::vector<Device*>> Stops::find_devices(std::string_view device) const 
 
 void Stops::stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                  Answer<std::vector<DeviceStop>> answer) const {
-  const auto devices = find_devices(device);
-  if (!devices) return answer(tl::unexpected(devices.error()));
   if (!axes) return answer(tl::unexpected(axes.error()));
-  if (!axes->empty() && devices->size() > 1) {
+  const auto devices = find_devices(device, !axes->empty());
+  if (!devices) return answer(tl::unexpected(devices.error()));
+  if (!axes->empty() && devices->size() != 1) {
     return answer(fail(Reason::invalid_request, "the axes to be stopped are given without their device",
                        "name one of " + device_names(gateway_) + "; without axes all of them are stopped"));
   }
@@ -109,7 +110,7 @@ void Stops::stop(const Call& call, std::string_view device, const Result<stage::
 }
 
 void Stops::emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const {
-  const auto devices = find_devices(device);
+  const auto devices = find_devices(device, false);
   if (!devices) return answer(tl::unexpected(devices.error()));
   const stage::RequestContext context = admission_.context_of_stop(call);
   stop_each(*devices, context, std::move(answer),

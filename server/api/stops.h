@@ -29,8 +29,8 @@ class Stops {
   // Of these axes; of none named, of all. Of an empty device name: of all devices, at the same time. A mill is sent the
   // abort of the job that runs; that is reported as outcome_unknown, since a mill never answers. Answers when all axes
   // are stationary, the wait for it has run out, or at the call's deadline; one for each device, in the order of the
-  // configuration. invalid_request, also for axes without a device where there are several; unknown_device, or as
-  // `axes` is at fault.
+  // configuration. Axes without a device are of the only stage; invalid_request where there are several. Also
+  // unknown_device, or as `axes` is at fault.
   void stop(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
             Answer<std::vector<DeviceStop>> answer) const;
 
@@ -38,7 +38,8 @@ class Stops {
   void emergency_stop(const Call& call, std::string_view device, Answer<std::vector<DeviceStop>> answer) const;
 
  private:
-  Result<std::vector<server::Device*>> find_devices(std::string_view device) const;
+  // Those to be stopped. With `axes` only such that have some.
+  Result<std::vector<server::Device*>> find_devices(std::string_view device, bool axes) const;
 
   const server::Gateway& gateway_;
   const Admission& admission_;

@@ -11,8 +11,7 @@ Device::Device(std::string name, const stage::RecordingHeader& header, std::uniq
     : name_(std::move(name)),
       line_(std::move(line)),
       newest_leases_(readers),
-      metrics_(metrics, name_),
-      recorder_(header, readers, metrics_),
+      recorder_(header, readers, metrics.recorder_drops(name_)),
       leases_(lease_tokens),
       runner_(thread.new_strand(), line_->opener(), &thread.wakefulness()) {
   leases_.on_change = [this](TimePoint now) {

@@ -1,5 +1,5 @@
-// What every device is, whatever its kind: a name, a line with its recorder, leases and metrics; it starts, winds down
-// and ends. A kind of device is a class derived from this, such as Stage.
+// What every device is, whatever its kind: a name, a line with its recorder, and leases; it starts, winds down and
+// ends. A kind of device is a class derived from this, such as Stage.
 #pragma once
 
 #include <functional>
@@ -62,13 +62,11 @@ class Device {
          Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, journal::Journal* journal);
 
   Runner& runner() { return runner_; }
-  DeviceMetrics& metrics() { return metrics_; }
 
  private:
   const std::string name_;
   std::unique_ptr<Line> line_;
   Newest<LeaseBoard> newest_leases_;
-  DeviceMetrics metrics_;
   DeviceRecorder recorder_;
   Leases leases_;
   Runner runner_;

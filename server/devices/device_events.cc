@@ -25,7 +25,7 @@ std::string because(const std::optional<Problem>& problem) {
 
 }  // namespace
 
-DeviceEvents::DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
+DeviceEvents::DeviceEvents(std::string device, EventBus& bus, StageMetrics& metrics, DeviceRecorder& recorder,
                            const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record,
                            journal::DeviceEntries* entries)
     : device_(std::move(device)),

@@ -12,7 +12,7 @@
 #include "server/events/event_bus.h"
 #include "server/events/newest.h"
 #include "server/journal/device_entries.h"
-#include "server/metrics/metrics.h"
+#include "server/metrics/stage_metrics.h"
 #include "server/recording/recorder.h"
 
 namespace axisgate::server {
@@ -26,7 +26,7 @@ class DeviceEvents : public stage::EventSink {
 
   // All that is referred to outlives this. Without `record` nothing is kept for the next run, without `entries`
   // nothing in the journal.
-  DeviceEvents(std::string device, EventBus& bus, DeviceMetrics& metrics, DeviceRecorder& recorder,
+  DeviceEvents(std::string device, EventBus& bus, StageMetrics& metrics, DeviceRecorder& recorder,
                const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr,
                journal::DeviceEntries* entries = nullptr);
 
@@ -70,7 +70,7 @@ class DeviceEvents : public stage::EventSink {
 
   const std::string device_;
   EventBus& bus_;
-  DeviceMetrics& metrics_;
+  StageMetrics& metrics_;
   DeviceRecorder& recorder_;
   const Newest<stage::State>& newest_state_;
   const OnDue due_;

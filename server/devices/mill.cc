@@ -31,6 +31,7 @@ Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr
       record_(std::move(record)),
       journal_(journal),
       newest_(readers),
+      metrics_(*metrics.registry(), device.name),
       controller_(config.profile, settings_of(config), runner(), *this, leases()) {
   restore_jobs();
   runner().attach(controller_, [this] { after_call(); });
@@ -79,11 +80,11 @@ void Mill::post(Request request) {
 
 void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint now) {
   changed_ = true;
+  metrics_.set_link(link);
   const bool open = link == rml1::MillLink::open;
   const stage::LinkChanged change{open ? stage::LinkState::up : stage::LinkState::down, std::string(why)};
   if (link_ && link_->link == change.link && link_->why == change.why) return;
   link_ = change;
-  metrics().on_event(change);
   recorder().on_event(change, now);
   publish_fact(change, now);
   if (open) return spdlog::info("{}: the line is open", name());
@@ -92,6 +93,7 @@ void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint now
 
 void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
   changed_ = true;
+  metrics_.count(job, now);
   note(job, by, why, now);
   if (record_ && job.state == rml1::JobState::running) record_->begin(job.number);
   if (record_) record_->set_state(job.number, job.state);
@@ -111,6 +113,7 @@ void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
 
 void Mill::about_to_write(rml1::JobNumber, std::uint64_t through) {
   if (record_) record_->going_to(through);
+  metrics_.count_written(through);
 }
 
 void Mill::written(std::string_view bytes, rml1::JobNumber job) {
@@ -125,7 +128,7 @@ void Mill::written(std::string_view bytes, rml1::JobNumber job) {
 void Mill::abort_requested(std::string_view by, TimePoint now) {
   const stage::StopRequested stop{.axes = {}, .who = std::string(by)};
   spdlog::warn("{}: abort requested by {}", name(), by);
-  metrics().on_event(stop);
+  metrics_.count_abort();
   publish_fact(stop, now);
 }
 
@@ -138,11 +141,13 @@ void Mill::after_call() {
 void Mill::publish(TimePoint at) {
   changed_ = false;
   published_ = at;
-  newest_.publish(now(at));
+  MillNow state = now(at);
+  metrics_.set_state(state.jobs, state.running);
+  newest_.publish(std::move(state));
 }
 
 MillNow Mill::now(TimePoint at) {
-  return {controller_.link(), controller_.jobs(), controller_.running(at), moment_of(at)};
+  return {controller_.link(), link_ ? link_->why : "", controller_.jobs(), controller_.running(at), moment_of(at)};
 }
 
 void Mill::wind_down(std::function<void()> done) {

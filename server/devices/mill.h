@@ -17,12 +17,14 @@
 #include "server/events/newest.h"
 #include "server/events/wall_time.h"
 #include "server/journal/journal.h"
+#include "server/metrics/mill_metrics.h"
 #include "server/spool/spool.h"
 
 namespace axisgate::server {
 
 struct MillNow {
   rml1::MillLink link = rml1::MillLink::closed;
+  std::string why_closed;       // for people; empty: it is open, or was not opened yet
   std::vector<rml1::Job> jobs;  // as MillController::jobs()
   std::optional<rml1::RunningJob> running;
   Moment clock;  // by which its times are shown
@@ -85,6 +87,7 @@ class Mill final : public Device, private rml1::MillEvents {
   const std::unique_ptr<JobRecord> record_;
   journal::Journal* const journal_;
   Newest<MillNow> newest_;
+  MillMetrics metrics_;
   rml1::MillController controller_;
   bool changed_ = true;                     // since publish()
   std::optional<stage::LinkChanged> link_;  // a line that stays closed is tried again and again

@@ -40,11 +40,12 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
       kind_(*config.kind),
       profile_(profile_of(device, config)),
       newest_state_(readers),
+      metrics_(*metrics.registry(), profile_.name),
       record_(std::move(record)),
       entries_(profile_.name, journal, requests),
       events_(
-          profile_.name, bus, this->metrics(), recorder(), newest_state_,
-          [this](DeviceEvents::Due due) { on_due(due); }, record_.get(), &entries_),
+          profile_.name, bus, metrics_, recorder(), newest_state_, [this](DeviceEvents::Due due) { on_due(due); },
+          record_.get(), &entries_),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
   if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
   if (journal != nullptr) number_motions_after(*journal);
@@ -101,12 +102,12 @@ void Stage::on_due(DeviceEvents::Due due) {
 void Stage::publish_due() {
   if (!std::exchange(due_, false)) return;
   for (std::size_t lane = 0; lane < kLaneCount; ++lane) {
-    metrics().set_queued(static_cast<Lane>(lane), controller_->queued(static_cast<Lane>(lane)));
+    metrics_.set_queued(static_cast<Lane>(lane), controller_->queued(static_cast<Lane>(lane)));
   }
-  metrics().set_outstanding_answers(controller_->outstanding_answers());
+  metrics_.set_outstanding_answers(controller_->outstanding_answers());
   if (!std::exchange(state_due_, false)) return;
   const stage::State& state = controller_->state();
-  metrics().set_state(state);
+  metrics_.set_state(state);
   newest_state_.publish(state);
 }
 

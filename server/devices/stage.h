@@ -14,6 +14,7 @@
 #include "server/devices/motion_record.h"
 #include "server/events/event_bus.h"
 #include "server/journal/device_entries.h"
+#include "server/metrics/stage_metrics.h"
 
 namespace axisgate::server {
 
@@ -57,6 +58,7 @@ class Stage final : public Device {
   const stage::Kind& kind_;
   const stage::Profile profile_;
   Newest<stage::State> newest_state_;
+  StageMetrics metrics_;
   const std::unique_ptr<MotionRecord> record_;
   journal::DeviceEntries entries_;
   DeviceEvents events_;

@@ -32,9 +32,9 @@ stage::RecordingHeader beginning_now(stage::RecordingHeader header) {
   return header;
 }
 
-DeviceRecorder::DeviceRecorder(const stage::RecordingHeader& header, Executor readers, DeviceMetrics& metrics,
+DeviceRecorder::DeviceRecorder(const stage::RecordingHeader& header, Executor readers, prometheus::Counter& drops,
                                std::size_t bytes_kept)
-    : metrics_(metrics),
+    : drops_(drops),
       ring_(header, std::move(readers), bytes_kept),
       recorder_(header, monotonic_now(), [this](const std::string& line) { ring_.append(line); }) {}
 
@@ -47,7 +47,7 @@ std::string DeviceRecorder::Reader::next() {
   RecordingRing::Reading reading = recorder_.ring_.read(position_, kPortionBytes);
   position_ = reading.next;
   if (reading.lost == 0) return std::move(reading.text);
-  recorder_.metrics_.count_recorder_drops(reading.lost);
+  recorder_.drops_.Increment(static_cast<double>(reading.lost));
   return fmt::format("# {} lines lost: the reader was too slow\n", reading.lost) + reading.text;
 }
 

@@ -1,13 +1,14 @@
 // The recording of one device's line: made on its strand, read at leisure.
 #pragma once
 
+#include <prometheus/counter.h>
+
 #include <functional>
 #include <memory>
 #include <string>
 #include <utility>
 
 #include "device/stage/recording/recorder.h"
-#include "server/metrics/metrics.h"
 #include "server/recording/recording_ring.h"
 
 namespace axisgate::server {
@@ -18,8 +19,8 @@ stage::RecordingHeader recording_header(const stage::Profile& profile);
 
 class DeviceRecorder {
  public:
-  // `metrics` outlives this.
-  DeviceRecorder(const stage::RecordingHeader& header, Executor readers, DeviceMetrics& metrics,
+  // `drops` counts the lines that a reader lost, on its thread. It outlives this.
+  DeviceRecorder(const stage::RecordingHeader& header, Executor readers, prometheus::Counter& drops,
                  std::size_t bytes_kept = RecordingRing::kBytesKept);
 
   // On the device's strand.
@@ -53,7 +54,7 @@ class DeviceRecorder {
   };
 
  private:
-  DeviceMetrics& metrics_;
+  prometheus::Counter& drops_;
   RecordingRing ring_;
   stage::Recorder recorder_;
 };

@@ -117,6 +117,17 @@ v1::Mill to_proto(const api::MillState& state) {
   return proto;
 }
 
+v1::Device device_of(const api::MillState& state) {
+  v1::Device proto;
+  proto.set_name(api::device_name(state.mill->name()));
+  proto.set_kind(std::string(state.mill->kind_name()));
+  const bool open = state.now->link == rml1::MillLink::open;
+  proto.set_link(open ? v1::LINK_STATE_UP : v1::LINK_STATE_DOWN);
+  proto.set_link_problem(state.now->why_closed);
+  proto.set_model(state.mill->config().profile.name);
+  return proto;
+}
+
 rml1::JobSetup to_setup(const v1::JobSetup& proto) {
   return {proto.digest(), proto.profile(), proto.origin(), proto.tool()};
 }

@@ -3,6 +3,7 @@
 
 #include <string_view>
 
+#include "axisgate/v1/device.pb.h"
 #include "axisgate/v1/mill.pb.h"
 #include "server/api/mill_operation.h"
 #include "server/api/mills.h"
@@ -17,6 +18,8 @@ v1::RunOn to_proto(const rml1::RunOn& run_on);
 // Of what runs; without a job where nothing does.
 v1::RunningJob to_proto(const api::CurrentRun& run);
 v1::Mill to_proto(const api::MillState& state);
+// As it is among all devices.
+v1::Device device_of(const api::MillState& state);
 
 rml1::JobSetup to_setup(const v1::JobSetup& proto);
 // invalid_request, where it names no act.

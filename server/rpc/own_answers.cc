@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "device/link/clock.h"
@@ -43,7 +44,11 @@ api::Call call_of_stop(const Served& served, std::optional<TimePoint> deadline, 
 
 v1::ListDevicesResponse list_of(const api::DeviceList& list) {
   v1::ListDevicesResponse response;
-  for (const api::DeviceState& one : list.devices) *response.add_devices() = to_proto(*one.device, *one.state);
+  for (const auto& one : list.devices) {
+    const auto* stage = std::get_if<api::DeviceState>(&one);
+    *response.add_devices() =
+        stage == nullptr ? device_of(std::get<api::MillState>(one)) : to_proto(*stage->device, *stage->state);
+  }
   response.set_request_memory(list.request_memory);
   response.set_requests_kept(list.requests_kept);
   return response;

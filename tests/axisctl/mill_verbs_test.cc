@@ -15,6 +15,7 @@
 namespace axisgate::axisctl {
 namespace {
 
+using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
@@ -215,12 +216,21 @@ TEST_F(MillCalls, NothingIsAskedBeforeAnAbort) {
   EXPECT_THAT(mill_.calls, ElementsAre("AbortJob"));
 }
 
-TEST_F(MillCalls, AMillMustBeNamed) {
+TEST_F(MillCalls, TheOnlyMillNeedsNoName) {
   options_.device = "";
+  for (const auto verb : {mill_queue, mill_pause, mill_resume, mill_abort}) EXPECT_EQ(run(verb).exit_code, kDone);
+  EXPECT_THAT(mill_.devices, ElementsAre("devices/mill", "devices/mill", "devices/mill", "devices/mill"));
+}
+
+TEST_F(MillCalls, OneOfSeveralMillsMustBeNamed) {
+  options_.device = "";
+  add_device("large", "rml1");
   for (const auto verb : {mill_send, mill_queue, mill_start, mill_watch, mill_pause, mill_resume, mill_abort}) {
-    EXPECT_EQ(run(verb).exit_code, kUsage);
+    const Ended ended = run(verb);
+    EXPECT_EQ(ended.exit_code, kUsage);
+    EXPECT_EQ(ended.message, "the daemon has 2 mills");
   }
-  EXPECT_THAT(mill_.calls, IsEmpty());
+  EXPECT_THAT(mill_.calls, Each("ListDevices"));
 }
 
 TEST_F(MillCalls, QueueAsJson) {

@@ -19,6 +19,7 @@ grpc::Status ScriptedMill::next_status() {
 grpc::Status ScriptedMill::ListDevices(grpc::ServerContext*, const v1::ListDevicesRequest*,
                                        v1::ListDevicesResponse* response) {
   calls.emplace_back("ListDevices");
+  *response = there;
   response->set_requests_kept(true);
   response->set_request_memory("since noon");
   return grpc::Status::OK;
@@ -122,6 +123,8 @@ MillVerbs::MillVerbs() {
   server_ = builder.BuildAndStart();
   options_.target.address = address;
   options_.device = "devices/mill";
+  add_device("stage", "shrc203");
+  add_device("mill", "rml1");
   mill_.mill.set_name("devices/mill");
   mill_.mill.set_profile("MDX-20");
   mill_.mill.set_line_open(true);
@@ -146,6 +149,12 @@ Ended MillVerbs::run(int (*verb)(const Session&)) {
   }
   ended.output = ::testing::internal::GetCapturedStdout();
   return ended;
+}
+
+void MillVerbs::add_device(const std::string& name, const std::string& kind) {
+  v1::Device& device = *mill_.there.add_devices();
+  device.set_name("devices/" + name);
+  device.set_kind(kind);
 }
 
 v1::Job& MillVerbs::add_job(v1::JobState state) {

@@ -1,4 +1,5 @@
-// A daemon with one mill whose answers a test sets, and axisctl's verbs on it, within the process of the test.
+// A daemon with a stage and one mill, whose answers a test sets, and axisctl's verbs on it, within the process of the
+// test.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -20,6 +21,7 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
  public:
   std::vector<grpc::Status> statuses{grpc::Status::OK};  // of the calls that change something
   v1::Mill mill;
+  v1::ListDevicesResponse there;
   std::vector<v1::Mill> watched;  // then the stream stays open, unless watch_ends
   bool watch_ends = false;
 
@@ -69,6 +71,8 @@ class MillVerbs : public ::testing::Test {
 
   Ended run(int (*verb)(const Session&));
 
+  // Among the devices that there are.
+  void add_device(const std::string& name, const std::string& kind);
   // Numbers 7, 8, ...; of 30,000 bytes.
   v1::Job& add_job(v1::JobState state);
 

@@ -1,28 +1,31 @@
-"""The Grafana dashboard as its file says it, with Grafana's variables filled in."""
+"""The Grafana dashboards as their files say it, with Grafana's variables filled in."""
 
 import json
 import re
 
 from programs import ROOT
 
-FILE = ROOT / "deploy" / "grafana" / "dashboards" / "axisgate.json"
-# What Grafana puts in for one chosen device; the intervals suit a scrape every fraction of a second.
-VARIABLES = {"device": "stage", "__rate_interval": "10s", "__range": "1m"}
+FOLDER = ROOT / "deploy" / "grafana" / "dashboards"
+HOME = "axisgate.json"
+# What Grafana puts in for two chosen devices; the intervals suit a scrape every fraction of a second.
+VARIABLES = {"device": "(stage|mill)", "__rate_interval": "10s", "__range": "1m"}
 
 
 def load():
-    return json.loads(FILE.read_text(encoding="utf-8"))
+    """{file's name: board}"""
+    return {file.name: json.loads(file.read_text(encoding="utf-8")) for file in sorted(FOLDER.glob("*.json"))}
 
 
 def fill_in(expression):
     return re.sub(r"\$(\w+)", lambda variable: VARIABLES[variable[1]], expression)
 
 
-def targets(board):
+def targets():
     """(panel's title, target) of every query."""
-    for panel in board["panels"]:
-        for target in panel.get("targets", []):
-            yield panel["title"], target
+    for board in load().values():
+        for panel in board["panels"]:
+            for target in panel.get("targets", []):
+                yield panel["title"], target
 
 
 def problem(target, answer):

@@ -69,24 +69,32 @@ class Compose(unittest.TestCase):
         mounts = self.mounts("grafana")
         self.assertEqual(mounts["/etc/grafana/provisioning"], DEPLOY / "./grafana/provisioning")
         folder = load("grafana/provisioning/dashboards/axisgate.yaml")["providers"][0]["options"]["path"]
-        self.assertEqual(mounts[folder].resolve(), dashboard.FILE.parent)
+        self.assertEqual(mounts[folder].resolve(), dashboard.FOLDER)
         home = self.services["grafana"]["environment"]["GF_DASHBOARDS_DEFAULT_HOME_DASHBOARD_PATH"]
-        self.assertEqual(home, f"{folder}/{dashboard.FILE.name}")
+        self.assertEqual(home, f"{folder}/{dashboard.HOME}")
+        self.assertIn(dashboard.HOME, dashboard.load())
 
     def test_the_daemons_socket_belongs_to_the_images_user(self):
         user = re.search(r"useradd .*--uid (\d+)", (ROOT / "Dockerfile").read_text(encoding="utf-8"))[1]
         self.assertEqual(self.services["axisgate"]["tmpfs"], [f"/run/axisgate:uid={user},gid={user},mode=0755"])
 
 
-class Dashboard(unittest.TestCase):
-    def setUp(self):
-        self.board = dashboard.load()
+class Dashboards(unittest.TestCase):
+    def test_boards_have_names_of_their_own(self):
+        boards = dashboard.load().values()
+        for key in ("uid", "title"):
+            self.assertEqual(len({board[key] for board in boards}), len(boards))
 
     def test_panels_have_numbers_of_their_own_and_places_of_their_own(self):
-        numbers = [panel["id"] for panel in self.board["panels"]]
+        for name, board in dashboard.load().items():
+            with self.subTest(name):
+                self.check_panels(board["panels"])
+
+    def check_panels(self, panels):
+        numbers = [panel["id"] for panel in panels]
         self.assertEqual(len(numbers), len(set(numbers)))
         taken = {}
-        for panel in self.board["panels"]:
+        for panel in panels:
             place = panel["gridPos"]
             self.assertLessEqual(place["x"] + place["w"], 24, panel["title"])
             for cell in ((x, y) for x in range(place["x"], place["x"] + place["w"])

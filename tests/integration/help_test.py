@@ -94,8 +94,7 @@ class Examples(unittest.TestCase):
         self.assertIn(endless.end(), (0, -signal.SIGINT), f"{line}: {endless.errors}")
 
     def is_up(self):
-        return "  UP" in self.daemon.run("devices").stdout and \
-            "  line open\n" in self.daemon.run("--device", "mill", "mill", "queue").stdout
+        return self.daemon.run("devices").stdout == "stage  shrc203  UP\nmill  rml1  UP\n"
 
     def wait_until_up(self):
         deadline = time.monotonic() + LIMIT_S

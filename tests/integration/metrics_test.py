@@ -27,6 +27,12 @@ key = "{{folder}}/gateway.key"
 [[device]]
 name = "stage"
 connection = "simulated"
+
+[[device]]
+name = "mill"
+kind = "rml1"
+profile = "mdx-20"
+connection = "simulated"
 """
 
 
@@ -85,6 +91,13 @@ class AtWork(unittest.TestCase):
     def test_the_readme_lists_the_families_with_their_labels(self):
         self.maxDiff = None
         self.assertEqual(documented(), families(self.page))
+
+    def test_no_device_shows_what_only_another_kind_has(self):
+        for name, labels in re.findall(r"(?m)^(\w+){(.*)} \S+$", self.page):
+            if 'device="mill"' in labels and name != "axisgate_recorder_dropped_total":
+                self.assertRegex(name, r"\Aaxisgate_mill_")
+            if 'device="stage"' in labels:
+                self.assertNotRegex(name, r"\Aaxisgate_mill_")
 
     def test_families_are_read_as_they_stand_there(self):
         page = ('# TYPE a counter\na{x="1",y="a\\"} b=\\""} 1\n'

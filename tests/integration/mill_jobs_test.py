@@ -250,10 +250,67 @@ class MillJobs(unittest.TestCase):
         self.assertIn("axisctl: the job continues; to end it: axisctl mill abort\n", watching.errors)
         self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) SENDING \[")
 
-    def test_a_mill_must_be_named(self):
+    def metric(self, name, *labels):
+        """Of the mill `quick`."""
+        series = sorted((*labels, 'device="quick"'))
+        found = re.findall(rf"(?m)^axisgate_mill_{name}{{(.*)}} (\S+)$", self.daemon.metrics_page())
+        values = [float(value) for label, value in found if sorted(label.split(",")) == series]
+        self.assertEqual(len(values), 1, f"{name} {series}: {found}")
+        return values[0]
+
+    def await_metric(self, expected, name, *labels):
+        deadline = time.monotonic() + LIMIT_S
+        while (value := self.metric(name, *labels)) != expected:
+            self.assertLess(time.monotonic(), deadline, f"{name} {labels} is {value}, not {expected}")
+            time.sleep(0.05)  # the page may be 100 ms old; the deadline above decides
+
+    def test_what_prometheus_sees(self):
+        self.await_metric(1, "line_open")
+        number = self.send(SMALL, device="quick")
+        self.run_well("confirm", "--yes", device="quick")
+        self.await_metric(1, "queued_jobs", 'state="CONFIRMED"')
+        self.run_well("start", "--follow", device="quick")
+        self.await_metric(1, "queued_jobs", 'state="FED"')
+        self.await_metric(len(SMALL), "written_bytes_total")
+        self.await_metric(5, "commands_total")  # ^IN; !PZ; PU; PU; H; with what is behind each
+        self.assertGreater(self.metric("job_seconds_total"), 0)
+        least, most = (self.metric("job_estimate_seconds_total", f'bound="{bound}"') for bound in ("least", "most"))
+        self.assertGreater(least, 0)
+        self.assertLessEqual(least, most)
+        self.run_well("done", number, device="quick")
+        self.run_well("abort", device="quick")
+        self.await_metric(1, "aborts_total")
+        for outcome, jobs in (("FED", 1), ("DONE", 1), ("ABORTED", 0), ("CANCELLED", 0), ("PAUSED_UNKNOWN", 0)):
+            self.await_metric(jobs, "jobs_total", f'outcome="{outcome}"')
+        self.await_metric(0, "queued_jobs", 'state="FED"')
+
+    def test_the_buffer_of_a_job_that_runs(self):
+        self.start_long()
+        deadline = time.monotonic() + LIMIT_S
+        page = ""
+        while not re.search(r'(?m)^axisgate_mill_buffer_bytes{bound="most",device="mill"} [1-9]', page):
+            self.assertLess(time.monotonic(), deadline, page)
+            page = self.daemon.metrics_page()
+        self.assertRegex(page, r'(?m)^axisgate_mill_queued_jobs{device="mill",state="RUNNING"} 1$')
+
+    def test_which_device_is_meant_without_a_name(self):
+        self.assertEqual(self.daemon.run("devices").stdout, "stage  shrc203  UP\nmill  rml1  UP\nquick  rml1  UP\n")
         answer = self.daemon.run("mill", "queue")
         self.assertEqual(answer.returncode, 2)
-        self.assertRegex(answer.stderr, r"no mill is named \(.*--device NAME")
+        self.assertRegex(answer.stderr, r"the daemon has 2 mills \(choose one with --device: mill, quick\)")
+        self.assertRegex(self.daemon.run("position").stdout, r"\Aaxis 1  0 um\n")  # of the only stage
+        leased = self.daemon.run("lease", "run", "--axes", "1", "--", BIN / "axisctl", "--target", self.daemon.socket,
+                                 "lease", "list")
+        self.assertRegex(leased.stdout, r"\Aaxis 1  held by ")
+        refused = self.daemon.run("--device", "mill", "position")
+        self.assertRegex(refused.stderr, r"INVALID_REQUEST: devices/mill is a mill: it has no axes to move")
+
+    def test_a_stop_of_an_axis_is_no_abort(self):
+        number = self.start_long()
+        self.assertEqual(self.daemon.run("stop", "1").returncode, 0)
+        self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) SENDING \[")
+        self.daemon.run("stop")
+        self.await_queue(r"\nno jobs\n\Z")
 
 
 if __name__ == "__main__":

@@ -229,6 +229,37 @@ TEST_F(RpcMill, AStopOfAllDevicesIsTheAbort) {
   watch_until([](const v1::Mill& mill) { return mill.jobs().empty(); });
 }
 
+TEST_F(RpcMill, AStopOfAnAxisIsOfTheOnlyStage) {
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  grpc::ClientContext context;
+  limit(context);
+  v1::StopRequest request;
+  request.add_axes(1);
+  v1::StopResponse response;
+  ASSERT_TRUE(stage_->Stop(&context, request, &response).ok());
+  ASSERT_EQ(response.devices_size(), 1);
+  EXPECT_EQ(response.devices(0).device(), "devices/stage");
+  EXPECT_TRUE(now().has_running());
+}
+
+TEST_F(RpcMill, ItIsAmongTheDevices) {
+  grpc::ClientContext context;
+  limit(context);
+  v1::ListDevicesResponse there;
+  ASSERT_TRUE(devices_->ListDevices(&context, v1::ListDevicesRequest(), &there).ok());
+  ASSERT_EQ(there.devices_size(), 2);
+  EXPECT_EQ(there.devices(0).kind(), "shrc203");
+  const v1::Device& mill = there.devices(1);
+  EXPECT_EQ(mill.name(), kMill);
+  EXPECT_EQ(mill.kind(), "rml1");
+  EXPECT_EQ(mill.link(), v1::LINK_STATE_UP);
+  EXPECT_EQ(mill.link_problem(), "");
+  EXPECT_EQ(mill.model(), "MDX-20");
+  EXPECT_THAT(mill.axes(), IsEmpty());
+}
+
 TEST_F(RpcMill, PauseAndResume) {
   const v1::Job job = sent(vectors(6));
   EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::PauseJob)), v1::REASON_WRONG_MODE);

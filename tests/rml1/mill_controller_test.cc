@@ -79,7 +79,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     if (running.busy) said_.emplace_back("busy");
   }
   void written(std::string_view, JobNumber) override {}
-  void abort_requested(std::string_view, TimePoint) override {}
+  void abort_requested(std::string_view, TimePoint) override { ++aborts_requested_; }
   void about_to_write(JobNumber, std::uint64_t through) override {
     noted_ = through;
     written_before_note_ = line_.writes.size();
@@ -94,6 +94,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   std::map<JobState, std::string> by_;
   std::uint64_t noted_ = 0;
   std::size_t written_before_note_ = 0;
+  int aborts_requested_ = 0;
   FakePermission permission_;
   MillController mill_{profile_, settings_, line_, *this, permission_};
 };
@@ -151,6 +152,7 @@ TEST_F(MillControllerTest, WhoLosesTheRightHasTheJobAborted) {
   EXPECT_THAT(permission_.stops, IsEmpty()) << "nobody stopped it";
   EXPECT_TRUE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_THAT(permission_.stops, ElementsAre("unix bert"));
+  EXPECT_EQ(aborts_requested_, 2);
 }
 
 TEST_F(MillControllerTest, WithoutAConfirmationNothingIsWritten) {
@@ -253,6 +255,7 @@ TEST_F(MillControllerTest, AnAbortIsSentAlsoWhereNoJobRuns) {
   EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true))) << "when the line is back";
   mill_.abort({.who = "unix bert"}, now_);
   EXPECT_THAT(line_.writes, SizeIs(2));
+  EXPECT_EQ(aborts_requested_, 2) << "what was sent when the line was back is no request";
 }
 
 TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {

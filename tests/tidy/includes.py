@@ -131,7 +131,8 @@ def _is_of_the_check(path):
 
 # The one file that names the kinds of device. Mills are all of one kind, so their part of the server uses it as it is.
 _KINDS = "server/kinds.cc"
-_OF_MILLS = ("server/api/", "server/config/", "server/devices/", "server/events/", "server/journal/", "server/rpc/")
+_OF_MILLS = ("server/api/", "server/config/", "server/devices/", "server/events/", "server/journal/", "server/metrics/",
+             "server/rpc/")
 
 
 def _names_a_kind(path, target):

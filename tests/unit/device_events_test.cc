@@ -9,6 +9,8 @@
 #include <sstream>
 #include <vector>
 
+#include "server/metrics/metrics.h"
+
 namespace axisgate::server::device_events_test {
 namespace {
 
@@ -28,11 +30,11 @@ class DeviceEventsTest : public ::testing::Test {
   const TimePoint now_{std::chrono::seconds(1000)};
   EventBus bus_{[](std::function<void()>) {}};
   Metrics metrics_;
-  DeviceMetrics device_metrics_{metrics_, "stage"};
-  DeviceRecorder recorder_{{}, [](std::function<void()>) {}, device_metrics_};
+  StageMetrics stage_metrics_{*metrics_.registry(), "stage"};
+  DeviceRecorder recorder_{{}, [](std::function<void()>) {}, metrics_.recorder_drops("stage")};
   Newest<stage::State> state_{[](std::function<void()>) {}};
   std::vector<DeviceEvents::Due> due_;
-  DeviceEvents events_{"stage",   bus_,   device_metrics_,
+  DeviceEvents events_{"stage",   bus_,   stage_metrics_,
                        recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); }};
 };
 

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "device/link/clock.h"
+#include "server/metrics/metrics.h"
 #include "tests/unit/link_fixtures.h"
 
 namespace axisgate::server::recording_file_test {
@@ -46,8 +47,8 @@ class RecordingFileTest : public ::testing::Test {
   link_test::TemporaryDirectory directory_;
   const std::filesystem::path path_ = directory_ / "stage.recording";
   Metrics metrics_;
-  DeviceMetrics device_metrics_{metrics_, "stage"};
-  DeviceRecorder recorder_{recording_header({}), [](const std::function<void()>& task) { task(); }, device_metrics_};
+  DeviceRecorder recorder_{recording_header({}), [](const std::function<void()>& task) { task(); },
+                           metrics_.recorder_drops("stage")};
 };
 
 TEST_F(RecordingFileTest, IsWrittenAsTheLineGoesAndTakenUpAgain) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "device/link/clock.h"
+#include "server/metrics/metrics.h"
 #include "server/recording/recorder.h"
 
 namespace axisgate::server::server_recorder_test {
@@ -28,8 +29,7 @@ class ServerRecorderTest : public ::testing::Test {
   std::string page() const { return prometheus::TextSerializer().Serialize(metrics_.registry()->Collect()); }
 
   Metrics metrics_;
-  DeviceMetrics device_metrics_{metrics_, "stage"};
-  DeviceRecorder recorder_{recording_header({}), [](std::function<void()>) {}, device_metrics_, 2000};
+  DeviceRecorder recorder_{recording_header({}), [](std::function<void()>) {}, metrics_.recorder_drops("stage"), 2000};
   std::uint64_t exchange_ = 0;
 };
 

@@ -56,6 +56,7 @@ class MillEvents {
   virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
   // These bytes were given to the line, for a job or, with 0, for none.
   virtual void written(std::string_view bytes, JobNumber job) = 0;
+  // Also where no job runs.
   virtual void abort_requested(std::string_view by, TimePoint now) = 0;
 };
 

@@ -1,0 +1,115 @@
+#include "server/metrics/mill_metrics.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+#include "server/metrics/families.h"
+
+namespace axisgate::server {
+namespace {
+
+using rml1::JobState;
+
+std::size_t index_of(JobState state) { return static_cast<std::size_t>(state); }
+
+prometheus::Labels of_state(const std::string& device, const char* label, JobState state) {
+  return {{"device", device}, {label, std::string(rml1::name(state))}};
+}
+
+prometheus::Labels of_bound(const std::string& device, const char* bound) {
+  return {{"device", device}, {"bound", bound}};
+}
+
+}  // namespace
+
+struct MillMetrics::Families {
+  explicit Families(prometheus::Registry& registry)
+      : line_open(gauge_family(registry, "axisgate_mill_line_open", "1 when the line to the mill is open, else 0.")),
+        queued_jobs(gauge_family(registry, "axisgate_mill_queued_jobs",
+                                 "Jobs without an end, by state: those that wait, the one that runs, and those that "
+                                 "wait for a person's word.")),
+        jobs(counter_family(registry, "axisgate_mill_jobs_total",
+                            "Jobs by what became of them; one that is FED or PAUSED_UNKNOWN has an end later, too.")),
+        commands(counter_family(registry, "axisgate_mill_commands_total",
+                                "Commands of jobs that were written; of a list of coordinates that is longer than the "
+                                "window, its parts.")),
+        bytes(counter_family(registry, "axisgate_mill_written_bytes_total", "Bytes of jobs that were written.")),
+        buffer(gauge_family(registry, "axisgate_mill_buffer_bytes",
+                            "Bytes of the job that were written and that the mill has not executed, by computation: "
+                            "if it is as fast (least) or as slow (most) as its profile allows.")),
+        busy(gauge_family(registry, "axisgate_mill_busy",
+                          "1 when the mill has taken nothing of the job that runs for `busy_limit_s`, else 0.")),
+        aborts(counter_family(registry, "axisgate_mill_aborts_total", "Aborts requested, also where no job ran.")),
+        job_seconds(counter_family(registry, "axisgate_mill_job_seconds_total",
+                                   "Time from the start to FED, with pauses, of the jobs that were FED.")),
+        estimate(counter_family(registry, "axisgate_mill_job_estimate_seconds_total",
+                                "Time that the check computed for the same jobs, at least and at most.")) {}
+
+  prometheus::Family<prometheus::Gauge>& line_open;
+  prometheus::Family<prometheus::Gauge>& queued_jobs;
+  prometheus::Family<prometheus::Counter>& jobs;
+  prometheus::Family<prometheus::Counter>& commands;
+  prometheus::Family<prometheus::Counter>& bytes;
+  prometheus::Family<prometheus::Gauge>& buffer;
+  prometheus::Family<prometheus::Gauge>& busy;
+  prometheus::Family<prometheus::Counter>& aborts;
+  prometheus::Family<prometheus::Counter>& job_seconds;
+  prometheus::Family<prometheus::Counter>& estimate;
+};
+
+MillMetrics::MillMetrics(prometheus::Registry& registry, const std::string& device)
+    : MillMetrics(Families(registry), device) {}
+
+MillMetrics::MillMetrics(const Families& families, const std::string& device)
+    : line_open_(families.line_open.Add({{"device", device}})),
+      busy_(families.busy.Add({{"device", device}})),
+      commands_(families.commands.Add({{"device", device}})),
+      bytes_(families.bytes.Add({{"device", device}})),
+      aborts_(families.aborts.Add({{"device", device}})),
+      job_seconds_(families.job_seconds.Add({{"device", device}})),
+      estimate_{families.estimate.Add(of_bound(device, "least")), families.estimate.Add(of_bound(device, "most"))},
+      buffer_{families.buffer.Add(of_bound(device, "least")), families.buffer.Add(of_bound(device, "most"))} {
+  for (const JobState state :
+       {JobState::queued, JobState::confirmed, JobState::running, JobState::fed, JobState::paused_unknown}) {
+    queued_.at(index_of(state)) = &families.queued_jobs.Add(of_state(device, "state", state));
+  }
+  for (const JobState state :
+       {JobState::fed, JobState::paused_unknown, JobState::done, JobState::aborted, JobState::cancelled}) {
+    outcomes_.at(index_of(state)) = &families.jobs.Add(of_state(device, "outcome", state));
+  }
+}
+
+void MillMetrics::count(const rml1::Job& job, TimePoint now) {
+  if (auto* const outcome = outcomes_.at(index_of(job.state))) outcome->Increment();
+  if (job.state == JobState::running) {
+    started_ = now;
+    written_ = 0;
+  }
+  if (job.state != JobState::fed) return;
+  job_seconds_.Increment(std::chrono::duration<double>(now - started_).count());
+  estimate_.least.Increment(job.least_s);
+  estimate_.most.Increment(job.most_s);
+}
+
+// What is written around a job is no part of it, and adds nothing.
+void MillMetrics::count_written(std::uint64_t through) {
+  if (through <= written_) return;
+  bytes_.Increment(static_cast<double>(through - written_));
+  commands_.Increment();
+  written_ = through;
+}
+
+void MillMetrics::set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running) {
+  for (std::size_t state = 0; state < kStateCount; ++state) {
+    if (queued_.at(state) == nullptr) continue;
+    const auto in_state = [state](const rml1::Job& job) { return index_of(job.state) == state; };
+    queued_.at(state)->Set(static_cast<double>(std::ranges::count_if(jobs, in_state)));
+  }
+  const rml1::SendProgress progress = running ? running->progress : rml1::SendProgress{};
+  buffer_.least.Set(static_cast<double>(progress.written - progress.executed_most));
+  buffer_.most.Set(static_cast<double>(progress.written - progress.executed_least));
+  busy_.Set(running && running->busy ? 1 : 0);
+}
+
+}  // namespace axisgate::server

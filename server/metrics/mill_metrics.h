@@ -1,0 +1,61 @@
+// What Prometheus may know of a mill: its line, its queue, and what was sent to it.
+#pragma once
+
+#include <prometheus/counter.h>
+#include <prometheus/family.h>
+#include <prometheus/gauge.h>
+#include <prometheus/registry.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "device/core/time.h"
+#include "device/rml1/mill/job.h"
+#include "device/rml1/mill/mill_controller.h"
+
+namespace axisgate::server {
+
+// One mill's time series, their handles kept. Called on the device's strand; `registry` outlives it.
+class MillMetrics {
+ public:
+  MillMetrics(prometheus::Registry& registry, const std::string& device);
+
+  void set_link(rml1::MillLink link) { line_open_.Set(link == rml1::MillLink::open ? 1 : 0); }
+  // Has another state by now.
+  void count(const rml1::Job& job, TimePoint now);
+  // Of the job that runs, up to which byte it has been written now: a whole command.
+  void count_written(std::uint64_t through);
+  void count_abort() { aborts_.Increment(); }
+  // As MillController has them.
+  void set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running);
+
+ private:
+  static constexpr std::size_t kStateCount = 8;
+  struct Families;
+  // A range: of a duration in seconds, or of bytes.
+  template <class Series>
+  struct Bounds {
+    Series &least, &most;
+  };
+
+  MillMetrics(const Families& families, const std::string& device);
+
+  prometheus::Gauge& line_open_;
+  prometheus::Gauge& busy_;
+  prometheus::Counter& commands_;
+  prometheus::Counter& bytes_;
+  prometheus::Counter& aborts_;
+  prometheus::Counter& job_seconds_;
+  Bounds<prometheus::Counter> estimate_;
+  Bounds<prometheus::Gauge> buffer_;
+  std::array<prometheus::Gauge*, kStateCount> queued_{};      // by JobState; null: such a job is not in the queue
+  std::array<prometheus::Counter*, kStateCount> outcomes_{};  // by JobState; null: no outcome
+  std::uint64_t written_ = 0;                                 // of the job that runs
+  TimePoint started_{};
+};
+
+}  // namespace axisgate::server

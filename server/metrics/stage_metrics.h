@@ -1,0 +1,87 @@
+// What Prometheus may know of a stage: its line, its commands and its motions.
+#pragma once
+
+#include <prometheus/counter.h>
+#include <prometheus/family.h>
+#include <prometheus/gauge.h>
+#include <prometheus/histogram.h>
+#include <prometheus/registry.h>
+
+#include <array>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "device/core/lane.h"
+#include "device/stage/event.h"
+
+namespace axisgate::server {
+
+// One stage's time series, their handles kept. Called on the device's strand; `registry` outlives it.
+class StageMetrics {
+ public:
+  StageMetrics(prometheus::Registry& registry, std::string device);
+
+  void on_event(const stage::Event& event);
+  void set_state(const stage::State& state);
+  void set_queued(Lane lane, std::size_t commands);
+  void set_outstanding_answers(int answers) { outstanding_answers_.Set(answers); }
+
+ private:
+  struct Families;
+  static constexpr std::size_t kOutcomeCount = 8;
+  struct CommandSeries {
+    std::array<prometheus::Counter*, kOutcomeCount> outcomes{};
+    prometheus::Histogram* seconds = nullptr;
+  };
+
+  StageMetrics(const Families& families, std::string device);
+
+  void count(const stage::ExchangeEnded& exchange);
+  void count(const stage::BytesWritten& written) { bytes_out_.Increment(static_cast<double>(written.bytes.size())); }
+  void count(const stage::BytesReceived& received) { bytes_in_.Increment(static_cast<double>(received.bytes.size())); }
+  void count(const stage::TimeLimitPassed& limit) {
+    time_limits_.at(static_cast<std::size_t>(limit.kind))->Increment();
+  }
+  void count(const stage::MotionChanged& change);
+  void count(const stage::CompletionSeen& completion);
+  void count(const stage::PathProgress& progress);
+  void count(const stage::StopRequested& stop);
+  void count(const stage::ForeignMotion&) {}
+  void count(const stage::SwitchesChanged&) {}
+  void count(const stage::ProgramNotice&) {}
+  void count(const stage::LinkChanged& change);
+  void count(const stage::BarrierEntered&) { barriers_.Increment(); }
+  void count(const stage::LineLearned&) {}
+  void count(const stage::UnexpectedLine&) { unexpected_lines_.Increment(); }
+  void count(const stage::IllegalTransition&) {}
+  void count(const stage::UnfinishedJudged&) {}
+  void count(const stage::StateChanged&) {}
+  prometheus::Counter& motions(stage::MotionKind kind, stage::MotionState outcome);
+
+  const std::string device_;
+  // A series of these is looked up, or made, at its event.
+  prometheus::Family<prometheus::Counter>& exchanges_;
+  prometheus::Family<prometheus::Histogram>& exchange_seconds_;
+  prometheus::Family<prometheus::Counter>& motions_;
+  prometheus::Family<prometheus::Gauge>& positions_family_;
+  std::unordered_map<std::string_view, CommandSeries> commands_;  // keys are the command table's own names
+  std::array<prometheus::Gauge*, kLaneCount> lanes_{};
+  std::array<prometheus::Histogram*, kLaneCount> waits_{};
+  std::array<prometheus::Counter*, 3> time_limits_{};  // by TimeLimitPassed::Kind
+  std::array<prometheus::Counter*, stage::kAxisCount> completions_{};
+  std::array<prometheus::Gauge*, stage::kAxisCount> positions_{};  // null until a position is known
+  prometheus::Counter& normal_stops_;
+  prometheus::Counter& emergency_stops_;
+  prometheus::Gauge& link_up_;
+  prometheus::Counter& barriers_;
+  prometheus::Counter& underruns_;
+  prometheus::Counter& unexpected_lines_;
+  prometheus::Counter& line_busy_;
+  prometheus::Counter& bytes_in_;
+  prometheus::Counter& bytes_out_;
+  prometheus::Gauge& outstanding_answers_;
+};
+
+}  // namespace axisgate::server
