@@ -55,6 +55,15 @@ void LineToMill::pump(TimePoint now) {
   arrives_ = now + std::chrono::nanoseconds(std::chrono::seconds(10)) / setup_.baud;
 }
 
+std::size_t LineToMill::drop(bool converter_too) {
+  host_.clear();
+  if (converter_too || setup_.converter == 0) {
+    converter_.clear();
+    byte_.reset();
+  }
+  return converter_.size() + (byte_ ? 1 : 0);
+}
+
 char LineToMill::take() {
   const char byte = *byte_;
   byte_.reset();

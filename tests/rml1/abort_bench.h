@@ -40,13 +40,19 @@ class LineToMill : public FlowLink {
   void pump(TimePoint now);
   char take();  // the byte that has arrived
 
+  // The line breaks: what was in the host is lost, and perhaps what was in a converter. How many bytes still arrive.
+  std::size_t drop(bool converter_too);
+
   std::string written;  // to the line
 
- private:
-  bool stopped() const;
-  bool may_leave();
+ protected:
+  virtual bool stopped() const;  // by the mill, as the host sees it
 
   simulator::MillBench& mill_;
+
+ private:
+  bool may_leave();
+
   Setup setup_;
   std::deque<char> host_, converter_;
   std::optional<char> byte_;

@@ -65,21 +65,6 @@ std::vector<double> numbers_after(const std::string& line, std::string_view key)
   return numbers;
 }
 
-std::optional<Course::Event> event_of(const std::string& line) {
-  const auto has = [&line](std::string_view key) { return line.find(key) != std::string::npos; };
-  if (has("\"path\":")) {
-    const auto ends = numbers_after(line, "\"path\":");
-    return Course::Event{Kind::moved, {ends.at(3), ends.at(4), ends.at(5)}};
-  }
-  if (has("\"wait\":")) {
-    const double seconds = numbers_after(line, "\"seconds\":").at(0);
-    return Course::Event{has("dwell") ? Kind::dwell : Kind::spin_up, {}, seconds};
-  }
-  if (!has("\"turn\":")) return std::nullopt;
-  const double degrees = std::abs(numbers_after(line, "\"turn\":").at(0));
-  return degrees > 0 ? std::optional(Course::Event{Kind::turn, {}, degrees}) : std::nullopt;
-}
-
 // At the work origin and at the top, as a job of the model begins.
 class Mill : public simulator::MillBench {
  public:
@@ -95,7 +80,7 @@ class Mill : public simulator::MillBench {
   Course course() {
     Course course;
     for (const std::string& line : lines) {
-      const auto event = event_of(line);
+      const auto event = recorded_event(line);
       if (!event) continue;
       course.events.push_back(*event);
       if (event->kind == Kind::moved) tool_ = event->to;
@@ -112,6 +97,21 @@ class Mill : public simulator::MillBench {
 };
 
 }  // namespace
+
+std::optional<Course::Event> recorded_event(const std::string& line) {
+  const auto has = [&line](std::string_view key) { return line.find(key) != std::string::npos; };
+  if (has("\"path\":")) {
+    const auto ends = numbers_after(line, "\"path\":");
+    return Course::Event{Kind::moved, {ends.at(3), ends.at(4), ends.at(5)}};
+  }
+  if (has("\"wait\":")) {
+    const double seconds = numbers_after(line, "\"seconds\":").at(0);
+    return Course::Event{has("dwell") ? Kind::dwell : Kind::spin_up, {}, seconds};
+  }
+  if (!has("\"turn\":")) return std::nullopt;
+  const double degrees = std::abs(numbers_after(line, "\"turn\":").at(0));
+  return degrees > 0 ? std::optional(Course::Event{Kind::turn, {}, degrees}) : std::nullopt;
+}
 
 bool operator==(const Course::Event& a, const Course::Event& b) {
   const auto same = [](double one, double other) { return std::abs(one - other) <= kSame; };

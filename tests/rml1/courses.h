@@ -1,6 +1,7 @@
 // What a job makes a mill do, in order: by the gateway's model and by the simulator.
 #pragma once
 
+#include <optional>
 #include <ostream>
 #include <string>
 #include <vector>
@@ -29,6 +30,9 @@ void PrintTo(const Course::Event& event, std::ostream* out);
 
 // Where the work origin is, and Z0, in both: in mm.
 inline constexpr Origin kWork{100, 100, 50};
+
+// Of a line of the simulated mill's record; nothing where it is no movement and no wait.
+std::optional<Course::Event> recorded_event(const std::string& line);
 
 Course course_of_model(const std::string& job, const Profile& profile);
 // Byte by byte: each when all before it has been executed, or at a baud rate.

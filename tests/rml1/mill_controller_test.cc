@@ -363,6 +363,20 @@ TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {
   EXPECT_FALSE(mill_.running(now_)->busy);
 }
 
+// All has been written, and CTS is low.
+TEST_F(MillControllerTest, AMillThatKeepsTheLineAtTheEndIsBusyAndNotFed) {
+  add(1);
+  run_job(1, 2);
+  while (mill_.running(now_)->sender == SenderState::sending) run_for(1ms);
+  line_.busy = true;
+  run_for(11min);
+  EXPECT_EQ(state(1), running);
+  EXPECT_TRUE(mill_.running(now_)->busy);
+  line_.busy = false;
+  run_for(10s);
+  EXPECT_EQ(state(1), fed);
+}
+
 TEST_F(MillControllerTest, WithAClosedLineNothingIsConfirmed) {
   add(1);
   mill_.link_down(now_, "unplugged");

@@ -240,6 +240,58 @@ TEST_F(SenderTest, AnAbortThatIsHeldIsSentAfterTwoHundredMilliseconds) {
   EXPECT_THAT(line_.received, testing::EndsWith(abort_words(profile_, true)));
 }
 
+// CTS went low before the last command had left.
+TEST_F(SenderTest, WhatHasNotLeftTheHostIsNotFed) {
+  begin(vectors(2), {.streaming = Streaming::full});
+  run_for(milliseconds(20));
+  while (sender_->state() == sending) run_for(milliseconds(1));
+  ASSERT_EQ(sender_->state(), finishing);
+  ASSERT_GT(line_.unsent(), 0u);
+  line_.busy = true;
+  run_for(std::chrono::seconds(60));
+  EXPECT_EQ(sender_->state(), finishing);
+  line_.busy = false;
+  run_for(std::chrono::seconds(3));
+  EXPECT_EQ(sender_->state(), fed);
+}
+
+// While CTS is low a mill has not executed all: it has no room, or is off.
+TEST_F(SenderTest, WhileTheLineIsHeldNothingIsFed) {
+  begin(vectors(2), {.streaming = Streaming::full});
+  while (sender_->state() == sending || line_.unsent() > 0) run_for(milliseconds(1));
+  line_.busy = true;
+  run_for(std::chrono::seconds(60));
+  EXPECT_EQ(sender_->state(), finishing);
+  line_.busy = false;
+  run_for(std::chrono::seconds(10));
+  EXPECT_EQ(sender_->state(), fed);
+}
+
+// 0.9 s of a move by the profile, and 1.5 times that by the slowest mill.
+TEST_F(SenderTest, AMoveIsTimedFromWhenItsBytesHaveLeft) {
+  begin("!MC0;^PA;V15;VS15;PU1000,0;VS15;VS15;");
+  while (progress().written < 27) run_for(milliseconds(1));
+  line_.busy = true;
+  run_for(std::chrono::seconds(10));
+  EXPECT_LT(progress().executed_least, 27u) << "it has not left the host";
+  line_.busy = false;
+  run_for(std::chrono::seconds(1));
+  EXPECT_LT(progress().executed_least, 27u) << "a mill that is slow is not there yet";
+  run_for(std::chrono::seconds(2));
+  EXPECT_GE(progress().executed_least, 27u);
+}
+
+// What a mill has no room for is lost where nothing holds its host.
+TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
+  std::string job = "^PA;V15;VS15;";
+  for (int i = 0; i < 400; ++i) job += i % 21 == 0 ? "PU4000,0000;PU0,0;" : "PU0008,0000;";
+  Profile profile = test_profile();
+  profile.acceleration = {.best = 1e7, .worst = 1e7, .corner_mm = 0.02, .slower = 0};
+  const Timeline timeline(job, profile, std::nullopt);
+  EXPECT_GT(plan_of(job, timeline, {.slack = 1, .buffer = 1024}).window, 100u);
+  EXPECT_EQ(plan_of(job, timeline, {.slack = 1, .buffer = 100}).window, 100u);
+}
+
 TEST_F(SenderTest, ALostLineIsAnEndOfWhichNothingIsKnown) {
   begin(vectors(200));
   run_for(std::chrono::seconds(5));

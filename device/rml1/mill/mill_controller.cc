@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/rml1/guard.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -87,6 +88,7 @@ void MillController::leave_queue_if_ended(JobNumber number) {
 
 // The workpiece of a job that ran may still be in the mill.
 Result<void> MillController::check_settled() const {
+  if (!guarded(MillGuard::settled_before_next)) return {};
   const auto open = std::ranges::find_if(
       jobs_, [](const Job& job) { return job.state == JobState::fed || job.state == JobState::paused_unknown; });
   if (open == jobs_.end()) return {};
@@ -224,7 +226,7 @@ bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
 
 bool MillController::abort(std::string_view by, TimePoint now) {
   events_.abort_requested(by, now);
-  setup_changed("an abort", now);
+  if (guarded(MillGuard::void_after_abort)) setup_changed("an abort", now);
   by_hand_until_ = now;
   if (!running_) return send_abort(now);
   running_->aborted_by = by;
@@ -312,7 +314,9 @@ void MillController::look_at_sender(TimePoint now) {
 void MillController::look_whether_busy(TimePoint now) {
   const SendProgress progress = running_->sender.progress(now);
   const std::uint64_t taken = progress.written - progress.unsent;
-  const bool has_more = progress.unsent > 0 || (running_->sender.state() == SenderState::sending && line_.held());
+  const SenderState state = running_->sender.state();
+  const bool has_sent = state == SenderState::sending || state == SenderState::finishing;
+  const bool has_more = progress.unsent > 0 || (has_sent && line_.held());
   if (taken != running_->taken || !has_more) {
     running_->taken = taken;
     running_->taken_at = now;
@@ -334,7 +338,8 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
 
 // What had left the host may still have been in a converter, which is gone with the line.
 WrittenRange MillController::written_at_loss() {
-  const std::uint64_t in_converter = std::min<std::uint64_t>(settings_.sending.converter, running_->taken);
+  const std::uint64_t converter = guarded(MillGuard::converter_in_range) ? settings_.sending.converter : 0;
+  const std::uint64_t in_converter = std::min(converter, running_->taken);
   return {running_->prepared->of_body(running_->taken - in_converter), running_->prepared->of_body(running_->noted)};
 }
 
@@ -348,14 +353,14 @@ void MillController::link_up(TimePoint now) {
   link_ = MillLink::open;
   reopen_ = kReopenFirst;
   events_.link_changed(link_, "", now);
-  if (must_abort_) send_abort(now);
+  if (must_abort_ && guarded(MillGuard::abort_after_loss)) send_abort(now);
 }
 
 void MillController::link_down(TimePoint now, std::string_view why) {
   now_ = now;
   link_ = MillLink::closed;
   events_.link_changed(link_, why, now);
-  setup_changed("the line was lost", now);
+  if (guarded(MillGuard::void_after_loss)) setup_changed("the line was lost", now);
   abort_since_.reset();
   if (running_) {
     running_->sender.line_lost(now);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <iterator>
 
 namespace axisgate::rml1 {
 
@@ -21,6 +22,17 @@ void Pace::add(std::uint64_t end, TimePoint arrived, Duration takes) {
   if (under_way_.empty() || under_way_.back().end != end) under_way_.push_back({end, arrived, {}, {}});
   under_way_.back().takes += takes;
   under_way_.back().at = free_;
+}
+
+void Pace::not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now) {
+  const auto first = std::ranges::upper_bound(under_way_, behind, {}, &Ending::end);
+  if (first == under_way_.end()) return;
+  TimePoint free = first == under_way_.begin() ? TimePoint{} : std::prev(first)->at;
+  for (auto one = first; one != under_way_.end(); ++one) {
+    one->arrived = std::max(one->arrived, now + static_cast<Duration::rep>(one->end - behind) * a_byte);
+    one->at = free = std::max({one->at, free + one->takes, one->arrived + one->takes});
+  }
+  free_ = free;
 }
 
 void Pace::has_read(std::uint64_t bytes, TimePoint now) {

@@ -17,6 +17,9 @@ class Pace {
 
   // The job's bytes up to `through` have arrived then. Both ascend.
   void arrived(std::uint64_t through, TimePoint at);
+  // What is behind so many bytes has not arrived by `now`: each byte of it takes `a_byte` from then on, at least.
+  // `now` ascends.
+  void not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now);
   // So many bytes have left the mill's buffer by now, whatever its speed is: the command that they end with may be
   // under way, and those before it have been executed. `now` ascends.
   void has_read(std::uint64_t bytes, TimePoint now);

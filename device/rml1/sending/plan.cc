@@ -2,16 +2,19 @@
 
 #include <algorithm>
 
+#include "device/rml1/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/window.h"
 
 namespace axisgate::rml1 {
 namespace {
 
+// Without flow control the mill loses what its buffer has no room for.
 std::size_t window_of(std::string_view job, const Timeline& timeline, const SendSettings& settings) {
   if (settings.window > 0) return settings.window;
-  const bool paced = settings.streaming == Streaming::paced;
-  return paced ? adapted_window(job, timeline, settings.slack, settings.baud) : kWindows[0];
+  if (settings.streaming == Streaming::full) return kWindows[0];
+  const std::size_t adapted = adapted_window(job, timeline, settings.slack, settings.baud);
+  return guarded(MillGuard::window_fits_buffer) ? std::min(adapted, settings.buffer) : adapted;
 }
 
 std::size_t longest_write(std::string_view job, std::size_t window) {

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "device/core/transitions.h"
+#include "device/rml1/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/window.h"
 #include "device/rml1/sending/words.h"
@@ -68,6 +69,7 @@ void Sender::pause(TimePoint now) {
 }
 
 void Sender::resume(TimePoint now) {
+  learn(now);
   if (change(Event::resume)) send(now);
 }
 
@@ -78,8 +80,9 @@ void Sender::line_lost(TimePoint now) {
 
 // Behind what was written of the job, which is whole commands.
 void Sender::abort(TimePoint now) {
+  learn(now);
   const bool rests = may_rest(now);
-  if (!change(Event::abort)) return;
+  if (guarded(MillGuard::abort_ends_job) && !change(Event::abort)) return;
   line_.write(abort_words(profile_, rests));
   abort_since_ = now;
 }
@@ -90,19 +93,31 @@ void Sender::look_after_abort(TimePoint now) {
     return static_cast<void>(change(Event::abort_written));
   }
   // XOFF shows only as bytes that do not leave.
-  if (now - abort_since_ >= kHeldBeforeIgnored) line_.ignore_flow_control(true);
+  if (guarded(MillGuard::abort_is_not_held) && now - abort_since_ >= kHeldBeforeIgnored) {
+    line_.ignore_flow_control(true);
+  }
 }
 
 void Sender::advance(TimePoint now) {
   learn(now);
   if (state_ == SenderState::sending) send(now);
   if (state_ == SenderState::aborting) look_after_abort(now);
-  if (state_ == SenderState::finishing && slowest_.executed(now) >= job_.size()) change(Event::all_executed);
+  if (state_ == SenderState::finishing && all_is_executed(now)) change(Event::all_executed);
 }
+
+// A mill that has executed all has room, so what it holds back has not all been executed.
+bool Sender::all_is_executed(TimePoint now) {
+  if (guarded(MillGuard::fed_when_arrived) && is_blocked()) return false;
+  return !guarded(MillGuard::fed_by_the_slowest) || slowest_.executed(now) >= job_.size();
+}
+
+bool Sender::is_blocked() const { return line_.unsent() > 0 || line_.held(); }
 
 void Sender::send(TimePoint now) {
   while (cutter_.begin() < job_.size()) {
-    if (line_.unsent() > 0 || line_.held() || !has_room(now)) return;
+    if (guarded(MillGuard::one_command_unsent) && line_.unsent() > 0) return;
+    if (guarded(MillGuard::nothing_while_held) && line_.held()) return;
+    if (guarded(MillGuard::window) && !has_room(now)) return;
     write(now);
   }
   change(Event::all_written);
@@ -126,9 +141,18 @@ bool Sender::has_room(TimePoint now) {
 // What has left the host and has been read by the mill fits neither into its buffer nor between the two. So says flow
 // control alone: without it a mill loses what it has no room for.
 void Sender::learn(TimePoint now) {
+  learn_what_waits(now);
   const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
   const std::size_t unread = settings_.buffer + settings_.converter;
   if (left > unread) slowest_.has_read(left - unread, now);
+}
+
+// On this side of a line that is held: in the host, and perhaps in a converter.
+void Sender::learn_what_waits(TimePoint now) {
+  if (!guarded(MillGuard::counted_from_arrival) || !is_blocked()) return;
+  const std::size_t waits = line_.unsent() + (line_.held() ? settings_.converter : 0);
+  slowest_.not_arrived(cutter_.begin() - std::min(waits, cutter_.begin()), transmit_time(1, settings_.baud), now);
+  arrives_ = std::max(arrives_, now + transmit_time(waits, settings_.baud));
 }
 
 // Before, in or after any of the steps in which the mill may be when the abort reaches it.
@@ -145,12 +169,11 @@ bool Sender::may_rest(TimePoint now) {
 std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   switch (state_) {
     case SenderState::sending:
-      if (line_.unsent() > 0 || line_.held()) return now + until_next_look();
-      return room_at();
+      return is_blocked() ? now + until_next_look() : look_before(room_at(), now);
     case SenderState::aborting:
       return now + kLook;
     case SenderState::finishing:
-      return slowest_.when(job_.size());
+      return is_blocked() ? now + until_next_look() : look_before(slowest_.when(job_.size()), now);
     default:
       return std::nullopt;
   }
@@ -161,8 +184,13 @@ Duration Sender::until_next_look() const {
   return line_.unsent() > 0 ? std::min(kLook, transmit_time(line_.unsent(), settings_.baud)) : kLook;
 }
 
+// A line that is held stops what a converter has of the last command.
+TimePoint Sender::look_before(TimePoint due, TimePoint now) const {
+  return arrives_ > now ? std::min(due, now + kLook) : due;
+}
+
 // For the next command.
-std::optional<TimePoint> Sender::room_at() const {
+TimePoint Sender::room_at() const {
   const std::size_t over = cutter_.end() > plan_.window ? cutter_.end() - plan_.window : 0;
   return slowest_.when(std::min<std::uint64_t>(over, cutter_.begin()));
 }

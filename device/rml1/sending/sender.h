@@ -66,8 +66,12 @@ class Sender {
   void write(TimePoint now);
   bool has_room(TimePoint now);
   void learn(TimePoint now);
+  void learn_what_waits(TimePoint now);
+  bool all_is_executed(TimePoint now);
+  bool is_blocked() const;
   Duration until_next_look() const;
-  std::optional<TimePoint> room_at() const;
+  TimePoint look_before(TimePoint due, TimePoint now) const;
+  TimePoint room_at() const;
   void look_after_abort(TimePoint now);
   bool may_rest(TimePoint now);
 

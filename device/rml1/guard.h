@@ -1,0 +1,43 @@
+// The guards of mill jobs, as device/core/guard.h has those of stages: what keeps a job, its abort and its outcome
+// correct on a bad line. Each is queried where it acts. Tests remove each (tests/guards/mill_guards_test.cc).
+#pragma once
+
+#ifdef AXISGATE_REMOVABLE_GUARDS
+#include <optional>
+#endif
+
+namespace axisgate::rml1 {
+
+enum class MillGuard {
+  // How much is ahead of what the mill has executed
+  window,
+  window_fits_buffer,
+  one_command_unsent,
+  nothing_while_held,
+  counted_from_arrival,
+
+  // An abort
+  abort_ends_job,
+  abort_is_not_held,
+  abort_after_loss,
+
+  // Truth over optimism
+  fed_by_the_slowest,
+  fed_when_arrived,
+  converter_in_range,
+
+  // Who may start what
+  void_after_abort,
+  void_after_loss,
+  settled_before_next,
+};
+inline constexpr int kMillGuards = static_cast<int>(MillGuard::settled_before_next) + 1;
+
+#ifdef AXISGATE_REMOVABLE_GUARDS
+inline std::optional<MillGuard> removed_mill_guard;
+inline bool guarded(MillGuard guard) { return removed_mill_guard != guard; }
+#else
+constexpr bool guarded(MillGuard) { return true; }
+#endif
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,85 @@
+// Each guard of mill jobs is removed in turn, and the seeds of a mill on a bad line must show it.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <string_view>
+
+#include "device/rml1/guard.h"
+#include "tests/rml1/bad_line.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+struct MillRow {
+  MillGuard guard;
+  std::string_view name, what;
+};
+void PrintTo(const MillRow& row, std::ostream* out) { *out << row.name; }
+
+// In the order of the enumeration.
+constexpr std::array kMillTable = {
+    MillRow{MillGuard::window, "window", "paced: no more than the window is ahead of the slowest mill"},
+    MillRow{MillGuard::window_fits_buffer, "window-fits-buffer", "... and no more than the mill's buffer takes"},
+    MillRow{MillGuard::one_command_unsent, "one-command-unsent", "at most one command waits in the host"},
+    MillRow{MillGuard::nothing_while_held, "nothing-while-held", "nothing is written while CTS is low"},
+    MillRow{MillGuard::counted_from_arrival, "counted-from-arrival",
+            "what waits on this side of a line that is held has not been executed"},
+    MillRow{MillGuard::abort_ends_job, "abort-ends-job", "nothing of a job is written after its abort"},
+    MillRow{MillGuard::abort_is_not_held, "abort-is-not-held", "an abort leaves the host, whatever flow control says"},
+    MillRow{MillGuard::abort_after_loss, "abort-after-loss", "the abort comes first when the line is back"},
+    MillRow{MillGuard::fed_by_the_slowest, "fed-by-the-slowest", "FED: the slowest mill has executed all"},
+    MillRow{MillGuard::fed_when_arrived, "fed-when-arrived", "... and nothing waits, and CTS is high"},
+    MillRow{MillGuard::converter_in_range, "converter-in-range",
+            "what a converter held is not said to be received when the line breaks"},
+    MillRow{MillGuard::void_after_abort, "void-after-abort", "a confirmation is void after an abort"},
+    MillRow{MillGuard::void_after_loss, "void-after-loss", "... and after the line was lost"},
+    MillRow{MillGuard::settled_before_next, "settled-before-next",
+            "no job is confirmed before it is known what became of the last one"},
+};
+
+constexpr std::uint64_t kSeedsTried = 500;
+
+class WithoutMillGuard {
+ public:
+  explicit WithoutMillGuard(MillGuard guard) { removed_mill_guard = guard; }
+  ~WithoutMillGuard() { removed_mill_guard.reset(); }
+  WithoutMillGuard(const WithoutMillGuard&) = delete;
+  WithoutMillGuard& operator=(const WithoutMillGuard&) = delete;
+};
+
+LineFaultRun run_without(MillGuard guard, std::uint64_t seed) {
+  const WithoutMillGuard without(guard);
+  return BadLine(seed).run();
+}
+
+class RemovedMillGuard : public testing::TestWithParam<MillRow> {};
+
+TEST_P(RemovedMillGuard, IsMissed) {
+  const MillRow& row = GetParam();
+  for (std::uint64_t seed = 0; seed < kSeedsTried; ++seed) {
+    const LineFaultRun run = run_without(row.guard, seed);
+    if (!run.violation) continue;
+    ASSERT_FALSE(BadLine(seed).run().violation) << "seed " << seed << " fails with all guards, too";
+    return fmt::print("| {} | {} | seed {} | {} |\n", row.name, row.what, seed, *run.violation);
+  }
+  FAIL() << fmt::format("guard {} removed, seeds 0 to {}: nothing was detected", row.name, kSeedsTried - 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(Guards, RemovedMillGuard, testing::ValuesIn(kMillTable), [](const auto& row) {
+  std::string name(row.param.name);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(MillGuardTable, HasOneRowForEachGuard) {
+  ASSERT_EQ(kMillTable.size(), static_cast<std::size_t>(kMillGuards));
+  for (std::size_t i = 0; i < kMillTable.size(); ++i) EXPECT_EQ(static_cast<std::size_t>(kMillTable.at(i).guard), i);
+}
+
+}  // namespace
+}  // namespace axisgate::rml1

@@ -1,0 +1,108 @@
+// A mill, its controller and a bad line between them, in virtual time: one seed, one run.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/mill/mill_controller.h"
+#include "tests/rml1/executed_job.h"
+#include "tests/rml1/fake_permission.h"
+#include "tests/rml1/faulty_line.h"
+#include "tests/rml1/line_fault_plan.h"
+#include "tests/rml1/simulator_bench.h"
+
+namespace axisgate::rml1 {
+
+struct LineFaultRun {
+  std::optional<std::string> violation;  // the first of what must hold and did not
+  std::string replay;                    // what was drawn, and the last of what happened
+  JobState outcome = JobState::queued;   // of the job
+  // What occurred.
+  bool byte_changed = false, stuck = false, xon_lost = false, line_broke = false, was_busy = false;
+  std::size_t ran_on = 0;  // bytes, after an abort of the job
+};
+
+// Two jobs are in the queue. The first is confirmed and sent, and what becomes of it is settled.
+class BadLine : private MillEvents {
+ public:
+  explicit BadLine(std::uint64_t seed);
+  LineFaultRun run();  // once
+
+ private:
+  void before_start();
+  void start();
+  void run_job();
+  void expect_end();
+  void expect_busy_and_abort();
+  void expect_fed_is_true();
+  void expect_progress_is_true();
+  void expect_little_ran_on();
+  void expect_range_holds();
+  void expect_next_waits();
+
+  void act(Act::Kind kind);
+  void abort();
+  void break_line();
+  void bring_line_back();
+  Result<void> confirm(JobNumber number);
+  void expect_refused(const Result<void>& result, Reason reason, std::string_view what);
+  void expect_not_startable(std::string_view why);
+
+  bool step_of_job(TimePoint until);
+  bool step(TimePoint until);
+  void run_for(Duration time);
+  void deliver(char byte);
+  void give_to_mill(char byte, std::uint64_t through);
+  void read_record();
+  void writes(std::string_view bytes);
+  void writes_of_job(std::string_view bytes);
+
+  bool runs() const { return mill_.running_job() != 0; }
+  // A fault that nothing shows: a changed byte, or a lost XON while bytes wait in a converter.
+  bool is_hidden() const { return result_.byte_changed || (line_.has_lost_xon() && plan_.line.converter > 0); }
+  JobState state() const { return states_.at(kFirst); }
+  void violate(std::string what);
+  void note(std::string what);
+
+  void link_changed(MillLink link, std::string_view, TimePoint) override;
+  void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override;
+  void sender_changed(const RunningJob& running, TimePoint) override;
+  void written(std::string_view, JobNumber) override {}
+  void abort_requested(std::string_view, TimePoint) override {}
+  void about_to_write(JobNumber, std::uint64_t through) override { noted_ = through; }
+
+  static constexpr JobNumber kFirst = 1, kSecond = 2;
+  static inline const stage::RequestContext kOwner{.who = "unix anna"}, kAtMill{.who = "unix bert"};
+
+  const std::uint64_t seed_;
+  const Profile profile_ = test_profile();
+  const LineFaultPlan plan_;
+  const std::shared_ptr<const PreparedJob> prepared_;
+  const std::string_view text_;
+  simulator::MillBench bench_;
+  FaultyLine line_;
+  FakePermission permission_;
+  MillController mill_;
+  ExecutedJob executed_;
+
+  std::map<JobNumber, JobState> states_;
+  std::deque<std::uint64_t> under_way_;  // of each byte on the line: through which byte of the text; 0: none of it
+  std::uint64_t job_written_ = 0, noted_ = 0, job_arrived_ = 0;       // bytes; the first and the last of the text
+  std::size_t lines_read_ = 0, abort_writes_ = 0, without_time_ = 0;  // without_time_: steps
+  bool aborted_ = false;                                              // while the job ran
+  bool abort_outstanding_ = false;                                    // requested with the line closed
+  bool fed_looked_at_ = false;
+  std::uint64_t executed_at_abort_ = 0;
+  RunOn bound_{};
+  std::optional<WrittenRange> range_;
+  std::vector<std::string> happened_;
+  LineFaultRun result_;
+};
+
+}  // namespace axisgate::rml1
