@@ -1,5 +1,6 @@
 #include "device/link/runner.h"
 
+#include <fcntl.h>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
@@ -48,7 +49,9 @@ class Runner::Line : public MachineHost {
   void settle() override;
   // Asio's own native_handle() is not const.
   int fd() const { return const_cast<boost::asio::posix::stream_descriptor&>(descriptor_).native_handle(); }
+  bool answers() const;
   void start_reading();
+  void await_loss();
   void on_read(const error_code& error, std::size_t count);
   void send_queued();
   void wait_for_room();
@@ -96,7 +99,7 @@ void Runner::Line::adopt(Descriptor opened) {
   socket_ = ::fstat(opened.release(), &status) == 0 && S_ISSOCK(status.st_mode);
   const auto generation = generation_;
   call([](LineMachine& machine, TimePoint now) { machine.link_up(now); });
-  if (generation == generation_) start_reading();
+  if (generation == generation_) answers() ? start_reading() : await_loss();
 }
 
 void Runner::Line::shut() {
@@ -187,6 +190,19 @@ void Runner::Line::settle() {
   if (overflowed_) return lose("the line takes no bytes: its output queue is full");
   send_queued();
   if (attached() && after_call_) after_call_();
+}
+
+// A printer device is open for writing alone.
+bool Runner::Line::answers() const { return (::fcntl(fd(), F_GETFL) & O_ACCMODE) != O_WRONLY; }
+
+// What a line that is not read reports without a write.
+void Runner::Line::await_loss() {
+  descriptor_.async_wait(boost::asio::posix::stream_descriptor::wait_error,
+                         [self = self(), generation = generation_](const error_code& error) {
+                           if (!error && generation == self->generation_) {
+                             self->lose("the line was closed at its other end");
+                           }
+                         });
 }
 
 void Runner::Line::start_reading() {

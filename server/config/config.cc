@@ -97,6 +97,9 @@ class ConfigReader {
       return kind.check_option(name, value);
     };
     const auto connection = connections_.read(table, stage.profile.baud, check, device);
+    if (connection == ConnectionKind::printer) {
+      table.error("connection", "\"printer\" is for mills: nothing that answers is behind it; use \"serial\"");
+    }
     if (connection != ConnectionKind::simulated) stage.profile.serial_number = table.text("serial_number").value_or("");
     stage.kind_settings = read_kind_settings(table, kind);
     read_limits(table, stage.profile);

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "device/config/config_error.h"
+#include "device/link/printer_port.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
 #include "device/rml1/profile.h"
@@ -82,7 +83,7 @@ struct MillConfig {
 struct DeviceConfig {
   std::string name;
   int baud = stage::Profile{}.baud;
-  std::variant<SimulatedConnection, SerialSettings, TcpSettings> connection;
+  std::variant<SimulatedConnection, SerialSettings, TcpSettings, PrinterSettings> connection;
   std::string record;  // the file that the daemon records the line to; empty: none
   std::variant<StageConfig, MillConfig> family;
 };

@@ -12,8 +12,14 @@
 namespace axisgate::server {
 namespace {
 
-constexpr std::array<std::pair<std::string_view, ConnectionKind>, 3> kConnections = {
-    {{"serial", ConnectionKind::serial}, {"tcp", ConnectionKind::tcp}, {"simulated", ConnectionKind::simulated}}};
+constexpr std::array<std::pair<std::string_view, ConnectionKind>, 4> kConnections = {
+    {{"serial", ConnectionKind::serial},
+     {"tcp", ConnectionKind::tcp},
+     {"simulated", ConnectionKind::simulated},
+     {"printer", ConnectionKind::printer}}};
+
+// USB has no rate: what is written arrives at once, for a mill that takes hundredths of a second for a command.
+constexpr int kPrinterBaud = 1'000'000;
 
 // Names are for the name server to judge; a port or a blank in one is a slip.
 bool is_host(std::string_view host) {
@@ -27,7 +33,13 @@ bool is_host(std::string_view host) {
 std::optional<ConnectionKind> ConnectionReader::read(ConfigTable& table, int usual_baud,
                                                      const CheckOption& check_option, DeviceConfig& device) {
   const auto kind = table.choice<ConnectionKind>("connection", kConnections);
-  if (!kind && !table.has("connection")) table.missing("connection", "\"serial\", \"tcp\" or \"simulated\"");
+  if (!kind && !table.has("connection"))
+    table.missing("connection", "\"serial\", \"tcp\", \"simulated\" or \"printer\"");
+  if (kind == ConnectionKind::printer) {
+    device.baud = kPrinterBaud;
+    device.connection = PrinterSettings{read_path(table, "the printer device", "/dev/usb/lp0")};
+    return kind;
+  }
   const std::optional<std::int64_t> baud = table.integer("baud", 300, 4'000'000);
   device.baud = static_cast<int>(baud.value_or(usual_baud));
   if (!kind) {
@@ -47,16 +59,20 @@ std::optional<ConnectionKind> ConnectionReader::read(ConfigTable& table, int usu
   return kind;
 }
 
-SerialSettings ConnectionReader::read_serial(ConfigTable& table, int baud) {
-  SerialSettings serial;
+std::string ConnectionReader::read_path(ConfigTable& table, std::string_view what, std::string_view example) {
   const std::optional<std::string> path = table.text("path");
-  if (!path && !table.has("path")) table.missing("path", "the tty, e.g. \"/dev/ttyUSB0\" or one of /dev/serial/by-id");
+  if (!path && !table.has("path")) table.missing("path", fmt::format("{}, e.g. \"{}\"", what, example));
   if (path && (path->empty() || path->front() != '/')) {
-    table.error("path", fmt::format("\"{}\" is not an absolute path, e.g. \"/dev/ttyUSB0\"", *path));
+    table.error("path", fmt::format("\"{}\" is not an absolute path, e.g. \"{}\"", *path, example));
   } else if (path && !lines_.insert(*path).second) {
     table.error("path", fmt::format("\"{}\" is the line of another device, too; each has its own", *path));
   }
-  serial.path = path.value_or("");
+  return path.value_or("");
+}
+
+SerialSettings ConnectionReader::read_serial(ConfigTable& table, int baud) {
+  SerialSettings serial;
+  serial.path = read_path(table, "the tty, one of /dev/serial/by-id", "/dev/ttyUSB0");
   serial.parity = table.choice<Parity>("parity", kParities).value_or(serial.parity);
   serial.stop_bits = static_cast<int>(table.integer("stop_bits", 1, 2).value_or(serial.stop_bits));
   serial.flow = table.choice<FlowControl>("flow_control", kFlowControls).value_or(serial.flow);

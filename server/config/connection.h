@@ -13,7 +13,7 @@
 
 namespace axisgate::server {
 
-enum class ConnectionKind { serial, tcp, simulated };
+enum class ConnectionKind { serial, tcp, simulated, printer };
 
 // Of all devices of a file, since no two share a line.
 class ConnectionReader {
@@ -24,12 +24,13 @@ class ConnectionReader {
   // What is referred to outlives this.
   ConnectionReader(std::string_view file, std::vector<ConfigError>& errors) : file_(file), errors_(errors) {}
 
-  // Sets the device's connection, and its baud, which is `usual_baud` without the key. Nothing where it is not known
-  // how the device is connected, which is an error then.
+  // Sets the device's connection, and its baud, which is `usual_baud` without the key, or that of USB for a printer.
+  // Nothing where it is not known how the device is connected, which is an error then.
   std::optional<ConnectionKind> read(ConfigTable& table, int usual_baud, const CheckOption& check_option,
                                      DeviceConfig& device);
 
  private:
+  std::string read_path(ConfigTable& table, std::string_view what, std::string_view example);
   SerialSettings read_serial(ConfigTable& table, int baud);
   TcpSettings read_tcp(ConfigTable& table);
   SimulatedConnection read_simulated(ConfigTable& table, const CheckOption& check_option);

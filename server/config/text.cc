@@ -112,6 +112,11 @@ void write(TomlWriter& out, const TcpSettings& tcp, int baud) {
   out.number("baud", baud);
 }
 
+void write(TomlWriter& out, const PrinterSettings& printer, int) {
+  out.text("connection", "printer");
+  out.text("path", printer.path);
+}
+
 void write(TomlWriter& out, const SimulatedConnection& simulated, int baud) {
   out.text("connection", "simulated");
   out.key("speed", fmt::to_string(simulated.speed));

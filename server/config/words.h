@@ -14,8 +14,8 @@ namespace axisgate::server {
 
 inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
     {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
-inline constexpr std::array<std::pair<std::string_view, FlowControl>, 2> kFlowControls = {
-    {{"rtscts", FlowControl::rts_cts}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, FlowControl>, 3> kFlowControls = {
+    {{"rtscts", FlowControl::rts_cts}, {"xonxoff", FlowControl::xon_xoff}, {"none", FlowControl::none}}};
 // Whether what moves and changes is done where the disk refuses the journal.
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kUnavailable = {{{"refuse", false}, {"act", true}}};
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kStageKinds = {{{"linear", false}, {"rotary", true}}};

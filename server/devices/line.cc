@@ -8,6 +8,7 @@
 
 #include "device/core/paced_line.h"
 #include "device/link/low_latency.h"
+#include "device/link/printer_port.h"
 #include "device/link/serial_port.h"
 #include "device/link/socket_pair.h"
 #include "device/link/tcp_socket.h"
@@ -44,6 +45,11 @@ OpenedLine open(const SerialSettings& settings) {
 std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
   return std::make_unique<OutsideLine>(opener_on_thread([settings] { return open(settings); }),
                                        fmt::format("{} at {} baud", settings.path, settings.baud));
+}
+
+std::unique_ptr<Line> make_printer(const PrinterSettings& settings) {
+  const auto open_it = [settings] { return open_printer(settings).map([](int port) { return Descriptor(port); }); };
+  return std::make_unique<OutsideLine>(opener_on_thread(open_it), settings.path);
 }
 
 std::unique_ptr<Line> make_tcp(const TcpSettings& settings, int baud) {
@@ -125,6 +131,7 @@ std::unique_ptr<Line> make_line(const DeviceConfig& config, Strand strand) {
   if (const auto* serial = std::get_if<SerialSettings>(&config.connection)) {
     return make_serial(*serial);
   }
+  if (const auto* printer = std::get_if<PrinterSettings>(&config.connection)) return make_printer(*printer);
   if (const auto* tcp = std::get_if<TcpSettings>(&config.connection)) return make_tcp(*tcp, config.baud);
   return make_simulated(std::get<SimulatedConnection>(config.connection), config, std::move(strand));
 }

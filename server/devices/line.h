@@ -1,5 +1,5 @@
-// What lies under a device's Runner: a serial port, a serial server, or the built-in simulator at the other end of a
-// socket pair.
+// What lies under a device's Runner: a serial port, a printer device, a serial server, or the built-in simulator at the
+// other end of a socket pair.
 #pragma once
 
 #include <functional>

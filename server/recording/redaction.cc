@@ -144,6 +144,9 @@ Config Redactor::redact(Config config) {
   for (DeviceConfig& device : config.devices) {
     device.record = hide(Kind::path, device.record);
     if (auto* serial = std::get_if<SerialSettings>(&device.connection)) serial->path = hide(Kind::path, serial->path);
+    if (auto* printer = std::get_if<PrinterSettings>(&device.connection)) {
+      printer->path = hide(Kind::path, printer->path);
+    }
     if (auto* tcp = std::get_if<TcpSettings>(&device.connection)) tcp->host = hide(Kind::host, tcp->host);
     if (auto* stage = std::get_if<StageConfig>(&device.family)) hide_stage(*stage);
     if (auto* mill = std::get_if<MillConfig>(&device.family)) hide_mill(*mill);

@@ -17,6 +17,7 @@ import traceback
 sys.dont_write_bytecode = True
 
 import goals_idle  # noqa: E402
+import goals_mill  # noqa: E402
 import goals_motion  # noqa: E402
 import goals_questions  # noqa: E402
 import goals_sharing  # noqa: E402
@@ -28,7 +29,7 @@ from figures import Row, shown, summary, table, table_of_goals  # noqa: E402
 GOALS = {"G1": goals_questions.instant, "G2": goals_questions.paced, "G3": goals_questions.many_callers,
          "G5": goals_motion.stops, "G6": goals_streams.events, "G7": goals_streams.shared, "G10": goals_motion.paths,
          "G11": goals_motion.wrong_replies, "G12": goals_motion.moves, "G13": goals_idle.idle,
-         "turns": goals_sharing.turns, "costs": goals_questions.costs}
+         "turns": goals_sharing.turns, "mill": goals_mill.beside_a_mill, "costs": goals_questions.costs}
 REPEAT, REPEAT_SHORT = 5, 2
 SHORT_SHARE = 0.3
 THIS = "now"

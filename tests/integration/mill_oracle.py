@@ -74,6 +74,7 @@ class Tool:
             self.zero = machine.top - machine.up * machine.origin[2] / machine.step_mm
         self.real = self.path = self.held((0.0, 0.0, self.top()))
         self.bounds = Bounds()
+        self.course = []  # the ends of all moves: X and Y from the home corner, Z from the top
 
     def _lie_anywhere(self):
         """Z0 may be at either end of its travel: the top is as far above it as can be, and the bottom as far below."""
@@ -126,6 +127,7 @@ class Tool:
             first_height = alone and self.bounds.places is None
             self.bounds.add((*self.real[:2], place[2]) if first_height else self.real)
             self.bounds.add(place)
+            self.course.append((place[0] - self.low[0], place[1] - self.low[1], place[2] - self.top()))
         self.real = place
 
     def home(self):
@@ -268,6 +270,11 @@ def agree(said, expected):
 
 def play(job, machine):
     """(final, bounds): bounds is (minimum, maximum), or None if nothing has moved."""
+    tool = tool_after(job, machine)
+    return tool.real, tool.bounds.places
+
+
+def tool_after(job, machine):
     mill = Mill(machine)
     text = job.decode("ascii")
     place = 0
@@ -280,4 +287,4 @@ def play(job, machine):
             place = end
         else:
             mill.execute(name, [float(number) for number in re.findall(NUMBER, match[2])])
-    return mill.tool.real, mill.tool.bounds.places
+    return mill.tool

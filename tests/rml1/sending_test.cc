@@ -157,6 +157,18 @@ TEST_F(SenderTest, FullWritesWhatTheLineTakes) {
   EXPECT_EQ(line_.received, job_);
 }
 
+// As a pseudo-terminal, a serial server or a printer device does, whose queue shows nothing.
+TEST_F(SenderTest, FullDoesNotWaitForTheMillWhereTheLineHasTakenAll) {
+  line_ = FakeMillLine(10'000'000);
+  begin(vectors(200), {.streaming = Streaming::full});
+  for (int calls = 0; calls < 1000 && sender_->state() == sending; ++calls) {
+    line_.run_to(now_);
+    ASSERT_LE(sender_->next_deadline(now_).value(), now_ + milliseconds(1)) << "it waits";
+    run_for(milliseconds(1));
+  }
+  EXPECT_EQ(written(), job_);
+}
+
 TEST_F(SenderTest, WhileTheLineIsHeldOneCommandWaitsAtMost) {
   line_.busy = true;
   begin(vectors(20), {.streaming = Streaming::full});

@@ -342,9 +342,10 @@ TEST(ConfigMill, ASimulatedOneHasSpeedOptionsAndIsSlower) {
 }
 
 TEST(ConfigMill, WithoutAConnectionNoKeyOfOneIsUnknown) {
-  EXPECT_THAT(errors_of("[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nslower = 10\nspeed = 2\n"
-                        "path = \"/dev/ttyS0\"\nstreaming = \"full\"\n"),
-              ElementsAre("lab.toml:1: device.connection: is missing; use \"serial\", \"tcp\" or \"simulated\""));
+  EXPECT_THAT(
+      errors_of("[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nslower = 10\nspeed = 2\n"
+                "path = \"/dev/ttyS0\"\nstreaming = \"full\"\n"),
+      ElementsAre("lab.toml:1: device.connection: is missing; use \"serial\", \"tcp\", \"simulated\" or \"printer\""));
 }
 
 TEST(ConfigMill, SharesNoLineWithAStage) {

@@ -169,7 +169,8 @@ bool Sender::may_rest(TimePoint now) {
 std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
   switch (state_) {
     case SenderState::sending:
-      return is_blocked() ? now + until_next_look() : look_before(room_at(), now);
+      if (is_blocked()) return now + until_next_look();
+      return settings_.streaming == Streaming::full ? now : look_before(room_at(), now);
     case SenderState::aborting:
       return now + kLook;
     case SenderState::finishing:
