@@ -151,7 +151,8 @@ above, from the front and from the side, and reports the same errors and warning
 
 The other commands call the daemon; with several mills --device names one. `mill send` puts a job into the queue, unless
 the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
-material, tool and origin, and says so with `mill confirm`. Then `mill start` starts the job.
+material, tool and origin, and says so with `mill confirm`. Then `mill start` starts the job. Several files make one job:
+after each the tool is raised and the spindle off, and somebody puts in the next tool, sets Z0, and confirms that.
 
 A mill never replies: what it has executed is a range, computed from its profile. `mill pause` and `mill abort` send no
 more of the job, but what the mill has received may run on, and after a pause the cutter keeps turning in the cut. An

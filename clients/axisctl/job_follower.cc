@@ -21,6 +21,13 @@ std::string fed_text(const v1::Job& job) {
       job_text(job), last_part(job.name()));
 }
 
+std::string tool_change_text(const v1::Job& job) {
+  return fmt::format(
+      "{} TOOL_CHANGE: part {} of {} was sent, and the slowest mill has executed it by now; put in the tool {}, set "
+      "Z0, then `axisctl mill confirm {} --start`",
+      job_text(job), job.part(), job.parts_size(), on_one_line(job.setup().tool()), last_part(job.name()));
+}
+
 Failure unknown_sent(const v1::Job& job) {
   return {
       kFailed, "PAUSED_UNKNOWN",
@@ -102,8 +109,9 @@ void JobFollower::show_progress(const v1::RunningJob& running) {
 }
 
 int JobFollower::report_end() const {
-  if (!gone_ && job_.state() == v1::JOB_STATE_FED) {
-    if (!session_.options.json) print_line(fed_text(job_));
+  if (!gone_ && (job_.state() == v1::JOB_STATE_FED || job_.state() == v1::JOB_STATE_TOOL_CHANGE)) {
+    const bool fed = job_.state() == v1::JOB_STATE_FED;
+    if (!session_.options.json) print_line(fed ? fed_text(job_) : tool_change_text(job_));
     return kDone;
   }
   if (!gone_ && job_.state() == v1::JOB_STATE_PAUSED_UNKNOWN) throw unknown_sent(job_);

@@ -1,4 +1,4 @@
-// Shows a job of a mill while it runs, until it has ended.
+// Shows a job of a mill while it runs, until it or one of its parts has ended.
 #pragma once
 
 #include <string>
@@ -18,7 +18,8 @@ class JobFollower {
   // `job`: Job.name, of one that was started; empty: the one that runs, or the next that does.
   JobFollower(const Session& session, const std::string& job);
 
-  // Until the job is FED: kDone. Throws the Failure that another end is, and when the daemon reports no more of it.
+  // Until the job is FED, or a part of it: kDone. Throws the Failure that another end is, and when the daemon reports
+  // no more of it.
   int follow();
 
  private:

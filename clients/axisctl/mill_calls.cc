@@ -30,7 +30,10 @@ v1::Mill mill_now(const Session& session, const std::string& device) {
 std::string wanted_job(const Session& session, const v1::Mill& mill) {
   if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);
   for (const v1::Job& job : mill.jobs()) {
-    if (job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_CONFIRMED) return job.name();
+    if (job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_CONFIRMED ||
+        job.state() == v1::JOB_STATE_TOOL_CHANGE) {
+      return job.name();
+    }
   }
   throw Failure{kRefused, "NOT_FOUND", fmt::format("no job waits at {}", last_part(mill.name())),
                 "send one with `axisctl mill send`"};

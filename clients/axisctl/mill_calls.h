@@ -16,7 +16,8 @@ std::string mill_to_change(const Session& session);
 
 v1::Mill mill_now(const Session& session, const std::string& device);
 
-// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits or is confirmed.
+// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits, is confirmed, or is in
+// a tool change.
 std::string wanted_job(const Session& session, const v1::Mill& mill);
 
 }  // namespace axisgate::axisctl

@@ -30,7 +30,7 @@ v1::Job job_to_confirm(const Session& session) {
 }
 
 void ask_person(const v1::Job& job) {
-  print_line(setup_question(job.setup()));
+  print_line(setup_question(job));
   std::string answer;
   std::getline(std::cin, answer);
   if (answer == "yes") return;

@@ -38,8 +38,15 @@ CLI::App* add_job_verb(CLI::App& mill, Options& options, Verb verb, const char* 
 void add_send(CLI::App& mill, Options& options) {
   JobOptions& job = options.job;
   CLI::App* send = add_job_verb(mill, options, Verb::mill_send, "send", "check a job and send it into the queue");
-  send->add_option("FILE", options.file, "the job; - reads the standard input")->required()->type_name("");
-  send->add_option("--tool", job.tool, "a tool of the configuration (default: its first)")->type_name("NAME");
+  send->add_option("FILE", job.files,
+                   "the job; - reads the standard input; of several files the tool is changed between")
+      ->required()
+      ->type_name("");
+  send->add_option("--tool", job.tools,
+                   "a tool of the configuration (default: its first); of several files one for each, e.g. T1,T3")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
   send->add_option("--origin", job.origin,
                    "a work origin of the configuration (default: as it is set at the mill's panel)")
       ->type_name("NAME");

@@ -1,8 +1,9 @@
-// mill send: reads a job whole, so that it can be sent again, and sends it into the queue of a mill.
+// mill send: reads the files of a job whole, so that it can be sent again, and sends it into the queue of a mill.
 #include <fmt/format.h>
 
 #include <cerrno>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
@@ -23,29 +24,40 @@ namespace {
 constexpr std::size_t kUploadPiece = 1 << 16;
 constexpr std::size_t kSlowestUpload = 100'000;  // bytes a second, over a network
 
-// In pieces, each in a message of its own.
-void add_file(const std::string& name, std::vector<v1::SendJobRequest>& messages) {
+// In pieces, each in a message of its own. Returns how many bytes it has.
+std::int64_t add_file(const std::string& name, std::vector<v1::SendJobRequest>& messages) {
   const auto close = [](std::FILE* file) { return file == stdin ? 0 : std::fclose(file); };
   errno = 0;
   const std::unique_ptr<std::FILE, decltype(close)> file(name == "-" ? stdin : std::fopen(name.c_str(), "rb"), close);
   std::vector<char> piece(kUploadPiece);
+  std::int64_t bytes = 0;
   while (file) {
     const std::size_t count = std::fread(piece.data(), 1, piece.size(), file.get());
     if (count == 0) break;
     messages.emplace_back().set_data(piece.data(), count);
+    bytes += static_cast<std::int64_t>(count);
   }
   if (!file || std::ferror(file.get()) != 0)
     throw usage(fmt::format("{} cannot be read: {}", name, std::strerror(errno)), "name the file of a job");
+  return bytes;
 }
 
-std::string title_of(const Options& options) {
-  if (!options.job.title.empty()) return options.job.title;
-  return options.file == "-" ? "standard input" : std::filesystem::path(options.file).filename().string();
+std::string title_of(const JobOptions& job) {
+  if (!job.title.empty()) return job.title;
+  const std::string& first = job.files.front();
+  const std::string title = first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
+  return job.files.size() == 1 ? title : fmt::format("{} and {} more", title, job.files.size() - 1);
+}
+
+void check_tools(const JobOptions& job) {
+  if (job.tools.size() == job.files.size() || (job.tools.empty() && job.files.size() == 1)) return;
+  throw usage(fmt::format("--tool has {} names for a job of {} files", job.tools.size(), job.files.size()),
+              "name one tool for each file: --tool T1,T3");
 }
 
 // Without --tool the first one that the mill has; empty where it has none.
 std::string tool_of(const Session& session, const std::string& device) {
-  if (!session.options.job.tool.empty()) return session.options.job.tool;
+  if (!session.options.job.tools.empty()) return session.options.job.tools.front();
   const v1::Mill mill = mill_now(session, device);
   return mill.tools().empty() ? "" : mill.tools(0);
 }
@@ -53,17 +65,24 @@ std::string tool_of(const Session& session, const std::string& device) {
 }  // namespace
 
 int mill_send(const Session& session) {
-  const Options& options = session.options;
+  const JobOptions& job = session.options.job;
+  check_tools(job);
   const std::string device = mill_to_change(session);
   std::vector<v1::SendJobRequest> messages(1);
-  add_file(options.file, messages);
-  v1::SendJobRequest& header = messages.front();
+  v1::SendJobRequest header;
+  for (std::size_t i = 0; i < job.files.size(); ++i) {
+    const std::int64_t bytes = add_file(job.files[i], messages);
+    if (job.files.size() == 1) break;
+    header.add_parts()->set_tool(job.tools[i]);
+    header.mutable_parts()->rbegin()->set_bytes(bytes);
+  }
   header.set_device(device);
   *header.mutable_context() = session.connection.new_call_context();
-  header.set_title(title_of(options));
-  header.set_origin(options.job.origin);
-  header.set_tool(tool_of(session, device));
-  for (const std::string& section : options.job.accepted) header.add_accepted_warnings(section);
+  header.set_title(title_of(job));
+  header.set_origin(job.origin);
+  if (header.parts().empty()) header.set_tool(tool_of(session, device));
+  for (const std::string& section : job.accepted) header.add_accepted_warnings(section);
+  messages.front() = header;
   const auto limit = kStartLimit + std::chrono::seconds((messages.size() - 1) * kUploadPiece / kSlowestUpload);
   const v1::SendJobResponse response =
       session.connection.upload(session.connection.mills, &v1::MillService::Stub::SendJob, std::move(messages), limit);

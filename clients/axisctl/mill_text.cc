@@ -86,12 +86,23 @@ std::string confirmation_text(const v1::Job& job) {
   return fmt::format("by {} until {}", on_one_line(job.confirmed_by()), time_text(job.confirmed_until()));
 }
 
+// "2 of 3"; empty where it has no others.
+std::string part_text(const v1::Job& job) {
+  return job.parts_size() < 2 ? "" : fmt::format("{} of {}", job.part() + 1, job.parts_size());
+}
+
+// What is in at the mill, or comes in next.
+std::string tool_cell(const v1::Job& job) {
+  const std::string tool = named_or(job.setup().tool(), "-"), part = part_text(job);
+  return part.empty() ? tool : fmt::format("part {}, {}", part, tool);
+}
+
 std::vector<std::string> job_cells(const v1::Job& job) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
           on_one_line(job.owner()),
           name_of(job.state()),
-          named_or(job.setup().tool(), "-"),
+          tool_cell(job),
           named_or(job.setup().origin(), "panel"),
           takes_text(job),
           job.state() == v1::JOB_STATE_CONFIRMED ? confirmation_text(job) : "-"};
@@ -177,17 +188,24 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
 
 std::vector<std::string> setup_lines(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
-  return {fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
-          fmt::format("  material  for {}", on_one_line(job.title())),
-          fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
-          fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
-          fmt::format("  profile   {}", on_one_line(setup.profile())),
-          fmt::format("  takes     {}", takes_text(job)),
-          fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
+  std::vector<std::string> lines{fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
+                                 fmt::format("  material  for {}", on_one_line(job.title())),
+                                 fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
+                                 fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
+                                 fmt::format("  profile   {}", on_one_line(setup.profile())),
+                                 fmt::format("  takes     {}", takes_text(job)),
+                                 fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
+  if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
+  for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
+  return lines;
 }
 
-std::string setup_question(const v1::JobSetup& setup) {
+std::string setup_question(const v1::Job& job) {
+  const v1::JobSetup& setup = job.setup();
   const auto with = [](const std::string& name) { return name.empty() ? "" : " " + on_one_line(name); };
+  if (job.part() > 0) {
+    return fmt::format("The tool{} is in, Z0 is set, and nothing is in the way? [yes/no]", with(setup.tool()));
+  }
   return fmt::format("The material is in, the tool{} is in, the origin{} is set, and nothing is in the way? [yes/no]",
                      with(setup.tool()), with(setup.origin()));
 }

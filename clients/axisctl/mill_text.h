@@ -46,7 +46,8 @@ std::vector<std::string> queue_lines(const v1::Mill& mill);
 // What a person sets up for the job, a line each.
 std::vector<std::string> setup_lines(const v1::Job& job);
 
-// "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]"
-std::string setup_question(const v1::JobSetup& setup);
+// "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]", or, before a later
+// part, "The tool T3 is in, Z0 is set, and nothing is in the way? [yes/no]".
+std::string setup_question(const v1::Job& job);
 
 }  // namespace axisgate::axisctl

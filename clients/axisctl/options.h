@@ -109,7 +109,8 @@ struct MillOptions {
 struct JobOptions {
   std::string title;                    // send; empty: the last part of the file's name
   std::string origin;                   // send: a configured one; empty: as it is set at the panel
-  std::string tool;                     // send: a configured one; empty: the first
+  std::vector<std::string> files;       // send: "-" is the standard input
+  std::vector<std::string> tools;       // send: configured ones, one for each file; none: the first, of one file
   std::vector<std::string> accepted;    // send: sections of the guideline
   std::optional<std::uint64_t> number;  // of the job; none: the first that waits
   bool start = false;                   // confirm: start it, too
@@ -129,7 +130,7 @@ struct Options {
   std::vector<std::string> axes;    // home, stop, clear, settings of axes: numbers or names
   std::vector<std::string> places;  // move, preset: "1=+5mm"; jog: "1=+"
   std::vector<std::string> lines;   // exec; lease run, sim: the command and its words; line, arc: the segment's
-  std::string file;                 // path, replay, mill send; "-" is the standard input
+  std::string file;                 // path, replay; "-" is the standard input
   std::string output;               // record, support: a file; empty: as the verb does by itself
   std::string command;              // commands: one row only
   std::string speed;                // motions; empty: as the axis is set, jog: its lowest

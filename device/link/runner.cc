@@ -109,12 +109,14 @@ void Runner::Line::shut() {
 }
 
 // A command must not reach a device later, when nobody waits for its answer any more. And closing a tty with bytes that
-// flow control holds back would block for as long as its driver waits for them. At the end of all, a socket may send.
+// flow control holds back would block for as long as its driver waits for them. What has left the driver stays on its
+// way: a flush might call it back, as from a USB converter, or from a pseudo-terminal that its reader has not read. At
+// the end of all, a socket may send.
 void Runner::Line::discard_unsent() {
   const int line = descriptor_.native_handle();
   const linger none{.l_onoff = 1, .l_linger = 0};
   if (!socket_) {
-    ::tcflush(line, TCIOFLUSH);
+    ::tcflush(line, unsent() > 0 ? TCIOFLUSH : TCIFLUSH);
   } else if (attached()) {
     ::setsockopt(line, SOL_SOCKET, SO_LINGER, &none, sizeof none);
   }

@@ -56,6 +56,7 @@ class Check : private MachineListener, private ParserListener {
   const Diagnostics& diagnostics() const { return diagnostics_; }
   const Summary& summary() const { return summary_; }  // after finish()
   const std::vector<Section>& sections() const { return workload_.sections(); }
+  const Leaves& leaves() const { return state_judge_.leaves(); }
   std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 namespace axisgate::rml1 {
 
 void StateJudge::executed(const Instruction& instruction) {
@@ -14,6 +16,11 @@ void StateJudge::executed(const Instruction& instruction) {
       return set_surface(instruction);
     case Operation::revolutions:
       return set_revolutions(instruction);
+    case Operation::extension:
+      return turn(instruction);
+    case Operation::ignored:
+      leaves_.tool = true;
+      return;
     default:
       return;
   }
@@ -21,8 +28,8 @@ void StateJudge::executed(const Instruction& instruction) {
 
 // "There is no change before and after command execution in ... the value of Z0" (3-1 H, 3-2 IN): nothing resets it.
 void StateJudge::set_surface(const Instruction& instruction) {
-  if (surface_reported_) return;
-  surface_reported_ = true;
+  if (leaves_.surface) return;
+  leaves_.surface = true;
   diagnostics_.add(0, Severity::note, instruction.place, "3-3", [] {
     return "!ZO sets Z0: heights count from the new Z0, also in the next job, and the one set at the panel is lost";
   });
@@ -32,11 +39,17 @@ void StateJudge::set_surface(const Instruction& instruction) {
 void StateJudge::set_revolutions(const Instruction& instruction) {
   if (revolutions_reported_ || instruction.count == 0) return;
   revolutions_reported_ = true;
+  leaves_.revolutions = profile_.spindle.law != Spindle::Law::fixed;
   diagnostics_.add(0, Severity::note, instruction.place, "3-3", [this] {
     return profile_.spindle.law == Spindle::Law::fixed
                ? fmt::format("!RC sets the spindle speed; the {} ignores it", profile_.name)
                : std::string("!RC sets the spindle speed: IN and DF do not reset it, and the next job begins with it");
   });
+}
+
+void StateJudge::turn(const Instruction& instruction) {
+  const auto turns = [this](const AxisTarget& axis) { return axis.letter == profile_.rotary->letter; };
+  leaves_.rotation |= profile_.rotary && std::ranges::any_of(instruction.axes, turns);
 }
 
 void StateJudge::finish(const Machine& machine) {

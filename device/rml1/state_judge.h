@@ -6,6 +6,7 @@
 
 #include "device/rml1/diagnostic.h"
 #include "device/rml1/instruction.h"
+#include "device/rml1/leaves.h"
 #include "device/rml1/machine.h"
 #include "device/rml1/profile.h"
 
@@ -20,13 +21,17 @@ class StateJudge {
   void executed(const Instruction& instruction);
   void finish(const Machine& machine);
 
+  const Leaves& leaves() const { return leaves_; }
+
  private:
   void set_surface(const Instruction& instruction);
   void set_revolutions(const Instruction& instruction);
+  void turn(const Instruction& instruction);
 
   const Profile& profile_;
   Diagnostics& diagnostics_;
-  bool surface_reported_ = false, revolutions_reported_ = false;
+  Leaves leaves_;
+  bool revolutions_reported_ = false;
   Place relative_, dwell_;  // of the last command that set it
 };
 

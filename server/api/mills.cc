@@ -59,7 +59,9 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
 // The job of the first of two requests with one id: the newest that is the same in all.
 Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
   const auto same = [&](const rml1::Job& one) {
-    return one.setup == again.setup && one.owner == again.owner && one.name == again.name;
+    return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
+           one.setup.origin == again.setup.origin && one.parts == again.parts && one.owner == again.owner &&
+           one.name == again.name;
   };
   const auto found = std::find_if(jobs.rbegin(), jobs.rend(), same);
   if (found != jobs.rend()) return CurrentJob{&mill, *found, server::moment_of(now)};
@@ -85,19 +87,36 @@ void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, 
   });
 }
 
+bool has(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string tools_text(const std::vector<rml1::JobPart>& parts) {
+  std::vector<std::string> tools;
+  for (const rml1::JobPart& part : parts) tools.push_back(part.tool);
+  return fmt::format("{}", fmt::join(tools, ", "));
+}
+
+// The part that the job was last published with. That which starts is compared with it on the strand.
+std::size_t next_part(Mill& mill, rml1::JobNumber number) {
+  const auto now = mill.newest().get().value;
+  const auto found = std::ranges::find(now->jobs, number, &rml1::Job::number);
+  return found == now->jobs.end() ? 0 : found->part;
+}
+
 // The configuration may have changed since the job was sent.
 Result<void> check_setup(const Mill& mill, const rml1::Job& job) {
   const server::MillConfig& config = mill.config();
   const bool has_origin =
       job.setup.origin.empty() ||
       std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
-  const bool has_tool = std::ranges::find(config.tools, job.setup.tool) != config.tools.end();
-  if (job.setup.profile == config.profile.name && has_origin && has_tool) return {};
+  const auto has_tool = [&](const rml1::JobPart& part) { return has(config.tools, part.tool); };
+  if (job.setup.profile == config.profile.name && has_origin && std::ranges::all_of(job.parts, has_tool)) return {};
   return fail(
       Reason::stale_setpoint,
       fmt::format(
-          "{} was checked for the profile {}, the origin \"{}\" and the tool {}, and {} is configured otherwise now",
-          text_of(job), job.setup.profile, job.setup.origin, job.setup.tool, mill.name()),
+          "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
+          text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),
       "cancel it, and send it again");
 }
 
@@ -138,30 +157,11 @@ JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline,
       worker_(worker),
       job_(std::move(job)),
       spooled_(std::move(spooled)),
-      check_(mill.config().profile, options) {}
+      check_(mill.config().profile, options, job_.parts, job_.accepted_warnings) {}
 
 Result<void> JobUpload::append(std::string_view bytes) {
-  check_.feed(bytes);
-  return spooled_->append(bytes);
-}
-
-Result<void> JobUpload::judge() const {
-  const rml1::Diagnostics& found = check_.diagnostics();
-  const auto keeps_out = [this](const rml1::Diagnostic& one) {
-    return one.severity == rml1::Severity::error ||
-           (one.severity == rml1::Severity::warning && !job_.accepted_warnings.contains(one.section));
-  };
-  const auto all = found.in_order();
-  const auto first = std::ranges::find_if(all, keeps_out);
-  if (first == all.end()) return {};
-  const auto count = std::ranges::count_if(all, keeps_out);
-  const bool warns = first->severity == rml1::Severity::warning;
-  return fail(Reason::invalid_request,
-              fmt::format("line {}, column {}: {}: {} [{}]{}", first->place.line, first->place.column,
-                          rml1::name(first->severity), first->text, first->section,
-                          count == 1 ? "" : fmt::format("; {} more keep the job from the queue", count - 1)),
-              warns ? fmt::format("`axisctl mill check` shows all; --accept {} accepts such warnings", first->section)
-                    : "correct the job; `axisctl mill check` shows all errors");
+  const Result<void> checked = check_.feed(bytes);
+  return checked ? spooled_->append(bytes) : checked;
 }
 
 void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
@@ -170,16 +170,17 @@ void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
 
 // A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
 void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
-  check_.finish();
-  if (const Result<void> good = judge(); !good) return answer(tl::unexpected(good.error()));
+  const Result<CheckedJob> checked = check_.finish();
+  if (!checked) return answer(tl::unexpected(checked.error()));
+  spooled_->set_facts(server::facts_of({.setup = {"", mill_.config().profile.name, job_.origin, ""},
+                                        .least_s = checked->least_s,
+                                        .most_s = checked->most_s,
+                                        .parts = checked->parts,
+                                        .leaves = checked->leaves}));
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
   call_.digest = std::move(digest);
-  rml1::Job job = server::job_of(*spooled);
-  const rml1::Summary& summary = check_.summary();
-  job.least_s = summary.seconds_low;
-  job.most_s = summary.seconds_high;
-  (void)mill_.spool().set_facts(mill_.name(), job.number, server::facts_of(job.setup, job.least_s, job.most_s));
+  const rml1::Job job = server::job_of(*spooled);
   const auto drop = [&mill = mill_, number = job.number] { mill.drop_spooled(number); };
   pipeline_.act(
       {RequestKind::send_job, call_, Result<Mill*>(&mill_)},
@@ -209,10 +210,8 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
   if (!admitted) return tl::unexpected(admitted.error());
   Mill& mill = *admitted->device;
   const server::MillConfig& config = mill.config();
-  if (std::ranges::find(config.tools, job.tool) == config.tools.end()) {
-    return fail(Reason::invalid_request, fmt::format("{} has no tool \"{}\"", mill.name(), job.tool),
-                fmt::format("it has {}", fmt::join(config.tools, ", ")));
-  }
+  if (const Result<void> parts = check_parts(job.parts, config.tools, mill.name()); !parts)
+    return tl::unexpected(parts.error());
   rml1::CheckOptions options;
   if (!job.origin.empty()) {
     const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
@@ -222,9 +221,10 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
     }
     options.origin = server::origin_of(*origin, config.profile);
   }
-  auto spooled = mill.spool().begin(
-      mill.name(), {job.title, admitted->caller.who, server::identity_of(admitted->caller.who),
-                    server::facts_of({"", config.profile.name, job.origin, job.tool}, 0, 0), server::calendar_now()});
+  auto spooled = mill.spool().begin(mill.name(), {.name = job.title,
+                                                  .who = admitted->caller.who,
+                                                  .identity = server::identity_of(admitted->caller.who),
+                                                  .created = server::calendar_now()});
   if (!spooled) return tl::unexpected(spooled.error());
   return std::make_unique<JobUpload>(call, mill, pipeline_, worker_, std::move(job), options, *std::move(spooled));
 }
@@ -297,9 +297,9 @@ void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> an
 }
 
 // Where it cannot be prepared it is refused for that, unless the request came before.
-void Mills::start_on_worker(const Call& call, const std::string& name, const Mill& mill, rml1::JobNumber number,
+void Mills::start_on_worker(const Call& call, const std::string& name, Mill& mill, rml1::JobNumber number,
                             const Answer<CurrentJob>& answer) const {
-  const auto prepared = server::prepared_job(mill.spool(), mill.name(), mill.config(), number);
+  const auto prepared = server::prepared_job(mill.spool(), mill.name(), mill.config(), number, next_part(mill, number));
   act_on_job(
       RequestKind::start_job, call, name,
       [prepared](rml1::MillController& controller, const rml1::Job& it, const MillTurn& turn) -> Result<void> {

@@ -6,14 +6,15 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "device/rml1/check.h"
 #include "device/rml1/mill/mill_controller.h"
 #include "server/api/call.h"
+#include "server/api/job_check.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
 #include "server/devices/mill.h"
@@ -46,8 +47,9 @@ struct MillState {
 
 // What is said of a job before its bytes come.
 struct JobToSend {
-  std::string title, origin, tool;
-  std::set<std::string, std::less<>> accepted_warnings;  // sections of the guideline, "5-2"
+  std::string title, origin;
+  std::vector<PartToSend> parts;
+  AcceptedWarnings accepted_warnings;
 };
 
 // A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
@@ -56,14 +58,12 @@ class JobUpload {
   JobUpload(const Call& call, server::Mill& mill, const MillPipeline& pipeline, boost::asio::thread_pool& worker,
             JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
 
-  // queue_full, where the spool has no room for more.
+  // queue_full, where the spool has no room for more; what JobCheck::feed() refuses.
   Result<void> append(std::string_view bytes);
-  // `digest`: of the whole request. invalid_request, where the check of the job finds errors, or warnings that are not
-  // accepted. What `answer` holds outlives this.
+  // `digest`: of the whole request. What JobCheck::finish() refuses. What `answer` holds outlives this.
   void finish(std::string digest, const Answer<CurrentJob>& answer);
 
  private:
-  Result<void> judge() const;
   void keep(std::string digest, const Answer<CurrentJob>& answer);
 
   Call call_;
@@ -72,7 +72,7 @@ class JobUpload {
   boost::asio::thread_pool& worker_;
   const JobToSend job_;
   const std::unique_ptr<server::spool::Upload> spooled_;
-  rml1::Check check_;
+  JobCheck check_;
 };
 
 // deadline_passed. While a request was posted or waited for the journal, its caller may have left.
@@ -89,7 +89,7 @@ class Mills {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
   ~Mills() { worker_.join(); }
 
-  // invalid_request, where there is no such tool or origin; queue_full.
+  // invalid_request, where there is no such tool or origin, or there are too many parts; queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
 
   void get(const Call& call, std::string_view device, Answer<MillState> answer) const;
@@ -111,7 +111,7 @@ class Mills {
   using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
   void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
                   Answer<CurrentJob> answer) const;
-  void start_on_worker(const Call& call, const std::string& name, const server::Mill& mill, rml1::JobNumber number,
+  void start_on_worker(const Call& call, const std::string& name, server::Mill& mill, rml1::JobNumber number,
                        const Answer<CurrentJob>& answer) const;
   using RunAct = std::function<Result<void>(const TurnOf<server::Mill>&)>;
   void act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,

@@ -26,7 +26,7 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 struct JobRecord::Content {
   std::array<char, 16> mark;
   std::array<char, 48> boot;
-  std::atomic<std::uint64_t> job, state, through;
+  std::atomic<std::uint64_t> job, state, through, part;
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -48,8 +48,9 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   const bool same_boot =
       !boot.empty() && std::string_view(content->boot.data(), ::strnlen(content->boot.data(), 48)) == boot;
   const std::uint64_t state = content->state;
-  if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::cancelled)) {
-    before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll};
+  if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::tool_change)) {
+    before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll,
+                      content->part};
   }
   if (!known) content->job = 0;
   if (!same_boot) content->through = kAll;  // also for the run after this one
@@ -60,17 +61,21 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
 
 JobRecord::~JobRecord() { ::munmap(content_, sizeof(Content)); }
 
-void JobRecord::begin(rml1::JobNumber job) {
+void JobRecord::begin(const rml1::Job& job) {
   content_->job = 0;
-  content_->through = 0;
+  content_->through = part_begin(job);
+  content_->part = job.part;
   content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
-  content_->job = job;
+  content_->job = job.number;
 }
 
 void JobRecord::going_to(std::uint64_t through) { content_->through = through; }
 
-void JobRecord::set_state(rml1::JobNumber job, rml1::JobState state) {
-  if (content_->job == job) content_->state = static_cast<std::uint64_t>(state);
+// The part comes first: killed between, the daemon leaves a part that may have begun, not one that runs again.
+void JobRecord::set_state(const rml1::Job& job) {
+  if (content_->job != job.number) return;
+  content_->part = job.part;
+  content_->state = static_cast<std::uint64_t>(job.state);
 }
 
 }  // namespace axisgate::server

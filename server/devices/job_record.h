@@ -1,6 +1,7 @@
 // Which job a mill was sent, and how far, kept in a file so that a run after this one knows it if this one is killed.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -16,6 +17,7 @@ struct LastJob {
   rml1::JobNumber job = 0;
   rml1::JobState state = rml1::JobState::running;
   std::uint64_t through = 0;  // bytes of the job that may have gone to the line
+  std::size_t part = 0;       // as Job::part
 };
 
 // On the device's strand. The file is mapped, as that of MotionRecord: nothing waits for the disk, and a crash of the
@@ -31,11 +33,12 @@ class JobRecord {
   // As the run before left it; nothing where no job was sent. After a boot of the machine any byte may have gone.
   const std::optional<LastJob>& before() const { return before_; }
 
-  void begin(rml1::JobNumber job);
+  // Its next part.
+  void begin(const rml1::Job& job);
   // Before these bytes are written.
   void going_to(std::uint64_t through);
-  // Of another job than the last that was begun: nothing.
-  void set_state(rml1::JobNumber job, rml1::JobState state);
+  // Its state and its part. Of another job than the last that was begun: nothing.
+  void set_state(const rml1::Job& job);
 
  private:
   struct Content;

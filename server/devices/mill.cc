@@ -42,6 +42,7 @@ Mill::~Mill() { spool_thread_.join(); }
 // What had not ended when the run before ended. A confirmation is void by then.
 void Mill::restore_jobs() {
   const auto last = record_ ? record_->before() : std::nullopt;
+  if (const auto left = last ? spooled_job(spool_, name(), last->job) : std::nullopt) controller_.inherit_left(*left);
   for (rml1::Job& job : unended_jobs(spool_, name())) {
     if (!last || last->job != job.number) {
       controller_.inherit(std::move(job));
@@ -95,8 +96,11 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   changed_ = true;
   metrics_.count(job, now);
   note(job, by, why, now);
-  if (record_ && job.state == rml1::JobState::running) record_->begin(job.number);
-  if (record_) record_->set_state(job.number, job.state);
+  if (record_ && job.state == rml1::JobState::running) record_->begin(job);
+  if (record_) record_->set_state(job);
+  if (job.state == rml1::JobState::tool_change) {
+    boost::asio::post(spool_thread_, [this, job] { keep_part(spool_, name(), job); });
+  }
   if (rml1::is_end(job.state)) {
     boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });
   }

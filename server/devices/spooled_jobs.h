@@ -1,7 +1,9 @@
 // The jobs of a mill, as they stand in the spool: bytes, and what they need set up at the mill.
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,23 +16,29 @@
 
 namespace axisgate::server {
 
-// What the spool keeps beside the bytes, as JSON. Without the digest, which the spool knows.
-std::string facts_of(const rml1::JobSetup& setup, double least_s, double most_s);
-// QUEUED.
+// What the spool keeps beside the bytes, as JSON. Without what the spool knows, such as the digest.
+std::string facts_of(const rml1::Job& job);
+// QUEUED, or in the TOOL_CHANGE before a later part.
 rml1::Job job_of(const spool::Job& spooled);
 
 // Those that have not ended, in the order of their numbers.
 std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string& device);
 // As the run before left a job that it had begun to send.
 rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
+// So that a run after this one knows its part. What goes wrong is in the log.
+void keep_part(spool::Spool& spool, const std::string& device, const rml1::Job& job);
+// The job with this number, also one that has ended; nothing where the spool has it no more.
+std::optional<rml1::Job> spooled_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 // It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
 void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 
 // The work origin as the check of a job takes it. Without a height of its own, Z0 is where the profile has it.
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 
-// Reads the whole job, so not on the device's strand. not_found; internal, where the bytes are others than they were.
+// One part of it. Reads the whole job, so not on the device's strand. not_found; internal, where the bytes are others
+// than they were.
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, rml1::JobNumber job);
+                                                              const MillConfig& config, rml1::JobNumber job,
+                                                              std::size_t part);
 
 }  // namespace axisgate::server

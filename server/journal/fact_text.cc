@@ -3,9 +3,11 @@
 #include <chrono>
 #include <cstdint>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <type_traits>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include "server/journal/body.h"
 #include "server/journal/motion_json.h"
@@ -154,6 +156,7 @@ struct Form<DaemonStarted> {
 
 template <>
 struct Form<JobChanged> {
+  using Texts = std::vector<std::string>;
   static constexpr const char* key = "job";
   static Json write(const JobChanged& change) {
     const rml1::Job& job = change.job;
@@ -168,26 +171,32 @@ struct Form<JobChanged> {
               {"why", change.why}};
     if (job.confirmation) json["confirmed"] = {job.confirmation->by, nanos_of(job.confirmation->until)};
     if (job.written) json["written"] = {job.written->least, job.written->most};
+    if (!job.setup.left.empty()) json["left"] = job.setup.left;
+    if (job.part != 0) json["part"] = job.part;
+    for (const rml1::JobPart& part : job.parts) json["parts"].push_back({part.tool, part.end});
     if (change.sending) json["sending"] = static_cast<int>(*change.sending);
     return json;
   }
   static JobChanged read(const Json& json) {
     const Json &setup = json.at("setup"), &seconds = json.at("seconds");
-    JobChanged change{.job = {.number = json.at("number"),
-                              .name = json.at("name"),
-                              .owner = json.at("owner"),
-                              .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3)},
-                              .bytes = json.at("bytes"),
-                              .least_s = seconds.at(0),
-                              .most_s = seconds.at(1),
-                              .state = static_cast<rml1::JobState>(json.at("state").get<int>())},
-                      .who = json.at("who"),
-                      .why = json.at("why")};
+    JobChanged change{
+        .job = {.number = json.at("number"),
+                .name = json.at("name"),
+                .owner = json.at("owner"),
+                .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3), json.value("left", Texts())},
+                .bytes = json.at("bytes"),
+                .least_s = seconds.at(0),
+                .most_s = seconds.at(1),
+                .state = static_cast<rml1::JobState>(json.at("state").get<int>())},
+        .who = json.at("who"),
+        .why = json.at("why")};
     if (json.contains("confirmed")) {
       const Json& confirmed = json.at("confirmed");
       change.job.confirmation = rml1::Confirmation{confirmed.at(0), time_of(confirmed.at(1))};
     }
     if (json.contains("written")) change.job.written = {json.at("written").at(0), json.at("written").at(1)};
+    change.job.part = json.value("part", std::size_t{0});
+    for (const Json& part : json.value("parts", Json::array())) change.job.parts.push_back({part.at(0), part.at(1)});
     if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());
     return change;
   }

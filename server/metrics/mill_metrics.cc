@@ -70,8 +70,8 @@ MillMetrics::MillMetrics(const Families& families, const std::string& device)
       job_seconds_(families.job_seconds.Add({{"device", device}})),
       estimate_{families.estimate.Add(of_bound(device, "least")), families.estimate.Add(of_bound(device, "most"))},
       buffer_{families.buffer.Add(of_bound(device, "least")), families.buffer.Add(of_bound(device, "most"))} {
-  for (const JobState state :
-       {JobState::queued, JobState::confirmed, JobState::running, JobState::fed, JobState::paused_unknown}) {
+  for (const JobState state : {JobState::queued, JobState::confirmed, JobState::running, JobState::tool_change,
+                               JobState::fed, JobState::paused_unknown}) {
     queued_.at(index_of(state)) = &families.queued_jobs.Add(of_state(device, "state", state));
   }
   for (const JobState state :

@@ -32,7 +32,9 @@ void JobUploadRun::OnReadDone(bool ok) {
 
 Result<void> JobUploadRun::take() {
   if (upload_ == nullptr) {
-    auto upload = mills_.send(to_call(context_, incoming_->context()), incoming_->device(), to_job(*incoming_));
+    Result<api::JobToSend> job = to_job(*incoming_);
+    if (!job) return tl::unexpected(job.error());
+    auto upload = mills_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
     if (!upload) return tl::unexpected(upload.error());
     upload_ = *std::move(upload);
   }

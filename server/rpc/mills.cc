@@ -1,7 +1,9 @@
 #include "server/rpc/mills.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdint>
 
 #include "server/api/names.h"
 #include "server/rpc/to_proto.h"
@@ -16,6 +18,7 @@ v1::JobState to_job_state(JobState state) {
   static_assert(static_cast<int>(JobState::queued) + 1 == v1::JOB_STATE_QUEUED);
   static_assert(static_cast<int>(JobState::running) + 1 == v1::JOB_STATE_RUNNING);
   static_assert(static_cast<int>(JobState::cancelled) + 1 == v1::JOB_STATE_CANCELLED);
+  static_assert(static_cast<int>(JobState::tool_change) + 1 == v1::JOB_STATE_TOOL_CHANGE);
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
 }
 
@@ -27,12 +30,24 @@ google::protobuf::Duration duration_of(double seconds) {
   return duration;
 }
 
+void add_parts(const rml1::Job& job, v1::Job& proto) {
+  std::uint64_t begin = 0;
+  for (const rml1::JobPart& part : job.parts) {
+    v1::JobPart& added = *proto.add_parts();
+    added.set_tool(part.tool);
+    added.set_bytes(static_cast<std::int64_t>(part.end - begin));
+    begin = part.end;
+  }
+  proto.set_part(static_cast<std::int32_t>(job.part));
+}
+
 v1::JobSetup setup_of(const rml1::JobSetup& setup) {
   v1::JobSetup proto;
   proto.set_digest(setup.digest);
   proto.set_profile(setup.profile);
   proto.set_origin(setup.origin);
   proto.set_tool(setup.tool);
+  *proto.mutable_left() = {setup.left.begin(), setup.left.end()};
   return proto;
 }
 
@@ -74,6 +89,7 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.set_sent_least(static_cast<std::int64_t>(job.written->least));
     proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
   }
+  add_parts(job, proto);
   return proto;
 }
 
@@ -129,7 +145,7 @@ v1::Device device_of(const api::MillState& state) {
 }
 
 rml1::JobSetup to_setup(const v1::JobSetup& proto) {
-  return {proto.digest(), proto.profile(), proto.origin(), proto.tool()};
+  return {proto.digest(), proto.profile(), proto.origin(), proto.tool(), {proto.left().begin(), proto.left().end()}};
 }
 
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) {
@@ -154,11 +170,21 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
   return fail(Reason::invalid_request, "the request names no act", "set step, surface, spindle or raise");
 }
 
-api::JobToSend to_job(const v1::SendJobRequest& request) {
-  return {request.title(),
-          request.origin(),
-          request.tool(),
-          {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
+  api::JobToSend job{
+      request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+  if (request.parts().empty()) {
+    job.parts.push_back({request.tool()});
+    return job;
+  }
+  if (!request.tool().empty()) {
+    return fail(Reason::invalid_request, "the job has a tool, and parts with tools of their own",
+                "name the tool of each part only");
+  }
+  for (const v1::JobPart& part : request.parts()) {
+    job.parts.push_back({part.tool(), static_cast<std::uint64_t>(std::max<std::int64_t>(part.bytes(), 0))});
+  }
+  return job;
 }
 
 }  // namespace axisgate::rpc

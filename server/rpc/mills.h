@@ -5,6 +5,7 @@
 
 #include "axisgate/v1/device.pb.h"
 #include "axisgate/v1/mill.pb.h"
+#include "device/core/problem.h"
 #include "server/api/mill_operation.h"
 #include "server/api/mills.h"
 
@@ -24,7 +25,7 @@ v1::Device device_of(const api::MillState& state);
 rml1::JobSetup to_setup(const v1::JobSetup& proto);
 // invalid_request, where it names no act.
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
-// Of the first message of a job.
-api::JobToSend to_job(const v1::SendJobRequest& request);
+// Of the first message of a job. invalid_request, where it has both a tool and parts.
+Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
 
 }  // namespace axisgate::rpc

@@ -4,7 +4,9 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
 #include "device/core/problem.h"
 #include "device/link/descriptor.h"
@@ -28,6 +30,8 @@ class Upload {
   // out_of_range or queue_full as Place::grow(); internal, where the disk refuses it. A job that lacks a piece is none:
   // after a refusal all that follows is refused likewise.
   Result<void> append(std::string_view bytes);
+  // As Job::facts. Before finish().
+  void set_facts(std::string facts) { job_.facts = std::move(facts); }
   // Waits for the disk; then the job is kept, also over a power cut. internal, where the disk refuses it. Nothing is
   // called after it.
   Result<Job> finish();

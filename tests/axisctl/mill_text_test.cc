@@ -134,12 +134,30 @@ TEST(MillTexts, WhatIsSetUp) {
   EXPECT_EQ(setup_lines(job), (Lines{"job 7 (frame.rml) of unix anna", "  material  for frame.rml", "  tool      T1",
                                      "  origin    as it is set at the panel", "  profile   MDX-20",
                                      "  takes     10 min 0 s to 16 min 40 s", "  digest    3f5a9c001b2d..."}));
-  EXPECT_EQ(setup_question(job.setup()),
+  EXPECT_EQ(setup_question(job),
             "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
   job.mutable_setup()->set_origin("left vice");
   job.mutable_setup()->clear_tool();
-  EXPECT_EQ(setup_question(job.setup()),
+  EXPECT_EQ(setup_question(job),
             "The material is in, the tool is in, the origin left vice is set, and nothing is in the way? [yes/no]");
+}
+
+TEST(MillTexts, WhatIsSetUpForALaterPart) {
+  v1::Job job = frame(7, v1::JOB_STATE_TOOL_CHANGE);
+  for (const char* tool : {"T3", "T1"}) job.add_parts()->set_tool(tool);
+  EXPECT_EQ(setup_lines(job)[2], "  part      1 of 2");
+  EXPECT_EQ(setup_question(job),
+            "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
+  job.set_part(1);
+  EXPECT_EQ(setup_lines(job)[2], "  part      2 of 2");
+  EXPECT_EQ(setup_lines(job)[3], "  tool      T1");
+  EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is set, and nothing is in the way? [yes/no]");
+}
+
+TEST(MillTexts, WhatTheJobBeforeHasLeft) {
+  v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
+  job.mutable_setup()->add_left("job 6 (a\x1b[2Jb) sets Z0");
+  EXPECT_EQ(setup_lines(job).back(), "  before    job 6 (a [2Jb) sets Z0");
 }
 
 TEST(MillQueue, NothingToDo) {
@@ -168,6 +186,16 @@ TEST(MillQueue, ATable) {
                    "7    frame.rml  unix anna  CONFIRMED  T1    panel   10 min 0 s to 16 min 40 s  by unix bert until "
                    "2026-11-18 11:10:00",
                    "12   frame.rml  unix anna  QUEUED     -     vice    10 min 0 s to 16 min 40 s  -"}));
+}
+
+TEST(MillQueue, APartOfAJob) {
+  v1::Mill mill;
+  v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_TOOL_CHANGE));
+  for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
+  job.set_part(1);
+  job.mutable_setup()->set_tool("T3");
+  EXPECT_EQ(queue_lines(mill)[3],
+            "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   10 min 0 s to 16 min 40 s  -");
 }
 
 TEST(MillQueue, WhatRuns) {

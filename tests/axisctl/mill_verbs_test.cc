@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 #include <string>
+#include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/verbs.h"
@@ -25,12 +26,14 @@ constexpr std::size_t kPieceSent = 1 << 16;
 class MillSend : public MillVerbs {
  protected:
   MillSend() {
-    options_.file = folder_ / "frame.rml";
+    options_.job.files = {folder_ / "frame.rml"};
     write_job("^IN;PU0,0;");
     add_job(v1::JOB_STATE_QUEUED);
   }
 
-  void write_job(const std::string& content) const { std::ofstream(options_.file, std::ios::binary) << content; }
+  void write_job(const std::string& content) const {
+    std::ofstream(options_.job.files[0], std::ios::binary) << content;
+  }
 };
 
 TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
@@ -51,12 +54,40 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
 
 TEST_F(MillSend, WhatWasNamedIsSent) {
   options_.job.title = "lid";
-  options_.job.tool = "T2";
+  options_.job.tools = {"T2"};
   options_.job.origin = "vice";
   EXPECT_EQ(run(mill_send).exit_code, kDone);
   EXPECT_EQ(mill_.sent[0].title(), "lid");
   EXPECT_EQ(mill_.sent[0].tool(), "T2");
   EXPECT_EQ(mill_.sent[0].origin(), "vice");
+}
+
+TEST_F(MillSend, SeveralFilesAreThePartsOfOneJob) {
+  options_.job.files.push_back(folder_ / "holes.rml");
+  std::ofstream(options_.job.files[1], std::ios::binary) << "^IN;";
+  options_.job.tools = {"T1", "T3"};
+  EXPECT_EQ(run(mill_send).exit_code, kDone);
+  ASSERT_EQ(mill_.sent.size(), 3U);
+  const v1::SendJobRequest& first = mill_.sent[0];
+  EXPECT_EQ(first.title(), "frame.rml and 1 more");
+  EXPECT_EQ(first.tool(), "");
+  ASSERT_EQ(first.parts_size(), 2);
+  EXPECT_EQ(first.parts(0).tool(), "T1");
+  EXPECT_EQ(first.parts(0).bytes(), 10);
+  EXPECT_EQ(first.parts(1).tool(), "T3");
+  EXPECT_EQ(first.parts(1).bytes(), 4);
+  EXPECT_EQ(mill_.sent[1].data() + mill_.sent[2].data(), "^IN;PU0,0;^IN;");
+}
+
+TEST_F(MillSend, EachFileNeedsATool) {
+  options_.job.files.push_back(options_.job.files[0]);
+  for (const std::vector<std::string>& tools : {std::vector<std::string>{}, {"T1"}, {"T1", "T2", "T3"}}) {
+    options_.job.tools = tools;
+    const Ended ended = run(mill_send);
+    EXPECT_EQ(ended.exit_code, kUsage);
+    EXPECT_THAT(ended.message, HasSubstr("names for a job of 2 files"));
+  }
+  EXPECT_THAT(mill_.calls, IsEmpty());
 }
 
 TEST_F(MillSend, AMillWithoutTools) {
@@ -96,12 +127,12 @@ TEST_F(MillSend, ARefusal) {
 }
 
 TEST_F(MillSend, AFileThatCannotBeReadIsNotSent) {
-  options_.file = folder_ / "missing.rml";
+  options_.job.files = {folder_ / "missing.rml"};
   const Ended ended = run(mill_send);
   EXPECT_EQ(ended.exit_code, kUsage);
   EXPECT_THAT(ended.message, HasSubstr("missing.rml cannot be read: No such file"));
   EXPECT_THAT(mill_.sent, IsEmpty());
-  options_.file = folder_;
+  options_.job.files = {folder_};
   EXPECT_THAT(run(mill_send).message, HasSubstr("cannot be read: Is a directory"));
 }
 
@@ -143,6 +174,25 @@ TEST_F(MillConfirm, OnlyYesCounts) {
   terminal.type("yes\n");
   EXPECT_EQ(run(mill_confirm).exit_code, kDone);
   EXPECT_EQ(mill_.confirmed.size(), 1U);
+}
+
+TEST_F(MillConfirm, ALaterPartIsTheNextToConfirm) {
+  v1::Job& job = add_job(v1::JOB_STATE_TOOL_CHANGE);
+  for (const char* tool : {"T1", "T2"}) job.add_parts()->set_tool(tool);
+  job.set_part(1);
+  job.mutable_setup()->set_tool("T2");
+  Terminal terminal(STDIN_FILENO);
+  terminal.type("yes\n");
+  EXPECT_THAT(run(mill_confirm).output,
+              HasSubstr("\nThe tool T2 is in, Z0 is set, and nothing is in the way? [yes/no]\n"));
+  EXPECT_EQ(mill_.confirmed[0].seen().tool(), "T2");
+}
+
+TEST_F(MillConfirm, WhatTheJobBeforeHasLeftIsSeen) {
+  add_job(v1::JOB_STATE_QUEUED).mutable_setup()->add_left("job 6 (lid.rml) sets Z0");
+  options_.yes = true;
+  EXPECT_THAT(run(mill_confirm).output, HasSubstr("\n  before    job 6 (lid.rml) sets Z0\n"));
+  EXPECT_THAT(mill_.confirmed[0].seen().left(), ElementsAre("job 6 (lid.rml) sets Z0"));
 }
 
 TEST_F(MillConfirm, JsonAsksNobody) {

@@ -49,6 +49,20 @@ TEST_F(MillWatch, EachChangeOnALineUntilItIsFed) {
             "then `axisctl mill done 7`\n");
 }
 
+TEST_F(MillWatch, UntilAToolIsToBeChanged) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  report_end(v1::JOB_STATE_TOOL_CHANGE);
+  v1::Job& job = *mill_.watched.back().mutable_jobs(0);
+  for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
+  job.set_part(1);
+  job.mutable_setup()->set_tool("T3");
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kDone);
+  EXPECT_THAT(ended.output, HasSubstr("\njob 7 (frame.rml) TOOL_CHANGE: part 1 of 3 was sent, and the slowest mill has "
+                                      "executed it by now; put in the tool T3, set Z0, then `axisctl mill confirm 7 "
+                                      "--start`\n"));
+}
+
 TEST_F(MillWatch, BusyIsSaidOnceEachTime) {
   report(v1::SENDING_STATE_SENDING, 0);
   report(v1::SENDING_STATE_SENDING, 1).mutable_running()->set_busy(true);

@@ -132,6 +132,30 @@ class MillKill(unittest.TestCase):
                 self.check(run, numbers)
                 self.assertEqual(self.numbers(run), numbers, "something was sent after the restart")
 
+    def await_state(self, state):
+        self.await_true(lambda: [one["state"] for one in self.jobs()] == [f"JOB_STATE_{state}"], f"it is not {state}")
+
+    def test_a_daemon_that_is_killed_between_two_parts(self):
+        files = []
+        for first in (1, 21):
+            files.append(self.folder / f"{first}.rml")
+            moves = "".join(f"PU{number},1;" for number in range(first, first + 20))
+            files[-1].write_text(BEGINNING + moves, encoding="ascii")
+        self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
+        self.axisctl("mill", "send", *map(str, files), "--tool", "T1,T1", "--accept", "5-1,5-2")
+        self.axisctl("mill", "confirm", "--yes", "--start")
+        self.await_state("TOOL_CHANGE")
+        self.daemon.signal(signal.SIGKILL)
+        self.daemon.wait(LIMIT_S)
+        self.daemon = Daemon(str(self.folder), self.config)
+        self.await_state("TOOL_CHANGE")
+        self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
+        self.axisctl("mill", "confirm", "--yes", "--start")
+        self.await_state("FED")
+        self.assertEqual(self.numbers(1), list(range(1, 41)))
+        raised = [entry for entry in self.entries() if entry.get("command") == "!ZM"]
+        self.assertEqual(len(raised), 2, "by the two epilogues, and by no abort")
+
     def end_daemon(self):
         self.daemon.signal(signal.SIGTERM)
         self.daemon.wait(LIMIT_S)

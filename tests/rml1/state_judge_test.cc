@@ -44,6 +44,23 @@ TEST(SpindleSpeed, ThatIsSetStays) {
   EXPECT_THAT(left_by("!RC;"), IsEmpty());
 }
 
+// What nothing gives back, for the job after: not what the machine ignores.
+TEST(WhatAJobLeaves, IsWhatDfAndInDoNotReset) {
+  Profile profile = test_profile();
+  const auto leaves = [&profile](const char* job) { return checked(job, profile, {kMidway, {}, {}})->leaves(); };
+  EXPECT_EQ(leaves("PU;W100;!PZ-9,9;!MC0;PR;!ZEX9;"), Leaves());
+  EXPECT_EQ(leaves("PU;!ZO-5000;"), Leaves{.surface = true});
+  EXPECT_EQ(leaves("!RC5;PU;"), Leaves());
+  profile.spindle.law = Spindle::Law::stages;
+  EXPECT_EQ(leaves("!RC;PU;"), Leaves());
+  EXPECT_EQ(leaves("!RC5;PU;DF;"), Leaves{.revolutions = true});
+  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), Leaves{.rotation = true});
+  profile.dialect.tolerated = {"J"};
+  EXPECT_EQ(leaves("PU;J2;H;"), Leaves{.tool = true});
+  profile.rotary.reset();
+  EXPECT_EQ(leaves("PU;!ZEX9A90;H;"), Leaves());
+}
+
 // 5-3: I R PR make coordinates relative; M D H IN PA DF absolute.
 TEST(RelativeCoordinates, AtTheEnd) {
   for (const char* job : {"PU;PR;", "PU;R9,9;", "PU;PR;PU9,9;"}) {

@@ -138,6 +138,9 @@ TEST(FactText, AJobOfAMill) {
                 .state = rml1::JobState::paused_unknown};
   job.confirmation = rml1::Confirmation{"unix bert", TimePoint(nanoseconds(1'000'000'001))};
   job.written = rml1::WrittenRange{120, 248};
+  job.setup.left = {"job 6 (lid.rml) sets Z0"};
+  job.parts = {{"T1", 2000}, {"T3", 5000}};
+  job.part = 1;
   const auto read = read_again(JobChanged{job, rml1::SenderState::paused, "unix anna", "the line was lost"});
   EXPECT_EQ(read.job.number, 7u);
   EXPECT_EQ(read.job.name, "part.rml");
@@ -151,12 +154,15 @@ TEST(FactText, AJobOfAMill) {
   EXPECT_EQ(read.job.confirmation->by, "unix bert");
   EXPECT_EQ(read.job.confirmation->until, TimePoint(nanoseconds(1'000'000'001)));
   EXPECT_EQ(*read.job.written, (rml1::WrittenRange{120, 248}));
+  EXPECT_EQ(read.job.parts, job.parts);
+  EXPECT_EQ(read.job.part, 1u);
   EXPECT_EQ(read.sending, rml1::SenderState::paused);
   EXPECT_EQ(read.who, "unix anna");
   EXPECT_EQ(read.why, "the line was lost");
   const auto plain = read_again(JobChanged{});
   EXPECT_FALSE(plain.job.confirmation);
   EXPECT_FALSE(plain.job.written);
+  EXPECT_TRUE(plain.job.parts.empty());
   EXPECT_FALSE(plain.sending);
 }
 

@@ -16,6 +16,17 @@ namespace {
 using rml1::JobState;
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 
+// Of two parts: 300 bytes, then 200.
+rml1::Job job(rml1::JobNumber number = 7, JobState state = JobState::running) {
+  return {.number = number,
+          .name = "part.rml",
+          .owner = "unix anna",
+          .setup = {"d", "mdx-20", "", "T1"},
+          .bytes = 500,
+          .state = state,
+          .parts = {{"T1", 300}, {"T3", 500}}};
+}
+
 class JobRecordTest : public testing::Test {
  protected:
   std::unique_ptr<JobRecord> open(std::string_view boot = "this boot") const { return *JobRecord::open(path_, boot); }
@@ -32,7 +43,7 @@ TEST_F(JobRecordTest, HasNothingBeforeTheFirstJob) {
 TEST_F(JobRecordTest, KeepsHowFarTheLastJobMayHaveGone) {
   {
     const auto record = open();
-    record->begin(7);
+    record->begin(job());
     record->going_to(40);
     record->going_to(52);
   }
@@ -45,10 +56,10 @@ TEST_F(JobRecordTest, KeepsHowFarTheLastJobMayHaveGone) {
 
 TEST_F(JobRecordTest, ANewJobBeginsAtItsFirstByte) {
   const auto record = open();
-  record->begin(7);
+  record->begin(job());
   record->going_to(52);
-  record->set_state(7, JobState::fed);
-  record->begin(8);
+  record->set_state(job(7, JobState::fed));
+  record->begin(job(8));
   const auto before = open()->before();
   EXPECT_EQ(before->job, 8u);
   EXPECT_EQ(before->state, JobState::running);
@@ -57,17 +68,33 @@ TEST_F(JobRecordTest, ANewJobBeginsAtItsFirstByte) {
 
 TEST_F(JobRecordTest, StatesAreThoseOfTheLastJob) {
   const auto record = open();
-  record->begin(7);
-  record->set_state(9, JobState::cancelled);
+  record->begin(job());
+  record->set_state(job(9, JobState::cancelled));
   EXPECT_EQ(open()->before()->state, JobState::running);
-  record->set_state(7, JobState::aborted);
+  record->set_state(job(7, JobState::aborted));
   EXPECT_EQ(open()->before()->state, JobState::aborted);
+}
+
+TEST_F(JobRecordTest, ALaterPartBeginsAtItsFirstByte) {
+  const auto record = open();
+  rml1::Job later = job();
+  record->begin(later);
+  record->going_to(300);
+  go_to_part(later, 1);
+  later.state = JobState::tool_change;
+  record->set_state(later);
+  EXPECT_EQ(open()->before()->state, JobState::tool_change);
+  EXPECT_EQ(open()->before()->part, 1u);
+  record->begin(later);
+  EXPECT_EQ(open()->before()->state, JobState::running);
+  EXPECT_EQ(open()->before()->through, 300u);
+  EXPECT_EQ(open()->before()->part, 1u);
 }
 
 TEST_F(JobRecordTest, AfterABootOfTheMachineAnyByteMayHaveGone) {
   {
     const auto record = open();
-    record->begin(7);
+    record->begin(job());
     record->going_to(52);
   }
   EXPECT_EQ(open("another boot")->before()->through, kAll);
@@ -81,10 +108,6 @@ TEST_F(JobRecordTest, AnotherFileIsNoRecord) {
 
 TEST_F(JobRecordTest, WhatCannotBeMadeIsSaid) { EXPECT_FALSE(JobRecord::open("/proc/job", "this boot")); }
 
-rml1::Job job() {
-  return {.number = 7, .name = "part.rml", .owner = "unix anna", .setup = {"d", "mdx-20", "", "T1"}, .bytes = 500};
-}
-
 TEST(JobAsItWasLeft, WhatMayHaveGoneIsWithinTheJob) {
   rml1::Job left = as_it_was_left(job(), {7, JobState::running, 52});
   EXPECT_EQ(left.state, JobState::paused_unknown);
@@ -93,27 +116,59 @@ TEST(JobAsItWasLeft, WhatMayHaveGoneIsWithinTheJob) {
   EXPECT_EQ(left.written, (rml1::WrittenRange{0, 500}));
 }
 
+TEST(JobAsItWasLeft, ALaterPartThatMayHaveBegun) {
+  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 352, 1});
+  EXPECT_EQ(left.state, JobState::paused_unknown);
+  EXPECT_EQ(left.written, (rml1::WrittenRange{300, 352})) << "the part before was executed";
+  EXPECT_EQ(left.setup.tool, "T3");
+}
+
+TEST(JobAsItWasLeft, AToolChangeIsOneAndItsConfirmationIsVoid) {
+  for (const JobState state : {JobState::tool_change, JobState::confirmed}) {
+    const rml1::Job left = as_it_was_left(job(), {7, state, 300, 1});
+    EXPECT_EQ(left.state, JobState::tool_change);
+    EXPECT_EQ(left.part, 1u);
+    EXPECT_EQ(left.setup.tool, "T3");
+    EXPECT_FALSE(left.written);
+  }
+}
+
 TEST(JobAsItWasLeft, WhatWasFedIsFed) {
   const rml1::Job left = as_it_was_left(job(), {7, JobState::fed, 500});
   EXPECT_EQ(left.state, JobState::fed);
   EXPECT_FALSE(left.written);
 }
 
+spool::Job spooled(const rml1::Job& job) {
+  return {.id = 3, .name = "part.rml", .who = "unix anna", .bytes = 500, .sha256 = "d", .facts = facts_of(job)};
+}
+
 TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
-  const spool::Job spooled{.id = 3,
-                           .name = "part.rml",
-                           .who = "unix anna",
-                           .bytes = 500,
-                           .sha256 = "d",
-                           .facts = facts_of({"", "mdx-20", "corner", "T2"}, 1.5, 2.5)};
-  const rml1::Job made = job_of(spooled);
+  const rml1::Job made = job_of(spooled({.setup = {"", "mdx-20", "corner", ""},
+                                         .least_s = 1.5,
+                                         .most_s = 2.5,
+                                         .parts = {{"T2", 500}},
+                                         .leaves = {.surface = true, .tool = true}}));
   EXPECT_EQ(made.number, 3u);
   EXPECT_EQ(made.owner, "unix anna");
   EXPECT_EQ(made.setup, (rml1::JobSetup{"d", "mdx-20", "corner", "T2"}));
   EXPECT_EQ(made.bytes, 500u);
   EXPECT_EQ(made.least_s, 1.5);
   EXPECT_EQ(made.most_s, 2.5);
+  EXPECT_EQ(made.state, JobState::queued);
+  EXPECT_EQ(made.leaves, (rml1::Leaves{.surface = true, .tool = true}));
   EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
+}
+
+// Where the record of what was sent is lost, no part is cut twice.
+TEST(JobOfTheSpool, KnowsItsNextPart) {
+  rml1::Job left = job();
+  EXPECT_EQ(job_of(spooled(left)).parts, left.parts);
+  EXPECT_EQ(job_of(spooled(left)).state, JobState::queued);
+  go_to_part(left, 1);
+  EXPECT_EQ(job_of(spooled(left)).state, JobState::tool_change);
+  EXPECT_EQ(job_of(spooled(left)).part, 1u);
+  EXPECT_EQ(job_of(spooled(left)).setup.tool, "T3");
 }
 
 }  // namespace

@@ -86,6 +86,15 @@ TEST_F(Spool, AJobIsThereWhenItsUploadHasFinished) {
   EXPECT_THAT(ids(), ElementsAre(1));
 }
 
+TEST_F(Spool, FactsThatAreKnownAtTheEndOfAnUpload) {
+  auto begun = begin();
+  ASSERT_TRUE(begun);
+  (*begun)->set_facts("{}");
+  ASSERT_TRUE((*begun)->finish());
+  open();
+  EXPECT_EQ(spool_->list("mill").front().facts, "{}");
+}
+
 TEST_F(Spool, AnAbandonedUploadLeavesNothing) {
   auto begun = begin();
   ASSERT_TRUE((*begun)->append("abc"));

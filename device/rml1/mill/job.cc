@@ -9,8 +9,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, 8> kNames = {"QUEUED", "CONFIRMED", "RUNNING",        "FED",
-                                                    "DONE",   "ABORTED",   "PAUSED_UNKNOWN", "CANCELLED"};
+constexpr std::array<std::string_view, 9> kNames = {"QUEUED",  "CONFIRMED",      "RUNNING",   "FED",        "DONE",
+                                                    "ABORTED", "PAUSED_UNKNOWN", "CANCELLED", "TOOL_CHANGE"};
 
 }  // namespace
 
@@ -28,15 +28,42 @@ std::optional<JobState> next(JobState state, JobEvent event) {
       Change{queued, JobEvent::cancel, cancelled},
       Change{confirmed, JobEvent::confirm, confirmed},
       Change{confirmed, JobEvent::make_void, queued},
+      Change{confirmed, JobEvent::make_void_later, tool_change},
       Change{confirmed, JobEvent::start, running},
       Change{confirmed, JobEvent::cancel, cancelled},
+      Change{running, JobEvent::part_fed, tool_change},
       Change{running, JobEvent::fed, fed},
       Change{running, JobEvent::aborted, aborted},
       Change{running, JobEvent::lost, paused_unknown},
       Change{fed, JobEvent::done, done},
       Change{paused_unknown, JobEvent::cancel, cancelled},
+      Change{tool_change, JobEvent::confirm, confirmed},
+      Change{tool_change, JobEvent::cancel, cancelled},
   };
   return next_in(kTable, state, event);
+}
+
+std::uint64_t part_begin(const Job& job) { return job.part == 0 ? 0 : job.parts[job.part - 1].end; }
+
+std::uint64_t part_end(const Job& job) { return job.parts.empty() ? job.bytes : job.parts[job.part].end; }
+
+bool is_last_part(const Job& job) { return job.part + 1 >= job.parts.size(); }
+
+void go_to_part(Job& job, std::size_t part) {
+  job.part = part;
+  job.setup.tool = job.parts[part].tool;
+}
+
+std::vector<std::string> left_by(const Job& job) {
+  std::vector<std::string> texts;
+  const auto add = [&](std::string_view what) {
+    texts.push_back(fmt::format("job {} ({}) {}", job.number, job.name, what));
+  };
+  if (job.leaves.surface) add("sets Z0");
+  if (job.leaves.revolutions) add("sets the spindle speed (!RC)");
+  if (job.leaves.rotation) add("turns the rotary axis");
+  if (job.leaves.tool) add("has J, which may change the tool");
+  return texts;
 }
 
 std::string text_of(const Job& job) { return fmt::format("job {} ({}, by {})", job.number, job.name, job.owner); }

@@ -1,13 +1,15 @@
 // A job of a mill: what it is, what it needs set up at the mill, and its states.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/machine.h"
+#include "device/rml1/leaves.h"
 
 namespace axisgate::rml1 {
 
@@ -18,17 +20,40 @@ struct JobSetup {
   std::string digest;   // of its bytes: PreparedJob::digest()
   std::string profile;  // its name
   std::string origin;   // the name of a configured origin; empty: as it is set at the panel
-  std::string tool;     // a configured name
+  std::string tool;     // a configured name; of a job in parts, that of Job::part
+  // What the job before has left that nothing gives back, for people: left_by(). Of the first job that waits alone, and
+  // not between its parts.
+  std::vector<std::string> left{};
 
   friend bool operator==(const JobSetup&, const JobSetup&) = default;
 };
 
+// One file of a job, sent as a job in itself. Between two of them somebody changes the tool.
+struct JobPart {
+  std::string tool;       // a configured name
+  std::uint64_t end = 0;  // the byte of the job behind its last
+
+  friend bool operator==(const JobPart&, const JobPart&) = default;
+};
+inline constexpr std::size_t kPartsAtMost = 16;
+
 // README.md has the table of what leads from one to another.
-enum class JobState { queued, confirmed, running, fed, done, aborted, paused_unknown, cancelled };
+enum class JobState { queued, confirmed, running, fed, done, aborted, paused_unknown, cancelled, tool_change };
 std::string_view name(JobState state);  // "QUEUED" ...
 bool is_end(JobState state);
 
-enum class JobEvent { confirm, make_void, start, fed, aborted, lost, done, cancel };
+enum class JobEvent {
+  confirm,
+  make_void,        // of the first part
+  make_void_later,  // of a later one
+  start,
+  part_fed,  // and there is another one
+  fed,
+  aborted,
+  lost,
+  done,
+  cancel
+};
 // The state after the event; nothing where the table has none.
 std::optional<JobState> next(JobState state, JobEvent event);
 
@@ -46,15 +71,28 @@ struct Confirmation {
 
 struct Job {
   JobNumber number = 0;
-  std::string name;  // a person's text
-  std::string owner;
-  JobSetup setup;
+  std::string name{};  // a person's text
+  std::string owner{};
+  JobSetup setup{};
   std::uint64_t bytes = 0;
   double least_s = 0, most_s = 0;  // how long the mill takes
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed
   std::optional<WrittenRange> written{};       // of one that is paused_unknown
+  std::vector<JobPart> parts{};                // at most kPartsAtMost; none: all of it is one
+  std::size_t part = 0;                        // runs, or is the next to
+  Leaves leaves{};                             // of all parts
 };
+
+// Bytes of the job: where Job::part begins and ends.
+std::uint64_t part_begin(const Job& job);
+std::uint64_t part_end(const Job& job);
+bool is_last_part(const Job& job);
+// Another part is the next, with its tool.
+void go_to_part(Job& job, std::size_t part);
+
+// "job 7 (part.rml) sets Z0": what the jobs after it find, for people.
+std::vector<std::string> left_by(const Job& job);
 
 // "job 7 (part.rml, by unix anna)".
 std::string text_of(const Job& job);

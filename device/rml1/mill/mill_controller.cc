@@ -13,7 +13,9 @@ namespace {
 
 constexpr std::string_view kExpired = "the confirmation has expired";
 
-bool waits(const Job& job) { return job.state == JobState::queued || job.state == JobState::confirmed; }
+bool waits(const Job& job) {
+  return job.state == JobState::queued || job.state == JobState::confirmed || job.state == JobState::tool_change;
+}
 
 // A mill is used as a whole.
 stage::Use use_of(const stage::RequestContext& by, JobNumber job) {
@@ -54,6 +56,7 @@ MillController::MillController(const Profile& profile, const MillSettings& setti
 void MillController::add(Job job, TimePoint now) {
   job.state = JobState::queued;
   jobs_.push_back(std::move(job));
+  show_left();
   events_.job_changed(jobs_.back(), jobs_.back().owner, "", now);
 }
 
@@ -67,6 +70,7 @@ Result<Job*> MillController::find(JobNumber number) {
 void MillController::change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   job.state = *next(job.state, event);
   if (job.state != JobState::confirmed) job.confirmation.reset();
+  show_left();
   events_.job_changed(job, by, why, now);
 }
 
@@ -84,6 +88,14 @@ Result<void> MillController::change(JobNumber number, JobEvent event, std::strin
 
 void MillController::leave_queue_if_ended(JobNumber number) {
   std::erase_if(jobs_, [number](const Job& job) { return job.number == number && is_end(job.state); });
+}
+
+// A person confirms the next job with what the one before has left. Between the parts of a job they confirm the tool
+// and Z0 in any case.
+void MillController::show_left() {
+  const auto first = std::ranges::find_if(jobs_, waits);
+  for (Job& job : jobs_) job.setup.left.clear();
+  if (first != jobs_.end() && first->part == 0) first->setup.left = left_;
 }
 
 // The workpiece of a job that ran may still be in the mill.
@@ -110,6 +122,11 @@ Result<void> MillController::check_next(const Job& job) const {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that waits can be confirmed");
   }
+  if (first->part > 0) {
+    return fail(Reason::wrong_mode,
+                fmt::format("{} is not finished: its next tool is {}", text_of(*first), first->setup.tool),
+                "confirm that one, or have it cancelled");
+  }
   return fail(Reason::wrong_mode, fmt::format("{} is before {}", text_of(*first), text_of(job)),
               "confirm that one, or have it cancelled");
 }
@@ -120,6 +137,13 @@ Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std
   if (const Result<void> is_next = check_next(**job); !is_next) return is_next;
   if (link_ != MillLink::open)
     return fail(Reason::link_down, "the line to the mill is closed", "confirm when it is open");
+  if (seen.left != (*job)->setup.left) {
+    return fail(Reason::stale_setpoint,
+                fmt::format("before {}: {}; that is not what was seen", text_of(**job),
+                            (*job)->setup.left.empty() ? "nothing is left"
+                                                       : fmt::format("{}", fmt::join((*job)->setup.left, ", "))),
+                "look at the job again, then confirm it");
+  }
   if (seen != (*job)->setup) {
     return fail(
         Reason::stale_setpoint,
@@ -140,26 +164,13 @@ Result<void> MillController::check_free() const {
   return {};
 }
 
-Result<void> MillController::check_taken() const {
-  if (!abort_since_ && line_.unsent() == 0) return {};
-  return fail(Reason::axis_busy, "the mill has not taken what it was sent before",
-              "look at the mill: its panel may hold it, or it is off");
-}
-
-// A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
-Result<void> MillController::check_still(TimePoint now) const {
-  if (by_hand_until_ <= now) return {};
-  return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
-              fmt::format("ask again after {:.1f} s", std::chrono::duration<double>(by_hand_until_ - now).count()));
-}
-
 Result<void> MillController::check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const {
   if (const Result<void> free = check_free(); !free) return free;
   if (job.state != JobState::confirmed || job.confirmation->until <= now) {
     return fail(Reason::not_allowed, fmt::format("{} is not confirmed at the mill, or not any more", text_of(job)),
                 "somebody at the mill confirms it: `axisctl mill confirm`");
   }
-  if (prepared.digest() != job.setup.digest) {
+  if (prepared.digest() != job.setup.digest || prepared.begin() != part_begin(job)) {
     return fail(Reason::internal, fmt::format("the bytes of {} are not those that were confirmed", text_of(job)),
                 "send the job again");
   }
@@ -173,6 +184,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if (!job) return tl::unexpected(job.error());
   if (const Result<void> startable = check_startable(**job, *prepared, now); !startable) return startable;
   if (const Result<void> may = authorize(by, number, now); !may) return may;
+  if ((*job)->part == 0) left_ = left_by(**job);
   change(**job, JobEvent::start, by.who, "", now);
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
@@ -224,34 +236,6 @@ bool MillController::abort(const stage::RequestContext& by, TimePoint now) {
   return abort(by.who, now);
 }
 
-bool MillController::abort(std::string_view by, TimePoint now) {
-  events_.abort_requested(by, now);
-  if (guarded(MillGuard::void_after_abort)) setup_changed("an abort", now);
-  by_hand_until_ = now;
-  if (!running_) return send_abort(now);
-  running_->aborted_by = by;
-  running_->sender.abort(now);
-  look_at_sender(now);
-  return true;
-}
-
-// Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.
-bool MillController::send_abort(TimePoint now) {
-  must_abort_ = link_ != MillLink::open;
-  if (must_abort_) return false;
-  noted_line_.write(abort_words(profile_, true));
-  abort_since_ = now;
-  return true;
-}
-
-// As Sender does it.
-void MillController::look_after_abort(TimePoint now) {
-  if (!abort_since_) return;
-  const bool gone = line_.unsent() == 0;
-  if (gone || now - *abort_since_ >= Sender::kHeldBeforeIgnored) line_.ignore_flow_control(!gone);
-  if (gone) abort_since_.reset();
-}
-
 Result<void> MillController::cancel(JobNumber job, std::string_view by, TimePoint now) {
   return change(job, JobEvent::cancel, by, now);
 }
@@ -260,30 +244,10 @@ Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint 
   return change(job, JobEvent::done, by, now);
 }
 
-// Steps do not add up while nobody looks.
-Result<void> MillController::check_operable(const HandAct& act, TimePoint now) const {
-  if (const Result<void> free = check_free(); !free) return free;
-  if (const Result<void> taken = check_taken(); !taken) return taken;
-  if (line_.held()) {
-    return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
-  }
-  return std::holds_alternative<JogStep>(act) ? check_still(now) : Result<void>();
-}
-
-Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
-  const Result<HandWords> words = words_of(act, profile_);
-  if (!words) return tl::unexpected(words.error());
-  if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
-  if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
-  setup_changed(fmt::format("by hand: {}", text_of(act)), now);
-  noted_line_.write(words->bytes);
-  by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
-  return by_hand_until_ - now;
-}
-
 void MillController::setup_changed(std::string_view why, TimePoint now) {
   for (Job& job : jobs_) {
-    if (job.state == JobState::confirmed) change(job, JobEvent::make_void, "", why, now);
+    if (job.state != JobState::confirmed) continue;
+    change(job, job.part == 0 ? JobEvent::make_void : JobEvent::make_void_later, "", why, now);
   }
 }
 
@@ -306,7 +270,7 @@ void MillController::look_at_sender(TimePoint now) {
   look_whether_busy(now);
   const SenderState state = running_->sender.state();
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
-  if (state == SenderState::fed) end_run(JobEvent::fed, "", "", now);
+  if (state == SenderState::fed) end_fed_part(now);
   if (state == SenderState::aborted) end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
 }
 
@@ -325,6 +289,12 @@ void MillController::look_whether_busy(TimePoint now) {
   if (std::exchange(running_->busy, busy) != busy) events_.sender_changed(view(now), now);
 }
 
+void MillController::end_fed_part(TimePoint now) {
+  const Job& job = **find(running_->number);
+  if (is_last_part(job)) return end_run(JobEvent::fed, "", "", now);
+  end_run(JobEvent::part_fed, "", fmt::format("the next tool is {}", job.parts[job.part + 1].tool), now);
+}
+
 void MillController::end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   const std::string requested_by(by);  // it may be of what runs
   const JobNumber number = running_->number;
@@ -332,6 +302,7 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
   if (event == JobEvent::lost) job.written = written_at_loss();
   running_.reset();
   permission_.end(number, now);
+  if (event == JobEvent::part_fed) go_to_part(job, job.part + 1);
   change(job, event, requested_by, why, now);
   leave_queue_if_ended(number);
 }
@@ -346,6 +317,12 @@ WrittenRange MillController::written_at_loss() {
 void MillController::inherit(Job job) {
   if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
   jobs_.push_back(std::move(job));
+  show_left();
+}
+
+void MillController::inherit_left(const Job& last) {
+  left_ = left_by(last);
+  show_left();
 }
 
 void MillController::link_up(TimePoint now) {

@@ -67,16 +67,18 @@ class MillController : public LineMachine {
   MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
                  stage::Permission& permission);
 
-  // A job of the run of the daemon before this one: QUEUED, FED, or PAUSED_UNKNOWN with what is known to be `written`.
-  // Before link_up().
+  // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, FED, or PAUSED_UNKNOWN with what is known to
+  // be `written`. Before link_up().
   void inherit(Job job);
+  // The job that was begun last in the runs before, whatever has become of it. Before link_up().
+  void inherit_left(const Job& last);
   // Behind all others. The number ascends.
   void add(Job job, TimePoint now);
   // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
   // became of the last one is not known; link_down;
-  // stale_setpoint: `seen` is not what the job needs.
+  // stale_setpoint: `seen` is not what the job needs, or not what the one before has left.
   Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
-  // Its first byte goes out, if the mill takes it. `prepared` is of the job's bytes. not_found; wrong_mode;
+  // Its first byte goes out, if the mill takes it. `prepared` is of the bytes of its next part. not_found; wrong_mode;
   // not_allowed, where it is not confirmed any more; link_down; what Permission::authorize() refuses.
   Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
                      TimePoint now);
@@ -160,6 +162,7 @@ class MillController : public LineMachine {
   Result<void> check_taken() const;
   Result<void> check_still(TimePoint now) const;
   Result<void> check_operable(const HandAct& act, TimePoint now) const;
+  void show_left();
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
@@ -167,6 +170,7 @@ class MillController : public LineMachine {
   void look_after_abort(TimePoint now);
   void look_at_sender(TimePoint now);
   void look_whether_busy(TimePoint now);
+  void end_fed_part(TimePoint now);
   WrittenRange written_at_loss();
   void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   RunningJob view(TimePoint now);
@@ -181,6 +185,7 @@ class MillController : public LineMachine {
   MillLink link_ = MillLink::closed;
   Duration reopen_ = kReopenFirst;
   std::vector<Job> jobs_;
+  std::vector<std::string> left_;  // by the job that was started last
   std::unique_ptr<Running> running_;
   bool must_abort_ = false;               // when the line is back
   TimePoint by_hand_until_{};             // what a person does with it ends, at the latest

@@ -18,8 +18,9 @@ std::string wrapped(std::string_view body, const Profile& profile, std::optional
 }  // namespace
 
 PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profile& profile,
-                         std::optional<Origin> origin, const SendSettings& settings)
+                         std::optional<Origin> origin, const SendSettings& settings, std::uint64_t begin)
     : digest_(std::move(digest)),
+      begin_(begin),
       body_size_(body.size()),
       text_(wrapped(body, profile, origin)),
       timeline_(text_, profile, origin),
@@ -27,7 +28,7 @@ PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profil
 
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
   const std::uint64_t before = prologue().size();
-  return bytes < before ? 0 : std::min(bytes - before, body_size_);
+  return begin_ + (bytes < before ? 0 : std::min(bytes - before, body_size_));
 }
 
 }  // namespace axisgate::rml1

@@ -1,4 +1,4 @@
-// A job as it is sent. Made once, off the device's strand, since it reads the whole job.
+// A job, or a part of one, as it is sent. Made once, off the device's strand, since it reads the whole job.
 #pragma once
 
 #include <cstddef>
@@ -18,22 +18,23 @@ namespace axisgate::rml1 {
 // Immutable, so threads may share it.
 class PreparedJob {
  public:
-  // `body`: the job's bytes, checked. `digest`: of these, in hex. `origin`: as of the check.
+  // `body`: the job's bytes, checked, or those of one part of it, which begins at the job's byte `begin`. `digest`: of
+  // all bytes of the job, in hex. `origin`: as of the check.
   PreparedJob(std::string_view body, std::string digest, const Profile& profile, std::optional<Origin> origin,
-              const SendSettings& settings);
+              const SendSettings& settings, std::uint64_t begin = 0);
 
   const std::string& digest() const { return digest_; }
   // With prologue and epilogue.
   const std::string& text() const { return text_; }
   const Timeline& timeline() const { return timeline_; }
   const SendPlan& plan() const { return plan_; }
-  // Of bytes of text(), those of the job itself.
+  std::uint64_t begin() const { return begin_; }
+  // So many bytes of text() reach up to this byte of the job itself.
   std::uint64_t of_body(std::uint64_t bytes) const;
-  std::uint64_t body_size() const { return body_size_; }
 
  private:
   const std::string digest_;
-  const std::uint64_t body_size_;
+  const std::uint64_t begin_, body_size_;
   const std::string text_;
   const Timeline timeline_;
   const SendPlan plan_;

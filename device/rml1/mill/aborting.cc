@@ -1,0 +1,38 @@
+// MillController: the abort, whether a job runs or none.
+#include <string_view>
+
+#include "device/rml1/guard.h"
+#include "device/rml1/mill/mill_controller.h"
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+
+bool MillController::abort(std::string_view by, TimePoint now) {
+  events_.abort_requested(by, now);
+  if (guarded(MillGuard::void_after_abort)) setup_changed("an abort", now);
+  by_hand_until_ = now;
+  if (!running_) return send_abort(now);
+  running_->aborted_by = by;
+  running_->sender.abort(now);
+  look_at_sender(now);
+  return true;
+}
+
+// Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.
+bool MillController::send_abort(TimePoint now) {
+  must_abort_ = link_ != MillLink::open;
+  if (must_abort_) return false;
+  noted_line_.write(abort_words(profile_, true));
+  abort_since_ = now;
+  return true;
+}
+
+// As Sender does it.
+void MillController::look_after_abort(TimePoint now) {
+  if (!abort_since_) return;
+  const bool gone = line_.unsent() == 0;
+  if (gone || now - *abort_since_ >= Sender::kHeldBeforeIgnored) line_.ignore_flow_control(!gone);
+  if (gone) abort_since_.reset();
+}
+
+}  // namespace axisgate::rml1

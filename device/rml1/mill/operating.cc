@@ -1,0 +1,46 @@
+// MillController: what a person does with the mill besides jobs.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <variant>
+
+#include "device/rml1/mill/mill_controller.h"
+
+namespace axisgate::rml1 {
+
+Result<void> MillController::check_taken() const {
+  if (!abort_since_ && line_.unsent() == 0) return {};
+  return fail(Reason::axis_busy, "the mill has not taken what it was sent before",
+              "look at the mill: its panel may hold it, or it is off");
+}
+
+// A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
+Result<void> MillController::check_still(TimePoint now) const {
+  if (by_hand_until_ <= now) return {};
+  return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
+              fmt::format("ask again after {:.1f} s", std::chrono::duration<double>(by_hand_until_ - now).count()));
+}
+
+// Steps do not add up while nobody looks.
+Result<void> MillController::check_operable(const HandAct& act, TimePoint now) const {
+  if (const Result<void> free = check_free(); !free) return free;
+  if (const Result<void> taken = check_taken(); !taken) return taken;
+  if (line_.held()) {
+    return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
+  }
+  return std::holds_alternative<JogStep>(act) ? check_still(now) : Result<void>();
+}
+
+Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
+  const Result<HandWords> words = words_of(act, profile_);
+  if (!words) return tl::unexpected(words.error());
+  if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
+  if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
+  setup_changed(fmt::format("by hand: {}", text_of(act)), now);
+  noted_line_.write(words->bytes);
+  by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
+  return by_hand_until_ - now;
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,166 @@
+// A mill that people share: leases, stops, the station, what others see, acts by hand, and requests that come again.
+#include <gmock/gmock.h>
+
+#include <string>
+#include <vector>
+
+#include "axisgate/v1/control.grpc.pb.h"
+#include "axisgate/v1/event.grpc.pb.h"
+#include "tests/integration/rpc_mill_fixture.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+TEST_F(RpcMill, ALeaseKeepsOthersOutAndATakeOverAborts) {
+  const auto control = v1::ControlService::NewStub(channel_);
+  v1::AcquireLeaseRequest acquire;
+  acquire.set_device(kMill);
+  v1::AcquireLeaseResponse acquired;
+  grpc::ClientContext first;
+  limit(first);
+  ASSERT_TRUE(control->AcquireLease(&first, acquire, &acquired).ok());
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  const grpc::Status refused = start(job);
+  EXPECT_EQ(reason(refused), v1::REASON_LEASE_HELD) << refused.error_message();
+  v1::StartJobRequest leased;
+  leased.set_job(job.name());
+  leased.mutable_context()->set_lease_token(acquired.lease().token());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, leased).ok());
+  v1::TakeOverLeaseRequest take;
+  take.set_device(kMill);
+  v1::TakeOverLeaseResponse taken;
+  grpc::ClientContext second;
+  limit(second);
+  ASSERT_TRUE(control->TakeOverLease(&second, take, &taken).ok());
+  EXPECT_THAT(watch_until([](const v1::Mill& it) { return !it.has_running(); }).jobs(), IsEmpty())
+      << "it was granted when the job was ABORTED";
+}
+
+TEST_F(RpcMill, AStopOfAllDevicesIsTheAbort) {
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  grpc::ClientContext context;
+  limit(context);
+  v1::StopResponse response;
+  ASSERT_TRUE(stage_->Stop(&context, v1::StopRequest(), &response).ok());
+  ASSERT_EQ(response.devices_size(), 2);
+  EXPECT_EQ(response.devices(1).device(), kMill);
+  EXPECT_EQ(response.devices(1).problem().reason(), v1::REASON_OUTCOME_UNKNOWN);
+  EXPECT_THAT(response.devices(1).problem().message(), HasSubstr("the abort was sent"));
+  watch_until([](const v1::Mill& mill) { return mill.jobs().empty(); });
+}
+
+TEST_F(RpcMill, TheSameRequestSendsOneJob) {
+  const v1::Job first = sent(vectors(4), "send-1"), again = sent(vectors(4), "send-1");
+  EXPECT_EQ(again.name(), first.name());
+  EXPECT_THAT(now().jobs(), SizeIs(1));
+  EXPECT_EQ(reason(send(vectors(6), nullptr, "T1", "send-1")), v1::REASON_REQUEST_ID_REUSED);
+}
+
+TEST_F(RpcMill, ARequestThatComesAgainIsAnsweredAsTheFirst) {
+  const v1::Job job = sent(vectors(4));
+  v1::CancelJobRequest request;
+  request.mutable_context()->set_request_id("cancel-1");
+  request.set_job(job.name());
+  EXPECT_TRUE(ask(&v1::MillService::Stub::CancelJob, request).ok());
+  EXPECT_TRUE(ask(&v1::MillService::Stub::CancelJob, request).ok());
+  request.mutable_context()->set_request_id("cancel-2");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJob, request)), v1::REASON_NOT_FOUND);
+}
+
+TEST_F(RpcMill, ARepeatOfAStartSaysWhatMayRunOn) {
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::StartJobRequest request;
+  request.mutable_context()->set_request_id("start-1");
+  request.set_job(job.name());
+  v1::StartJobResponse first, again;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &first).ok());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &again).ok());
+  EXPECT_GT(again.run_on().at_most(), 0);
+  EXPECT_EQ(again.run_on().at_most(), first.run_on().at_most());
+}
+
+TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
+  const v1::Job job = sent(vectors(4));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::StartJobRequest request;
+  request.mutable_context()->mutable_not_after()->set_seconds(1);
+  request.set_job(job.name());
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::StartJob, request)), v1::REASON_DEADLINE_PASSED);
+  EXPECT_FALSE(now().has_running());
+}
+
+TEST_F(RpcMill, WhoWatchesSeesWhatBecomesOfAJob) {
+  grpc::ClientContext context;
+  limit(context);
+  v1::WatchRequest from_now;
+  from_now.set_device(kMill);
+  const auto stream = v1::EventService::NewStub(channel_)->Watch(&context, from_now);
+  stream->WaitForInitialMetadata();
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  ASSERT_TRUE(on_mill(&v1::MillService::Stub::PauseJob).ok());
+  ASSERT_TRUE(on_mill(&v1::MillService::Stub::AbortJob).ok());
+  std::vector<std::string> seen;
+  v1::WatchResponse response;
+  while (stream->Read(&response)) {
+    const v1::Event& event = response.event();
+    EXPECT_EQ(event.device(), kMill);
+    if (event.has_stop_requested()) seen.push_back("abort");
+    if (!event.has_job()) continue;
+    EXPECT_EQ(event.job().job().name(), job.name());
+    seen.push_back(event.job().sending() != v1::SENDING_STATE_UNSPECIFIED
+                       ? v1::SendingState_Name(event.job().sending())
+                       : v1::JobState_Name(event.job().job().state()));
+    if (seen.back() == "JOB_STATE_ABORTED") break;
+  }
+  EXPECT_THAT(seen, testing::ElementsAre("JOB_STATE_QUEUED", "JOB_STATE_CONFIRMED", "JOB_STATE_RUNNING",
+                                         "SENDING_STATE_SENDING", "SENDING_STATE_PAUSED", "abort",
+                                         "SENDING_STATE_ABORTING", "JOB_STATE_ABORTED"));
+  EXPECT_THAT(response.event().job().who(), testing::StartsWith("unix "));
+  context.TryCancel();
+}
+
+TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
+  const v1::Job job = sent(vectors(4));
+  ASSERT_TRUE(confirm(job).ok());
+  v1::OperateMillRequest request;
+  request.set_device(kMill);
+  request.mutable_context()->set_request_id("step-1");
+  request.mutable_step()->set_x_mm(5);
+  v1::OperateMillResponse first, again;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &first).ok());
+  EXPECT_GT(first.longest().seconds(), 0);
+  ASSERT_TRUE(ask(&v1::MillService::Stub::OperateMill, request, &again).ok()) << "the answer of the first";
+  EXPECT_EQ(again.longest().seconds(), first.longest().seconds());
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  v1::OperateMillRequest named;
+  named.set_device(kMill);
+  named.mutable_surface()->set_origin("vice");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
+  named.clear_act();
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
+}
+
+class RpcMillElsewhere : public RpcMill {
+ protected:
+  RpcMillElsewhere() { station_ = "cert workshop"; }
+};
+
+TEST_F(RpcMillElsewhere, OnlySomebodyAtTheStationConfirms) {
+  const v1::Job job = sent(vectors(4));
+  const grpc::Status status = confirm(job);
+  EXPECT_EQ(reason(status), v1::REASON_NOT_ALLOWED);
+  EXPECT_THAT(status.error_message(), HasSubstr("cert workshop"));
+}
+
+}  // namespace
+}  // namespace axisgate::rpc
