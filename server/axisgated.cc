@@ -115,6 +115,15 @@ server::journal::Entry entry_of_daemon(server::journal::EntryKind kind) {
           .body = R"({"version":")" AXISGATE_VERSION R"("})"};
 }
 
+server::spool::Bounds bounds_of(const server::JobsConfig& jobs) {
+  const auto bytes = [](int megabytes) { return megabytes * server::spool::kMebibyte; };
+  return {.bytes = bytes(jobs.megabytes),
+          .bytes_of_one = bytes(jobs.megabytes_each),
+          .bytes_of_identity = bytes(jobs.megabytes_per_person),
+          .jobs = static_cast<std::size_t>(jobs.count),
+          .kept = std::chrono::days(jobs.days)};
+}
+
 // Without it the daemon serves, and says so.
 std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state,
                                                        const server::JournalConfig& config) {
@@ -182,7 +191,7 @@ int serve(const server::Config& config) {
   if (!positions) return complain(kExitFailed, server::explain(positions.error()));
   const auto generation = start_generation(*state);
   if (!generation) return complain(kExitFailed, server::explain(generation.error()));
-  auto spool = server::spool::Spool::open(state->file("spool"), {});
+  auto spool = server::spool::Spool::open(state->file("spool"), bounds_of(config.jobs));
   if (!spool) return complain(kExitFailed, server::explain(spool.error()));
   const Kept kept{*std::move(access), *std::move(positions), *std::move(spool),
                   config.journal.kept ? open_journal(*state, config.journal) : nullptr};

@@ -13,6 +13,7 @@
 #include "server/config/axis.h"
 #include "server/config/connection.h"
 #include "server/config/default_socket.h"
+#include "server/config/jobs.h"
 #include "server/config/journal.h"
 #include "server/config/limits.h"
 #include "server/config/mill.h"
@@ -48,6 +49,7 @@ class ConfigReader {
     if (const toml::table* limits = table.table("limits")) {
       read_identity_limits(*limits, file_, errors_, config.limits);
     }
+    if (const toml::table* jobs = table.table("jobs")) read_jobs(*jobs, file_, errors_, config.jobs);
     if (const toml::table* journal = table.table("journal")) read_journal(*journal, file_, errors_, config.journal);
     const auto devices = table.tables("device");
     if (devices.empty() && !table.has("device")) table.missing("device", "at least one [[device]]");
@@ -182,6 +184,7 @@ Config default_config(DeviceKinds kinds) {
                 .access = {.admin_commands = admin_commands(kinds)},
                 .limits = {},
                 .journal = {},
+                .jobs = {},
                 .devices = {std::move(device)}};
 }
 

@@ -75,9 +75,10 @@ struct MillConfig {
   std::chrono::minutes confirmation{10};                          // how long a confirmation is valid
   std::vector<std::string> tools{"T1"};                           // at least one
   std::vector<NamedOrigin> origins;
-  std::chrono::seconds busy_limit{600};  // after so long without a byte taken it is reported as still busy
-  AtExit at_exit = AtExit::abort;        // what happens to a running job when the daemon ends
-  double slower_percent = 0;             // of a simulated mill: each motion takes so much longer than by the profile
+  std::chrono::seconds busy_limit{600};        // after so long without a byte taken it is reported as still busy
+  rml1::AtLoss at_loss = rml1::AtLoss::abort;  // what is sent when the line is back, where a job ran when it broke
+  AtExit at_exit = AtExit::abort;              // what happens to a running job when the daemon ends
+  double slower_percent = 0;  // of a simulated mill: each motion takes so much longer than by the profile
 };
 
 struct DeviceConfig {
@@ -107,6 +108,15 @@ struct JournalConfig {
   Role others_seen_by = Role::observer;  // who has a lower role reads only their own entries
 };
 
+// Uploaded jobs of mills (spool/).
+struct JobsConfig {
+  int megabytes = 256;      // of all jobs
+  int megabytes_each = 64;  // of one
+  int megabytes_per_person = 128;
+  int count = 200;
+  int days = 30;  // that a job is kept after its end
+};
+
 struct Config {
   TcpAddress listen;
   std::string socket;  // path of the Unix socket
@@ -115,6 +125,7 @@ struct Config {
   AccessConfig access;
   LimitsConfig limits;
   JournalConfig journal;
+  JobsConfig jobs;
   std::vector<DeviceConfig> devices;
 };
 

@@ -191,6 +191,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   }
   read_tools(table, mill.tools);
   if (const auto limit = table.integer("busy_limit_s", 10, 86'400)) mill.busy_limit = std::chrono::seconds(*limit);
+  mill.at_loss = table.choice<rml1::AtLoss>("at_loss", kMillAtLoss).value_or(mill.at_loss);
   mill.at_exit = table.choice<MillConfig::AtExit>("at_exit", kMillAtExit).value_or(mill.at_exit);
   mill.origins = read_origins(table, profile, file, errors);
   return mill;

@@ -96,6 +96,15 @@ void write(TomlWriter& out, const JournalConfig& journal) {
   out.key("others_seen_by", word(kRoles, journal.others_seen_by));
 }
 
+void write(TomlWriter& out, const JobsConfig& jobs) {
+  out.table("[jobs]");
+  out.number("megabytes", jobs.megabytes);
+  out.number("megabytes_each", jobs.megabytes_each);
+  out.number("megabytes_per_person", jobs.megabytes_per_person);
+  out.number("count", jobs.count);
+  out.number("days", jobs.days);
+}
+
 void write(TomlWriter& out, const SerialSettings& serial, int baud) {
   out.text("connection", "serial");
   out.text("path", serial.path);
@@ -194,6 +203,7 @@ void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) 
   out.number("confirmation_minutes", mill.confirmation.count());
   out.texts("tools", mill.tools);
   out.number("busy_limit_s", mill.busy_limit.count());
+  out.key("at_loss", word(kMillAtLoss, mill.at_loss));
   out.key("at_exit", word(kMillAtExit, mill.at_exit));
   for (const NamedOrigin& origin : mill.origins) {
     out.table("[[device.origin]]");
@@ -225,6 +235,7 @@ std::string to_toml(const Config& config) {
   write(out, config.access);
   write(out, config.limits);
   write(out, config.journal);
+  write(out, config.jobs);
   for (const DeviceConfig& device : config.devices) write(out, device);
   return out.take();
 }

@@ -27,6 +27,8 @@ inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> k
     {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
 inline constexpr std::array<std::pair<std::string_view, rml1::Streaming>, 2> kStreamings = {
     {{"paced", rml1::Streaming::paced}, {"full", rml1::Streaming::full}}};
+inline constexpr std::array<std::pair<std::string_view, rml1::AtLoss>, 2> kMillAtLoss = {
+    {{"abort", rml1::AtLoss::abort}, {"leave", rml1::AtLoss::leave}}};
 inline constexpr std::array<std::pair<std::string_view, MillConfig::AtExit>, 2> kMillAtExit = {
     {{"abort", MillConfig::AtExit::abort}, {"finish", MillConfig::AtExit::finish}}};
 

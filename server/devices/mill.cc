@@ -15,7 +15,10 @@ namespace axisgate::server {
 namespace {
 
 rml1::MillSettings settings_of(const MillConfig& config) {
-  return {.sending = config.sending, .confirmation_lasts = config.confirmation, .busy_limit = config.busy_limit};
+  return {.sending = config.sending,
+          .confirmation_lasts = config.confirmation,
+          .busy_limit = config.busy_limit,
+          .at_loss = config.at_loss};
 }
 
 }  // namespace

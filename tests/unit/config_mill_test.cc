@@ -65,6 +65,7 @@ station = ["unix alice", "cert Ann Lee", "token anna", "unix uid 1000"]
 confirmation_minutes = 5
 tools = ["T1", "ball-nose_3"]
 busy_limit_s = 60
+at_loss = "leave"
 at_exit = "finish"
 
 [[device.origin]]
@@ -104,6 +105,7 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(mill.confirmation, std::chrono::minutes(5));
   EXPECT_THAT(mill.tools, ElementsAre("T1", "ball-nose_3"));
   EXPECT_EQ(mill.busy_limit, std::chrono::minutes(1));
+  EXPECT_EQ(mill.at_loss, rml1::AtLoss::leave);
   EXPECT_EQ(mill.at_exit, MillConfig::AtExit::finish);
   ASSERT_EQ(mill.origins.size(), 2u);
   EXPECT_EQ(mill.origins[0].name, "vice");
@@ -126,6 +128,7 @@ TEST(ConfigMill, Defaults) {
   EXPECT_THAT(mill.tools, ElementsAre("T1"));
   EXPECT_THAT(mill.origins, IsEmpty());
   EXPECT_EQ(mill.busy_limit, std::chrono::minutes(10));
+  EXPECT_EQ(mill.at_loss, rml1::AtLoss::abort);
   EXPECT_EQ(mill.at_exit, MillConfig::AtExit::abort);
   EXPECT_EQ(mill.slower_percent, 0);
 }

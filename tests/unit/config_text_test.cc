@@ -150,12 +150,14 @@ station = ["unix alice", "token anna"]
 confirmation_minutes = 5
 tools = ["T1", "ball-nose_3"]
 busy_limit_s = 60
+at_loss = "leave"
 at_exit = "finish"
 
 [[device.origin]]
 name = "vice"
 x = 400
 y = 0
+z = -800
 
 [[device.origin]]
 name = "corner"
@@ -198,6 +200,7 @@ station = ["unix"]
 confirmation_minutes = 10
 tools = ["T1"]
 busy_limit_s = 600
+at_loss = "abort"
 at_exit = "abort"
 )"));
 }

@@ -22,8 +22,6 @@
 
 namespace axisgate::rml1 {
 
-enum class AtLoss { abort, leave };  // what is sent when the line is back, for a job that ran when it broke
-
 struct MillSettings {
   SendSettings sending;
   Duration confirmation_lasts = std::chrono::minutes(10);

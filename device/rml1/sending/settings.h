@@ -7,6 +7,8 @@ namespace axisgate::rml1 {
 
 enum class Streaming { paced, full };
 
+enum class AtLoss { abort, leave };  // what is sent when the line is back, for a job that ran when it broke
+
 struct SendSettings {
   Streaming streaming = Streaming::paced;
   std::size_t window = 0;       // bytes, of paced streaming; 0: adapted to the job (window.h)
