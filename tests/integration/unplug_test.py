@@ -29,7 +29,7 @@ socket = "{socket}"
 # The daemon keeps its newest 10,000 facts, each device's newest 1,000 motions and what 20,000 requests came to: a dozen
 # facts, a motion and a request a pull until there are so many. Its allocator finds its size in the first rounds, and the
 # journal fills its cache of 512 KiB.
-KEPT_KIB = 8
+KEPT_KIB = 9
 ONCE_KIB = 1024
 DEVICE = """
 [[device]]

@@ -18,8 +18,9 @@ Result<void> MillController::check_taken() const {
 // A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
 Result<void> MillController::check_still(TimePoint now) const {
   if (by_hand_until_ <= now) return {};
+  const auto left = std::chrono::ceil<std::chrono::seconds>(by_hand_until_ - now);
   return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
-              fmt::format("ask again after {:.1f} s", std::chrono::duration<double>(by_hand_until_ - now).count()));
+              fmt::format("ask again after {} s", left.count()));
 }
 
 // Steps do not add up while nobody looks.
