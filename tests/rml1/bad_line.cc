@@ -144,6 +144,7 @@ void BadLine::abort() {
   if (mill_.abort(kAtMill, bench_.now) != open) violate("an abort is said to be sent with the line closed, or not");
   if ((abort_writes_ > before) != open) violate("an abort is not written with the line open, or is with it closed");
   abort_outstanding_ = abort_outstanding_ || !open;
+  abort_requested_ = true;
 }
 
 void BadLine::break_line() {
@@ -161,7 +162,9 @@ void BadLine::break_line() {
 void BadLine::bring_line_back() {
   const std::size_t before = abort_writes_;
   mill_.link_up(bench_.now);
-  if ((abort_writes_ > before) != abort_outstanding_) {
+  const bool sent = abort_writes_ > before;
+  // One that was requested before may have been lost with the line.
+  if (sent != abort_outstanding_ && !(sent && abort_requested_)) {
     violate(abort_outstanding_ ? "the line is back and no abort is sent" : "an abort is sent that nobody requested");
   }
   if (std::exchange(abort_outstanding_, false)) executed_.flow_control_is_ignored();

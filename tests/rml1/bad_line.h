@@ -97,6 +97,7 @@ class BadLine : private MillEvents {
   std::size_t lines_read_ = 0, abort_writes_ = 0, without_time_ = 0;  // without_time_: steps
   bool aborted_ = false;                                              // while the job ran
   bool abort_outstanding_ = false;                                    // requested with the line closed
+  bool abort_requested_ = false;
   bool fed_looked_at_ = false;
   std::uint64_t executed_at_abort_ = 0;
   RunOn bound_{};

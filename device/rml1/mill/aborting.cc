@@ -3,6 +3,7 @@
 
 #include "device/rml1/guard.h"
 #include "device/rml1/mill/mill_controller.h"
+#include "device/rml1/sending/window.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -32,7 +33,20 @@ void MillController::look_after_abort(TimePoint now) {
   if (!abort_since_) return;
   const bool gone = line_.unsent() == 0;
   if (gone || now - *abort_since_ >= Sender::kHeldBeforeIgnored) line_.ignore_flow_control(!gone);
-  if (gone) abort_since_.reset();
+  if (!gone) return;
+  abort_since_.reset();
+  abort_has_left(now);
+}
+
+// The host. A converter may still have it.
+void MillController::abort_has_left(TimePoint now) {
+  abort_arrives_ = now + transmit_time(settings_.sending.converter, settings_.sending.baud);
+}
+
+// What somebody requested, whatever is sent for a job that was lost.
+bool MillController::may_have_lost_abort(TimePoint now) const {
+  const bool under_way = running_ && running_->sender.state() == SenderState::aborting;
+  return under_way || abort_since_ || abort_arrives_ > now;
 }
 
 }  // namespace axisgate::rml1

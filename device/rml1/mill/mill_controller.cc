@@ -271,7 +271,9 @@ void MillController::look_at_sender(TimePoint now) {
   const SenderState state = running_->sender.state();
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
   if (state == SenderState::fed) end_fed_part(now);
-  if (state == SenderState::aborted) end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
+  if (state != SenderState::aborted) return;
+  abort_has_left(now);
+  end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
@@ -338,10 +340,11 @@ void MillController::link_down(TimePoint now, std::string_view why) {
   link_ = MillLink::closed;
   events_.link_changed(link_, why, now);
   if (guarded(MillGuard::void_after_loss)) setup_changed("the line was lost", now);
+  must_abort_ |= may_have_lost_abort(now) || (running_ && settings_.at_loss == AtLoss::abort);
   abort_since_.reset();
+  abort_arrives_ = {};
   if (running_) {
     running_->sender.line_lost(now);
-    must_abort_ = settings_.at_loss == AtLoss::abort;
     end_run(JobEvent::lost, "", why, now);
   }
   line_.reopen(reopen_);

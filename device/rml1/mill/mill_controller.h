@@ -166,6 +166,8 @@ class MillController : public LineMachine {
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
   bool send_abort(TimePoint now);
   void look_after_abort(TimePoint now);
+  void abort_has_left(TimePoint now);
+  bool may_have_lost_abort(TimePoint now) const;
   void look_at_sender(TimePoint now);
   void look_whether_busy(TimePoint now);
   void end_fed_part(TimePoint now);
@@ -186,6 +188,7 @@ class MillController : public LineMachine {
   std::vector<std::string> left_;  // by the job that was started last
   std::unique_ptr<Running> running_;
   bool must_abort_ = false;               // when the line is back
+  TimePoint abort_arrives_{};             // at the mill, at the latest; in the past: it has, or none was sent
   TimePoint by_hand_until_{};             // what a person does with it ends, at the latest
   std::optional<TimePoint> abort_since_;  // without a job: until it has left the host
   TimePoint now_{};                       // of the last call
