@@ -226,6 +226,8 @@ class Aborts(unittest.TestCase):
         self.hold_before(mill, moment)
         running = gateway.abort()
         self.assertIsNotNone(running, "the job had ended")
+        if combination.streaming == "full" and int(running["written"]) == len(job.text):
+            return self.forget(mill, tally)
         asked = self.logged(mill, "requests: abort", number)
         if combination.streaming == "full" and self.logged(mill, "is ABORTED", number) - asked > LONGEST_ON_WAY_S:
             return self.forget(mill, tally)
@@ -245,7 +247,8 @@ class Aborts(unittest.TestCase):
         self.assertLessEqual(ran_on, bound, "more ran on than was stated")
 
     def forget(self, mill, tally):
-        """An abort that has ignored XOFF: here that lets go what the terminal holds."""
+        """An abort that has ignored XOFF: here that lets go what the terminal holds. Or one that came on a busy machine when
+        all was written, with the epilogue."""
         tally.forgotten += 1
         self.assertLess(tally.forgotten, 10 + ABORTS / 2, "nearly every abort is held")
         mill.person.await_state(moving="no", buffered="0")
