@@ -160,8 +160,9 @@ abort also sends what discards the mill's buffer, raises the tool and stops the 
 not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
 have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.
 
-While no job runs, `mill jog` moves the tool by a short step, `mill origin` sets Z0, and `mill spindle` and `mill raise` do as
-they say. Where the tool is, is not known, so nothing checks where a step leads. A confirmation is void after each.)",
+While no job runs, `mill jog` moves the tool by a short step, `mill origin` sets Z0, `mill spindle` starts or stops the
+spindle, and `mill raise` raises the tool. The position of the tool is not known, so nothing checks where a step leads.
+After each of them a confirmation is void.)",
      R"(printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill check - --profile mdx-20
 printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20

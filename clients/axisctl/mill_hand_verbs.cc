@@ -15,7 +15,7 @@ namespace axisgate::axisctl {
 namespace {
 
 // "x=5", "Z=-0.5mm".
-void add_way(std::string_view text, v1::JogStep& step) {
+void add_distance(std::string_view text, v1::JogStep& step) {
   std::string_view number = text.size() > 2 ? text.substr(2) : "";
   if (number.ends_with("mm")) number.remove_suffix(2);
   if (number.starts_with('+')) number.remove_prefix(1);
@@ -24,7 +24,8 @@ void add_way(std::string_view text, v1::JogStep& step) {
   const bool whole = error == std::errc() && end == number.data() + number.size();
   const char axis = text.size() > 2 && text[1] == '=' ? static_cast<char>(std::toupper(text[0])) : '?';
   if (!whole || axis < 'X' || axis > 'Z') {
-    throw usage(fmt::format("\"{}\" is no way", text), "name an axis and how many mm it moves, e.g. x=5 or z=-0.5");
+    throw usage(fmt::format("\"{}\" is not an axis and a distance", text),
+                "name an axis and how many mm it moves, e.g. x=5 or z=-0.5");
   }
   if (axis == 'X') step.set_x_mm(mm);
   if (axis == 'Y') step.set_y_mm(mm);
@@ -51,7 +52,7 @@ int operate(const Session& session, v1::OperateMillRequest request, std::string_
 
 int mill_jog(const Session& session) {
   v1::OperateMillRequest request;
-  for (const std::string& way : session.options.job.ways) add_way(way, *request.mutable_step());
+  for (const std::string& text : session.options.job.distances) add_distance(text, *request.mutable_step());
   if (session.options.job.mm_per_s) request.mutable_step()->set_mm_per_s(*session.options.job.mm_per_s);
   return operate(session, request, "the step, unchecked because the tool's position is not known,");
 }

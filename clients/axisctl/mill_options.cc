@@ -77,7 +77,7 @@ void add_hand_verbs(CLI::App& mill, Options& options) {
   JobOptions& job = options.job;
   CLI::App* jog = add_job_verb(mill, options, Verb::mill_jog, "jog",
                                "move the tool by a short step, unchecked; the spindle stops before it");
-  jog->add_option("AXIS=MM", job.ways, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
+  jog->add_option("AXIS=MM", job.distances, "by how much each axis moves, e.g. x=5 z=-0.5; Z upward")
       ->required()
       ->type_name("");
   jog->add_option("--speed", job.mm_per_s, "in mm/s (default: the mill's)")->type_name("MM/S");
@@ -88,7 +88,10 @@ void add_hand_verbs(CLI::App& mill, Options& options) {
   name->type_name("");
   origin->add_option("--z", job.z, "a machine coordinate, in steps")->type_name("STEPS")->excludes(name);
   CLI::App* spindle = add_job_verb(mill, options, Verb::mill_spindle, "spindle", "start or stop the spindle");
-  spindle->add_option("on|off", job.spindle, "")->required()->check(CLI::IsMember({"on", "off"}))->type_name("");
+  spindle->add_option("on|off", job.spindle, "whether it turns")
+      ->required()
+      ->check(CLI::IsMember({"on", "off"}))
+      ->type_name("");
   add_job_verb(mill, options, Verb::mill_raise, "raise", "stop the spindle, and raise the tool to the top");
 }
 

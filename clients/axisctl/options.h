@@ -114,7 +114,7 @@ struct JobOptions {
   std::vector<std::string> accepted;    // send: sections of the guideline
   std::optional<std::uint64_t> number;  // of the job; none: the first that waits
   bool start = false;                   // confirm: start it, too
-  std::vector<std::string> ways;        // jog: "x=5", mm
+  std::vector<std::string> distances;   // jog: "x=5", mm
   std::optional<double> mm_per_s;       // jog
   std::optional<std::int64_t> z;        // origin: a machine coordinate, in steps
   std::string spindle;                  // "on", "off"

@@ -37,7 +37,7 @@ IN_TERMINAL = 20_480
 PROLOGUE = ";^DF;"
 LONGEST_ON_WAY_S = 0.19  # of an abort: after 200 ms it ignores XOFF
 TOP = 1000  # steps above Z0
-# Travel takes hardly any time, so that the way from where the last job ended does not count (sending/README.md, "What no
+# Travel is so fast that the move from where the last job ended takes nearly no time (sending/README.md, "What no
 # abort can ensure"). By its profile this mill needs a quarter longer for a cut than without acceleration: what a busy
 # machine costs the simulator is within that.
 PROFILE = profile_text(cutting_maximum=240, best=400, worst=400, spin_up_s=0.05)

@@ -1,3 +1,4 @@
+// The lines of a mill in the configuration: printer devices, and flow control by XON and XOFF.
 #include <gmock/gmock.h>
 
 #include <string>

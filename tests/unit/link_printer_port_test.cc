@@ -1,3 +1,4 @@
+// A printer device, played by a FIFO: opened for writing alone, never read, closed without waiting.
 #include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/stat.h>

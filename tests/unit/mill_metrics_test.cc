@@ -1,3 +1,4 @@
+// What the metrics page shows of mills.
 #include "server/metrics/mill_metrics.h"
 
 #include <gmock/gmock.h>
