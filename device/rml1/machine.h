@@ -63,6 +63,7 @@ class Machine : public ParserListener {
   void quit() override;
 
   const Point& tool() const { return clipper_.tool(); }
+  const Point& commanded() const { return commanded_; }
   const Box& box() const { return clipper_.box(); }
   bool tool_lowered() const { return lowered_; }
   bool relative() const { return relative_; }

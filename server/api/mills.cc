@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "server/api/audit.h"
+#include "server/api/job_setup.h"
 #include "server/api/names.h"
 #include "server/devices/spooled_jobs.h"
 
@@ -87,53 +88,12 @@ void repeat_job(Mill& mill, const Result<Known>& known, rml1::JobNumber number, 
   });
 }
 
-bool has(const std::vector<std::string>& names, std::string_view name) {
-  return std::ranges::find(names, name) != names.end();
-}
-
-std::string tools_text(const std::vector<rml1::JobPart>& parts) {
-  std::vector<std::string> tools;
-  for (const rml1::JobPart& part : parts) tools.push_back(part.tool);
-  return fmt::format("{}", fmt::join(tools, ", "));
-}
-
-// The part that the job was last published with. That which starts is compared with it on the strand.
-std::size_t next_part(Mill& mill, rml1::JobNumber number) {
-  const auto now = mill.newest().get().value;
-  const auto found = std::ranges::find(now->jobs, number, &rml1::Job::number);
-  return found == now->jobs.end() ? 0 : found->part;
-}
-
-// The configuration may have changed since the job was sent.
-Result<void> check_setup(const Mill& mill, const rml1::Job& job) {
-  const server::MillConfig& config = mill.config();
-  const bool has_origin =
-      job.setup.origin.empty() ||
-      std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
-  const auto has_tool = [&](const rml1::JobPart& part) { return has(config.tools, part.tool); };
-  if (job.setup.profile == config.profile.name && has_origin && std::ranges::all_of(job.parts, has_tool)) return {};
-  return fail(
-      Reason::stale_setpoint,
-      fmt::format(
-          "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
-          text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),
-      "cancel it, and send it again");
-}
-
 // What a job has come to by a request of the kind.
 rml1::JobState outcome_of(RequestKind kind) {
   if (kind == RequestKind::cancel_job) return rml1::JobState::cancelled;
+  if (kind == RequestKind::continue_job) return rml1::JobState::paused;
   return kind == RequestKind::report_job_done ? rml1::JobState::done : rml1::JobState::running;
 }
-
-// "unix" is anybody on the Unix socket, "unix anna" one of them.
-bool is_at_station(const Mill& mill, std::string_view who) {
-  return std::ranges::any_of(mill.config().station, [who](std::string_view place) {
-    return who == place || (who.starts_with(place) && who.substr(place.size()).starts_with(' '));
-  });
-}
-
-std::string station_text(const Mill& mill) { return fmt::format("{}", fmt::join(mill.config().station, ", ")); }
 
 }  // namespace
 
@@ -277,37 +237,11 @@ void Mills::confirm(const Call& call, std::string_view job, const rml1::JobSetup
   act_on_job(
       RequestKind::confirm_job, call, job,
       [seen](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
-        if (!is_at_station(turn.device, turn.caller.who)) {
-          return fail(Reason::not_allowed,
-                      fmt::format("{} is not at the station of {}", turn.caller.who, turn.device.name()),
-                      "confirm as " + station_text(turn.device) + ": `station` in the configuration");
-        }
+        if (const Result<void> there = check_at_station(turn.device, turn.caller.who); !there) return there;
         const Result<void> fits = check_setup(turn.device, it);
         return fits ? mill.confirm(it.number, seen, turn.caller.who, turn.now) : fits;
       },
       std::move(answer));
-}
-
-void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
-  const Result<JobName> found = find_job_name(gateway_, name);
-  const auto admitted = pipeline_.admit({RequestKind::start_job, call, device_of(found)});
-  if (!admitted) return answer(tl::unexpected(admitted.error()));
-  boost::asio::post(worker_, [this, call, name = std::string(name), &mill = *admitted->device, number = found->number,
-                              answer = std::move(answer)] { start_on_worker(call, name, mill, number, answer); });
-}
-
-// Where it cannot be prepared it is refused for that, unless the request came before.
-void Mills::start_on_worker(const Call& call, const std::string& name, Mill& mill, rml1::JobNumber number,
-                            const Answer<CurrentJob>& answer) const {
-  const auto prepared = server::prepared_job(mill.spool(), mill.name(), mill.config(), number, next_part(mill, number));
-  act_on_job(
-      RequestKind::start_job, call, name,
-      [prepared](rml1::MillController& controller, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
-        if (!prepared) return tl::unexpected(prepared.error());
-        const Result<void> fits = check_setup(turn.device, it);
-        return fits ? controller.start(it.number, *prepared, turn.context, turn.now) : fits;
-      },
-      answer);
 }
 
 void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
@@ -360,10 +294,10 @@ void Mills::act_on_run(RequestKind kind, const Call& call, std::string_view devi
       });
 }
 
-void Mills::pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {
+void Mills::pause(const Call& call, std::string_view device, bool raise, Answer<CurrentRun> answer) const {
   act_on_run(
-      RequestKind::pause_job, call, device, [](const MillTurn& turn) { return turn.controller.pause(turn.now); },
-      std::move(answer));
+      RequestKind::pause_job, call, device,
+      [raise](const MillTurn& turn) { return turn.controller.pause(raise, turn.now); }, std::move(answer));
 }
 
 void Mills::resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const {

@@ -3,6 +3,7 @@
 
 #include <boost/asio/thread_pool.hpp>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -52,6 +53,11 @@ struct JobToSend {
   AcceptedWarnings accepted_warnings;
 };
 
+// Where a job continues, in its part; both count from 1. Line 0: none is named.
+struct LineToChoose {
+  std::uint64_t line = 0, column = 1;
+};
+
 // A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
 class JobUpload {
  public:
@@ -99,8 +105,10 @@ class Mills {
   // not_allowed, where the caller is not at the mill's station.
   void confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen, Answer<CurrentJob> answer) const;
   void start(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
-  void pause(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
+  void pause(const Call& call, std::string_view device, bool raise, Answer<CurrentRun> answer) const;
   void resume(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
+  // What server::chosen_rest() refuses.
+  void choose_rest(const Call& call, std::string_view job, LineToChoose from, Answer<CurrentJob> answer) const;
   // Always acts. link_down: it is sent when the line is back.
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   // not_allowed: the job is somebody else's.

@@ -65,6 +65,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::start_job,         "start job",           Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},
     {Kind::pause_job,         "pause job",           Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::resume_job,        "resume job",          Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},
+    {Kind::continue_job,      "continue job",        Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::abort_job,         "abort job",           Role::observer,  Kept::none,         Quota::none,    Patience::stop,     Use::nothing,   true},
     {Kind::cancel_job,        "cancel job",          Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::report_job_done,   "report job done",     Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},

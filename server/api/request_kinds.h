@@ -63,6 +63,7 @@ enum class RequestKind {
   start_job,
   pause_job,
   resume_job,
+  continue_job,
   abort_job,
   cancel_job,
   report_job_done,

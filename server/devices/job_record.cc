@@ -48,7 +48,7 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   const bool same_boot =
       !boot.empty() && std::string_view(content->boot.data(), ::strnlen(content->boot.data(), 48)) == boot;
   const std::uint64_t state = content->state;
-  if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::tool_change)) {
+  if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::paused)) {
     before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll,
                       content->part};
   }
@@ -63,7 +63,7 @@ JobRecord::~JobRecord() { ::munmap(content_, sizeof(Content)); }
 
 void JobRecord::begin(const rml1::Job& job) {
   content_->job = 0;
-  content_->through = part_begin(job);
+  content_->through = next_byte(job);
   content_->part = job.part;
   content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
   content_->job = job.number;

@@ -33,7 +33,7 @@ class JobRecord {
   // As the run before left it; nothing where no job was sent. After a boot of the machine any byte may have gone.
   const std::optional<LastJob>& before() const { return before_; }
 
-  // Its next part.
+  // Its next part, or the rest of that.
   void begin(const rml1::Job& job);
   // Before these bytes are written.
   void going_to(std::uint64_t through);

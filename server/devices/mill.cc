@@ -101,8 +101,8 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   note(job, by, why, now);
   if (record_ && job.state == rml1::JobState::running) record_->begin(job);
   if (record_) record_->set_state(job);
-  if (job.state == rml1::JobState::tool_change) {
-    boost::asio::post(spool_thread_, [this, job] { keep_part(spool_, name(), job); });
+  if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) {
+    boost::asio::post(spool_thread_, [this, job] { keep_place(spool_, name(), job); });
   }
   if (rml1::is_end(job.state)) {
     boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });

@@ -20,23 +20,62 @@ Json facts_in(const spool::Job& spooled) {
   return facts.is_object() ? facts : Json::object();
 }
 
+std::optional<rml1::Place> place_in(const Json& facts) {
+  const Json from = facts.value("from", Json::array());
+  return from.size() == 3 ? std::optional(rml1::Place{from[0], from[1], from[2]}) : std::nullopt;
+}
+
+Result<std::string> part_bytes(const spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+  const std::uint64_t begin = part_begin(job), end = part_end(job);
+  return spool.read(device, job.number).map([&](const std::string& all) { return all.substr(begin, end - begin); });
+}
+
+std::optional<rml1::Origin> check_origin(const MillConfig& config, const rml1::Job& job) {
+  const auto named = std::ranges::find(config.origins, job.setup.origin, &NamedOrigin::name);
+  return named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
+}
+
+// Its place may not have come into the spool any more: then it is not known where it continues.
+rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
+  using enum rml1::JobState;
+  const bool between = last.state == tool_change || last.state == confirmed;
+  if (last.state == fed) return fed;
+  if (job.setup.from && (between || last.state == paused)) return paused;
+  return between && job.part > 0 ? tool_change : paused_unknown;
+}
+
+// What was written of the part is a range after a loss, and known of one that was paused.
+tl::unexpected<Problem> no_line_named(std::string_view body, const rml1::Job& job) {
+  const auto text = [&](std::uint64_t byte) {
+    const rml1::Place place = rml1::place_of(body, byte - part_begin(job));
+    return fmt::format("line {}, column {}", place.line, place.column);
+  };
+  const rml1::WrittenRange sent = job.written.value_or(rml1::WrittenRange{next_byte(job), next_byte(job)});
+  return fail(Reason::invalid_request,
+              fmt::format("no line is named from which {} continues: what the mill was sent of it ends at {}{}",
+                          text_of(job), text(sent.least),
+                          sent.least == sent.most ? "" : fmt::format(", or later, up to {}", text(sent.most))),
+              "look at the workpiece, and name a line or a column before what is missing");
+}
+
 }  // namespace
 
 std::string facts_of(const rml1::Job& job) {
   Json parts = Json::array();
   for (const rml1::JobPart& part : job.parts) parts.push_back({{"tool", part.tool}, {"end", part.end}});
-  return Json{{"profile", job.setup.profile},
-              {"origin", job.setup.origin},
-              {"parts", parts},
-              {"part", job.part},
-              {"least_s", job.least_s},
-              {"most_s", job.most_s},
-              {"leaves",
-               {{"surface", job.leaves.surface},
-                {"revolutions", job.leaves.revolutions},
-                {"rotation", job.leaves.rotation},
-                {"tool", job.leaves.tool}}}}
-      .dump();
+  Json facts{{"profile", job.setup.profile},
+             {"origin", job.setup.origin},
+             {"parts", parts},
+             {"part", job.part},
+             {"least_s", job.least_s},
+             {"most_s", job.most_s},
+             {"leaves",
+              {{"surface", job.leaves.surface},
+               {"revolutions", job.leaves.revolutions},
+               {"rotation", job.leaves.rotation},
+               {"tool", job.leaves.tool}}}};
+  if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
+  return facts.dump();
 }
 
 rml1::Job job_of(const spool::Job& spooled) {
@@ -45,7 +84,7 @@ rml1::Job job_of(const spool::Job& spooled) {
   rml1::Job job{.number = spooled.id,
                 .name = spooled.name,
                 .owner = spooled.who,
-                .setup = {spooled.sha256, facts.value("profile", ""), facts.value("origin", ""), ""},
+                .setup = {spooled.sha256, facts.value("profile", ""), facts.value("origin", ""), "", {}, {}},
                 .bytes = static_cast<std::uint64_t>(spooled.bytes),
                 .least_s = facts.value("least_s", 0.0),
                 .most_s = facts.value("most_s", 0.0),
@@ -55,7 +94,9 @@ rml1::Job job_of(const spool::Job& spooled) {
     job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0})});
   }
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
+  job.setup.from = place_in(facts);
   if (job.part > 0) job.state = rml1::JobState::tool_change;
+  if (job.setup.from) job.state = rml1::JobState::paused;
   return job;
 }
 
@@ -68,23 +109,15 @@ std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string
 }
 
 rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
-  if (last.part < job.parts.size()) go_to_part(job, last.part);
-  switch (last.state) {
-    case rml1::JobState::fed:
-      job.state = rml1::JobState::fed;
-      break;
-    case rml1::JobState::tool_change:
-    case rml1::JobState::confirmed:  // its next part
-      job.state = rml1::JobState::tool_change;
-      break;
-    default:
-      job.state = rml1::JobState::paused_unknown;
-      job.written = rml1::WrittenRange{part_begin(job), std::min(last.through, job.bytes)};
+  if (last.part != job.part && last.part < job.parts.size()) go_to_part(job, last.part);
+  job.state = state_as_left(job, last);
+  if (job.state == rml1::JobState::paused_unknown) {
+    job.written = rml1::WrittenRange{next_byte(job), std::min(last.through, job.bytes)};
   }
   return job;
 }
 
-void keep_part(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+void keep_place(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const auto kept = spool.set_facts(device, job.number, facts_of(job));
   if (!kept) spdlog::warn("{}", explain(kept.error()));
 }
@@ -106,19 +139,26 @@ rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
 }
 
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, rml1::JobNumber number,
-                                                              std::size_t part) {
-  std::optional<rml1::Job> job = spooled_job(spool, device, number);
-  if (!job) return fail(Reason::not_found, fmt::format("there is no job {}", number));
-  if (part < job->parts.size()) go_to_part(*job, part);
-  const Result<std::string> bytes = spool.read(device, number);
-  if (!bytes) return tl::unexpected(bytes.error());
-  const auto named = std::ranges::find(config.origins, job->setup.origin, &NamedOrigin::name);
-  const auto origin = named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
-  const std::uint64_t begin = part_begin(*job);
-  const std::string_view body = std::string_view(*bytes).substr(begin, part_end(*job) - begin);
-  return std::make_shared<const rml1::PreparedJob>(body, job->setup.digest, config.profile, origin, config.sending,
-                                                   begin);
+                                                              const MillConfig& config, const rml1::Job& job) {
+  const Result<std::string> body = part_bytes(spool, device, job);
+  if (!body) return tl::unexpected(body.error());
+  const auto origin = check_origin(config, job);
+  Result<rml1::Approach> approach;
+  if (job.setup.from) approach = rml1::approach_to(*body, job.setup.from->offset, config.profile, origin);
+  if (!approach) return tl::unexpected(approach.error());
+  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, config.sending,
+                                                   part_begin(job), job.setup.from, *approach);
+}
+
+Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
+                                const rml1::Job& job, std::uint64_t line, std::uint64_t column) {
+  const Result<std::string> body = part_bytes(spool, device, job);
+  if (!body) return tl::unexpected(body.error());
+  if (line == 0) return no_line_named(*body, job);
+  const auto origin = check_origin(config, job);
+  const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
+  if (!approach) return tl::unexpected(approach.error());
+  return rml1::check_continued(*body, *approach, config.profile, origin).map([&] { return approach->at; });
 }
 
 }  // namespace axisgate::server

@@ -18,15 +18,15 @@ namespace axisgate::server {
 
 // What the spool keeps beside the bytes, as JSON. Without what the spool knows, such as the digest.
 std::string facts_of(const rml1::Job& job);
-// QUEUED, or in the TOOL_CHANGE before a later part.
+// QUEUED, in the TOOL_CHANGE before a later part, or PAUSED in a part.
 rml1::Job job_of(const spool::Job& spooled);
 
 // Those that have not ended, in the order of their numbers.
 std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string& device);
 // As the run before left a job that it had begun to send.
 rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
-// So that a run after this one knows its part. What goes wrong is in the log.
-void keep_part(spool::Spool& spool, const std::string& device, const rml1::Job& job);
+// So that a run after this one knows where it continues. What goes wrong is in the log.
+void keep_place(spool::Spool& spool, const std::string& device, const rml1::Job& job);
 // The job with this number, also one that has ended; nothing where the spool has it no more.
 std::optional<rml1::Job> spooled_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 // It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
@@ -35,10 +35,15 @@ void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber
 // The work origin as the check of a job takes it. Without a height of its own, Z0 is where the profile has it.
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 
-// One part of it. Reads the whole job, so not on the device's strand. not_found; internal, where the bytes are others
-// than they were.
+// Those below read the whole job, so not on the device's strand. not_found; internal, where the bytes are others than
+// they were; and what is said there.
+
+// As it was published, its part, from the place where it continues: what rml1::approach_to() refuses.
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, rml1::JobNumber job,
-                                                              std::size_t part);
+                                                              const MillConfig& config, const rml1::Job& job);
+// Where the part of `job` continues, with its first command from that line and column on. What rml1::approach_to() and
+// rml1::check_continued() refuse; invalid_request, with line 0: it says where what was sent ends.
+Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,
+                                const rml1::Job& job, std::uint64_t line, std::uint64_t column);
 
 }  // namespace axisgate::server

@@ -172,6 +172,7 @@ struct Form<JobChanged> {
     if (job.confirmation) json["confirmed"] = {job.confirmation->by, nanos_of(job.confirmation->until)};
     if (job.written) json["written"] = {job.written->least, job.written->most};
     if (!job.setup.left.empty()) json["left"] = job.setup.left;
+    if (job.setup.from) json["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
     if (job.part != 0) json["part"] = job.part;
     for (const rml1::JobPart& part : job.parts) json["parts"].push_back({part.tool, part.end});
     if (change.sending) json["sending"] = static_cast<int>(*change.sending);
@@ -183,7 +184,7 @@ struct Form<JobChanged> {
         .job = {.number = json.at("number"),
                 .name = json.at("name"),
                 .owner = json.at("owner"),
-                .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3), json.value("left", Texts())},
+                .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3), json.value("left", Texts()), {}},
                 .bytes = json.at("bytes"),
                 .least_s = seconds.at(0),
                 .most_s = seconds.at(1),
@@ -195,6 +196,10 @@ struct Form<JobChanged> {
       change.job.confirmation = rml1::Confirmation{confirmed.at(0), time_of(confirmed.at(1))};
     }
     if (json.contains("written")) change.job.written = {json.at("written").at(0), json.at("written").at(1)};
+    if (json.contains("from")) {
+      const Json& from = json.at("from");
+      change.job.setup.from = rml1::Place{from.at(0), from.at(1), from.at(2)};
+    }
     change.job.part = json.value("part", std::size_t{0});
     for (const Json& part : json.value("parts", Json::array())) change.job.parts.push_back({part.at(0), part.at(1)});
     if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());

@@ -71,7 +71,7 @@ MillMetrics::MillMetrics(const Families& families, const std::string& device)
       estimate_{families.estimate.Add(of_bound(device, "least")), families.estimate.Add(of_bound(device, "most"))},
       buffer_{families.buffer.Add(of_bound(device, "least")), families.buffer.Add(of_bound(device, "most"))} {
   for (const JobState state : {JobState::queued, JobState::confirmed, JobState::running, JobState::tool_change,
-                               JobState::fed, JobState::paused_unknown}) {
+                               JobState::paused, JobState::fed, JobState::paused_unknown}) {
     queued_.at(index_of(state)) = &families.queued_jobs.Add(of_state(device, "state", state));
   }
   for (const JobState state :
@@ -84,9 +84,10 @@ void MillMetrics::count(const rml1::Job& job, TimePoint now) {
   if (auto* const outcome = outcomes_.at(index_of(job.state))) outcome->Increment();
   if (job.state == JobState::running) {
     started_ = now;
-    written_ = 0;
+    written_ = next_byte(job);
   }
-  if (job.state != JobState::fed) return;
+  // The estimate is of the whole job.
+  if (job.state != JobState::fed || job.parts.size() > 1 || job.setup.from) return;
   job_seconds_.Increment(std::chrono::duration<double>(now - started_).count());
   estimate_.least.Increment(job.least_s);
   estimate_.most.Increment(job.most_s);

@@ -34,7 +34,7 @@ class MillMetrics {
   void set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running);
 
  private:
-  static constexpr std::size_t kStateCount = static_cast<std::size_t>(rml1::JobState::tool_change) + 1;
+  static constexpr std::size_t kStateCount = static_cast<std::size_t>(rml1::JobState::paused) + 1;
   struct Families;
   // A range: of a duration in seconds, or of bytes.
   template <class Series>

@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 57> kKinds = {{
+constexpr std::array<MethodKind, 58> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -44,6 +44,7 @@ constexpr std::array<MethodKind, 57> kKinds = {{
     {"MillService/StartJob", Kind::start_job},
     {"MillService/PauseJob", Kind::pause_job},
     {"MillService/ResumeJob", Kind::resume_job},
+    {"MillService/ContinueJob", Kind::continue_job},
     {"MillService/AbortJob", Kind::abort_job},
     {"MillService/CancelJob", Kind::cancel_job},
     {"MillService/ReportJobDone", Kind::report_job_done},

@@ -76,7 +76,7 @@ grpc::ServerUnaryReactor* MillService::StartJob(grpc::CallbackServerContext* con
 grpc::ServerUnaryReactor* MillService::PauseJob(grpc::CallbackServerContext* context,
                                                 const v1::PauseJobRequest* request, v1::PauseJobResponse* response) {
   const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
-  mills_.pause(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+  mills_.pause(to_acting_call(*context, *request), request->device(), request->raise(), answering_with_run(call));
   return call.get();
 }
 
@@ -84,6 +84,17 @@ grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* co
                                                  const v1::ResumeJobRequest* request, v1::ResumeJobResponse* response) {
   const auto call = UnaryCall<v1::ResumeJobResponse>::start(response);
   mills_.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::ContinueJob(grpc::CallbackServerContext* context,
+                                                   const v1::ContinueJobRequest* request,
+                                                   v1::ContinueJobResponse* response) {
+  const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
+  const auto number = [](std::int64_t value) { return static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0)); };
+  mills_.choose_rest(to_acting_call(*context, *request), request->job(),
+                     {number(request->line()), std::max<std::uint64_t>(number(request->column()), 1)},
+                     answering_with_job(call));
   return call.get();
 }
 

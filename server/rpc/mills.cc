@@ -19,6 +19,7 @@ v1::JobState to_job_state(JobState state) {
   static_assert(static_cast<int>(JobState::running) + 1 == v1::JOB_STATE_RUNNING);
   static_assert(static_cast<int>(JobState::cancelled) + 1 == v1::JOB_STATE_CANCELLED);
   static_assert(static_cast<int>(JobState::tool_change) + 1 == v1::JOB_STATE_TOOL_CHANGE);
+  static_assert(static_cast<int>(JobState::paused) + 1 == v1::JOB_STATE_PAUSED);
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
 }
 
@@ -48,6 +49,11 @@ v1::JobSetup setup_of(const rml1::JobSetup& setup) {
   proto.set_origin(setup.origin);
   proto.set_tool(setup.tool);
   *proto.mutable_left() = {setup.left.begin(), setup.left.end()};
+  if (setup.from) {
+    proto.mutable_from()->set_byte(static_cast<std::int64_t>(setup.from->offset));
+    proto.mutable_from()->set_line(static_cast<std::int64_t>(setup.from->line));
+    proto.mutable_from()->set_column(static_cast<std::int64_t>(setup.from->column));
+  }
   return proto;
 }
 
@@ -64,6 +70,8 @@ v1::SendingState to_sending_state(SenderState state) {
       return v1::SENDING_STATE_FINISHING;
     case SenderState::aborting:
       return v1::SENDING_STATE_ABORTING;
+    case SenderState::raising:
+      return v1::SENDING_STATE_RAISING;
     default:
       return v1::SENDING_STATE_UNSPECIFIED;
   }
@@ -145,7 +153,14 @@ v1::Device device_of(const api::MillState& state) {
 }
 
 rml1::JobSetup to_setup(const v1::JobSetup& proto) {
-  return {proto.digest(), proto.profile(), proto.origin(), proto.tool(), {proto.left().begin(), proto.left().end()}};
+  rml1::JobSetup setup{
+      proto.digest(), proto.profile(), proto.origin(), proto.tool(), {proto.left().begin(), proto.left().end()}};
+  if (proto.has_from()) {
+    const v1::JobPlace& from = proto.from();
+    setup.from = {static_cast<std::uint64_t>(from.byte()), static_cast<std::uint64_t>(from.line()),
+                  static_cast<std::uint64_t>(from.column())};
+  }
+  return setup;
 }
 
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) {

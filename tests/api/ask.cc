@@ -138,9 +138,11 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
     case RequestKind::start_job:
       return answer_of<CurrentJob>(with(&Mills::start), call, kJob);
     case RequestKind::pause_job:
-      return answer_of<CurrentRun>(with(&Mills::pause), call, kDevice);
+      return answer_of<CurrentRun>(with(&Mills::pause), call, kDevice, false);
     case RequestKind::resume_job:
       return answer_of<CurrentRun>(with(&Mills::resume), call, kDevice);
+    case RequestKind::continue_job:
+      return answer_of<CurrentJob>(with(&Mills::choose_rest), call, kJob, LineToChoose());
     case RequestKind::abort_job:
       return answer_of<CurrentRun>(with(&Mills::abort), call, kDevice);
     case RequestKind::cancel_job:

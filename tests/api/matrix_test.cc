@@ -110,6 +110,8 @@ const std::vector<Row> kRows = {
      Reason::invalid_request},
     {Kind::resume_job, "resume_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
+    {Kind::continue_job, "continue_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
     {Kind::abort_job, "abort_job", Role::observer, "", Asks::nothing, Reason::invalid_request, Reason::invalid_request},
     {Kind::cancel_job, "cancel_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},

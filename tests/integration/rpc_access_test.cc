@@ -65,6 +65,7 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "MillService/StartJob",
                                          "MillService/PauseJob",
                                          "MillService/ResumeJob",
+                                         "MillService/ContinueJob",
                                          "MillService/CancelJob",
                                          "MillService/ReportJobDone",
                                          "MillService/OperateMill"};

@@ -143,6 +143,59 @@ TEST_F(RpcMill, PauseAndResume) {
   watch_until(job_is(job, v1::JOB_STATE_FED));
 }
 
+TEST_F(RpcMill, APausedJobWithTheToolUpIsConfirmedAndGoesOn) {
+  const v1::Job job = sent(vectors(7));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  v1::PauseJobRequest pause;
+  pause.set_device(kMill);
+  pause.set_raise(true);
+  v1::PauseJobResponse paused;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::PauseJob, pause, &paused).ok());
+  EXPECT_EQ(paused.running().sending(), v1::SENDING_STATE_RAISING);
+  const v1::Job rest = watch_until(job_is(job, v1::JOB_STATE_PAUSED)).jobs(0);
+  EXPECT_EQ(rest.setup().from().byte(), paused.running().written());
+  EXPECT_EQ(rest.setup().from().line(), 1);
+  EXPECT_EQ(rest.setup().from().column(), rest.setup().from().byte() + 1);
+  EXPECT_EQ(reason(on_mill(&v1::MillService::Stub::ResumeJob)), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(reason(confirm(job)), v1::REASON_STALE_SETPOINT) << "seen from its beginning";
+  ASSERT_TRUE(confirm(rest).ok());
+  ASSERT_TRUE(start(rest).ok());
+  watch_until(job_is(job, v1::JOB_STATE_FED));
+}
+
+TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
+  const v1::Job job = sent("PA;VS15;\nPU400,400;\nPU0,400;\nPU400,400;\n" + vectors(4));
+  v1::ContinueJobRequest request;
+  request.set_job(job.name());
+  request.set_line(3);
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_MODE) << "it has not begun";
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  v1::PauseJobRequest pause;
+  pause.set_device(kMill);
+  pause.set_raise(true);
+  ASSERT_TRUE(ask(&v1::MillService::Stub::PauseJob, pause).ok());
+  watch_until(job_is(job, v1::JOB_STATE_PAUSED));
+  request.set_line(0);
+  const grpc::Status unnamed = ask(&v1::MillService::Stub::ContinueJob, request);
+  EXPECT_EQ(reason(unnamed), v1::REASON_INVALID_REQUEST);
+  EXPECT_THAT(unnamed.error_message(), HasSubstr("what the mill was sent of it ends at line "));
+  request.set_line(99);
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_INVALID_REQUEST);
+  request.set_line(3);
+  request.set_column(2);
+  v1::ContinueJobResponse response;
+  ASSERT_TRUE(ask(&v1::MillService::Stub::ContinueJob, request, &response).ok());
+  EXPECT_EQ(response.job().state(), v1::JOB_STATE_PAUSED);
+  EXPECT_EQ(response.job().setup().from().line(), 4) << "the next command";
+  EXPECT_EQ(response.job().setup().from().column(), 1);
+  EXPECT_EQ(response.job().setup().from().byte(), 29);
+  ASSERT_TRUE(confirm(response.job()).ok());
+  ASSERT_TRUE(start(response.job()).ok());
+  watch_until(job_is(job, v1::JOB_STATE_FED));
+}
+
 TEST_F(RpcMill, AJobIsCancelled) {
   const v1::Job job = sent(vectors(4));
   v1::CancelJobRequest request;

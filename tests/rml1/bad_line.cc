@@ -112,7 +112,7 @@ void BadLine::act(Act::Kind kind) {
   expect_progress_is_true();
   switch (kind) {
     case Act::Kind::pause:
-      return static_cast<void>(mill_.pause(bench_.now));
+      return static_cast<void>(mill_.pause(false, bench_.now));
     case Act::Kind::resume:
       return static_cast<void>(mill_.resume(kOwner, bench_.now));
     case Act::Kind::abort:

@@ -49,7 +49,7 @@ TEST_F(MillControllerTest, WhoMayNotUseTheMillStartsAndResumesNothing) {
   EXPECT_EQ(permission_.asked.back().axes, stage::AxisSet::all());
   permission_.allowed = true;
   ASSERT_TRUE(mill_.start(1, prepared(200), {.who = "unix anna"}, now_));
-  ASSERT_TRUE(mill_.pause(now_));
+  ASSERT_TRUE(mill_.pause(false, now_));
   permission_.allowed = false;
   EXPECT_EQ(reason(mill_.resume({.who = "unix carl"}, now_)), Reason::lease_held);
 }
@@ -192,11 +192,11 @@ TEST_F(MillControllerTest, WhileAJobRunsNoneIsConfirmedOrStarted) {
 
 TEST_F(MillControllerTest, PauseAndResume) {
   add(1);
-  EXPECT_EQ(reason(mill_.pause(now_)), Reason::wrong_mode);
+  EXPECT_EQ(reason(mill_.pause(false, now_)), Reason::wrong_mode);
   run_job(1);
   EXPECT_EQ(reason(mill_.resume({.who = "unix anna"}, now_)), Reason::wrong_mode);
   run_for(2s);
-  ASSERT_TRUE(mill_.pause(now_));
+  ASSERT_TRUE(mill_.pause(false, now_));
   const std::size_t before = line_.writes.size();
   run_for(60s);
   EXPECT_THAT(line_.writes, SizeIs(before));

@@ -344,25 +344,35 @@ TEST_F(SenderTest, TheTableOfStates) {
       case lost:
         sender_->line_lost(now_);
         break;
+      case raising:
+        sender_->raise(now_);
+        break;
+      case raised:
+        sender_->raise(now_);
+        run_for(std::chrono::seconds(60));
+        break;
       case ready:
         sender_.emplace(job_, *timeline_, profile_, SendSettings{}, plan_of(job_, *timeline_, {}), line_);
     }
     ASSERT_EQ(sender_->state(), state);
   };
-  const std::array kCalls = {&Sender::start, &Sender::pause, &Sender::resume, &Sender::abort, &Sender::line_lost};
+  const std::array kCalls = {&Sender::start, &Sender::pause,     &Sender::resume,
+                             &Sender::abort, &Sender::line_lost, &Sender::raise};
   struct Line {
     SenderState from;
-    std::array<SenderState, 5> to;
+    std::array<SenderState, 6> to;
   };
   const Line kTable[] = {
-      {ready, {sending, ready, ready, ready, lost}},
-      {sending, {sending, paused, sending, aborting, lost}},
-      {paused, {paused, paused, sending, aborting, lost}},
-      {finishing, {finishing, finishing, finishing, aborting, lost}},
-      {fed, {fed, fed, fed, fed, fed}},
-      {aborting, {aborting, aborting, aborting, aborting, lost}},
-      {aborted, {aborted, aborted, aborted, aborted, aborted}},
-      {lost, {lost, lost, lost, lost, lost}},
+      {ready, {sending, ready, ready, ready, lost, ready}},
+      {sending, {sending, paused, sending, aborting, lost, raising}},
+      {paused, {paused, paused, sending, aborting, lost, raising}},
+      {finishing, {finishing, finishing, finishing, aborting, lost, finishing}},
+      {raising, {raising, raising, raising, aborting, lost, raising}},
+      {raised, {raised, raised, raised, raised, raised, raised}},
+      {fed, {fed, fed, fed, fed, fed, fed}},
+      {aborting, {aborting, aborting, aborting, aborting, lost, aborting}},
+      {aborted, {aborted, aborted, aborted, aborted, aborted, aborted}},
+      {lost, {lost, lost, lost, lost, lost, lost}},
   };
   for (const Line& row : kTable) {
     for (std::size_t call = 0; call < kCalls.size(); ++call) {

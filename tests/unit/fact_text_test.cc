@@ -131,7 +131,7 @@ TEST(FactText, AJobOfAMill) {
   rml1::Job job{.number = 7,
                 .name = "part.rml",
                 .owner = "unix jürgen",
-                .setup = {"d1", "MDX-20", "vice", "T1"},
+                .setup = {"d1", "MDX-20", "vice", "T1", {}, rml1::Place{20, 2, 5}},
                 .bytes = 5000,
                 .least_s = 61.5,
                 .most_s = 90,

@@ -133,6 +133,29 @@ TEST(JobAsItWasLeft, AToolChangeIsOneAndItsConfirmationIsVoid) {
   }
 }
 
+TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
+  rml1::Job before = job();
+  go_to_part(before, 1);
+  before.setup.from = rml1::Place{20, 2, 5};
+  for (const JobState state : {JobState::paused, JobState::confirmed}) {
+    const rml1::Job left = as_it_was_left(before, {7, state, 320, 1});
+    EXPECT_EQ(left.state, JobState::paused);
+    EXPECT_EQ(left.setup.from, before.setup.from);
+    EXPECT_FALSE(left.written);
+  }
+  const rml1::Job lost = as_it_was_left(before, {7, JobState::running, 352, 1});
+  EXPECT_EQ(lost.state, JobState::paused_unknown);
+  EXPECT_EQ(lost.written, (rml1::WrittenRange{320, 352})) << "what comes before it was executed";
+  EXPECT_EQ(as_it_was_left(before, {7, JobState::tool_change, 400, 0}).setup.from, std::nullopt) << "of another part";
+}
+
+// The daemon was killed before it was in the spool.
+TEST(JobAsItWasLeft, WhatWasPausedAtAPlaceThatIsNotKnown) {
+  const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52});
+  EXPECT_EQ(left.state, JobState::paused_unknown);
+  EXPECT_EQ(left.written, (rml1::WrittenRange{0, 52}));
+}
+
 TEST(JobAsItWasLeft, WhatWasFedIsFed) {
   const rml1::Job left = as_it_was_left(job(), {7, JobState::fed, 500});
   EXPECT_EQ(left.state, JobState::fed);
@@ -158,6 +181,13 @@ TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   EXPECT_EQ(made.state, JobState::queued);
   EXPECT_EQ(made.leaves, (rml1::Leaves{.surface = true, .tool = true}));
   EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
+}
+
+TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
+  rml1::Job left = job();
+  left.setup.from = rml1::Place{20, 2, 5};
+  EXPECT_EQ(job_of(spooled(left)).state, JobState::paused);
+  EXPECT_EQ(job_of(spooled(left)).setup.from, (rml1::Place{20, 2, 5}));
 }
 
 // Where the record of what was sent is lost, no part is cut twice.

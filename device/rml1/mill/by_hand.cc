@@ -15,13 +15,6 @@ namespace {
 // A mill may be so much slower than the high end of its profile (sending/README.md, "Streaming").
 const double kSlack = SendSettings().slack;
 
-// From one stop to the next, as the planner's high end has it.
-Duration longest_way(double mm, double mm_per_s, const Profile& profile) {
-  const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
-  return std::chrono::duration_cast<Duration>(
-      std::chrono::duration<double>(kSlack * (1 + profile.acceleration.slower) * seconds));
-}
-
 Result<double> step_speed(const JogStep& step, const Profile& profile) {
   const double lowest = profile.speed.z_minimum, highest = profile.speed.z_maximum;
   const double speed = step.mm_per_s.value_or(std::clamp(profile.speed.z_default, lowest, highest));
@@ -55,7 +48,7 @@ Result<HandWords> step_words(const JogStep& step, const Profile& profile) {
   }
   const double way = std::hypot(step.x_mm, step.y_mm, step.z_mm);
   return HandWords{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
-                   longest_way(way, *speed, profile)};
+                   longest_way(way, *speed, profile, kSlack)};
 }
 
 // Behind PR a parameter of 0 is the present height, behind PA a machine coordinate (guideline 3-3 !ZO).
@@ -106,7 +99,7 @@ Result<HandWords> words_of(const HandAct& act, const Profile& profile) {
   if (const auto* step = std::get_if<JogStep>(&act)) return step_words(*step, profile);
   if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_words(*surface, profile);
   if (const auto* spindle = std::get_if<TurnSpindle>(&act)) return spindle_words(*spindle, profile);
-  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile)};
+  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile, kSlack)};
 }
 
 }  // namespace axisgate::rml1

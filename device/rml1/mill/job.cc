@@ -9,8 +9,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, 9> kNames = {"QUEUED",  "CONFIRMED",      "RUNNING",   "FED",        "DONE",
-                                                    "ABORTED", "PAUSED_UNKNOWN", "CANCELLED", "TOOL_CHANGE"};
+constexpr std::array<std::string_view, 10> kNames = {"QUEUED",  "CONFIRMED",      "RUNNING",   "FED",         "DONE",
+                                                     "ABORTED", "PAUSED_UNKNOWN", "CANCELLED", "TOOL_CHANGE", "PAUSED"};
 
 }  // namespace
 
@@ -29,14 +29,20 @@ std::optional<JobState> next(JobState state, JobEvent event) {
       Change{confirmed, JobEvent::confirm, confirmed},
       Change{confirmed, JobEvent::make_void, queued},
       Change{confirmed, JobEvent::make_void_later, tool_change},
+      Change{confirmed, JobEvent::make_void_rest, paused},
       Change{confirmed, JobEvent::start, running},
       Change{confirmed, JobEvent::cancel, cancelled},
       Change{running, JobEvent::part_fed, tool_change},
       Change{running, JobEvent::fed, fed},
+      Change{running, JobEvent::raised, paused},
       Change{running, JobEvent::aborted, aborted},
       Change{running, JobEvent::lost, paused_unknown},
       Change{fed, JobEvent::done, done},
+      Change{paused_unknown, JobEvent::choose_rest, paused},
       Change{paused_unknown, JobEvent::cancel, cancelled},
+      Change{paused, JobEvent::confirm, confirmed},
+      Change{paused, JobEvent::choose_rest, paused},
+      Change{paused, JobEvent::cancel, cancelled},
       Change{tool_change, JobEvent::confirm, confirmed},
       Change{tool_change, JobEvent::cancel, cancelled},
   };
@@ -49,9 +55,17 @@ std::uint64_t part_end(const Job& job) { return job.parts.empty() ? job.bytes : 
 
 bool is_last_part(const Job& job) { return job.part + 1 >= job.parts.size(); }
 
+std::uint64_t next_byte(const Job& job) { return part_begin(job) + (job.setup.from ? job.setup.from->offset : 0); }
+
 void go_to_part(Job& job, std::size_t part) {
   job.part = part;
   job.setup.tool = job.parts[part].tool;
+  job.setup.from.reset();
+}
+
+JobEvent void_event(const Job& job) {
+  if (job.setup.from) return JobEvent::make_void_rest;
+  return job.part == 0 ? JobEvent::make_void : JobEvent::make_void_later;
 }
 
 std::vector<std::string> left_by(const Job& job) {

@@ -10,6 +10,7 @@
 
 #include "device/core/time.h"
 #include "device/rml1/leaves.h"
+#include "device/rml1/place.h"
 
 namespace axisgate::rml1 {
 
@@ -24,6 +25,8 @@ struct JobSetup {
   // What the job before has left that nothing gives back, for people: left_by(). Of the first job that waits alone, and
   // not between its parts.
   std::vector<std::string> left{};
+  // Where it is continued, in its file or that of the part; nothing: it begins at its beginning.
+  std::optional<Place> from{};
 
   friend bool operator==(const JobSetup&, const JobSetup&) = default;
 };
@@ -38,7 +41,7 @@ struct JobPart {
 inline constexpr std::size_t kPartsAtMost = 16;
 
 // README.md has the table of what leads from one to another.
-enum class JobState { queued, confirmed, running, fed, done, aborted, paused_unknown, cancelled, tool_change };
+enum class JobState { queued, confirmed, running, fed, done, aborted, paused_unknown, cancelled, tool_change, paused };
 std::string_view name(JobState state);  // "QUEUED" ...
 bool is_end(JobState state);
 
@@ -46,8 +49,11 @@ enum class JobEvent {
   confirm,
   make_void,        // of the first part
   make_void_later,  // of a later one
+  make_void_rest,   // of one that is continued
   start,
-  part_fed,  // and there is another one
+  raised,
+  choose_rest,  // from where on it is continued
+  part_fed,     // and there is another one
   fed,
   aborted,
   lost,
@@ -88,8 +94,12 @@ struct Job {
 std::uint64_t part_begin(const Job& job);
 std::uint64_t part_end(const Job& job);
 bool is_last_part(const Job& job);
-// Another part is the next, with its tool.
+// The byte of the job with which its part continues.
+std::uint64_t next_byte(const Job& job);
+// Another part is the next, with its tool, from its beginning.
 void go_to_part(Job& job, std::size_t part);
+// What a void confirmation of it is.
+JobEvent void_event(const Job& job);
 
 // "job 7 (part.rml) sets Z0": what the jobs after it find, for people.
 std::vector<std::string> left_by(const Job& job);

@@ -14,7 +14,8 @@ namespace {
 constexpr std::string_view kExpired = "the confirmation has expired";
 
 bool waits(const Job& job) {
-  return job.state == JobState::queued || job.state == JobState::confirmed || job.state == JobState::tool_change;
+  return job.state == JobState::queued || job.state == JobState::confirmed || job.state == JobState::tool_change ||
+         job.state == JobState::paused;
 }
 
 // A mill is used as a whole.
@@ -90,12 +91,12 @@ void MillController::leave_queue_if_ended(JobNumber number) {
   std::erase_if(jobs_, [number](const Job& job) { return job.number == number && is_end(job.state); });
 }
 
-// A person confirms the next job with what the one before has left. Between the parts of a job they confirm the tool
-// and Z0 in any case.
+// A person confirms the next job with what the one before has left. In the middle of a job they confirm the tool and Z0
+// in any case.
 void MillController::show_left() {
   const auto first = std::ranges::find_if(jobs_, waits);
   for (Job& job : jobs_) job.setup.left.clear();
-  if (first != jobs_.end() && first->part == 0) first->setup.left = left_;
+  if (first != jobs_.end() && first->part == 0 && !first->setup.from) first->setup.left = left_;
 }
 
 // The workpiece of a job that ran may still be in the mill.
@@ -121,6 +122,11 @@ Result<void> MillController::check_next(const Job& job) const {
   if (first == jobs_.end() || !waits(job)) {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that waits can be confirmed");
+  }
+  if (first->setup.from) {
+    return fail(Reason::wrong_mode,
+                fmt::format("{} is not finished: it continues at line {}", text_of(*first), first->setup.from->line),
+                "confirm that one, or have it cancelled");
   }
   if (first->part > 0) {
     return fail(Reason::wrong_mode,
@@ -170,7 +176,8 @@ Result<void> MillController::check_startable(const Job& job, const PreparedJob& 
     return fail(Reason::not_allowed, fmt::format("{} is not confirmed at the mill, or not any more", text_of(job)),
                 "somebody at the mill confirms it: `axisctl mill confirm`");
   }
-  if (prepared.digest() != job.setup.digest || prepared.begin() != part_begin(job)) {
+  if (prepared.digest() != job.setup.digest || prepared.begin() != part_begin(job) ||
+      prepared.from() != job.setup.from) {
     return fail(Reason::internal, fmt::format("the bytes of {} are not those that were confirmed", text_of(job)),
                 "send the job again");
   }
@@ -184,7 +191,8 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if (!job) return tl::unexpected(job.error());
   if (const Result<void> startable = check_startable(**job, *prepared, now); !startable) return startable;
   if (const Result<void> may = authorize(by, number, now); !may) return may;
-  if ((*job)->part == 0) left_ = left_by(**job);
+  if ((*job)->part == 0 && !(*job)->setup.from) left_ = left_by(**job);
+  (*job)->written.reset();
   change(**job, JobEvent::start, by.who, "", now);
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
@@ -192,27 +200,6 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
                              Sender(it.text(), it.timeline(), profile_, settings_.sending, it.plan(), noted_line_),
                              SenderState::ready, 0, 0, now, false, ""});
   running_->sender.start(now);
-  look_at_sender(now);
-  return {};
-}
-
-Result<void> MillController::pause(TimePoint now) {
-  if (!running_ || running_->sender.state() != SenderState::sending) {
-    return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
-  }
-  running_->sender.pause(now);
-  const bool paused = running_->sender.state() == SenderState::paused;
-  look_at_sender(now);
-  if (paused) return {};
-  return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
-}
-
-Result<void> MillController::resume(const stage::RequestContext& by, TimePoint now) {
-  if (!running_ || running_->sender.state() != SenderState::paused) {
-    return fail(Reason::wrong_mode, "no job is paused", "`axisctl mill watch` shows what the mill does");
-  }
-  if (const Result<void> may = authorize(by, 0, now); !may) return may;
-  running_->sender.resume(now);
   look_at_sender(now);
   return {};
 }
@@ -247,7 +234,7 @@ Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint 
 void MillController::setup_changed(std::string_view why, TimePoint now) {
   for (Job& job : jobs_) {
     if (job.state != JobState::confirmed) continue;
-    change(job, job.part == 0 ? JobEvent::make_void : JobEvent::make_void_later, "", why, now);
+    change(job, void_event(job), "", why, now);
   }
 }
 
@@ -271,6 +258,7 @@ void MillController::look_at_sender(TimePoint now) {
   const SenderState state = running_->sender.state();
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
   if (state == SenderState::fed) end_fed_part(now);
+  if (state == SenderState::raised) end_raised(now);
   if (state != SenderState::aborted) return;
   abort_has_left(now);
   end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
@@ -281,7 +269,8 @@ void MillController::look_whether_busy(TimePoint now) {
   const SendProgress progress = running_->sender.progress(now);
   const std::uint64_t taken = progress.written - progress.unsent;
   const SenderState state = running_->sender.state();
-  const bool has_sent = state == SenderState::sending || state == SenderState::finishing;
+  const bool has_sent =
+      state == SenderState::sending || state == SenderState::finishing || state == SenderState::raising;
   const bool has_more = progress.unsent > 0 || (has_sent && line_.held());
   if (taken != running_->taken || !has_more) {
     running_->taken = taken;

@@ -65,8 +65,8 @@ class MillController : public LineMachine {
   MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
                  stage::Permission& permission);
 
-  // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, FED, or PAUSED_UNKNOWN with what is known to
-  // be `written`. Before link_up().
+  // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, PAUSED, FED, or PAUSED_UNKNOWN with what is
+  // known to be `written`. Before link_up().
   void inherit(Job job);
   // The job that was begun last in the runs before, whatever has become of it. Before link_up().
   void inherit_left(const Job& last);
@@ -80,10 +80,14 @@ class MillController : public LineMachine {
   // not_allowed, where it is not confirmed any more; link_down; what Permission::authorize() refuses.
   Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
                      TimePoint now);
-  // Of the running job; wrong_mode where none runs, or not so.
-  Result<void> pause(TimePoint now);
+  // Of the running job; wrong_mode where none runs, or not so. `raise`: behind what was sent the tool is raised and the
+  // spindle stops, and the job is then PAUSED.
+  Result<void> pause(bool raise, TimePoint now);
   // Also what Permission::authorize() refuses.
   Result<void> resume(const stage::RequestContext& by, TimePoint now);
+  // Of a job that is PAUSED_UNKNOWN or PAUSED: it continues at that place of its part, when it is confirmed and
+  // started. not_found; wrong_mode.
+  Result<void> choose_rest(JobNumber job, const Place& from, std::string_view by, TimePoint now);
   // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False: the line is
   // closed, and it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns, may start
   // another one before they rearm.
@@ -163,6 +167,7 @@ class MillController : public LineMachine {
   void show_left();
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
+  Result<void> check_pausable(bool raise, TimePoint now);
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
   bool send_abort(TimePoint now);
   void look_after_abort(TimePoint now);
@@ -171,6 +176,7 @@ class MillController : public LineMachine {
   void look_at_sender(TimePoint now);
   void look_whether_busy(TimePoint now);
   void end_fed_part(TimePoint now);
+  void end_raised(TimePoint now);
   WrittenRange written_at_loss();
   void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   RunningJob view(TimePoint now);

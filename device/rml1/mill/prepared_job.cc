@@ -18,17 +18,27 @@ std::string wrapped(std::string_view body, const Profile& profile, std::optional
 }  // namespace
 
 PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profile& profile,
-                         std::optional<Origin> origin, const SendSettings& settings, std::uint64_t begin)
+                         std::optional<Origin> origin, const SendSettings& settings, std::uint64_t begin,
+                         std::optional<Place> from, const Approach& approach)
     : digest_(std::move(digest)),
       begin_(begin),
-      body_size_(body.size()),
-      text_(wrapped(body, profile, origin)),
+      from_(from),
+      rest_(approach.at),
+      rest_in_text_(prologue().size() + approach.words.size()),
+      rest_size_(body.size() - approach.at.offset),
+      text_(wrapped(continued(body, approach), profile, origin)),
       timeline_(text_, profile, origin),
       plan_(plan_of(text_, timeline_, settings)) {}
 
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
-  const std::uint64_t before = prologue().size();
-  return begin_ + (bytes < before ? 0 : std::min(bytes - before, body_size_));
+  return begin_ + rest_.offset + (bytes < rest_in_text_ ? 0 : std::min(bytes - rest_in_text_, rest_size_));
+}
+
+Place PreparedJob::place(std::uint64_t bytes) const {
+  const std::string_view rest = std::string_view(text_).substr(rest_in_text_, rest_size_);
+  const Place in_rest = place_of(rest, of_body(bytes) - begin_ - rest_.offset);
+  return {rest_.offset + in_rest.offset, rest_.line + in_rest.line - 1,
+          in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
 }
 
 }  // namespace axisgate::rml1

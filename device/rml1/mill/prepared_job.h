@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "device/rml1/machine.h"
+#include "device/rml1/mill/approach.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
@@ -19,9 +20,11 @@ namespace axisgate::rml1 {
 class PreparedJob {
  public:
   // `body`: the job's bytes, checked, or those of one part of it, which begins at the job's byte `begin`. `digest`: of
-  // all bytes of the job, in hex. `origin`: as of the check.
+  // all bytes of the job, in hex. `origin`: as of the check. `from`: the place in the part at which it is continued,
+  // and the approach to it.
   PreparedJob(std::string_view body, std::string digest, const Profile& profile, std::optional<Origin> origin,
-              const SendSettings& settings, std::uint64_t begin = 0);
+              const SendSettings& settings, std::uint64_t begin = 0, std::optional<Place> from = {},
+              const Approach& approach = {});
 
   const std::string& digest() const { return digest_; }
   // With prologue and epilogue.
@@ -29,12 +32,18 @@ class PreparedJob {
   const Timeline& timeline() const { return timeline_; }
   const SendPlan& plan() const { return plan_; }
   std::uint64_t begin() const { return begin_; }
-  // So many bytes of text() reach up to this byte of the job itself.
+  const std::optional<Place>& from() const { return from_; }
+  // So many bytes of text() reach up to this byte of the job itself, and to this place in the part.
   std::uint64_t of_body(std::uint64_t bytes) const;
+  Place place(std::uint64_t bytes) const;
 
  private:
   const std::string digest_;
-  const std::uint64_t begin_, body_size_;
+  const std::uint64_t begin_;
+  const std::optional<Place> from_;
+  // What is sent of the part itself: where it begins in that and in text(), and how long it is.
+  const Place rest_;
+  const std::uint64_t rest_in_text_, rest_size_;
   const std::string text_;
   const Timeline timeline_;
   const SendPlan plan_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 
 #include "device/core/transitions.h"
 #include "device/rml1/guard.h"
@@ -12,15 +13,16 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, 8> kNames = {"READY", "SENDING",  "PAUSED",  "FINISHING",
-                                                    "FED",   "ABORTING", "ABORTED", "LOST"};
+constexpr std::array<std::string_view, 10> kNames = {"READY",    "SENDING", "PAUSED", "FINISHING", "FED",
+                                                     "ABORTING", "ABORTED", "LOST",   "RAISING",   "RAISED"};
 
 }  // namespace
 
 std::string_view name(SenderState state) { return kNames.at(static_cast<std::size_t>(state)); }
 
 bool is_end(SenderState state) {
-  return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost;
+  return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost ||
+         state == SenderState::raised;
 }
 
 Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
@@ -42,16 +44,21 @@ bool Sender::change(Event event) {
       Change{ready, Event::start, sending},
       Change{sending, Event::pause, paused},
       Change{paused, Event::resume, sending},
+      Change{sending, Event::raise, raising},
+      Change{paused, Event::raise, raising},
+      Change{raising, Event::all_executed, raised},
       Change{sending, Event::all_written, finishing},
       Change{finishing, Event::all_executed, fed},
       Change{sending, Event::abort, aborting},
       Change{paused, Event::abort, aborting},
       Change{finishing, Event::abort, aborting},
+      Change{raising, Event::abort, aborting},
       Change{aborting, Event::abort_written, aborted},
       Change{ready, Event::line_lost, lost},
       Change{sending, Event::line_lost, lost},
       Change{paused, Event::line_lost, lost},
       Change{finishing, Event::line_lost, lost},
+      Change{raising, Event::line_lost, lost},
       Change{aborting, Event::line_lost, lost},
   };
   const auto next = next_in(kTable, state_, event);
@@ -71,6 +78,18 @@ void Sender::pause(TimePoint now) {
 void Sender::resume(TimePoint now) {
   learn(now);
   if (change(Event::resume)) send(now);
+}
+
+void Sender::raise(TimePoint now) {
+  advance(now);
+  if (change(Event::raise)) line_.write(lift_words(profile_, rests_behind_written()));
+}
+
+// The spindle, when the mill has executed all that was written.
+bool Sender::rests_behind_written() const {
+  const auto& steps = timeline_.steps();
+  const auto next = std::ranges::upper_bound(steps, cutter_.begin(), {}, &Step::end);
+  return next == steps.begin() || !std::prev(next)->turning;
 }
 
 void Sender::line_lost(TimePoint now) {
@@ -103,6 +122,17 @@ void Sender::advance(TimePoint now) {
   if (state_ == SenderState::sending) send(now);
   if (state_ == SenderState::aborting) look_after_abort(now);
   if (state_ == SenderState::finishing && all_is_executed(now)) change(Event::all_executed);
+  if (state_ == SenderState::raising && has_raised(now)) change(Event::all_executed);
+}
+
+// The mill begins to raise the tool when it has executed what was sent of the job.
+bool Sender::has_raised(TimePoint now) {
+  if (is_blocked() || slowest_.executed(now) < cutter_.begin()) {
+    raised_at_.reset();
+    return false;
+  }
+  if (!raised_at_) raised_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, settings_.slack);
+  return now >= *raised_at_;
 }
 
 // A mill that has executed all has room, so what it holds back has not all been executed.
@@ -175,6 +205,9 @@ std::optional<TimePoint> Sender::next_deadline(TimePoint now) const {
       return now + kLook;
     case SenderState::finishing:
       return is_blocked() ? now + until_next_look() : look_before(slowest_.when(job_.size()), now);
+    case SenderState::raising:
+      if (is_blocked()) return now + until_next_look();
+      return raised_at_ ? *raised_at_ : look_before(slowest_.when(cutter_.begin()), now);
     default:
       return std::nullopt;
   }

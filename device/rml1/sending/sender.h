@@ -17,7 +17,7 @@
 
 namespace axisgate::rml1 {
 
-enum class SenderState { ready, sending, paused, finishing, fed, aborting, aborted, lost };
+enum class SenderState { ready, sending, paused, finishing, fed, aborting, aborted, lost, raising, raised };
 std::string_view name(SenderState state);  // "READY", "SENDING" ...
 bool is_end(SenderState state);
 
@@ -43,6 +43,8 @@ class Sender {
   void start(TimePoint now);
   void pause(TimePoint now);
   void resume(TimePoint now);
+  // Sends no more of the job, and raises the tool behind what was sent.
+  void raise(TimePoint now);
   // Nothing of the job is written after it.
   void abort(TimePoint now);
   void line_lost(TimePoint now);
@@ -60,7 +62,7 @@ class Sender {
   static constexpr Duration kLook = std::chrono::milliseconds(5);
 
  private:
-  enum class Event { start, pause, resume, all_written, all_executed, abort, abort_written, line_lost };
+  enum class Event { start, pause, resume, raise, all_written, all_executed, abort, abort_written, line_lost };
   bool change(Event event);
   void send(TimePoint now);
   void write(TimePoint now);
@@ -68,6 +70,8 @@ class Sender {
   void learn(TimePoint now);
   void learn_what_waits(TimePoint now);
   bool all_is_executed(TimePoint now);
+  bool has_raised(TimePoint now);
+  bool rests_behind_written() const;
   bool is_blocked() const;
   Duration until_next_look() const;
   TimePoint look_before(TimePoint due, TimePoint now) const;
@@ -86,6 +90,7 @@ class Sender {
   Cutter cutter_;        // written up to its begin()
   TimePoint arrives_{};  // the last of them, at the mill: a converter may hold what has left the host
   TimePoint abort_since_{};
+  std::optional<TimePoint> raised_at_;  // at the latest; nothing: what was sent of the job may not have been executed
 };
 
 }  // namespace axisgate::rml1

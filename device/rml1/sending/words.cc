@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <chrono>
 #include <cmath>
 
 namespace axisgate::rml1 {
@@ -18,8 +19,19 @@ std::string epilogue(const Profile& profile, bool turning) {
   return fmt::format(";{}^PA;{}!MC0;^DF;!MC0;", turning ? "" : "!MC0;", raise(profile));
 }
 
+std::string lift_words(const Profile& profile, bool may_rest) {
+  return fmt::format("{}^PA;{}!MC0;", may_rest ? "!MC0;" : "", raise(profile));
+}
+
 std::string abort_words(const Profile& profile, bool may_rest) {
-  return fmt::format("\x1B.K\x1B.K{}^PA;{}!MC0;", may_rest ? "!MC0;" : "", raise(profile));
+  return "\x1B.K\x1B.K" + lift_words(profile, may_rest);
+}
+
+// As the planner's high end has it.
+Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack) {
+  const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
+  return std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double>(slack * (1 + profile.acceleration.slower) * seconds));
 }
 
 }  // namespace axisgate::rml1

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "device/core/time.h"
 #include "device/rml1/profile.h"
 
 namespace axisgate::rml1 {
@@ -16,5 +17,11 @@ std::string epilogue(const Profile& profile, bool turning);
 std::string raise(const Profile& profile);
 // README.md says why in this order. `may_rest`: the spindle may not be turning, and be permitted to.
 std::string abort_words(const Profile& profile, bool may_rest);
+
+// Behind whole commands: the tool up, and then the spindle off. `may_rest`: as of abort_words().
+std::string lift_words(const Profile& profile, bool may_rest);
+
+// A way that one axis goes from stop to stop, by a mill that is `slack` times as slow as the high end of the profile.
+Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack);
 
 }  // namespace axisgate::rml1

@@ -1,0 +1,162 @@
+#include "device/rml1/mill/approach.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include "device/rml1/check.h"
+#include "device/rml1/mill/prefix.h"
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+// A number as RML-1 has it, without an exponent (guideline 2-3); a millionth of a step is no way.
+std::string decimal(double value) {
+  std::string text = fmt::format("{:.6f}", value);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+// "When Z2 is outside the work area, ... actual Z2 operation stops at the topmost location" (guideline 3-3 !PZ):
+// wherever Z0 is, the tool travels there.
+constexpr std::string_view kTravelAtTheTop = "!PZ0,8388607;";
+
+tl::unexpected<Problem> no_way(const Prefix& prefix, std::string_view why) {
+  const Place& at = prefix.next()->begins;
+  return fail(Reason::invalid_request,
+              fmt::format("the job cannot continue at line {}, column {}: {}", at.line, at.column, why),
+              "choose an earlier line, or send what is left as a job of its own");
+}
+
+Result<void> check_way(const Prefix& prefix) {
+  const Machine& machine = prefix.machine();
+  const Point &tool = machine.tool(), &commanded = machine.commanded();
+  if (prefix.leaves().surface)
+    return no_way(prefix, "before it the job sets Z0 (!ZO), and where that lies now is not known");
+  if (prefix.leaves().rotation)
+    return no_way(prefix, "before it the job turns the rotary axis, whose angle is not known");
+  if (std::round(commanded.x) != tool.x || std::round(commanded.y) != tool.y) {
+    return no_way(prefix, "there the job has left the work area");
+  }
+  if (machine.tool_lowered() && commanded.z > machine.z1()) {
+    return no_way(prefix, "the next command without PU or PD would lower the tool to Z1, and there it is above that");
+  }
+  if (prefix.height() == Prefix::Height::unknown && commanded.z != machine.z1() && commanded.z != machine.z2()) {
+    return no_way(
+        prefix, "the height there counts from the top, and without an origin it is not known where Z0 lies below that");
+  }
+  return {};
+}
+
+std::string modes(const Prefix& prefix) {
+  const Prefix::Modes& set = prefix.modes();
+  std::string words = set.plane_speed ? fmt::format("^VS{};", decimal(*set.plane_speed)) : "";
+  words += set.height_speed ? fmt::format("!VZ{};", decimal(*set.height_speed)) : "!VZ;";
+  words += "!PZ;";
+  if (set.z1 && set.z2) words += fmt::format("!PZ{},{};", decimal(*set.z1), decimal(*set.z2));
+  if (set.z1 && !set.z2) words += fmt::format("!PZ{};", decimal(*set.z1));
+  if (set.revolutions) words += fmt::format("!RC{};", decimal(*set.revolutions));
+  return words;
+}
+
+// "Rotation is performed at the time of a command that involves movement" (guideline 5-2): at the top, before the way
+// down. One that is permitted and rests would else start with the next movement, in the material.
+std::string spindle(const Machine& machine) { return machine.spindle_permitted() ? "!MC1;^PR;!ZZ0,0,0;^PA;" : ""; }
+
+// Straight down, above the place. PD and PU also set what the next PA and PR keep.
+std::string way_down(const Prefix& prefix) {
+  const Machine& machine = prefix.machine();
+  const Point& there = machine.commanded();
+  const bool lowered = machine.tool_lowered();
+  if (there.z == (lowered ? machine.z1() : machine.z2())) return lowered ? "^PD;" : "^PU;";
+  if (prefix.height() == Prefix::Height::machine) return fmt::format("!ZM{};", decimal(prefix.machine_height()));
+  if (prefix.height() == Prefix::Height::top) return "";
+  return fmt::format("{}!ZZ{},{},{};", lowered ? "^PD;" : "", decimal(there.x), decimal(there.y), decimal(there.z));
+}
+
+// In a list of coordinates the name of its command comes again. ^ is for the names of mode 2, whichever mode the mill
+// speaks (guideline 3-1 ^).
+std::string before_next(const Prefix& prefix) {
+  const auto& [begins, name, first] = *prefix.next();
+  const std::string call = name.size() == 2 ? "^" : "";
+  return first ? call : call + std::string(name);
+}
+
+std::string words_to(const Prefix& prefix, const Profile& profile) {
+  const Machine& machine = prefix.machine();
+  const Point& there = machine.commanded();
+  std::string words = "!MC0;^PA;" + raise(profile) + std::string(kTravelAtTheTop);
+  // !ZM, since what is commanded is still that Z2.
+  words += fmt::format("^PU{},{};!ZM{};", decimal(there.x), decimal(there.y), decimal(profile.top));
+  words += modes(prefix) + spindle(machine) + way_down(prefix);
+  if (prefix.modes().dwell_ms) words += fmt::format("!DW{};", decimal(*prefix.modes().dwell_ms));
+  return words + (machine.relative() ? "^PR;" : "");
+}
+
+std::set<std::string_view> warned_sections(const std::vector<Diagnostic>& diagnostics) {
+  std::set<std::string_view> sections;
+  for (const Diagnostic& one : diagnostics) {
+    if (one.severity == Severity::warning) sections.insert(one.section);
+  }
+  return sections;
+}
+
+}  // namespace
+
+Result<Approach> approach_to(std::string_view body, std::uint64_t from, const Profile& profile,
+                             std::optional<Origin> origin) {
+  const Prefix prefix(body, from, profile, origin);
+  if (!prefix.next()) {
+    return fail(Reason::invalid_request,
+                fmt::format("there is no command at byte {} of {} or behind it", from, body.size()),
+                "choose an earlier line");
+  }
+  if (!prefix.has_effect()) return Approach{};
+  if (const Result<void> way = check_way(prefix); !way) return tl::unexpected(way.error());
+  return Approach{prefix.next()->begins, words_to(prefix, profile) + before_next(prefix)};
+}
+
+std::string continued(std::string_view body, const Approach& approach) {
+  return approach.words + std::string(body.substr(approach.at.offset));
+}
+
+Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
+                             std::optional<Origin> origin) {
+  const auto check = [&](std::string_view job) {
+    Check checked(profile, {.origin = origin, .stock = {}, .others = {}});
+    checked.feed(job);
+    checked.finish();
+    return checked.diagnostics().in_order();
+  };
+  const auto accepted = warned_sections(check(body));
+  for (const Diagnostic& one : check(continued(body, approach))) {
+    if (one.severity == Severity::note || (one.severity == Severity::warning && accepted.contains(one.section)))
+      continue;
+    return fail(
+        Reason::invalid_request,
+        fmt::format("continued at line {}, column {}, the job has a {} that it does not have as a whole: {} [{}]",
+                    approach.at.line, approach.at.column, name(one.severity), one.text, one.section),
+        "choose another line");
+  }
+  return {};
+}
+
+std::uint64_t offset_of(std::string_view body, std::uint64_t line, std::uint64_t column) {
+  std::size_t begin = 0;
+  for (; line > 1 && begin < body.size(); --line) begin = std::min(body.find('\n', begin), body.size() - 1) + 1;
+  return std::min<std::uint64_t>(body.size(), begin + column - 1);
+}
+
+Place place_of(std::string_view body, std::uint64_t offset) {
+  const std::string_view before = body.substr(0, offset);
+  const auto line = 1 + static_cast<std::uint64_t>(std::ranges::count(before, '\n'));
+  const std::size_t last = before.rfind('\n');
+  return {before.size(), line, before.size() - (last == std::string_view::npos ? 0 : last + 1) + 1};
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,60 @@
+// MillController: a job that is paused, and continued.
+#include <fmt/format.h>
+
+#include "device/rml1/mill/mill_controller.h"
+
+namespace axisgate::rml1 {
+
+Result<void> MillController::check_pausable(bool raise, TimePoint now) {
+  const SenderState state = running_ ? running_->sender.state() : SenderState::ready;
+  if (state != SenderState::sending && state != SenderState::finishing && !(raise && state == SenderState::paused)) {
+    return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
+  }
+  const std::uint64_t written = running_->prepared->of_body(running_->sender.progress(now).written);
+  const bool has_rest = written < part_end(**find(running_->number));
+  if (state != SenderState::finishing && (has_rest || !raise)) return {};
+  return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
+}
+
+Result<void> MillController::pause(bool raise, TimePoint now) {
+  if (running_) running_->sender.advance(now);
+  const Result<void> can = check_pausable(raise, now);
+  if (can) raise ? running_->sender.raise(now) : running_->sender.pause(now);
+  look_at_sender(now);
+  return can;
+}
+
+Result<void> MillController::resume(const stage::RequestContext& by, TimePoint now) {
+  if (!running_ || running_->sender.state() != SenderState::paused) {
+    return fail(
+        Reason::wrong_mode, "no job is paused with the tool in the cut",
+        "`axisctl mill queue` shows what the mill does; one that is PAUSED continues when it is confirmed and started");
+  }
+  if (const Result<void> may = authorize(by, 0, now); !may) return may;
+  running_->sender.resume(now);
+  look_at_sender(now);
+  return {};
+}
+
+Result<void> MillController::choose_rest(JobNumber number, const Place& from, std::string_view by, TimePoint now) {
+  const Result<Job*> job = find(number);
+  if (!job) return tl::unexpected(job.error());
+  if (!next((*job)->state, JobEvent::choose_rest)) {
+    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
+                "only a job that is PAUSED_UNKNOWN or PAUSED is continued from a line");
+  }
+  (*job)->setup.from = from;
+  change(**job, JobEvent::choose_rest, by, fmt::format("it continues at line {}, column {}", from.line, from.column),
+         now);
+  return {};
+}
+
+// Its rest is confirmed as a job is: the tool is elsewhere, and somebody may have reached into the machine.
+void MillController::end_raised(TimePoint now) {
+  const Place from = running_->prepared->place(running_->sender.progress(now).written);
+  (*find(running_->number))->setup.from = from;
+  end_run(JobEvent::raised, "",
+          fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,67 @@
+// What of a job comes before the place where it is continued: played, so that its state there is known.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "device/rml1/diagnostic.h"
+#include "device/rml1/leaves.h"
+#include "device/rml1/machine.h"
+#include "device/rml1/parser.h"
+#include "device/rml1/profile.h"
+#include "device/rml1/state_judge.h"
+
+namespace axisgate::rml1 {
+
+class Prefix : private ParserListener, private MachineListener {
+ public:
+  // The first command, or set of coordinates of one, at the byte `from` of the job or behind it.
+  struct Next {
+    Place begins;
+    std::string_view name;  // of the command
+    bool first = true;      // of the command's sets: it begins with its name
+  };
+  // What the height of the tool was commanded by: without an origin no other can be converted.
+  enum class Height { workpiece, machine, top, unknown };
+  // What was set since the last DF or IN; !RC, which these keep, in the whole job.
+  struct Modes {
+    std::optional<double> plane_speed{}, height_speed{}, dwell_ms{}, z1{}, z2{}, revolutions{};
+  };
+
+  // Reads the whole job. `profile` outlives this.
+  Prefix(std::string_view job, std::uint64_t from, const Profile& profile, std::optional<Origin> origin);
+
+  const std::optional<Next>& next() const { return next_; }
+  bool has_effect() const { return has_effect_; }  // there is a command in it
+  const Machine& machine() const { return machine_; }
+  const Modes& modes() const { return modes_; }
+  const Leaves& leaves() const { return judge_.leaves(); }
+  Height height() const { return height_; }
+  double machine_height() const { return machine_height_; }  // of Height::machine
+
+ private:
+  void execute(const Instruction& instruction) override;
+  void quit() override;
+  void moved(const Move&) override {}
+  void waited(Wait, double, std::uint64_t) override {}
+  void commanded(const Point&, const Point&, bool, const Instruction&) override {}
+  void lifted(double, const Instruction&) override {}
+
+  void take_mode(const Instruction& instruction);
+  void take_height(const Instruction& instruction);
+  void take_machine_height(const Instruction& instruction);
+
+  const std::uint64_t from_;
+  const bool origin_known_;
+  Diagnostics diagnostics_;
+  Machine machine_;
+  StateJudge judge_;
+  std::optional<Next> next_;
+  bool has_effect_ = false;
+  Modes modes_;
+  Height height_ = Height::top;
+  double machine_height_ = 0;
+};
+
+}  // namespace axisgate::rml1

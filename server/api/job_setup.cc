@@ -1,0 +1,52 @@
+#include "server/api/job_setup.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+namespace axisgate::api {
+namespace {
+
+bool has(const std::vector<std::string>& names, std::string_view name) {
+  return std::ranges::find(names, name) != names.end();
+}
+
+std::string tools_text(const std::vector<rml1::JobPart>& parts) {
+  std::vector<std::string> tools;
+  for (const rml1::JobPart& part : parts) tools.push_back(part.tool);
+  return fmt::format("{}", fmt::join(tools, ", "));
+}
+
+// "unix" is anybody on the Unix socket, "unix anna" one of them.
+bool is_at_station(const server::Mill& mill, std::string_view who) {
+  return std::ranges::any_of(mill.config().station, [who](std::string_view place) {
+    return who == place || (who.starts_with(place) && who.substr(place.size()).starts_with(' '));
+  });
+}
+
+}  // namespace
+
+Result<void> check_setup(const server::Mill& mill, const rml1::Job& job) {
+  const server::MillConfig& config = mill.config();
+  const bool has_origin =
+      job.setup.origin.empty() ||
+      std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
+  const auto has_tool = [&](const rml1::JobPart& part) { return has(config.tools, part.tool); };
+  if (job.setup.profile == config.profile.name && has_origin && std::ranges::all_of(job.parts, has_tool)) return {};
+  return fail(
+      Reason::stale_setpoint,
+      fmt::format(
+          "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
+          text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),
+      "cancel it, and send it again");
+}
+
+Result<void> check_at_station(const server::Mill& mill, std::string_view who) {
+  if (is_at_station(mill, who)) return {};
+  return fail(Reason::not_allowed, fmt::format("{} is not at the station of {}", who, mill.name()),
+              fmt::format("confirm as {}: `station` in the configuration", fmt::join(mill.config().station, ", ")));
+}
+
+}  // namespace axisgate::api
