@@ -160,6 +160,11 @@ abort also sends what discards the mill's buffer, raises the tool and stops the 
 not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
 have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.
 
+After `mill pause --raise` the tool goes up behind what was sent, the spindle stops, and the job is PAUSED. It continues
+when it is confirmed and started again. A job is PAUSED_UNKNOWN after a broken line or a killed daemon: look at the
+workpiece, and name the line with which it continues: `mill resume JOB --from LINE`. Without --from the answer says where
+what was sent ends. The tool then goes up, above the place, and down.
+
 While no job runs, `mill jog` moves the tool by a short step, `mill origin` sets Z0, `mill spindle` starts or stops the
 spindle, and `mill raise` raises the tool. The position of the tool is not known, so nothing checks where a step leads.
 After each of them a confirmation is void.)",

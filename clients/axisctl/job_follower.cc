@@ -28,12 +28,22 @@ std::string tool_change_text(const v1::Job& job) {
       job_text(job), job.part(), job.parts_size(), on_one_line(job.setup().tool()), last_part(job.name()));
 }
 
+// Of one that waits for a person and has done what it was to do; empty: it does not.
+std::string halt_text(const v1::Job& job) {
+  if (job.state() == v1::JOB_STATE_FED) return fed_text(job);
+  if (job.state() == v1::JOB_STATE_TOOL_CHANGE) return tool_change_text(job);
+  return job.state() == v1::JOB_STATE_PAUSED ? rest_text(job) : "";
+}
+
 Failure unknown_sent(const v1::Job& job) {
   return {
       kFailed, "PAUSED_UNKNOWN",
       fmt::format("{}: the line broke, or the daemon was killed; the mill was sent {} to {} of {} bytes", job_text(job),
                   job.sent_least(), job.sent_most(), job.bytes()),
-      fmt::format("look at the mill; `axisctl mill cancel {}` takes the job out of the queue", last_part(job.name()))};
+      fmt::format(
+          "look at the mill; `axisctl mill resume {0}` lets the job continue from a line that you choose, and `axisctl "
+          "mill cancel {0}` takes it out of the queue",
+          last_part(job.name()))};
 }
 
 }  // namespace
@@ -109,9 +119,8 @@ void JobFollower::show_progress(const v1::RunningJob& running) {
 }
 
 int JobFollower::report_end() const {
-  if (!gone_ && (job_.state() == v1::JOB_STATE_FED || job_.state() == v1::JOB_STATE_TOOL_CHANGE)) {
-    const bool fed = job_.state() == v1::JOB_STATE_FED;
-    if (!session_.options.json) print_line(fed ? fed_text(job_) : tool_change_text(job_));
+  if (const std::string text = gone_ ? "" : halt_text(job_); !text.empty()) {
+    if (!session_.options.json) print_line(text);
     return kDone;
   }
   if (!gone_ && job_.state() == v1::JOB_STATE_PAUSED_UNKNOWN) throw unknown_sent(job_);

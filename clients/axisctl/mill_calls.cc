@@ -31,7 +31,7 @@ std::string wanted_job(const Session& session, const v1::Mill& mill) {
   if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);
   for (const v1::Job& job : mill.jobs()) {
     if (job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_CONFIRMED ||
-        job.state() == v1::JOB_STATE_TOOL_CHANGE) {
+        job.state() == v1::JOB_STATE_TOOL_CHANGE || job.state() == v1::JOB_STATE_PAUSED) {
       return job.name();
     }
   }

@@ -16,8 +16,8 @@ std::string mill_to_change(const Session& session);
 
 v1::Mill mill_now(const Session& session, const std::string& device);
 
-// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits, is confirmed, or is in
-// a tool change.
+// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits, is confirmed, is in a
+// tool change, or is PAUSED.
 std::string wanted_job(const Session& session, const v1::Mill& mill);
 
 }  // namespace axisgate::axisctl

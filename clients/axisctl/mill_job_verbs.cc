@@ -1,7 +1,10 @@
 // mill queue, start, pause, resume, abort, cancel, done: what is requested of a mill in one call.
 #include <fmt/format.h>
 
+#include <charconv>
+#include <cstdint>
 #include <string>
+#include <string_view>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/job_follower.h"
@@ -30,9 +33,33 @@ Request job_request(const Session& session) {
   return request;
 }
 
+std::int64_t count_from_one(std::string_view text, const std::string& all) {
+  std::int64_t value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error == std::errc() && end == text.data() + text.size() && value > 0) return value;
+  throw usage(fmt::format("\"{}\" is not valid for --from", all),
+              "name a line, e.g. 12, or a line and a column, e.g. 1:340");
+}
+
+// Without a line the daemon's answer, a refusal, says where what was sent ends.
+void set_place(const std::string& from, v1::ContinueJobRequest& request) {
+  const std::string_view text = from;
+  const std::size_t colon = text.find(':');
+  request.set_line(count_from_one(text.substr(0, colon), from));
+  if (colon != std::string_view::npos) request.set_column(count_from_one(text.substr(colon + 1), from));
+}
+
 int report_answer(const Session& session, const google::protobuf::Message& response, const std::string& text) {
   session.options.json ? print_json(response) : print_line(text);
   return kDone;
+}
+
+int choose_rest(const Session& session) {
+  auto request = job_request<v1::ContinueJobRequest>(session);
+  if (session.options.job.from) set_place(*session.options.job.from, request);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::ContinueJob, request, kStartLimit);
+  return report_answer(session, response, rest_text(response.job()));
 }
 
 }  // namespace
@@ -55,13 +82,15 @@ int mill_start(const Session& session) {
 int mill_watch(const Session& session) { return JobFollower(session, "").follow(); }
 
 int mill_pause(const Session& session) {
-  const auto request = mill_request<v1::PauseJobRequest>(session);
+  auto request = mill_request<v1::PauseJobRequest>(session);
+  request.set_raise(session.options.job.raise);
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::PauseJob, request, kQuestionLimit);
   return report_answer(session, response, paused_text(response.running()));
 }
 
 int mill_resume(const Session& session) {
+  if (session.options.job.number) return choose_rest(session);
   const auto request = mill_request<v1::ResumeJobRequest>(session);
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ResumeJob, request, kQuestionLimit);

@@ -73,6 +73,20 @@ void add_starts(CLI::App& mill, Options& options) {
   start->add_flag("--follow", options.follow, "show the job until it has ended");
 }
 
+void add_pauses(CLI::App& mill, Options& options) {
+  CLI::App* pause =
+      add_job_verb(mill, options, Verb::mill_pause, "pause", "send no more of the job; what was sent runs on");
+  pause->add_flag("--raise", options.job.raise, "raise the tool behind what was sent, and stop the spindle");
+  CLI::App* resume = add_job_verb(mill, options, Verb::mill_resume, "resume",
+                                  "send the rest of the job that is paused; with JOB, choose where that one continues");
+  CLI::Option* job = add_number(*resume, options, "the number of a job that is PAUSED or PAUSED_UNKNOWN");
+  resume
+      ->add_option("--from", options.job.from,
+                   "the line of its file, or line and column, with whose first command it continues")
+      ->needs(job)
+      ->type_name("LINE[:COLUMN]");
+}
+
 void add_hand_verbs(CLI::App& mill, Options& options) {
   JobOptions& job = options.job;
   CLI::App* jog = add_job_verb(mill, options, Verb::mill_jog, "jog",
@@ -107,8 +121,7 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   add_job_verb(*mill, options, Verb::mill_queue, "queue", "show the mill, its queue, and the job that runs");
   add_starts(*mill, options);
   add_job_verb(*mill, options, Verb::mill_watch, "watch", "show the job that runs until it has ended");
-  add_job_verb(*mill, options, Verb::mill_pause, "pause", "send no more of the job; what was sent runs on");
-  add_job_verb(*mill, options, Verb::mill_resume, "resume", "send the rest of the job");
+  add_pauses(*mill, options);
   add_job_verb(*mill, options, Verb::mill_abort, "abort", "end the job that runs; look at the mill afterwards");
   add_number(*add_job_verb(*mill, options, Verb::mill_cancel, "cancel", "take a job out of the queue"), options,
              "its number")

@@ -97,6 +97,10 @@ std::string tool_cell(const v1::Job& job) {
   return part.empty() ? tool : fmt::format("part {}, {}", part, tool);
 }
 
+std::string place_text(const v1::JobPlace& place) {
+  return fmt::format("line {}, column {}", place.line(), place.column());
+}
+
 std::vector<std::string> job_cells(const v1::Job& job) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
@@ -137,6 +141,12 @@ std::string change_text(const v1::JobChange& change) {
   return change.why().empty() ? text : text + ": " + change.why();
 }
 
+std::string rest_text(const v1::Job& job) {
+  return fmt::format(
+      "{} is PAUSED: it continues at {}; see that tool and Z0 are as before, then `axisctl mill confirm {} --start`",
+      job_text(job), place_text(job.setup().from()), last_part(job.name()));
+}
+
 std::string confirmed_text(const v1::Job& job) {
   return fmt::format("{} is confirmed {}", job_text(job), confirmation_text(job));
 }
@@ -159,8 +169,11 @@ std::string paused_text(const v1::RunningJob& running) {
   const std::int64_t most = std::max<std::int64_t>(0, running.run_on().at_most());
   const std::int64_t least =
       std::clamp<std::int64_t>(running.written() - running.unsent() - running.executed_most(), 0, most);
-  return fmt::format("job {} is paused: {} of it still run{}; the cutter keeps turning in the cut",
-                     last_part(running.job()), bytes_text(range_text(least, most)), held_text(running.run_on()));
+  const std::string_view tool = running.sending() == v1::SENDING_STATE_RAISING
+                                    ? "then the tool is raised and the spindle stops"
+                                    : "the cutter keeps turning in the cut";
+  return fmt::format("job {} is paused: {} of it still run{}; {}", last_part(running.job()),
+                     bytes_text(range_text(least, most)), held_text(running.run_on()), tool);
 }
 
 std::string aborted_text(const v1::AbortJobResponse& response) {
@@ -196,6 +209,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
                                  fmt::format("  takes     {}", takes_text(job)),
                                  fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
   if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
+  if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
   return lines;
 }
@@ -203,6 +217,9 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
 std::string setup_question(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
   const auto with = [](const std::string& name) { return name.empty() ? "" : " " + on_one_line(name); };
+  if (setup.has_from()) {
+    return fmt::format("The tool{} is in, Z0 is as it was, and nothing is in the way? [yes/no]", with(setup.tool()));
+  }
   if (job.part() > 0) {
     return fmt::format("The tool{} is in, Z0 is set, and nothing is in the way? [yes/no]", with(setup.tool()));
   }

@@ -23,6 +23,8 @@ std::string state_text(const v1::Job& job);
 std::string change_text(const v1::JobChange& change);
 
 // "job 7 (part.rml) is confirmed by unix anna until 2026-11-21 16:10:00".
+// Of a job that is PAUSED: where it continues, and what is to be done before.
+std::string rest_text(const v1::Job& job);
 std::string confirmed_text(const v1::Job& job);
 
 // "after an abort at most 64 bytes run on, at most 2048 if the panel holds the mill (VIEW, an open cover)".

@@ -118,6 +118,8 @@ struct JobOptions {
   std::optional<double> mm_per_s;       // jog
   std::optional<std::int64_t> z;        // origin: a machine coordinate, in steps
   std::string spindle;                  // "on", "off"
+  bool raise = false;                   // pause: the tool, and stop the spindle
+  std::optional<std::string> from;      // resume: "12", "12:40"; a line, and a column
 };
 
 struct Options {

@@ -154,6 +154,14 @@ TEST(MillTexts, WhatIsSetUpForALaterPart) {
   EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is set, and nothing is in the way? [yes/no]");
 }
 
+TEST(MillTexts, WhatIsSetUpForTheRestOfAJob) {
+  v1::Job job = frame(7, v1::JOB_STATE_PAUSED);
+  job.mutable_setup()->mutable_from()->set_line(12);
+  job.mutable_setup()->mutable_from()->set_column(40);
+  EXPECT_EQ(setup_lines(job).back(), "  continues at line 12, column 40");
+  EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is as it was, and nothing is in the way? [yes/no]");
+}
+
 TEST(MillTexts, WhatTheJobBeforeHasLeft) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
   job.mutable_setup()->add_left("job 6 (a\x1b[2Jb) sets Z0");

@@ -254,6 +254,46 @@ TEST_F(MillCalls, PauseResumeCancelDone) {
   EXPECT_THAT(mill_.jobs, ElementsAre("devices/mill/jobs/7", "devices/mill/jobs/7"));
 }
 
+TEST_F(MillCalls, PauseRaisesWhereThatIsRequested) {
+  add_job(v1::JOB_STATE_RUNNING);
+  mill_.mill.mutable_running()->set_sending(v1::SENDING_STATE_RAISING);
+  options_.job.raise = true;
+  EXPECT_THAT(run(mill_pause).output, HasSubstr("; then the tool is raised and the spindle stops\n"));
+  EXPECT_TRUE(mill_.paused.at(0).raise());
+}
+
+TEST_F(MillCalls, ResumeOfAJobChoosesWhereItGoesOn) {
+  v1::Job& job = add_job(v1::JOB_STATE_PAUSED);
+  job.mutable_setup()->mutable_from()->set_line(12);
+  job.mutable_setup()->mutable_from()->set_column(40);
+  options_.job.number = 7;
+  for (const char* from : {"12", "12:40"}) {
+    options_.job.from = from;
+    EXPECT_THAT(
+        run(mill_resume).output,
+        HasSubstr(
+            "is PAUSED: it continues at line 12, column 40; see that tool and Z0 are as before, then `axisctl mill "
+            "confirm 7 --start`\n"));
+  }
+  ASSERT_EQ(mill_.continued.size(), 2U);
+  EXPECT_EQ(mill_.continued[0].job(), "devices/mill/jobs/7");
+  EXPECT_EQ(mill_.continued[0].line(), 12);
+  EXPECT_EQ(mill_.continued[0].column(), 0);
+  EXPECT_EQ(mill_.continued[1].column(), 40);
+  options_.job.from.reset();
+  run(mill_resume);
+  EXPECT_EQ(mill_.continued.back().line(), 0) << "the daemon's answer says which";
+}
+
+TEST_F(MillCalls, WhatIsNoLineIsAUsageError) {
+  options_.job.number = 7;
+  for (const char* from : {"", "0", "-1", "x", "12:", "12:0", "12:x", ":4", "12 "}) {
+    options_.job.from = from;
+    EXPECT_EQ(run(mill_resume).exit_code, kUsage) << from;
+  }
+  EXPECT_THAT(mill_.continued, IsEmpty());
+}
+
 TEST_F(MillCalls, ALostAnswerIsRequestedAgain) {
   mill_.statuses = {{grpc::StatusCode::UNAVAILABLE, "Socket closed"}, grpc::Status::OK};
   options_.job.number = 7;

@@ -76,6 +76,7 @@ grpc::Status ScriptedMill::StartJob(grpc::ServerContext*, const v1::StartJobRequ
 grpc::Status ScriptedMill::PauseJob(grpc::ServerContext*, const v1::PauseJobRequest* request,
                                     v1::PauseJobResponse* response) {
   calls.emplace_back("PauseJob");
+  paused.push_back(*request);
   devices.push_back(request->device());
   *response->mutable_running() = mill.running();
   return next_status();
@@ -94,6 +95,14 @@ grpc::Status ScriptedMill::AbortJob(grpc::ServerContext*, const v1::AbortJobRequ
   calls.emplace_back("AbortJob");
   devices.push_back(request->device());
   if (mill.has_running()) *response->mutable_running() = mill.running();
+  return next_status();
+}
+
+grpc::Status ScriptedMill::ContinueJob(grpc::ServerContext*, const v1::ContinueJobRequest* request,
+                                       v1::ContinueJobResponse* response) {
+  calls.emplace_back("ContinueJob");
+  continued.push_back(*request);
+  if (mill.jobs_size() > 0) *response->mutable_job() = mill.jobs(0);
   return next_status();
 }
 

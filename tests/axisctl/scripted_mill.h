@@ -29,6 +29,8 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
   std::vector<v1::SendJobRequest> sent;
   std::vector<v1::ConfirmJobRequest> confirmed;
   std::vector<v1::StartJobRequest> started;
+  std::vector<v1::PauseJobRequest> paused;
+  std::vector<v1::ContinueJobRequest> continued;
   std::vector<std::string> devices, jobs;  // that were named by the other requests
 
   grpc::Status ListDevices(grpc::ServerContext* context, const v1::ListDevicesRequest* request,
@@ -49,6 +51,8 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
                          v1::ResumeJobResponse* response) override;
   grpc::Status AbortJob(grpc::ServerContext* context, const v1::AbortJobRequest* request,
                         v1::AbortJobResponse* response) override;
+  grpc::Status ContinueJob(grpc::ServerContext* context, const v1::ContinueJobRequest* request,
+                           v1::ContinueJobResponse* response) override;
   grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                          v1::CancelJobResponse* response) override;
   grpc::Status ReportJobDone(grpc::ServerContext* context, const v1::ReportJobDoneRequest* request,

@@ -7,6 +7,7 @@ import json
 import os
 import pathlib
 import random
+import re
 import signal
 import tempfile
 import time
@@ -134,6 +135,58 @@ class MillKill(unittest.TestCase):
 
     def await_state(self, state):
         self.await_true(lambda: [one["state"] for one in self.jobs()] == [f"JOB_STATE_{state}"], f"it is not {state}")
+
+    def open_line(self):
+        self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
+
+    def restart(self):
+        self.daemon.signal(signal.SIGKILL)
+        self.daemon.wait(LIMIT_S)
+        self.daemon = Daemon(str(self.folder), self.config)
+        self.open_line()
+
+    def begin_lines(self):
+        """Sixty commands, each in a line of its own behind the first; returns when some have been begun."""
+        self.open_line()
+        text = BEGINNING + "\n" + "".join(f"PU{number},1;\n" for number in range(1, 61))
+        self.axisctl("mill", "send", "-", "--title", "lines", "--accept", "5-1,5-2", stdin=text)
+        self.axisctl("mill", "confirm", "--yes", "--start")
+        least = self.random.randint(1, 30)
+        self.await_true(lambda: len(self.numbers(1)) >= least, "the job does not run")
+
+    def test_a_job_that_was_lost_goes_on_at_the_line_that_somebody_names(self):
+        self.begin_lines()
+        self.restart()
+        self.await_state("PAUSED_UNKNOWN")
+        before = self.numbers(1)
+        refused = self.daemon.run("--device", "mill", "mill", "resume", "1")
+        self.assertEqual(refused.returncode, 3, refused.stderr)
+        sent = re.search(r"ends at line (\d+), column \d+(?:, or later, up to line (\d+), )?", refused.stderr)
+        self.assertIsNotNone(sent, refused.stderr)
+        # Command n is in line n + 1.
+        self.assertLessEqual(int(sent[1]) - 2, len(before), f"seed {SEED}: {refused.stderr}")
+        self.assertGreaterEqual(int(sent[2] or sent[1]) - 1, len(before), f"seed {SEED}: {refused.stderr}")
+        self.assertIn(f"PAUSED: it continues at line {len(before) + 2}, column 1",
+                      self.axisctl("mill", "resume", "1", "--from", str(len(before) + 2)))
+        self.assertEqual(self.numbers(1), before, "nothing is sent before somebody confirms it")
+        self.axisctl("mill", "confirm", "1", "--yes", "--start")
+        self.await_state("FED")
+        self.assertEqual([one for one in self.numbers(1) if one not in before], list(range(len(before) + 1, 61)),
+                         f"seed {SEED}")
+
+    def test_a_raised_job_outlives_the_daemon_and_goes_on(self):
+        self.begin_lines()
+        self.axisctl("mill", "pause", "--raise")
+        self.await_state("PAUSED")
+        before = self.numbers(1)
+        self.assertTrue(self.aborted(), "the tool is up")
+        self.restart()
+        self.await_state("PAUSED")
+        self.assertEqual(self.numbers(1), before)
+        self.axisctl("mill", "confirm", "1", "--yes", "--start")
+        self.await_state("FED")
+        # The approach travels to where the last one led.
+        self.assertEqual(self.numbers(1), before + before[-1:] + list(range(len(before) + 1, 61)), f"seed {SEED}")
 
     def test_a_daemon_that_is_killed_between_two_parts(self):
         files = []
