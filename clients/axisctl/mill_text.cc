@@ -70,6 +70,15 @@ std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
   return bar;
 }
 
+// ", up to 3.2 s,": rounded up, since it is a bound.
+std::string within_text(const v1::RunOn& run_on) {
+  using google::protobuf::util::TimeUtil;
+  if (!run_on.has_longest()) return "";
+  const std::int64_t ns = TimeUtil::DurationToNanoseconds(run_on.longest());
+  const std::int64_t shown = ns < 10'000'000'000 ? 100'000'000 : 1'000'000'000;  // by duration_text()
+  return fmt::format(", up to {},", duration_text(TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown)));
+}
+
 std::string held_text(const v1::RunOn& run_on) {
   return run_on.if_held() <= run_on.at_most()
              ? ""
@@ -152,16 +161,17 @@ std::string confirmed_text(const v1::Job& job) {
 }
 
 std::string run_on_text(const v1::RunOn& run_on) {
-  return fmt::format("after an abort at most {} run on{}", bytes_text(std::to_string(run_on.at_most())),
-                     held_text(run_on));
+  return fmt::format("after an abort at most {}{} run on{}", bytes_text(std::to_string(run_on.at_most())),
+                     within_text(run_on), held_text(run_on));
 }
 
 std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
   constexpr std::int64_t percent = 100;
   const std::string executed = range_text(whole_steps(running.executed_least(), job.bytes(), percent),
                                           begun_steps(running.executed_most(), job.bytes(), percent));
-  return fmt::format("{} [{}] {} %, {} of {} bytes written, {} left", name_of(running.sending()),
-                     bar_text(job, running), executed, running.written(), job.bytes(), time_left_text(job, running));
+  return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left", name_of(running.sending()),
+                     bar_text(job, running), executed, running.written(), job.bytes(), running.taken(),
+                     time_left_text(job, running));
 }
 
 // Bytes that have not left this host may stay here, and the fastest mill has executed the most.
@@ -172,16 +182,17 @@ std::string paused_text(const v1::RunningJob& running) {
   const std::string_view tool = running.sending() == v1::SENDING_STATE_RAISING
                                     ? "then the tool is raised and the spindle stops"
                                     : "the cutter keeps turning in the cut";
-  return fmt::format("job {} is paused: {} of it still run{}; {}", last_part(running.job()),
-                     bytes_text(range_text(least, most)), held_text(running.run_on()), tool);
+  return fmt::format("job {} is paused: {} of it{} still run{}; {}", last_part(running.job()),
+                     bytes_text(range_text(least, most)), within_text(running.run_on()), held_text(running.run_on()),
+                     tool);
 }
 
 std::string aborted_text(const v1::AbortJobResponse& response) {
   if (!response.has_running()) return "the abort was sent; no job ran; look at the mill";
   const v1::RunOn& run_on = response.running().run_on();
-  return fmt::format("the abort was sent: at most {} of job {} may run on{}; look at the mill",
+  return fmt::format("the abort was sent: at most {} of job {}{} may run on{}; look at the mill",
                      bytes_text(std::to_string(run_on.at_most())), last_part(response.running().job()),
-                     held_text(run_on));
+                     within_text(run_on), held_text(run_on));
 }
 
 std::vector<std::string> queue_lines(const v1::Mill& mill) {

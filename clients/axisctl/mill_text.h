@@ -27,19 +27,23 @@ std::string change_text(const v1::JobChange& change);
 std::string rest_text(const v1::Job& job);
 std::string confirmed_text(const v1::Job& job);
 
-// "after an abort at most 64 bytes run on, at most 2048 if the panel holds the mill (VIEW, an open cover)".
+// "after an abort at most 64 bytes, up to 3.2 s, run on, at most 2048 if the panel holds the mill (VIEW, an open
+// cover)".
 std::string run_on_text(const v1::RunOn& run_on);
 
-// "SENDING [====-     ] 41 to 44 %, 12300 of 30000 bytes written, 3 min 5 s to 5 min 20 s left". In the bar `=` is
-// executed and `-` may be. The time left is the job's, in the ratio of the bytes not yet executed.
+// "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 14488 taken, 5 min 36 s to 9 min 50 s left". In the
+// bar
+// `=` is executed and `-` may be. Taken is by the mill, at least. The time left is the job's, in the ratio of the bytes
+// not yet executed.
 std::string progress_text(const v1::Job& job, const v1::RunningJob& running);
 
 inline constexpr std::string_view kBusyText = "the mill is busy: look at it";
 
-// "job 7 is paused: 10 to 64 bytes of it still run, ...; the cutter keeps turning in the cut".
+// "job 7 is paused: 10 to 64 bytes of it, up to 3.2 s, still run, ...; the cutter keeps turning in the cut".
 std::string paused_text(const v1::RunningJob& running);
 
-// "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill". Never that anything has stopped.
+// "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; look at the mill". Never that anything has
+// stopped.
 std::string aborted_text(const v1::AbortJobResponse& response);
 
 // The mill in one line, what runs in another, and the queue as a table.

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "server/api/names.h"
 
@@ -16,6 +17,12 @@ using HandTurn = TurnOf<Mill>;
 // With the height of a named origin.
 Result<rml1::HandAct> act_of(const HandRequest& request, const Mill& mill) {
   if (request.origin.empty()) return request.act;
+  const auto* surface = std::get_if<rml1::SetSurface>(&request.act);
+  if (surface != nullptr && surface->at) {
+    return fail(Reason::invalid_request,
+                fmt::format("Z0 cannot be both at the origin \"{}\" and at z = {}", request.origin, *surface->at),
+                "name the origin or z, not both");
+  }
   const auto& origins = mill.config().origins;
   const auto named = std::ranges::find(origins, request.origin, &server::NamedOrigin::name);
   if (named == origins.end()) {

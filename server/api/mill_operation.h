@@ -24,7 +24,7 @@ class MillOperation {
   MillOperation(server::Gateway& gateway, const MillPipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
 
   // `request`: or why it cannot be read. The answer: how long it takes at most, by the mill's profile. invalid_request,
-  // where there is no such origin, or it has no height; those of MillPipeline::admit() and of
+  // where there is no such origin, it has no height, or a height is named, too; those of MillPipeline::admit() and of
   // MillController::operate().
   void operate(const Call& call, std::string_view device, const Result<HandRequest>& request,
                Answer<Duration> answer) const;

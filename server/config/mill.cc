@@ -164,6 +164,13 @@ void check_streaming(ConfigTable& table, const DeviceConfig& device, rml1::Strea
   }
 }
 
+// Of a serial server's line nothing is seen, and the built-in simulator holds nothing back.
+bool has_flow_control(const DeviceConfig& device) {
+  const auto* serial = std::get_if<SerialSettings>(&device.connection);
+  if (serial != nullptr) return serial->flow != FlowControl::none;
+  return std::holds_alternative<PrinterSettings>(device.connection);
+}
+
 }  // namespace
 
 MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
@@ -184,6 +191,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   }
   read_sending(table, mill.sending);
   mill.sending.baud = device.baud;
+  mill.sending.flow_control = has_flow_control(device);
   if (connection) check_streaming(table, device, mill.sending.streaming);
   read_station(table, mill.station);
   if (const auto minutes = table.integer("confirmation_minutes", 1, 1440)) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include "server/api/names.h"
+#include "server/rpc/amounts.h"
 #include "server/rpc/to_proto.h"
 
 namespace axisgate::rpc {
@@ -105,6 +106,7 @@ v1::RunOn to_proto(const rml1::RunOn& run_on) {
   v1::RunOn proto;
   proto.set_at_most(static_cast<std::int64_t>(run_on.at_most));
   proto.set_if_held(static_cast<std::int64_t>(run_on.if_held));
+  *proto.mutable_longest() = to_proto(run_on.longest);
   return proto;
 }
 
@@ -116,6 +118,7 @@ v1::RunningJob to_proto(const api::CurrentRun& run) {
   proto.set_sending(to_sending_state(job.sender));
   proto.set_written(static_cast<std::int64_t>(job.progress.written));
   proto.set_unsent(static_cast<std::int64_t>(job.progress.unsent));
+  proto.set_taken(static_cast<std::int64_t>(job.progress.taken));
   proto.set_executed_least(static_cast<std::int64_t>(job.progress.executed_least));
   proto.set_executed_most(static_cast<std::int64_t>(job.progress.executed_most));
   *proto.mutable_run_on() = to_proto(job.run_on);

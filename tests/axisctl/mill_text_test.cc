@@ -35,6 +35,7 @@ v1::RunningJob running(std::int64_t written, std::int64_t executed_least, std::i
   running.set_job("devices/mill/jobs/7");
   running.set_sending(v1::SENDING_STATE_SENDING);
   running.set_written(written);
+  running.set_taken(executed_least);
   running.set_executed_least(executed_least);
   running.set_executed_most(executed_most);
   return running;
@@ -52,30 +53,33 @@ std::string progress(std::int64_t written, std::int64_t executed_least, std::int
 }
 
 TEST(MillProgress, ARangeWithItsTimeLeft) {
-  EXPECT_EQ(progress(15'000, 12'300, 13'200),
-            "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 5 min 36 s to 9 min 50 s left");
+  EXPECT_EQ(
+      progress(15'000, 12'300, 13'200),
+      "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 12300 taken, 5 min 36 s to 9 min 50 s left");
 }
 
 // What may not be executed yet never counts as executed, and the other way round.
 TEST(MillProgress, RoundsOutwards) {
   EXPECT_EQ(progress(15'000, 299, 301).substr(0, 31), "SENDING [-         ] 0 to 2 %, ");
   EXPECT_EQ(progress(30'000, 29'999, 30'000),
-            "SENDING [=========-] 99 to 100 %, 30000 of 30000 bytes written, 0 s left");
+            "SENDING [=========-] 99 to 100 %, 30000 of 30000 bytes written, 29999 taken, 0 s left");
 }
 
 TEST(MillProgress, OneNumberWhereBothEndsAreTheSame) {
-  EXPECT_EQ(progress(0, 0, 0), "SENDING [          ] 0 %, 0 of 30000 bytes written, 10 min 0 s to 16 min 40 s left");
-  EXPECT_EQ(progress(30'000, 30'000, 30'000), "SENDING [==========] 100 %, 30000 of 30000 bytes written, 0 s left");
+  EXPECT_EQ(progress(0, 0, 0),
+            "SENDING [          ] 0 %, 0 of 30000 bytes written, 0 taken, 10 min 0 s to 16 min 40 s left");
+  EXPECT_EQ(progress(30'000, 30'000, 30'000),
+            "SENDING [==========] 100 %, 30000 of 30000 bytes written, 30000 taken, 0 s left");
 }
 
 // Numbers beyond the job, or a job without a size, come from a daemon that is wrong: the line stays a line.
 TEST(MillProgress, WithinTheJob) {
   EXPECT_EQ(progress(30'000, -5, 40'000),
-            "SENDING [----------] 0 to 100 %, 30000 of 30000 bytes written, 0 s to 16 min 40 s left");
+            "SENDING [----------] 0 to 100 %, 30000 of 30000 bytes written, -5 taken, 0 s to 16 min 40 s left");
   v1::Job empty = frame(7, v1::JOB_STATE_RUNNING);
   empty.set_bytes(0);
   EXPECT_EQ(progress_text(empty, running(0, 0, 0)),
-            "SENDING [----------] 0 to 100 %, 0 of 0 bytes written, 10 min 0 s to 16 min 40 s left");
+            "SENDING [----------] 0 to 100 %, 0 of 0 bytes written, 0 taken, 10 min 0 s to 16 min 40 s left");
 }
 
 TEST(MillProgress, EachState) {
@@ -119,6 +123,28 @@ TEST(MillTexts, APauseSaysWhatStillRuns) {
   paused.set_executed_most(0);
   *paused.mutable_run_on() = run_on(64, 64);
   EXPECT_EQ(paused_text(paused), "job 7 is paused: 64 bytes of it still run; the cutter keeps turning in the cut");
+}
+
+// To a tenth, and from 10 s on to a second, never down.
+TEST(MillTexts, WhatRunsOnHasATime) {
+  const auto text = [](std::int64_t ms) {
+    v1::RunOn bound = run_on(64, 64);
+    *bound.mutable_longest() = TimeUtil::MillisecondsToDuration(ms);
+    return run_on_text(bound);
+  };
+  EXPECT_EQ(text(3200), "after an abort at most 64 bytes, up to 3.2 s, run on");
+  EXPECT_EQ(text(3201), "after an abort at most 64 bytes, up to 3.3 s, run on");
+  EXPECT_EQ(text(9901), "after an abort at most 64 bytes, up to 10 s, run on");
+  EXPECT_EQ(text(10'001), "after an abort at most 64 bytes, up to 11 s, run on");
+  EXPECT_EQ(text(60'400), "after an abort at most 64 bytes, up to 1 min 1 s, run on");
+  v1::AbortJobResponse response;
+  *response.mutable_running() = running(15'000, 12'300, 13'200);
+  *response.mutable_running()->mutable_run_on() = run_on(64, 64);
+  *response.mutable_running()->mutable_run_on()->mutable_longest() = TimeUtil::MillisecondsToDuration(3200);
+  EXPECT_EQ(paused_text(response.running()),
+            "job 7 is paused: 64 bytes of it, up to 3.2 s, still run; the cutter keeps turning in the cut");
+  EXPECT_EQ(aborted_text(response),
+            "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; look at the mill");
 }
 
 TEST(MillTexts, AnAbortNeverSaysThatTheMillHasStopped) {
@@ -210,9 +236,10 @@ TEST(MillQueue, WhatRuns) {
   v1::Mill mill;
   *mill.add_jobs() = frame(7, v1::JOB_STATE_RUNNING);
   *mill.mutable_running() = running(15'000, 12'300, 13'200);
-  EXPECT_EQ(queue_lines(mill)[1],
-            "job 7 (frame.rml) SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 5 min 36 s to 9 min 50 s "
-            "left");
+  EXPECT_EQ(
+      queue_lines(mill)[1],
+      "job 7 (frame.rml) SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 12300 taken, 5 min 36 s to "
+      "9 min 50 s left");
   mill.mutable_running()->set_busy(true);
   EXPECT_TRUE(queue_lines(mill)[1].ends_with(" left; the mill is busy: look at it"));
 }

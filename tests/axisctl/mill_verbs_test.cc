@@ -235,7 +235,7 @@ using MillCalls = MillVerbs;
 
 TEST_F(MillCalls, StartSaysWhatRunsOn) {
   add_job(v1::JOB_STATE_CONFIRMED);
-  EXPECT_THAT(run(mill_start).output, HasSubstr("; after an abort at most 64 bytes run on\n"));
+  EXPECT_THAT(run(mill_start).output, HasSubstr("; after an abort at most 64 bytes, up to 3 s, run on\n"));
   EXPECT_EQ(mill_.started[0].job(), "devices/mill/jobs/7");
   options_.job.number = 12;
   run(mill_start);

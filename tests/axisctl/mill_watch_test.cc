@@ -25,9 +25,12 @@ class MillWatch : public MillVerbs {
     running.set_job("devices/mill/jobs/7");
     running.set_sending(sending);
     running.set_written(15'000);
+    running.set_taken(executed);
     running.set_executed_least(executed);
     running.set_executed_most(executed);
     running.mutable_run_on()->set_at_most(64);
+    running.mutable_run_on()->mutable_longest()->set_seconds(3);
+    running.mutable_run_on()->mutable_longest()->set_nanos(200'000'000);
     return state;
   }
 
@@ -41,12 +44,23 @@ TEST_F(MillWatch, EachChangeOnALineUntilItIsFed) {
   report_end(v1::JOB_STATE_FED);
   const Ended ended = run(mill_watch);
   EXPECT_EQ(ended.exit_code, kDone);
-  EXPECT_EQ(ended.output,
-            "job 7 (frame.rml) RUNNING; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 bytes run on\n"
-            "SENDING [          ] 0 %, 15000 of 30000 bytes written, 10 min 0 s to 16 min 40 s left\n"
-            "SENDING [=====     ] 50 %, 15000 of 30000 bytes written, 5 min 0 s to 8 min 20 s left\n"
-            "job 7 (frame.rml) FED: all was sent, and the slowest mill has executed it by now; look at the workpiece, "
-            "then `axisctl mill done 7`\n");
+  EXPECT_EQ(
+      ended.output,
+      "job 7 (frame.rml) RUNNING; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 bytes, up to 3.2 s, run "
+      "on\n"
+      "SENDING [          ] 0 %, 15000 of 30000 bytes written, 0 taken, 10 min 0 s to 16 min 40 s left\n"
+      "SENDING [=====     ] 50 %, 15000 of 30000 bytes written, 15000 taken, 5 min 0 s to 8 min 20 s left\n"
+      "job 7 (frame.rml) FED: all was sent, and the slowest mill has executed it by now; look at the workpiece, "
+      "then `axisctl mill done 7`\n");
+}
+
+TEST_F(MillWatch, AsJson) {
+  report(v1::SENDING_STATE_SENDING, 14'488);
+  report_end(v1::JOB_STATE_FED);
+  options_.json = true;
+  const std::string output = run(mill_watch).output;
+  EXPECT_THAT(output, HasSubstr("\"taken\":\"14488\""));
+  EXPECT_THAT(output, HasSubstr("\"longest\":\"3.200s\""));
 }
 
 TEST_F(MillWatch, UntilAToolIsToBeChanged) {
@@ -159,7 +173,7 @@ TEST_F(MillWatch, AJobThatWasJustStarted) {
   const Ended ended = run(mill_start);
   EXPECT_EQ(ended.exit_code, kDone);
   EXPECT_EQ(ended.output.find("job 7 (frame.rml) CONFIRMED; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 "
-                              "bytes run on\nSENDING "),
+                              "bytes, up to 3 s, run on\nSENDING "),
             0U);
   EXPECT_THAT(ended.output, HasSubstr("job 7 (frame.rml) FED: "));
 }

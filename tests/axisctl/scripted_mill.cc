@@ -70,6 +70,7 @@ grpc::Status ScriptedMill::StartJob(grpc::ServerContext*, const v1::StartJobRequ
   started.push_back(*request);
   if (!mill.jobs().empty()) *response->mutable_job() = mill.jobs(0);
   response->mutable_run_on()->set_at_most(64);
+  response->mutable_run_on()->mutable_longest()->set_seconds(3);
   return next_status();
 }
 

@@ -117,7 +117,7 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(confirmed, rf"\njob {number} \(lid\.rml\) is confirmed by unix \S+ until 20\d\d-")
         self.assertRegex(self.run_well("queue", device="quick"), r" CONFIRMED .* by unix \S+ until ")
         followed = self.run_well("start", "--follow", device="quick")
-        self.assertRegex(followed, r"; after an abort at most \d+ bytes run on")
+        self.assertRegex(followed, r"; after an abort at most \d+ bytes, up to \d.* s, run on")
         self.assertRegex(followed, rf"\njob {number} \(lid\.rml\) FED: all was sent, ")
         self.assertRegex(self.run_well("queue", device="quick"), r"no job runs\n(.*\n)*.* FED ")
         self.assertEqual(self.run_well("done", number, device="quick"), f"job {number} is DONE\n")
@@ -146,9 +146,10 @@ class MillJobs(unittest.TestCase):
         number = self.start_long()
         watching = self.daemon.start("--device", "mill", "mill", "watch")
         self.addCleanup(lambda: watching.process.poll() is None and watching.kill())
-        watching.until(r"\ASENDING \[.{10}\] \d+( to \d+)? %, \d+ of \d+ bytes written, ")
+        watching.until(r"\ASENDING \[.{10}\] \d+( to \d+)? %, \d+ of \d+ bytes written, \d+ taken, ")
         self.send(SMALL)
-        self.assertRegex(self.run_well("abort"), rf"\Athe abort was sent: at most \d+ bytes of job {number} may run on")
+        self.assertRegex(self.run_well("abort"),
+                         rf"\Athe abort was sent: at most \d+ bytes of job {number}, up to .* s, may run on")
         self.assertEqual(watching.end(), 1)
         self.assertRegex(watching.errors, rf"ABORTED: the abort of job {number} |OUTCOME_UNKNOWN: job {number} has left")
         self.assertNotRegex(self.run_well("queue"), rf"(?m)^{number} ")
@@ -167,8 +168,8 @@ class MillJobs(unittest.TestCase):
 
     def test_pause_and_resume(self):
         number = self.start_long()
-        self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it still run.*; the "
-                                                 r"cutter keeps turning in the cut\n\Z")
+        self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it, up to .* s, "
+                                                 r"still run.*; the cutter keeps turning in the cut\n\Z")
         self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) PAUSED \[")
         self.refused("WRONG_MODE", "pause")
         self.assertRegex(self.run_well("resume"), rf"\Ajob {number} is resumed; ")
@@ -202,6 +203,7 @@ class MillJobs(unittest.TestCase):
         self.assertEqual(self.run_well("origin", "--z", "-40", device="quick"), "Z0 was sent\n")
         self.refused("there is no|has no origin \"vice\"", "origin", "vice", device="quick")
         self.refused("OUT_OF_RANGE", "origin", "--z", "40", device="quick")
+        self.refused("NAME excludes --z", "origin", "vice", "--z", "-40", device="quick", code=2)
         self.assertEqual(self.run_well("spindle", "off", device="quick"), "spindle off was sent\n")
 
     def test_cancel(self):
@@ -225,7 +227,7 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(refused.stderr, "NOT_ALLOWED")
         aborted = self.run_as_stranger("abort")  # as a stop: everybody may
         self.assertEqual(aborted.returncode, 0, aborted.stderr)
-        self.assertRegex(aborted.stdout, rf"of job {running} may run on")
+        self.assertRegex(aborted.stdout, rf"of job {running}, up to .* s, may run on")
 
     def test_the_same_request_is_one_job(self):
         command = ("--device", "mill", "--request-id", "lid-1", "mill", "send", "-")

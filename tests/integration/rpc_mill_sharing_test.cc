@@ -85,6 +85,7 @@ TEST_F(RpcMill, ARepeatOfAStartSaysWhatMayRunOn) {
   ASSERT_TRUE(ask(&v1::MillService::Stub::StartJob, request, &again).ok());
   EXPECT_GT(again.run_on().at_most(), 0);
   EXPECT_EQ(again.run_on().at_most(), first.run_on().at_most());
+  EXPECT_EQ(again.run_on().longest().nanos(), first.run_on().longest().nanos());
 }
 
 TEST_F(RpcMill, AfterItsNotAfterNothingStarts) {
@@ -148,6 +149,29 @@ TEST_F(RpcMill, AStepByHandVoidsAConfirmationAndIsDoneOnce) {
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
   named.clear_act();
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::OperateMill, named)), v1::REASON_INVALID_REQUEST);
+}
+
+class RpcMillWithOrigin : public RpcMill {
+ protected:
+  void configure(server::Config& config) override {
+    RpcMill::configure(config);
+    std::get<server::MillConfig>(config.devices.back().family).origins = {{.name = "vice", .z = -800}};
+  }
+};
+
+TEST_F(RpcMillWithOrigin, Z0IsAtAnOriginOrAtAHeightAndNotAtBoth) {
+  v1::OperateMillRequest request;
+  request.set_device(kMill);
+  request.mutable_surface()->set_origin("vice");
+  request.mutable_surface()->set_z(-40);
+  const grpc::Status both = ask(&v1::MillService::Stub::OperateMill, request);
+  EXPECT_EQ(reason(both), v1::REASON_INVALID_REQUEST);
+  EXPECT_THAT(both.error_message(), HasSubstr("both at the origin \"vice\" and at z = -40"));
+  request.mutable_surface()->clear_z();
+  EXPECT_TRUE(ask(&v1::MillService::Stub::OperateMill, request).ok());
+  request.mutable_surface()->clear_origin();
+  request.mutable_surface()->set_z(0);
+  EXPECT_TRUE(ask(&v1::MillService::Stub::OperateMill, request).ok());
 }
 
 class RpcMillElsewhere : public RpcMill {

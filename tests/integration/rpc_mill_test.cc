@@ -26,6 +26,8 @@ TEST_F(RpcMill, AConfirmedJobIsFedAndAPersonSaysDone) {
   ASSERT_TRUE(start(job, &started).ok());
   EXPECT_EQ(started.job().state(), v1::JOB_STATE_RUNNING);
   EXPECT_EQ(started.run_on().at_most(), 64);
+  EXPECT_GE(started.run_on().longest().seconds(), 1) << "of three moves of half a second";
+  EXPECT_LT(started.run_on().longest().seconds(), 10);
   watch_until(job_is(job, v1::JOB_STATE_FED));
   v1::ReportJobDoneRequest done;
   done.set_job(job.name());
@@ -194,6 +196,26 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   ASSERT_TRUE(confirm(response.job()).ok());
   ASSERT_TRUE(start(response.job()).ok());
   watch_until(job_is(job, v1::JOB_STATE_FED));
+}
+
+class RpcMillWithFlowControl : public RpcMill {
+ protected:
+  void configure(server::Config& config) override {
+    RpcMill::configure(config);
+    auto& mill = std::get<server::MillConfig>(config.devices.back().family);
+    mill.sending.flow_control = true;
+    mill.sending.converter = 0;
+  }
+};
+
+TEST_F(RpcMillWithFlowControl, WhatHasLeftTheHostIsTaken) {
+  const v1::Job job = sent(vectors(2000));
+  ASSERT_TRUE(confirm(job).ok());
+  ASSERT_TRUE(start(job).ok());
+  ASSERT_TRUE(on_mill(&v1::MillService::Stub::PauseJob).ok());
+  const v1::RunningJob running =
+      watch_until([](const v1::Mill& mill) { return mill.running().taken() == mill.running().written(); }).running();
+  EXPECT_GT(running.taken(), running.executed_least()) << "moves of half a second";
 }
 
 TEST_F(RpcMill, AJobIsCancelled) {

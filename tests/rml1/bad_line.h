@@ -94,6 +94,7 @@ class BadLine : private MillEvents {
   std::map<JobNumber, JobState> states_;
   std::deque<std::uint64_t> under_way_;  // of each byte on the line: through which byte of the text; 0: none of it
   std::uint64_t job_written_ = 0, noted_ = 0, job_arrived_ = 0;       // bytes; the first and the last of the text
+  std::uint64_t taken_ = 0;                                           // bytes of the job, as was said last
   std::size_t lines_read_ = 0, abort_writes_ = 0, without_time_ = 0;  // without_time_: steps
   bool aborted_ = false;                                              // while the job ran
   bool abort_outstanding_ = false;                                    // requested with the line closed

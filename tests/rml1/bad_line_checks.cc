@@ -53,12 +53,16 @@ void BadLine::expect_fed_is_true() {
   if (!is_hidden() && !executed_.whole()) violate("the job is FED, and the mill has not executed all of it");
 }
 
-// What has not reached the mill has not been executed.
+// What has not reached the mill has been neither taken nor executed.
 void BadLine::expect_progress_is_true() {
   if (!runs() || is_hidden()) return;
-  const std::uint64_t executed = mill_.running(bench_.now)->progress.executed_least;
+  const SendProgress progress = mill_.running(bench_.now)->progress;
   const std::uint64_t arrived = prepared_->of_body(job_arrived_);
-  if (executed > arrived) violate(fmt::format("{} bytes are said to be executed, {} have arrived", executed, arrived));
+  if (progress.executed_least > progress.taken) violate("more is said to be executed than is taken");
+  if (progress.taken > arrived)
+    violate(fmt::format("{} bytes are said to be taken, {} have arrived", progress.taken, arrived));
+  if (progress.taken < taken_) violate(fmt::format("{} bytes were said to be taken, now {}", taken_, progress.taken));
+  taken_ = progress.taken;
 }
 
 // Where an XON was lost, nothing shows what a converter holds.

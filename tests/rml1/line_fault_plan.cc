@@ -39,8 +39,10 @@ void draw_mill(Random& random, LineFaultPlan& plan) {
   plan.mill.flow = flow;
   plan.mill.buffer_bytes = buffer;
   plan.mill.slower_percent = static_cast<double>(random.between(0, 50));
-  plan.settings.sending = {
-      .streaming = full ? Streaming::full : Streaming::paced, .buffer = buffer, .converter = converter};
+  plan.settings.sending = {.streaming = full ? Streaming::full : Streaming::paced,
+                           .buffer = buffer,
+                           .converter = converter,
+                           .flow_control = flow != Flow::none};
   plan.settings.busy_limit = std::chrono::seconds(30);
   plan.line = {.shows_cts = flow == Flow::rts, .converter = converter, .late = random.pick<std::size_t>({0, 16})};
 }

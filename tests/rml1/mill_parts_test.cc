@@ -144,6 +144,7 @@ TEST_F(MillPartsTest, BytesAreThoseOfTheWholeJob) {
   noted_.clear();
   begin(1, 1);
   EXPECT_EQ(mill_.running(now_)->progress.executed_least, 24u);
+  EXPECT_EQ(mill_.running(now_)->progress.taken, 24u);
   EXPECT_EQ(noted_.front(), 24u);
   run_to_end();
   EXPECT_EQ(noted_.back(), 36u);

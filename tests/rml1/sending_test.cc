@@ -13,6 +13,7 @@
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/mill.h"
+#include "tests/rml1/sender_fixture.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -78,41 +79,6 @@ TEST(Timeline, HasADwellBeforeEachPointAtMost) {
   EXPECT_FLOAT_EQ(static_cast<float>(with.least_s() - without.least_s()), 1);
   EXPECT_FLOAT_EQ(static_cast<float>(with.most_s() - without.most_s()), 3);
 }
-
-class SenderTest : public testing::Test {
- protected:
-  // 10 mm at 15 mm/s each, so 0.7 to 0.9 s by the profile; without a spin-up.
-  static std::string vectors(int count) {
-    std::string job = "!MC0;^PA;V15;VS15;";
-    for (int i = 0; i < count; ++i) job += i % 2 == 0 ? "PU1000,0;" : "PU0,0;";
-    return job;
-  }
-  void begin(const std::string& job, SendSettings settings = {}) {
-    job_ = job;
-    timeline_.emplace(job_, profile_, std::nullopt);
-    sender_.emplace(job_, *timeline_, profile_, settings, plan_of(job_, *timeline_, settings), line_);
-    sender_->start(now_);
-  }
-  void run_for(Duration time) {
-    for (const TimePoint end = now_ + time; now_ < end; now_ += milliseconds(1)) {
-      line_.run_to(now_);
-      sender_->advance(now_);
-    }
-  }
-  SendProgress progress() { return sender_->progress(now_); }
-  std::string written() const {
-    std::string all;
-    for (const std::string& one : line_.writes) all += one;
-    return all;
-  }
-
-  const Profile profile_ = test_profile();
-  FakeMillLine line_;
-  TimePoint now_{std::chrono::seconds(1000)};
-  std::string job_;
-  std::optional<Timeline> timeline_;
-  std::optional<Sender> sender_;
-};
 
 TEST_F(SenderTest, TheWholeJobIsWrittenOnceAndInCommands) {
   begin(vectors(40), {.slack = 1});
@@ -291,17 +257,6 @@ TEST_F(SenderTest, AMoveIsTimedFromWhenItsBytesHaveLeft) {
   EXPECT_LT(progress().executed_least, 27u) << "a mill that is slow is not there yet";
   run_for(std::chrono::seconds(2));
   EXPECT_GE(progress().executed_least, 27u);
-}
-
-// What a mill has no room for is lost where nothing holds its host.
-TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
-  std::string job = "^PA;V15;VS15;";
-  for (int i = 0; i < 400; ++i) job += i % 21 == 0 ? "PU4000,0000;PU0,0;" : "PU0008,0000;";
-  Profile profile = test_profile();
-  profile.acceleration = {.best = 1e7, .worst = 1e7, .corner_mm = 0.02, .slower = 0};
-  const Timeline timeline(job, profile, std::nullopt);
-  EXPECT_GT(plan_of(job, timeline, {.slack = 1, .buffer = 1024}).window, 100u);
-  EXPECT_EQ(plan_of(job, timeline, {.slack = 1, .buffer = 100}).window, 100u);
 }
 
 TEST_F(SenderTest, ALostLineIsAnEndOfWhichNothingIsKnown) {

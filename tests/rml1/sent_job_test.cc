@@ -16,6 +16,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
+constexpr Duration kForever = std::chrono::minutes(10);  // a command may take some seconds
+
 // A mill, and the profile by which it is fed.
 struct Pair {
   std::string_view name;
@@ -38,13 +40,17 @@ std::uint64_t not_executed(const FedMill& line, const SendProgress& progress) {
   return progress.written - std::min(progress.written, line.executed());
 }
 
-Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Duration period = seconds(1)) {
+simulator::MillSetup mill_of(const Pair& pair) {
   simulator::MillSetup setup = simulator::with_options({{"acceleration", pair.acceleration}});
   setup.profile = pair.profile;
   setup.slower_percent = pair.slower_percent;
   setup.flow = simulator::Flow::rts;
+  return setup;
+}
+
+Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Duration period = seconds(1)) {
   const Timeline timeline(job, pair.profile, kAtHome);
-  FedMill line(job, setup, settings.baud);
+  FedMill line(job, mill_of(pair), settings.baud);
   Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
   Sent found;
   found.at_most = sender.run_on().at_most;
@@ -61,6 +67,40 @@ Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Durat
   });
   found.seconds = line.seconds();
   EXPECT_EQ(line.executed(), job.size()) << pair.name;
+  return found;
+}
+
+struct Paused {
+  int pauses = 0;
+  double longest_s = 0, shown_s = 0;  // from a pause until all that was written is executed; as shown before the start
+};
+
+Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
+  const Timeline timeline(job, pair.profile, kAtHome);
+  FedMill line(job, mill_of(pair), settings.baud);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
+  Paused found{.shown_s = std::chrono::duration<double>(sender.run_on().longest).count()};
+  const Duration between = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeline.most_s() / 20));
+  TimePoint now{}, next_pause = now + between;
+  const auto run_to = [&](TimePoint then) {
+    now = then;
+    line.run_to(now);
+    sender.advance(now);
+  };
+  sender.start(now);
+  while (!is_end(sender.state())) {
+    run_to(std::max(now, std::min(next_pause, sender.next_deadline(now).value_or(next_pause))));
+    if (now < next_pause) continue;
+    next_pause = now + between;
+    sender.pause(now);
+    if (sender.state() != SenderState::paused) continue;
+    const TimePoint since = now;
+    while (line.executed() < sender.progress(now).written && now - since < kForever) run_to(now + milliseconds(1));
+    ++found.pauses;
+    found.longest_s = std::max(found.longest_s, std::chrono::duration<double>(now - since).count());
+    next_pause = now + between;
+    sender.resume(now);
+  }
   return found;
 }
 
@@ -92,6 +132,17 @@ TEST_P(SentJob, NoMoreIsAheadThanWasShownBeforeTheStart) {
     for (const std::size_t window : {0, 64, 256}) {
       const Sent found = sent(job, GetParam(), {.window = window}, milliseconds(5));
       EXPECT_LE(found.ahead, found.at_most) << window;
+    }
+  }
+}
+
+// At some twenty places of the job.
+TEST_P(SentJob, APauseEndsWithinTheTimeThatWasShown) {
+  for (const std::string& job : {uniform_vectors(500), bursts_of_vectors(500)}) {
+    for (const Streaming streaming : {Streaming::paced, Streaming::full}) {
+      const Paused found = paused(job, GetParam(), {.streaming = streaming});
+      EXPECT_GE(found.pauses, 2);
+      EXPECT_LE(found.longest_s, found.shown_s);
     }
   }
 }

@@ -246,8 +246,8 @@ std::optional<RunningJob> MillController::running(TimePoint now) {
 RunningJob MillController::view(TimePoint now) {
   SendProgress progress = running_->sender.progress(now);
   const PreparedJob& job = *running_->prepared;
-  progress = {job.of_body(progress.written), progress.unsent, job.of_body(progress.executed_least),
-              job.of_body(progress.executed_most)};
+  progress = {job.of_body(progress.written), progress.unsent, job.of_body(progress.taken),
+              job.of_body(progress.executed_least), job.of_body(progress.executed_most)};
   return {running_->number,          running_->sender.state(), progress,
           running_->sender.run_on(), running_->started,        running_->busy};
 }
@@ -267,16 +267,16 @@ void MillController::look_at_sender(TimePoint now) {
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
 void MillController::look_whether_busy(TimePoint now) {
   const SendProgress progress = running_->sender.progress(now);
-  const std::uint64_t taken = progress.written - progress.unsent;
+  const std::uint64_t left = progress.written - progress.unsent;
   const SenderState state = running_->sender.state();
   const bool has_sent =
       state == SenderState::sending || state == SenderState::finishing || state == SenderState::raising;
   const bool has_more = progress.unsent > 0 || (has_sent && line_.held());
-  if (taken != running_->taken || !has_more) {
-    running_->taken = taken;
-    running_->taken_at = now;
+  if (left != running_->left || !has_more) {
+    running_->left = left;
+    running_->left_at = now;
   }
-  const bool busy = now - running_->taken_at >= settings_.busy_limit;
+  const bool busy = now - running_->left_at >= settings_.busy_limit;
   if (std::exchange(running_->busy, busy) != busy) events_.sender_changed(view(now), now);
 }
 
@@ -301,8 +301,8 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
 // What had left the host may still have been in a converter, which is gone with the line.
 WrittenRange MillController::written_at_loss() {
   const std::uint64_t converter = guarded(MillGuard::converter_in_range) ? settings_.sending.converter : 0;
-  const std::uint64_t in_converter = std::min(converter, running_->taken);
-  return {running_->prepared->of_body(running_->taken - in_converter), running_->prepared->of_body(running_->noted)};
+  const std::uint64_t in_converter = std::min(converter, running_->left);
+  return {running_->prepared->of_body(running_->left - in_converter), running_->prepared->of_body(running_->noted)};
 }
 
 void MillController::inherit(Job job) {

@@ -147,8 +147,8 @@ class MillController : public LineMachine {
     Sender sender;
     SenderState seen = SenderState::ready;
     std::uint64_t noted = 0;  // bytes of the text that were given to the line
-    std::uint64_t taken = 0;  // by the mill, at `taken_at`
-    TimePoint taken_at{};
+    std::uint64_t left = 0;   // bytes of it that have left the host, at `left_at`
+    TimePoint left_at{};
     bool busy = false;
     std::string aborted_by;
   };

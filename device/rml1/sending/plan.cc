@@ -1,6 +1,7 @@
 #include "device/rml1/sending/plan.h"
 
 #include <algorithm>
+#include <chrono>
 
 #include "device/rml1/guard.h"
 #include "device/rml1/sending/cut.h"
@@ -25,6 +26,22 @@ std::size_t longest_write(std::string_view job, std::size_t window) {
   return longest;
 }
 
+// A step that runs on ends in the last `bytes` that were written. The line sends or the mill executes: where the line
+// is held, the mill has something to do.
+Duration longest_within(std::size_t bytes, const Timeline& timeline, const SendSettings& settings) {
+  const auto takes = [&settings](const Step& step) {
+    return std::chrono::ceil<Duration>(std::chrono::duration<double>(step.most_s * settings.slack));
+  };
+  Duration longest{}, within{};
+  auto first = timeline.steps().begin();
+  for (const Step& last : timeline.steps()) {
+    within += takes(last);
+    for (; first->end + bytes <= last.end; ++first) within -= takes(*first);
+    longest = std::max(longest, within);
+  }
+  return longest + transmit_time(bytes, settings.baud);
+}
+
 }  // namespace
 
 // The mill's buffer may be full while it executes a command, and another one is in the host.
@@ -32,8 +49,8 @@ SendPlan plan_of(std::string_view job, const Timeline& timeline, const SendSetti
   const std::size_t window = window_of(job, timeline, settings);
   const std::size_t longest = longest_write(job, window);
   const std::size_t full = settings.buffer + settings.converter + 2 * longest;
-  if (settings.streaming == Streaming::full) return {window, {full, full}};
-  return {window, {std::min(std::max(window, longest), full), full}};
+  const std::size_t at_most = settings.streaming == Streaming::full ? full : std::min(std::max(window, longest), full);
+  return {window, {at_most, full, longest_within(at_most, timeline, settings)}};
 }
 
 }  // namespace axisgate::rml1

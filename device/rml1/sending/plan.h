@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include "device/core/time.h"
 #include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/timeline.h"
 
@@ -13,6 +14,7 @@ namespace axisgate::rml1 {
 struct RunOn {
   std::size_t at_most = 0;  // of a mill that executes, and began at the top above the work origin
   std::size_t if_held = 0;  // of one that its panel holds, for when it is released
+  Duration longest{};       // within which the slowest mill has executed any `at_most` bytes of the job
 };
 
 struct SendPlan {

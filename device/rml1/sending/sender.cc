@@ -92,10 +92,7 @@ bool Sender::rests_behind_written() const {
   return next == steps.begin() || !std::prev(next)->turning;
 }
 
-void Sender::line_lost(TimePoint now) {
-  progress(now);
-  change(Event::line_lost);
-}
+void Sender::line_lost(TimePoint) { change(Event::line_lost); }
 
 // Behind what was written of the job, which is whole commands.
 void Sender::abort(TimePoint now) {
@@ -175,6 +172,13 @@ void Sender::learn(TimePoint now) {
   const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
   const std::size_t unread = settings_.buffer + settings_.converter;
   if (left > unread) slowest_.has_read(left - unread, now);
+  const std::size_t between = settings_.converter;
+  if (heeds_flow_control() && left > between) taken_ = std::max<std::uint64_t>(taken_, left - between);
+}
+
+// Otherwise what leaves the host may be lost: in a full buffer, as after an abort, or with the line.
+bool Sender::heeds_flow_control() const {
+  return settings_.flow_control && state_ != SenderState::aborting && !is_end(state_);
 }
 
 // On this side of a line that is held: in the host, and perhaps in a converter.
@@ -231,7 +235,9 @@ TimePoint Sender::room_at() const {
 
 SendProgress Sender::progress(TimePoint now) {
   learn(now);
-  return {cutter_.begin(), std::min(line_.unsent(), cutter_.begin()), slowest_.executed(now), fastest_.executed(now)};
+  const std::uint64_t executed = slowest_.executed(now);
+  taken_ = std::max(taken_, executed);
+  return {cutter_.begin(), std::min(line_.unsent(), cutter_.begin()), taken_, executed, fastest_.executed(now)};
 }
 
 }  // namespace axisgate::rml1

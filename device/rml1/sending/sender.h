@@ -25,6 +25,7 @@ bool is_end(SenderState state);
 struct SendProgress {
   std::uint64_t written = 0;         // to the line
   std::uint64_t unsent = 0;          // of these, still in the host, as far as that can be known
+  std::uint64_t taken = 0;           // at least, by the mill; never descends
   std::uint64_t executed_least = 0;  // by the slowest mill
   std::uint64_t executed_most = 0;   // by the fastest
 };
@@ -69,6 +70,7 @@ class Sender {
   bool has_room(TimePoint now);
   void learn(TimePoint now);
   void learn_what_waits(TimePoint now);
+  bool heeds_flow_control() const;
   bool all_is_executed(TimePoint now);
   bool has_raised(TimePoint now);
   bool rests_behind_written() const;
@@ -87,7 +89,8 @@ class Sender {
   FlowLink& line_;
   Pace slowest_, fastest_;
   SenderState state_ = SenderState::ready;
-  Cutter cutter_;        // written up to its begin()
+  Cutter cutter_;  // written up to its begin()
+  std::uint64_t taken_ = 0;
   TimePoint arrives_{};  // the last of them, at the mill: a converter may hold what has left the host
   TimePoint abort_since_{};
   std::optional<TimePoint> raised_at_;  // at the latest; nothing: what was sent of the job may not have been executed

@@ -16,6 +16,7 @@ struct SendSettings {
   std::size_t buffer = 1024;    // bytes, the mill's
   std::size_t converter = 512;  // bytes, between host and mill
   int baud = 9600;
+  bool flow_control = false;  // the line keeps the host from sending what the mill has no room for
 };
 
 }  // namespace axisgate::rml1

@@ -1,0 +1,62 @@
+// How many bytes of a job are said to be in the mill, by the model and by the line.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <cstddef>
+
+#include "tests/rml1/fake_mill_line.h"
+#include "tests/rml1/sender_fixture.h"
+
+namespace axisgate::rml1::taken_test {
+namespace {
+
+using std::chrono::milliseconds;
+
+class Taken : public SenderTest {};
+
+TEST_F(Taken, WhatAConverterCannotHoldIsTaken) {
+  begin(vectors(200), {.streaming = Streaming::full, .converter = 100, .flow_control = true});
+  run_for(milliseconds(200));
+  const std::size_t left = line_.received.size();
+  ASSERT_GT(left, 150u);
+  EXPECT_EQ(progress().taken, left - 100);
+  EXPECT_LT(progress().executed_least, left - 100);
+  line_.busy = true;
+  run_for(milliseconds(500));
+  EXPECT_EQ(progress().taken, left - 100) << "nothing leaves the host";
+}
+
+TEST_F(Taken, WithoutFlowControlOnlyWhatIsExecutedIsTaken) {
+  begin(vectors(200), {.streaming = Streaming::full, .converter = 100});
+  for (int i = 0; i < 100; ++i) {
+    run_for(milliseconds(100));
+    ASSERT_EQ(progress().taken, progress().executed_least);
+  }
+  EXPECT_GT(progress().taken, 20u);
+}
+
+// The mill may have no room for what is sent against flow control.
+TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
+  begin(vectors(200), {.streaming = Streaming::full, .converter = 0, .flow_control = true});
+  run_for(milliseconds(200));
+  line_.busy = true;
+  ASSERT_GT(line_.unsent(), 0u);
+  const std::size_t left = line_.received.size();
+  sender_->abort(now_);
+  run_for(milliseconds(500));
+  ASSERT_EQ(sender_->state(), SenderState::aborted);
+  EXPECT_EQ(progress().taken, left);
+}
+
+TEST_F(Taken, WhatIsDiscardedWithTheLineIsNotTaken) {
+  begin(vectors(200), {.streaming = Streaming::full, .converter = 0, .flow_control = true});
+  run_for(milliseconds(200));
+  ASSERT_GT(line_.unsent(), 0u);
+  const std::size_t left = line_.received.size();
+  line_ = FakeMillLine();  // as device/link discards what waits
+  sender_->line_lost(now_);
+  EXPECT_EQ(progress().taken, left);
+}
+
+}  // namespace
+}  // namespace axisgate::rml1::taken_test
