@@ -160,6 +160,10 @@ abort also sends what discards the mill's buffer, raises the tool and stops the 
 not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
 have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.
 
+`mill queue` shows when each job that waits begins at the earliest: a range, too, to which people who confirm add time.
+`mill first` moves a job to the front. An administrator may move each; you may move your own before other jobs of yours.
+A job that is confirmed or was begun is never overtaken.
+
 After `mill pause --raise` the tool goes up behind what was sent, the spindle stops, and the job is PAUSED. It continues
 when it is confirmed and started again. A job is PAUSED_UNKNOWN after a broken line or a killed daemon: look at the
 workpiece, and name the line with which it continues: `mill resume JOB --from LINE`. Without --from the answer says where
@@ -174,6 +178,7 @@ printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profi
 printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg
 printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill send - --title frame
 axisctl mill queue
+axisctl mill first 1
 axisctl mill confirm --yes
 axisctl mill start
 axisctl mill abort

@@ -87,11 +87,12 @@ std::string elapsed_text(std::int64_t micros) {
                              : fmt::format("{:.1f} s", static_cast<double>(micros) / 1e6);
 }
 
-std::string job_entry_text(const Json& details) {
+std::string job_entry_text(const Json& details, const std::string& because) {
   const Json sent = details.value("sent", Json::array());
   const std::string range =
       sent.size() == 2 ? fmt::format("; {} to {} bytes were sent", sent[0].dump(), sent[1].dump()) : "";
-  return fmt::format("job {} is {}{}", details.value("job", std::uint64_t{}), details.value("state", "?"), range);
+  return fmt::format("job {} is {}{}{}", details.value("job", std::uint64_t{}), details.value("state", "?"), range,
+                     because);
 }
 
 std::string text_of(const v1::HistoryEntry& entry) {
@@ -142,7 +143,7 @@ std::string text_of(const v1::HistoryEntry& entry) {
     case v1::HISTORY_KIND_REARMED:
       return fmt::format("{} rearmed {}", entry.who(), axes_text(details));
     case v1::HISTORY_KIND_JOB_CHANGED:
-      return job_entry_text(details);
+      return job_entry_text(details, because);
     default:
       return fmt::format("kind {}: {}", static_cast<int>(entry.kind()), entry.details());
   }

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill_times.h"
 #include "clients/axisctl/print.h"
 
 namespace axisgate::axisctl {
@@ -30,10 +31,7 @@ v1::Mill mill_now(const Session& session, const std::string& device) {
 std::string wanted_job(const Session& session, const v1::Mill& mill) {
   if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);
   for (const v1::Job& job : mill.jobs()) {
-    if (job.state() == v1::JOB_STATE_QUEUED || job.state() == v1::JOB_STATE_CONFIRMED ||
-        job.state() == v1::JOB_STATE_TOOL_CHANGE || job.state() == v1::JOB_STATE_PAUSED) {
-      return job.name();
-    }
+    if (waits(job)) return job.name();
   }
   throw Failure{kRefused, "NOT_FOUND", fmt::format("no job waits at {}", last_part(mill.name())),
                 "send one with `axisctl mill send`"};

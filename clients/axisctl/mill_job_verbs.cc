@@ -1,4 +1,4 @@
-// mill queue, start, pause, resume, abort, cancel, done: what is requested of a mill in one call.
+// mill queue, start, pause, resume, abort, cancel, first, done: what is requested of a mill in one call.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -114,6 +114,15 @@ int mill_cancel(const Session& session) {
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJob, request, kQuestionLimit);
   return report_answer(session, response, fmt::format("job {} is CANCELLED", last_part(request.job())));
+}
+
+int mill_first(const Session& session) {
+  const auto request = job_request<v1::MoveJobRequest>(session);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::MoveJob, request, kQuestionLimit);
+  return report_answer(session, response,
+                       fmt::format("{} is as far forward as you may move it; `axisctl mill queue` shows the order",
+                                   job_text(response.job())));
 }
 
 int mill_done(const Session& session) {

@@ -126,6 +126,9 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   add_number(*add_job_verb(*mill, options, Verb::mill_cancel, "cancel", "take a job out of the queue"), options,
              "its number")
       ->required();
+  add_number(*add_job_verb(*mill, options, Verb::mill_first, "first", "move a job to the front of the queue"), options,
+             "its number")
+      ->required();
   add_number(*add_job_verb(*mill, options, Verb::mill_done, "done", "say that the workpiece of a job was seen"),
              options, "its number")
       ->required();

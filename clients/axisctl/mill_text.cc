@@ -4,9 +4,10 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
+#include <optional>
 
+#include "clients/axisctl/mill_times.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/table.h"
 
@@ -47,17 +48,8 @@ std::string takes_text(const v1::Job& job) {
   return range_text(duration_text(job.shortest()), duration_text(job.longest()));
 }
 
-google::protobuf::Duration part_left(const google::protobuf::Duration& whole, std::int64_t executed, std::int64_t all) {
-  using google::protobuf::util::TimeUtil;
-  if (all <= 0) return whole;
-  const double left = static_cast<double>(all - std::clamp<std::int64_t>(executed, 0, all)) / static_cast<double>(all);
-  return TimeUtil::MillisecondsToDuration(
-      std::llround(static_cast<double>(TimeUtil::DurationToMilliseconds(whole)) * left));
-}
-
-std::string time_left_text(const v1::Job& job, const v1::RunningJob& running) {
-  return range_text(duration_text(part_left(job.shortest(), running.executed_most(), job.bytes())),
-                    duration_text(part_left(job.longest(), running.executed_least(), job.bytes())));
+std::string duration_range_text(const TimeRange& range) {
+  return range_text(duration_text(range.least), duration_text(range.most));
 }
 
 std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
@@ -110,7 +102,13 @@ std::string place_text(const v1::JobPlace& place) {
   return fmt::format("line {}, column {}", place.line(), place.column());
 }
 
-std::vector<std::string> job_cells(const v1::Job& job) {
+std::string beginning_cell(const std::optional<TimeRange>& earliest) {
+  if (!earliest) return "-";
+  const std::string range = duration_range_text(*earliest);
+  return range == "0 s" ? "now" : "in " + range;
+}
+
+std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeRange>& earliest) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
           on_one_line(job.owner()),
@@ -118,6 +116,7 @@ std::vector<std::string> job_cells(const v1::Job& job) {
           tool_cell(job),
           named_or(job.setup().origin(), "panel"),
           takes_text(job),
+          beginning_cell(earliest),
           job.state() == v1::JOB_STATE_CONFIRMED ? confirmation_text(job) : "-"};
 }
 
@@ -171,7 +170,7 @@ std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
                                           begun_steps(running.executed_most(), job.bytes(), percent));
   return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left", name_of(running.sending()),
                      bar_text(job, running), executed, running.written(), job.bytes(), running.taken(),
-                     time_left_text(job, running));
+                     duration_range_text(time_left(job, running)));
 }
 
 // Bytes that have not left this host may stay here, and the fastest mill has executed the most.
@@ -204,8 +203,9 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
     return lines;
   }
   std::vector<std::vector<std::string>> rows{
-      {"job", "title", "owner", "state", "tool", "origin", "takes", "confirmed"}};
-  for (const v1::Job& job : mill.jobs()) rows.push_back(job_cells(job));
+      {"job", "title", "owner", "state", "tool", "origin", "takes", "begins at the earliest", "confirmed"}};
+  const std::vector<std::optional<TimeRange>> beginnings = earliest_beginnings(mill);
+  for (int i = 0; i < mill.jobs_size(); ++i) rows.push_back(job_cells(mill.jobs(i), beginnings[i]));
   for (const std::string& line : table_lines(rows)) lines.push_back(line);
   return lines;
 }

@@ -79,6 +79,7 @@ enum class Verb {
   mill_resume,
   mill_abort,
   mill_cancel,
+  mill_first,
   mill_done,
   mill_jog,
   mill_origin,

@@ -64,8 +64,11 @@ Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, c
            one.setup.origin == again.setup.origin && one.parts == again.parts && one.owner == again.owner &&
            one.name == again.name;
   };
-  const auto found = std::find_if(jobs.rbegin(), jobs.rend(), same);
-  if (found != jobs.rend()) return CurrentJob{&mill, *found, server::moment_of(now)};
+  const rml1::Job* newest = nullptr;
+  for (const rml1::Job& job : jobs) {
+    if (same(job) && (newest == nullptr || newest->number < job.number)) newest = &job;
+  }
+  if (newest != nullptr) return CurrentJob{&mill, *newest, server::moment_of(now)};
   return fail(Reason::not_found, "the job was sent before, and has ended", "`axisctl history` has it");
 }
 
@@ -240,19 +243,6 @@ void Mills::confirm(const Call& call, std::string_view job, const rml1::JobSetup
         if (const Result<void> there = check_at_station(turn.device, turn.caller.who); !there) return there;
         const Result<void> fits = check_setup(turn.device, it);
         return fits ? mill.confirm(it.number, seen, turn.caller.who, turn.now) : fits;
-      },
-      std::move(answer));
-}
-
-void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
-  act_on_job(
-      RequestKind::cancel_job, call, job,
-      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
-        if (!server::is_certainly(turn.caller.who, it.owner) && turn.caller.role != server::Role::admin) {
-          return fail(Reason::not_allowed, fmt::format("{} is not yours", text_of(it)),
-                      "its owner or an administrator can cancel it");
-        }
-        return mill.cancel(it.number, turn.caller.who, turn.now);
       },
       std::move(answer));
 }

@@ -113,6 +113,8 @@ class Mills {
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   // not_allowed: the job is somebody else's.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  // To the front, by an administrator; by its owner, before their other jobs. not_allowed, as cancel().
+  void move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
 
  private:

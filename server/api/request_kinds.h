@@ -66,6 +66,7 @@ enum class RequestKind {
   continue_job,
   abort_job,
   cancel_job,
+  move_job,
   report_job_done,
   operate_mill,
   ask_door,    // what a door says of itself in one answer: its health

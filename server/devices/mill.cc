@@ -75,7 +75,7 @@ void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why,
   spdlog::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
                why.empty() ? "" : ": ", why);
   publish_fact(JobChanged{job, {}, std::string(by), std::string(why)}, now);
-  if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, name(), now)});
+  if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, why, name(), now)});
 }
 
 void Mill::post(Request request) {
@@ -101,12 +101,14 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   note(job, by, why, now);
   if (record_ && job.state == rml1::JobState::running) record_->begin(job);
   if (record_) record_->set_state(job);
-  if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) {
-    boost::asio::post(spool_thread_, [this, job] { keep_place(spool_, name(), job); });
-  }
+  if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) keep(job);
   if (rml1::is_end(job.state)) {
     boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });
   }
+}
+
+void Mill::keep(const rml1::Job& job) {
+  boost::asio::post(spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
 }
 
 void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {

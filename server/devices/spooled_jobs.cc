@@ -67,6 +67,7 @@ std::string facts_of(const rml1::Job& job) {
              {"origin", job.setup.origin},
              {"parts", parts},
              {"part", job.part},
+             {"rank", job.rank},
              {"least_s", job.least_s},
              {"most_s", job.most_s},
              {"leaves",
@@ -89,7 +90,8 @@ rml1::Job job_of(const spool::Job& spooled) {
                 .least_s = facts.value("least_s", 0.0),
                 .most_s = facts.value("most_s", 0.0),
                 .leaves = {leaves.value("surface", false), leaves.value("revolutions", false),
-                           leaves.value("rotation", false), leaves.value("tool", false)}};
+                           leaves.value("rotation", false), leaves.value("tool", false)},
+                .rank = facts.value("rank", std::int64_t{0})};
   for (const Json& part : facts.value("parts", Json::array())) {
     job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0})});
   }
@@ -117,7 +119,7 @@ rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
   return job;
 }
 
-void keep_place(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const auto kept = spool.set_facts(device, job.number, facts_of(job));
   if (!kept) spdlog::warn("{}", explain(kept.error()));
 }

@@ -35,7 +35,7 @@ enum class EntryKind {
   latched = 72,  // the caller, by a stop of somebody else
   rearmed = 73,
   person_erased = 80,  // the name of a caller
-  job_changed = 90,    // of a mill: it was queued, or has another state
+  job_changed = 90,    // of a mill: it was queued, has another state, or was moved in the queue
 };
 // "motion ended" and the like; "kind 77" of a number that this program does not know.
 std::string name(EntryKind kind);

@@ -106,6 +106,13 @@ grpc::ServerUnaryReactor* MillService::CancelJob(grpc::CallbackServerContext* co
   return call.get();
 }
 
+grpc::ServerUnaryReactor* MillService::MoveJob(grpc::CallbackServerContext* context, const v1::MoveJobRequest* request,
+                                               v1::MoveJobResponse* response) {
+  const auto call = UnaryCall<v1::MoveJobResponse>::start(response);
+  mills_.move_first(to_acting_call(*context, *request), request->job(), answering_with_job(call));
+  return call.get();
+}
+
 grpc::ServerUnaryReactor* MillService::ReportJobDone(grpc::CallbackServerContext* context,
                                                      const v1::ReportJobDoneRequest* request,
                                                      v1::ReportJobDoneResponse* response) {

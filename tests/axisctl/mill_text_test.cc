@@ -214,12 +214,13 @@ TEST(MillQueue, ATable) {
   *mill.add_jobs() = frame(12, v1::JOB_STATE_QUEUED);
   mill.mutable_jobs(1)->mutable_setup()->clear_tool();
   mill.mutable_jobs(1)->mutable_setup()->set_origin("vice");
-  EXPECT_EQ(queue_lines(mill),
-            (Lines{"mill  MDX-20  line open", "no job runs",
-                   "job  title      owner      state      tool  origin  takes                      confirmed",
-                   "7    frame.rml  unix anna  CONFIRMED  T1    panel   10 min 0 s to 16 min 40 s  by unix bert until "
-                   "2026-11-18 11:10:00",
-                   "12   frame.rml  unix anna  QUEUED     -     vice    10 min 0 s to 16 min 40 s  -"}));
+  EXPECT_EQ(queue_lines(mill), (Lines{"mill  MDX-20  line open", "no job runs",
+                                      "job  title      owner      state      tool  origin  takes                      "
+                                      "begins at the earliest        confirmed",
+                                      "7    frame.rml  unix anna  CONFIRMED  T1    panel   10 min 0 s to 16 min 40 s  "
+                                      "now                           by unix bert until 2026-11-18 11:10:00",
+                                      "12   frame.rml  unix anna  QUEUED     -     vice    10 min 0 s to 16 min 40 s  "
+                                      "in 10 min 0 s to 16 min 40 s  -"}));
 }
 
 TEST(MillQueue, APartOfAJob) {
@@ -228,8 +229,52 @@ TEST(MillQueue, APartOfAJob) {
   for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
   job.set_part(1);
   job.mutable_setup()->set_tool("T3");
-  EXPECT_EQ(queue_lines(mill)[3],
-            "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   10 min 0 s to 16 min 40 s  -");
+  EXPECT_EQ(
+      queue_lines(mill)[3],
+      "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   10 min 0 s to 16 min 40 s  now             "
+      "        -");
+}
+
+// Of each job of the queue what is said of its beginning. Column by column, so that the widths are of no account.
+Lines beginnings(const v1::Mill& mill) {
+  const Lines lines = queue_lines(mill);
+  const std::size_t begin = lines[2].find("begins at the earliest"), end = lines[2].find("confirmed");
+  Lines cells;
+  for (std::size_t i = 3; i < lines.size(); ++i) {
+    const std::string cell = lines[i].substr(begin, end - begin);
+    cells.push_back(cell.substr(0, cell.find_last_not_of(' ') + 1));
+  }
+  return cells;
+}
+
+// 12,300 to 13,200 of 30,000 bytes are executed: 336 to 590 s are left.
+TEST(MillQueue, WhatWaitsBeginsWhenAllBeforeItIsDone) {
+  v1::Mill mill;
+  *mill.add_jobs() = frame(7, v1::JOB_STATE_RUNNING);
+  *mill.mutable_running() = running(15'000, 12'300, 13'200);
+  for (const int number : {8, 9, 10}) *mill.add_jobs() = frame(number, v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "in 5 min 36 s to 9 min 50 s", "in 15 min 36 s to 26 min 30 s",
+                                     "in 25 min 36 s to 43 min 10 s"}));
+}
+
+// 20,000 of 30,000 bytes are left.
+TEST(MillQueue, OfAJobInAToolChangeWhatIsLeftCounts) {
+  v1::Mill mill;
+  v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_TOOL_CHANGE));
+  for (const int bytes : {10'000, 15'000, 5'000}) job.add_parts()->set_bytes(bytes);
+  job.set_part(1);
+  *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(beginnings(mill), (Lines{"now", "in 6 min 40 s to 11 min 7 s"}));
+}
+
+TEST(MillQueue, WhatIsOverTakesNoTimeAndOfOtherStatesTheLongestIsKnown) {
+  v1::Mill mill;
+  *mill.add_jobs() = frame(6, v1::JOB_STATE_PAUSED_UNKNOWN);
+  *mill.add_jobs() = frame(7, v1::JOB_STATE_FED);
+  *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "-", "now"}));
+  mill.mutable_jobs(0)->set_state(static_cast<v1::JobState>(99));
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "-", "in 0 s to 16 min 40 s"}));
 }
 
 TEST(MillQueue, WhatRuns) {

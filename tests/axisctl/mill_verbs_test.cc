@@ -294,6 +294,21 @@ TEST_F(MillCalls, WhatIsNoLineIsAUsageError) {
   EXPECT_THAT(mill_.continued, IsEmpty());
 }
 
+TEST_F(MillCalls, First) {
+  add_job(v1::JOB_STATE_QUEUED);
+  options_.job.number = 7;
+  options_.request_id = "front-1";
+  EXPECT_EQ(run(mill_first).output,
+            "job 7 (frame.rml) is as far forward as you may move it; `axisctl mill queue` shows the order\n");
+  EXPECT_THAT(mill_.jobs, ElementsAre("devices/mill/jobs/7"));
+  mill_.statuses = {{grpc::StatusCode::PERMISSION_DENIED, "job 7 is not yours"}};
+  EXPECT_EQ(run(mill_first).exit_code, kRefused);
+  mill_.statuses = {{grpc::StatusCode::UNAVAILABLE, "Socket closed"}, grpc::Status::OK};
+  mill_.calls.clear();
+  EXPECT_EQ(run(mill_first).exit_code, kDone);
+  EXPECT_THAT(mill_.calls, ElementsAre("ListDevices", "MoveJob", "MoveJob"));
+}
+
 TEST_F(MillCalls, ALostAnswerIsRequestedAgain) {
   mill_.statuses = {{grpc::StatusCode::UNAVAILABLE, "Socket closed"}, grpc::Status::OK};
   options_.job.number = 7;

@@ -114,6 +114,14 @@ grpc::Status ScriptedMill::CancelJob(grpc::ServerContext*, const v1::CancelJobRe
   return next_status();
 }
 
+grpc::Status ScriptedMill::MoveJob(grpc::ServerContext*, const v1::MoveJobRequest* request,
+                                   v1::MoveJobResponse* response) {
+  calls.emplace_back("MoveJob");
+  jobs.push_back(request->job());
+  *response->mutable_job() = mill.jobs(0);
+  return next_status();
+}
+
 grpc::Status ScriptedMill::ReportJobDone(grpc::ServerContext*, const v1::ReportJobDoneRequest* request,
                                          v1::ReportJobDoneResponse*) {
   calls.emplace_back("ReportJobDone");

@@ -55,6 +55,8 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
                            v1::ContinueJobResponse* response) override;
   grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                          v1::CancelJobResponse* response) override;
+  grpc::Status MoveJob(grpc::ServerContext* context, const v1::MoveJobRequest* request,
+                       v1::MoveJobResponse* response) override;
   grpc::Status ReportJobDone(grpc::ServerContext* context, const v1::ReportJobDoneRequest* request,
                              v1::ReportJobDoneResponse* response) override;
 

@@ -67,6 +67,7 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "MillService/ResumeJob",
                                          "MillService/ContinueJob",
                                          "MillService/CancelJob",
+                                         "MillService/MoveJob",
                                          "MillService/ReportJobDone",
                                          "MillService/OperateMill"};
 const std::set<std::string> kAdmin = {"AccessService/CreateToken", "AccessService/ListTokens",

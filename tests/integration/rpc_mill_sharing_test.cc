@@ -74,6 +74,34 @@ TEST_F(RpcMill, ARequestThatComesAgainIsAnsweredAsTheFirst) {
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJob, request)), v1::REASON_NOT_FOUND);
 }
 
+TEST_F(RpcMill, AJobIsMovedToTheFrontOnce) {
+  const v1::Job first = sent(vectors(4)), second = sent(vectors(4)), third = sent(vectors(4));
+  const auto order = [this] {
+    std::vector<std::string> names;
+    const v1::Mill mill = now();
+    for (const v1::Job& job : mill.jobs()) names.push_back(job.name());
+    return names;
+  };
+  const auto moved = [this](const std::string& job, const std::string& id, v1::MoveJobResponse* response = nullptr) {
+    v1::MoveJobRequest request;
+    request.mutable_context()->set_request_id(id);
+    request.set_job(job);
+    return reason(ask(&v1::MillService::Stub::MoveJob, request, response));
+  };
+  v1::MoveJobResponse response;
+  ASSERT_EQ(moved(third.name(), "move-1", &response), v1::REASON_UNSPECIFIED);
+  EXPECT_EQ(response.job().name(), third.name());
+  EXPECT_THAT(order(), testing::ElementsAre(third.name(), first.name(), second.name()));
+  ASSERT_EQ(moved(second.name(), "move-2"), v1::REASON_UNSPECIFIED);
+  ASSERT_EQ(moved(third.name(), "move-1", &response), v1::REASON_UNSPECIFIED) << "it came before";
+  EXPECT_EQ(response.job().name(), third.name());
+  EXPECT_THAT(order(), testing::ElementsAre(second.name(), third.name(), first.name()));
+  EXPECT_EQ(reason(confirm(third)), v1::REASON_WRONG_MODE);
+  ASSERT_TRUE(confirm(second).ok());
+  EXPECT_EQ(moved(second.name(), "move-3"), v1::REASON_WRONG_MODE);
+  EXPECT_EQ(moved("devices/mill/jobs/99", "move-4"), v1::REASON_NOT_FOUND);
+}
+
 TEST_F(RpcMill, ARepeatOfAStartSaysWhatMayRunOn) {
   const v1::Job job = sent(vectors(2000));
   ASSERT_TRUE(confirm(job).ok());

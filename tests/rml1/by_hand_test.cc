@@ -93,6 +93,7 @@ class ByHandAtTheMill : public testing::Test, protected MillEvents {
   void job_changed(const Job& job, std::string_view, std::string_view why, TimePoint) override {
     said_ = std::string(name(job.state)) + ": " + std::string(why);
   }
+  void rank_changed(const Job&) override {}
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

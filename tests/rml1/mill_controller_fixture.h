@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdint>
 #include <map>
 #include <memory>
 #include <string>
@@ -65,6 +66,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
     by_[job.state] = by;
   }
+  void rank_changed(const Job& job) override { ranks_[job.number] = job.rank; }
   void sender_changed(const RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
     if (running.busy) said_.emplace_back("busy");
@@ -81,6 +83,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   TimePoint now_{std::chrono::seconds(1000)};
   MillSettings settings_;
   std::map<JobNumber, JobState> ended_;
+  std::map<JobNumber, std::int64_t> ranks_;  // that are kept
   std::vector<std::string> said_;
   std::map<JobState, std::string> by_;
   std::uint64_t noted_ = 0;

@@ -91,6 +91,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
   void job_changed(const Job& job, std::string_view, std::string_view why, TimePoint) override {
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
   }
+  void rank_changed(const Job&) override {}
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

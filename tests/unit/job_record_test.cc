@@ -190,6 +190,13 @@ TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
   EXPECT_EQ(job_of(spooled(left)).setup.from, (rml1::Place{20, 2, 5}));
 }
 
+TEST(JobOfTheSpool, HasItsPlaceInTheQueue) {
+  rml1::Job moved = job();
+  EXPECT_EQ(job_of(spooled(moved)).rank, 0);
+  moved.rank = -2;
+  EXPECT_EQ(job_of(spooled(moved)).rank, -2);
+}
+
 // Where the record of what was sent is lost, no part is cut twice.
 TEST(JobOfTheSpool, KnowsItsNextPart) {
   rml1::Job left = job();

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <tuple>
 
 #include "device/core/transitions.h"
 
@@ -47,6 +48,11 @@ std::optional<JobState> next(JobState state, JobEvent event) {
       Change{tool_change, JobEvent::cancel, cancelled},
   };
   return next_in(kTable, state, event);
+}
+
+bool is_before(const Job& one, const Job& other) {
+  const auto place = [](const Job& job) { return std::tuple(job.state == JobState::queued, job.rank, job.number); };
+  return place(one) < place(other);
 }
 
 std::uint64_t part_begin(const Job& job) { return job.part == 0 ? 0 : job.parts[job.part - 1].end; }

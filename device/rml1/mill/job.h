@@ -88,7 +88,12 @@ struct Job {
   std::vector<JobPart> parts{};                // at most kPartsAtMost; none: all of it is one
   std::size_t part = 0;                        // runs, or is the next to
   Leaves leaves{};                             // of all parts
+  std::int64_t rank = 0;                       // as is_before() has it; 0 as it was sent
 };
+
+// Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower
+// rank; then the lower number.
+bool is_before(const Job& one, const Job& other);
 
 // Bytes of the job: where Job::part begins and ends.
 std::uint64_t part_begin(const Job& job);

@@ -307,7 +307,8 @@ WrittenRange MillController::written_at_loss() {
 
 void MillController::inherit(Job job) {
   if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
-  jobs_.push_back(std::move(job));
+  const auto place = std::ranges::upper_bound(jobs_, job, is_before);
+  jobs_.insert(place, std::move(job));
   show_left();
 }
 

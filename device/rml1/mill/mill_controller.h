@@ -41,14 +41,20 @@ struct RunningJob {
   bool busy = false;  // for MillSettings::busy_limit the mill has taken nothing
 };
 
+// Whose QUEUED jobs another one is moved before.
+enum class Overtaken { all, of_its_owner };
+
 // What others see of what happens. Called from within the controller's members; must not call back.
 class MillEvents {
  public:
   virtual ~MillEvents() = default;
 
   virtual void link_changed(MillLink link, std::string_view why, TimePoint now) = 0;
-  // It was added, or has another state. `by`: who requested that; empty: nobody. `why`: for people; may be empty.
+  // It was added, has another state, or was moved. `by`: who requested that; empty: nobody. `why`: for people; may be
+  // empty.
   virtual void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint now) = 0;
+  // By this the order of the queue outlives a restart.
+  virtual void rank_changed(const Job& job) = 0;
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
   // Bytes of the job up to `through` go to the line next. What must outlive a killed daemon is kept before it returns.
   virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
@@ -66,7 +72,7 @@ class MillController : public LineMachine {
                  stage::Permission& permission);
 
   // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, PAUSED, FED, or PAUSED_UNKNOWN with what is
-  // known to be `written`. Before link_up().
+  // known to be `written`. It has the place that is_before() gives it. Before link_up().
   void inherit(Job job);
   // The job that was begun last in the runs before, whatever has become of it. Before link_up().
   void inherit_left(const Job& last);
@@ -97,6 +103,9 @@ class MillController : public LineMachine {
   // not_found; wrong_mode, where the job's state does not have it.
   Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
   Result<void> done(JobNumber job, std::string_view by, TimePoint now);
+  // Takes the place of the first QUEUED one of those that it may be before; each of these takes that of the next one.
+  // The places of all others stay. not_found; wrong_mode: it is not QUEUED.
+  Result<void> move_first(JobNumber job, Overtaken overtaken, std::string_view by, TimePoint now);
   // While no job runs. What was confirmed is void. The answer: after that time it is done, with all that was sent
   // before; until then no job is started, and no other step. wrong_mode; link_down; axis_busy: the mill takes nothing,
   // or the step before may not be done; what Permission::authorize() and words_of() refuse.
@@ -165,6 +174,7 @@ class MillController : public LineMachine {
   Result<void> check_still(TimePoint now) const;
   Result<void> check_operable(const HandAct& act, TimePoint now) const;
   void show_left();
+  void rank_as_ordered();
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
   Result<void> check_pausable(bool raise, TimePoint now);

@@ -1,0 +1,57 @@
+// MillController: the order of those that wait.
+#include <fmt/format.h>
+
+#include <cstddef>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "device/rml1/mill/mill_controller.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+// Those that `moved` is to be before, in their order, and last itself.
+std::vector<Job*> places(std::vector<Job>& jobs, const Job& moved, Overtaken overtaken) {
+  std::vector<Job*> found;
+  for (Job& job : jobs) {
+    const bool is_overtaken = overtaken == Overtaken::all || job.owner == moved.owner;
+    if (job.state == JobState::queued && is_overtaken) found.push_back(&job);
+    if (&job == &moved) break;
+  }
+  return found;
+}
+
+}  // namespace
+
+Result<void> MillController::move_first(JobNumber number, Overtaken overtaken, std::string_view by, TimePoint now) {
+  const Result<Job*> found = find(number);
+  if (!found) return tl::unexpected(found.error());
+  if ((*found)->state != JobState::queued) {
+    return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**found), name((*found)->state)),
+                "only a job that is QUEUED can be moved");
+  }
+  const std::vector<Job*> cycle = places(jobs_, **found, overtaken);
+  if (cycle.size() == 1) return {};
+  for (std::size_t place = cycle.size() - 1; place > 0; --place) std::swap(*cycle[place], *cycle[place - 1]);
+  rank_as_ordered();
+  show_left();
+  events_.job_changed(
+      *cycle.front(), by,
+      overtaken == Overtaken::all ? "moved to the front of the queue" : "moved before the other jobs of its owner",
+      now);
+  return {};
+}
+
+// From the last one forward, so that no rank is above 0: a job that is sent later has 0, and is behind all of them.
+void MillController::rank_as_ordered() {
+  for (std::size_t place = jobs_.size() - 1; place > 0; --place) {
+    Job& job = jobs_[place - 1];
+    const Job& next = jobs_[place];
+    if (std::tie(job.rank, job.number) < std::tie(next.rank, next.number)) continue;
+    job.rank = job.number < next.number ? next.rank : next.rank - 1;
+    events_.rank_changed(job);
+  }
+}
+
+}  // namespace axisgate::rml1
