@@ -27,7 +27,7 @@ class FlowLink : public ByteLink {
  public:
   // Of what was written, how many bytes have not left this host, as far as its driver knows.
   virtual std::size_t unsent() const = 0;
-  // Flow control forbids sending now, as far as the host sees it (CTS): the device's buffer is full, or it is off.
+  // Flow control forbids sending now, as far as the host sees it (CTS, DSR): the device's buffer is full, or it is off.
   virtual bool held() const = 0;
   // Sends whether flow control forbids it or not, until it is respected again.
   virtual void ignore_flow_control(bool ignored) = 0;

@@ -27,10 +27,11 @@ using boost::system::error_code;
 // started in and does nothing when that has passed.
 class Runner::Line : public MachineHost {
  public:
-  Line(Strand strand, Opener opener, Wakefulness* wakefulness)
+  Line(Strand strand, Opener opener, Wakefulness* wakefulness, HeldReader held)
       : MachineHost(std::move(strand)),
         opener_(std::move(opener)),
         wakefulness_(wakefulness),
+        held_(std::move(held)),
         descriptor_(this->strand()),
         reopen_timer_(this->strand()) {}
 
@@ -62,6 +63,7 @@ class Runner::Line : public MachineHost {
   std::function<void()> after_call_;
   Opener opener_;
   Wakefulness* const wakefulness_;
+  const HeldReader held_;
   Opening opening_;
   boost::asio::posix::stream_descriptor descriptor_;
   boost::asio::steady_timer reopen_timer_;
@@ -164,13 +166,7 @@ std::size_t Runner::Line::unsent() const {
   return queued_.size() + (known ? static_cast<std::size_t>(in_driver) : 0);
 }
 
-bool Runner::Line::held() const {
-  termios mode{};
-  int modem_lines = 0;
-  const bool heeds_cts =
-      descriptor_.is_open() && !respecting_ && ::tcgetattr(fd(), &mode) == 0 && (mode.c_cflag & CRTSCTS) != 0;
-  return heeds_cts && ::ioctl(fd(), TIOCMGET, &modem_lines) == 0 && (modem_lines & TIOCM_CTS) == 0;
-}
+bool Runner::Line::held() const { return descriptor_.is_open() && !respecting_ && held_ && held_(fd()); }
 
 // At once: an output that an XOFF has stopped continues without IXON, while tcflow() does not undo an XOFF.
 void Runner::Line::ignore_flow_control(bool ignored) {
@@ -250,8 +246,8 @@ void Runner::Line::wait_for_room() {
                          });
 }
 
-Runner::Runner(Strand strand, Opener opener, Wakefulness* wakefulness)
-    : line_(std::make_shared<Line>(std::move(strand), std::move(opener), wakefulness)) {}
+Runner::Runner(Strand strand, Opener opener, Wakefulness* wakefulness, HeldReader held)
+    : line_(std::make_shared<Line>(std::move(strand), std::move(opener), wakefulness, std::move(held))) {}
 
 Runner::~Runner() { line_->shut(); }
 

@@ -12,6 +12,9 @@
 
 namespace axisgate {
 
+// Whether the device at the other end of this descriptor forbids sending now (serial_port.h). Does not block.
+using HeldReader = std::function<bool(int descriptor)>;
+
 // Threads: what it overrides belongs to the machine, which calls it from within its own members, on the strand.
 // Everything else may be called from any thread. The machine is only ever called on the strand.
 // Lifetime: the machine and the io_context outlive the Runner's last call into the machine. Destroy a Runner on its
@@ -22,7 +25,8 @@ class Runner : public FlowLink {
   static constexpr std::size_t kOutputBytesMax = 64 * 1024;
 
   // Without an opener the line comes from adopt() alone: the device's end of a line that its host opens.
-  explicit Runner(Strand strand, Opener opener = {}, Wakefulness* wakefulness = nullptr);
+  // Without a reader the line is never held.
+  explicit Runner(Strand strand, Opener opener = {}, Wakefulness* wakefulness = nullptr, HeldReader held = {});
   ~Runner() override;
   Runner(const Runner&) = delete;
   Runner& operator=(const Runner&) = delete;

@@ -156,4 +156,20 @@ Result<int> open_serial(const SerialSettings& settings) {
   return port.release();
 }
 
+bool forbids(FlowControl flow, int modem_lines) {
+  switch (flow) {
+    case FlowControl::rts_cts:
+      return (modem_lines & TIOCM_CTS) == 0;
+    case FlowControl::dtr_dsr:
+      return (modem_lines & TIOCM_DSR) == 0;
+    default:
+      return false;
+  }
+}
+
+bool is_held(int port, FlowControl flow) {
+  int modem_lines = 0;
+  return ::ioctl(port, TIOCMGET, &modem_lines) == 0 && forbids(flow, modem_lines);
+}
+
 }  // namespace axisgate

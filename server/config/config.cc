@@ -102,6 +102,12 @@ class ConfigReader {
     if (connection == ConnectionKind::printer) {
       table.error("connection", "\"printer\" is for mills: nothing that answers is behind it; use \"serial\"");
     }
+    const auto* serial = std::get_if<SerialSettings>(&device.connection);
+    if (serial != nullptr && serial->flow == FlowControl::dtr_dsr) {
+      table.error("flow_control",
+                  "\"dtr_dsr\" is for mills: no driver does it, and a command to a stage does not wait "
+                  "for it; use \"rtscts\"");
+    }
     if (connection != ConnectionKind::simulated) stage.profile.serial_number = table.text("serial_number").value_or("");
     stage.kind_settings = read_kind_settings(table, kind);
     read_limits(table, stage.profile);

@@ -14,8 +14,11 @@ namespace axisgate::server {
 
 inline constexpr std::array<std::pair<std::string_view, Parity>, 3> kParities = {
     {{"none", Parity::none}, {"even", Parity::even}, {"odd", Parity::odd}}};
-inline constexpr std::array<std::pair<std::string_view, FlowControl>, 3> kFlowControls = {
-    {{"rtscts", FlowControl::rts_cts}, {"xonxoff", FlowControl::xon_xoff}, {"none", FlowControl::none}}};
+inline constexpr std::array<std::pair<std::string_view, FlowControl>, 4> kFlowControls = {
+    {{"rtscts", FlowControl::rts_cts},
+     {"xonxoff", FlowControl::xon_xoff},
+     {"dtr_dsr", FlowControl::dtr_dsr},
+     {"none", FlowControl::none}}};
 // Whether what moves and changes is done where the disk refuses the journal.
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kUnavailable = {{{"refuse", false}, {"act", true}}};
 inline constexpr std::array<std::pair<std::string_view, bool>, 2> kStageKinds = {{{"linear", false}, {"rotary", true}}};
@@ -27,6 +30,8 @@ inline constexpr std::array<std::pair<std::string_view, stage::AtLeaseEnd>, 2> k
     {{"restored", stage::AtLeaseEnd::restored}, {"kept", stage::AtLeaseEnd::kept}}};
 inline constexpr std::array<std::pair<std::string_view, rml1::Streaming>, 2> kStreamings = {
     {{"paced", rml1::Streaming::paced}, {"full", rml1::Streaming::full}}};
+// Of `slack`, in the place of a number.
+inline constexpr std::string_view kMeasured = "measured";
 inline constexpr std::array<std::pair<std::string_view, rml1::AtLoss>, 2> kMillAtLoss = {
     {{"abort", rml1::AtLoss::abort}, {"leave", rml1::AtLoss::leave}}};
 inline constexpr std::array<std::pair<std::string_view, MillConfig::AtExit>, 2> kMillAtExit = {

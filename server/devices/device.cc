@@ -13,7 +13,7 @@ Device::Device(std::string name, const stage::RecordingHeader& header, std::uniq
       newest_leases_(readers),
       recorder_(header, readers, metrics.recorder_drops(name_)),
       leases_(lease_tokens),
-      runner_(thread.new_strand(), line_->opener(), &thread.wakefulness()) {
+      runner_(thread.new_strand(), line_->opener(), &thread.wakefulness(), line_->held_reader()) {
   leases_.on_change = [this](TimePoint now) {
     newest_leases_.publish({leases_.held(), leases_.waiting(now), leases_.held_back()});
   };

@@ -21,10 +21,11 @@ namespace {
 // A device outside of this process.
 class OutsideLine final : public Line {
  public:
-  OutsideLine(Opener opener, std::string description)
-      : opener_(std::move(opener)), description_(std::move(description)) {}
+  OutsideLine(Opener opener, std::string description, HeldReader held = {})
+      : opener_(std::move(opener)), description_(std::move(description)), held_(std::move(held)) {}
 
   Opener opener() override { return opener_; }
+  HeldReader held_reader() const override { return held_; }
   const std::string& description() const override { return description_; }
   void start() override {}
   void shutdown() override {}
@@ -32,6 +33,7 @@ class OutsideLine final : public Line {
  private:
   const Opener opener_;
   const std::string description_;
+  const HeldReader held_;
 };
 
 OpenedLine open(const SerialSettings& settings) {
@@ -44,7 +46,8 @@ OpenedLine open(const SerialSettings& settings) {
 // On a thread, since an adapter that hangs may keep its driver busy for seconds.
 std::unique_ptr<Line> make_serial(const SerialSettings& settings) {
   return std::make_unique<OutsideLine>(opener_on_thread([settings] { return open(settings); }),
-                                       fmt::format("{} at {} baud", settings.path, settings.baud));
+                                       fmt::format("{} at {} baud", settings.path, settings.baud),
+                                       [flow = settings.flow](int port) { return is_held(port, flow); });
 }
 
 std::unique_ptr<Line> make_printer(const PrinterSettings& settings) {

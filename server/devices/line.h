@@ -18,6 +18,7 @@ class Line {
   virtual ~Line() = default;
 
   virtual Opener opener() = 0;
+  virtual HeldReader held_reader() const { return {}; }
   virtual const std::string& description() const = 0;  // for the log: "/dev/ttyUSB0 at 38400 baud"
 
   virtual void start() = 0;

@@ -1,4 +1,4 @@
-// The lines of a mill in the configuration: printer devices, and flow control by XON and XOFF.
+// The lines of a mill in the configuration: printer devices, and flow control by XON and XOFF or by DTR and DSR.
 #include <gmock/gmock.h>
 
 #include <string>
@@ -68,6 +68,17 @@ TEST(ConfigLine, FlowControlByCharacters) {
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(std::get<SerialSettings>(config->devices.at(0).connection).flow, FlowControl::xon_xoff);
   EXPECT_THAT(to_toml(*config), HasSubstr("flow_control = \"xonxoff\"\n"));
+}
+
+TEST(ConfigLine, FlowControlByDtrAndDsrIsForMills) {
+  const std::string serial = "connection = \"serial\"\npath = \"/dev/ttyUSB0\"\nflow_control = \"dtr_dsr\"\n";
+  const auto config = parse(kMill + serial + "streaming = \"full\"\n");
+  ASSERT_TRUE(config) << to_string(config.error().front());
+  EXPECT_EQ(std::get<SerialSettings>(config->devices.at(0).connection).flow, FlowControl::dtr_dsr);
+  EXPECT_THAT(to_toml(*config), HasSubstr("flow_control = \"dtr_dsr\"\n"));
+  EXPECT_THAT(errors_of("[[device]]\nname = \"stage\"\n" + serial),
+              ElementsAre("lab.toml:5: device.flow_control: \"dtr_dsr\" is for mills: no driver does it, and a command "
+                          "to a stage does not wait for it; use \"rtscts\""));
 }
 
 }  // namespace

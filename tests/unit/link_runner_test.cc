@@ -253,45 +253,6 @@ TEST(RunnerOnATty, ALineThatIsGivenUpDropsWhatItHasNotSent) {
   EXPECT_LE(read_now(pty->master()).size(), 4096u);
 }
 
-// An XOFF from the device: what is written stays here, until it says XON or flow control is ignored.
-TEST(RunnerOnATty, BytesThatXoffHoldsAreUnsent) {
-  EventLoop loop;
-  const link_test::TemporaryDirectory directory;
-  const SerialSettings settings{.path = directory / "tty", .flow = FlowControl::xon_xoff};
-  const auto pty = open_pty(settings.path);
-  ASSERT_TRUE(pty) << pty.error().message;
-  Runner runner(loop.strand(),
-                opener_on_thread([&] { return open_serial(settings).map([](int port) { return Descriptor(port); }); }));
-  RecordingMachine machine(runner);
-  runner.attach(machine);
-  runner.start();
-  ASSERT_TRUE(loop.run_until([&] { return machine.count("up") == 1; }));
-  // The kernel hands an XOFF over on a thread of its own: bytes are written one by one until one is held.
-  const auto hold = [&] {
-    send_now(pty->master(), "\x13");
-    return loop.run_until([&] {
-      if (runner.unsent() == 0) runner.post([&](TimePoint) { runner.write("."); });
-      return runner.unsent() == 1;
-    });
-  };
-  const auto comes = [&](std::string_view end) {
-    std::string all;
-    return loop.run_until([&] { return (all += read_now(pty->master())).ends_with(end) && runner.unsent() == 0; });
-  };
-  ASSERT_TRUE(hold());
-  runner.post([&](TimePoint) { runner.write("PU;"); });
-  ASSERT_TRUE(loop.run_until([&] { return runner.unsent() == 4; }));
-  send_now(pty->master(), "\x11");
-  EXPECT_TRUE(comes(".PU;"));
-  ASSERT_TRUE(hold());
-  runner.post([&](TimePoint) { runner.write("PD;"); });
-  runner.post([&](TimePoint) { runner.ignore_flow_control(true); });
-  EXPECT_TRUE(comes(".PD;"));
-  EXPECT_FALSE(runner.held()) << "a pseudo terminal has no CTS";
-  runner.shutdown();
-  loop.run_ready();
-}
-
 TEST(RunnerLifetime, HandlersThatOutliveTheRunnerDoNothing) {
   EventLoop loop;
   const auto pair = open_socket_pair();

@@ -122,6 +122,43 @@ TEST_F(SerialPortOnPtyTest, TakesTheOtherSettings) {
   EXPECT_NE(mode_of(port).c_cflag & CSTOPB, 0u);
 }
 
+// The device's RTS arrives as CTS, and its DTR as DSR.
+TEST(SerialPort, TheLineThatForbidsIsThatOfTheFlowControl) {
+  struct Row {
+    FlowControl flow;
+    int lines;
+    bool forbidden;
+  };
+  constexpr int kOthers = TIOCM_DTR | TIOCM_RTS | TIOCM_CAR | TIOCM_RNG;
+  for (const Row& row : {
+           Row{FlowControl::rts_cts, kOthers | TIOCM_CTS, false},
+           Row{FlowControl::rts_cts, kOthers | TIOCM_DSR, true},
+           Row{FlowControl::rts_cts, kOthers, true},
+           Row{FlowControl::dtr_dsr, kOthers | TIOCM_DSR, false},
+           Row{FlowControl::dtr_dsr, kOthers | TIOCM_CTS, true},
+           Row{FlowControl::dtr_dsr, kOthers, true},
+           Row{FlowControl::xon_xoff, 0, false},
+           Row{FlowControl::none, 0, false},
+       }) {
+    EXPECT_EQ(forbids(row.flow, row.lines), row.forbidden)
+        << "flow control " << static_cast<int>(row.flow) << ", lines " << row.lines;
+  }
+}
+
+// Of DTR/DSR the driver knows nothing.
+TEST_F(SerialPortOnPtyTest, DtrDsrIsWithoutTheDriver) {
+  settings_.flow = FlowControl::dtr_dsr;
+  const Descriptor port = open();
+  EXPECT_EQ(mode_of(port).c_cflag & CRTSCTS, 0u);
+  EXPECT_EQ(mode_of(port).c_iflag & IXON, 0u);
+}
+
+TEST_F(SerialPortOnPtyTest, WithoutModemLinesNothingIsHeld) {
+  const Descriptor port = open();
+  EXPECT_FALSE(is_held(port.get(), FlowControl::rts_cts));
+  EXPECT_FALSE(is_held(port.get(), FlowControl::dtr_dsr));
+}
+
 TEST_F(SerialPortOnPtyTest, ForgetsWhatCameBeforeItWasOpen) {
   const Descriptor early(::open(settings_.path.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK));
   send_now(pty_->master(), "old\r\n");
