@@ -198,6 +198,10 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
   std::vector<std::string> lines{
       fmt::format("{}  {}  line {}", last_part(mill.name()), mill.profile(), mill.line_open() ? "open" : "closed")};
   lines.push_back(mill.has_running() ? running_line(mill) : "no job runs");
+  if (mill.has_measured_pace()) {
+    lines.push_back(fmt::format("measured: the mill takes {:.2f} to {:.2f} times the longest time by its profile",
+                                mill.measured_pace().least(), mill.measured_pace().most()));
+  }
   if (mill.jobs().empty()) {
     lines.emplace_back("no jobs");
     return lines;

@@ -46,8 +46,8 @@ std::string paused_text(const v1::RunningJob& running);
 // stopped.
 std::string aborted_text(const v1::AbortJobResponse& response);
 
-// The mill in one line, what runs in another, and the queue as a table. When a job begins is said "at the earliest",
-// since people confirm between.
+// The mill in one line, what runs in another, its measured pace in a third where it is known, and the queue as a table.
+// When a job begins is said "at the earliest", since people confirm between.
 std::vector<std::string> queue_lines(const v1::Mill& mill);
 
 // What a person sets up for the job, a line each.

@@ -73,6 +73,7 @@ class ConfigTable {
   }
 
   // Without an error, whatever the key holds.
+  bool holds_text(std::string_view key) const { return table_.get(key) != nullptr && table_.get(key)->is_string(); }
   bool holds_table(std::string_view key) const { return table_.get(key) != nullptr && table_.get(key)->is_table(); }
 
   std::optional<std::vector<std::string>> texts(std::string_view key) {

@@ -36,7 +36,8 @@ void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> an
 void Mills::start_on_worker(const Call& call, const std::string& name, server::Mill& mill, rml1::JobNumber number,
                             const Answer<CurrentJob>& answer) const {
   const auto prepared = published_job(mill, number).and_then([&mill](const rml1::Job& job) {
-    return server::prepared_job(mill.spool(), mill.name(), mill.config(), job);
+    return server::prepared_job(mill.spool(), mill.name(), mill.config(), job,
+                                mill.newest().get().value->measured_pace);
   });
   act_on_job(
       RequestKind::start_job, call, name,

@@ -51,7 +51,9 @@ Result<Duration> do_it(const HandTurn& turn, const HandRequest& request) {
 Result<Duration> longest_of(const HandRequest& request, const Mill& mill) {
   const Result<rml1::HandAct> act = act_of(request, mill);
   if (!act) return tl::unexpected(act.error());
-  return words_of(*act, mill.config().profile).map([](const rml1::HandWords& words) { return words.longest; });
+  return words_of(*act, mill.config().profile, mill.config().sending.slack).map([](const rml1::HandWords& words) {
+    return words.longest;
+  });
 }
 
 }  // namespace

@@ -24,6 +24,8 @@ constexpr std::string_view kProfileRule = "the name of a profile, \"mdx-20\", or
 constexpr std::string_view kStationRule =
     "\"unix\", everybody on this machine's Unix socket, or a caller, \"unix LOGIN\", \"cert NAME\" or \"token NAME\"";
 
+constexpr std::string_view kSlackRule = "a number from 1 to 10, or \"measured\"";
+
 // A number of steps has at most 24 bits (guideline 2-3).
 constexpr std::int64_t kStepsMax = 8'388'607;
 
@@ -60,11 +62,22 @@ void read_bytes(ConfigTable& table, std::string_view key, std::int64_t minimum, 
   if (const auto bytes = table.integer(key, minimum, maximum)) into = static_cast<std::size_t>(*bytes);
 }
 
+void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
+  if (!table.holds_text("slack")) {
+    sending.slack = table.number("slack", 1, 10, kSlackRule).value_or(sending.slack);
+    return;
+  }
+  const std::string word = table.text("slack").value_or("");
+  sending.slack_as_measured = word == kMeasured;
+  if (!sending.slack_as_measured) table.error("slack", fmt::format("\"{}\" is not known; use {}", word, kSlackRule));
+}
+
 void read_sending(ConfigTable& table, rml1::SendSettings& sending) {
   sending.streaming = table.choice<rml1::Streaming>("streaming", kStreamings).value_or(sending.streaming);
   read_bytes(table, "window", 16, 4096, sending.window);
   read_bytes(table, "buffer", 16, 1 << 20, sending.buffer);
   read_bytes(table, "converter", 0, 65'536, sending.converter);
+  read_slack(table, sending);
   if (sending.window > sending.buffer) {
     table.error("window", fmt::format("{} bytes do not fit the mill's buffer of {} bytes; use a window that does",
                                       sending.window, sending.buffer));

@@ -199,6 +199,7 @@ void write(TomlWriter& out, const MillConfig& mill, const DeviceConfig& device) 
   if (mill.sending.window != 0) out.key("window", fmt::to_string(mill.sending.window));
   out.key("buffer", fmt::to_string(mill.sending.buffer));
   out.key("converter", fmt::to_string(mill.sending.converter));
+  out.key("slack", mill.sending.slack_as_measured ? in_quotes(kMeasured) : fmt::to_string(mill.sending.slack));
   out.texts("station", mill.station);
   out.number("confirmation_minutes", mill.confirmation.count());
   out.texts("tools", mill.tools);

@@ -152,11 +152,13 @@ void Mill::publish(TimePoint at) {
   published_ = at;
   MillNow state = now(at);
   metrics_.set_state(state.jobs, state.running);
+  metrics_.set_pace(state.measured_pace);
   newest_.publish(std::move(state));
 }
 
 MillNow Mill::now(TimePoint at) {
-  return {controller_.link(), link_ ? link_->why : "", controller_.jobs(), controller_.running(at), moment_of(at)};
+  return {controller_.link(),      link_ ? link_->why : "",     controller_.jobs(),
+          controller_.running(at), controller_.measured_pace(), moment_of(at)};
 }
 
 void Mill::wind_down(std::function<void()> done) {

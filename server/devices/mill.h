@@ -27,6 +27,7 @@ struct MillNow {
   std::string why_closed;       // for people; empty: it is open, or was not opened yet
   std::vector<rml1::Job> jobs;  // as MillController::jobs()
   std::optional<rml1::RunningJob> running;
+  std::optional<rml1::MeasuredPace> measured_pace;
   Moment clock;  // by which its times are shown
 };
 

@@ -141,15 +141,17 @@ rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
 }
 
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, const rml1::Job& job) {
+                                                              const MillConfig& config, const rml1::Job& job,
+                                                              const std::optional<rml1::MeasuredPace>& measured) {
   const Result<std::string> body = part_bytes(spool, device, job);
   if (!body) return tl::unexpected(body.error());
   const auto origin = check_origin(config, job);
   Result<rml1::Approach> approach;
   if (job.setup.from) approach = rml1::approach_to(*body, job.setup.from->offset, config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
-  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, config.sending,
-                                                   part_begin(job), job.setup.from, *approach);
+  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin,
+                                                   with_pace(config.sending, measured), part_begin(job), job.setup.from,
+                                                   *approach);
 }
 
 Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,

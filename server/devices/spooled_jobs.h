@@ -39,8 +39,10 @@ rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 // they were; and what is said there.
 
 // As it was published, its part, from the place where it continues: what rml1::approach_to() refuses.
+// `measured`: of the mill.
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
-                                                              const MillConfig& config, const rml1::Job& job);
+                                                              const MillConfig& config, const rml1::Job& job,
+                                                              const std::optional<rml1::MeasuredPace>& measured);
 // Where the part of `job` continues, with its first command from that line and column on. What rml1::approach_to() and
 // rml1::check_continued() refuse; invalid_request, with line 0: it says where what was sent ends.
 Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,

@@ -38,6 +38,9 @@ struct MillMetrics::Families {
         buffer(gauge_family(registry, "axisgate_mill_buffer_bytes",
                             "Bytes of the job that were written and that the mill has not executed, by computation: "
                             "if it is as fast (least) or as slow (most) as its profile allows.")),
+        pace(gauge_family(registry, "axisgate_mill_pace_ratio",
+                          "Measured time of the mill by the longest of its profile, at least and at most; 0 until it "
+                          "was measured.")),
         busy(gauge_family(registry, "axisgate_mill_busy",
                           "1 when the mill has taken nothing of the job that runs for `busy_limit_s`, else 0.")),
         aborts(counter_family(registry, "axisgate_mill_aborts_total", "Aborts requested, also where no job ran.")),
@@ -52,6 +55,7 @@ struct MillMetrics::Families {
   prometheus::Family<prometheus::Counter>& commands;
   prometheus::Family<prometheus::Counter>& bytes;
   prometheus::Family<prometheus::Gauge>& buffer;
+  prometheus::Family<prometheus::Gauge>& pace;
   prometheus::Family<prometheus::Gauge>& busy;
   prometheus::Family<prometheus::Counter>& aborts;
   prometheus::Family<prometheus::Counter>& job_seconds;
@@ -69,7 +73,8 @@ MillMetrics::MillMetrics(const Families& families, const std::string& device)
       aborts_(families.aborts.Add({{"device", device}})),
       job_seconds_(families.job_seconds.Add({{"device", device}})),
       estimate_{families.estimate.Add(of_bound(device, "least")), families.estimate.Add(of_bound(device, "most"))},
-      buffer_{families.buffer.Add(of_bound(device, "least")), families.buffer.Add(of_bound(device, "most"))} {
+      buffer_{families.buffer.Add(of_bound(device, "least")), families.buffer.Add(of_bound(device, "most"))},
+      pace_{families.pace.Add(of_bound(device, "least")), families.pace.Add(of_bound(device, "most"))} {
   for (const JobState state : {JobState::queued, JobState::confirmed, JobState::running, JobState::tool_change,
                                JobState::paused, JobState::fed, JobState::paused_unknown}) {
     queued_.at(index_of(state)) = &families.queued_jobs.Add(of_state(device, "state", state));
@@ -111,6 +116,12 @@ void MillMetrics::set_state(const std::vector<rml1::Job>& jobs, const std::optio
   buffer_.least.Set(static_cast<double>(progress.written - progress.executed_most));
   buffer_.most.Set(static_cast<double>(progress.written - progress.executed_least));
   busy_.Set(running && running->busy ? 1 : 0);
+}
+
+void MillMetrics::set_pace(const std::optional<rml1::MeasuredPace>& measured) {
+  const auto pace = measured.value_or(rml1::MeasuredPace{});
+  pace_.least.Set(pace.least);
+  pace_.most.Set(pace.most);
 }
 
 }  // namespace axisgate::server

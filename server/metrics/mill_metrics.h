@@ -32,11 +32,12 @@ class MillMetrics {
   void count_abort() { aborts_.Increment(); }
   // As MillController has them.
   void set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running);
+  void set_pace(const std::optional<rml1::MeasuredPace>& measured);
 
  private:
   static constexpr std::size_t kStateCount = static_cast<std::size_t>(rml1::JobState::paused) + 1;
   struct Families;
-  // A range: of a duration in seconds, or of bytes.
+  // A range: of a duration in seconds, of bytes, or of a ratio.
   template <class Series>
   struct Bounds {
     Series &least, &most;
@@ -52,6 +53,7 @@ class MillMetrics {
   prometheus::Counter& job_seconds_;
   Bounds<prometheus::Counter> estimate_;
   Bounds<prometheus::Gauge> buffer_;
+  Bounds<prometheus::Gauge> pace_;
   std::array<prometheus::Gauge*, kStateCount> queued_{};      // by JobState; null: such a job is not in the queue
   std::array<prometheus::Counter*, kStateCount> outcomes_{};  // by JobState; null: no outcome
   std::uint64_t written_ = 0;                                 // of the job that runs

@@ -139,6 +139,10 @@ v1::Mill to_proto(const api::MillState& state) {
   if (state.now->running) {
     *proto.mutable_running() = to_proto(api::CurrentRun{state.mill, state.now->running, state.now->clock});
   }
+  if (const auto& measured = state.now->measured_pace) {
+    proto.mutable_measured_pace()->set_least(measured->least);
+    proto.mutable_measured_pace()->set_most(measured->most);
+  }
   for (const std::string& tool : config.tools) proto.add_tools(tool);
   for (const server::NamedOrigin& origin : config.origins) proto.add_origins(origin.name);
   return proto;

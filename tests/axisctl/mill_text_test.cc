@@ -201,6 +201,14 @@ TEST(MillQueue, NothingToDo) {
   EXPECT_EQ(queue_lines(mill), (Lines{"mill  MDX-20  line closed", "no job runs", "no jobs"}));
 }
 
+TEST(MillQueue, TheMeasuredPaceIsALine) {
+  v1::Mill mill;
+  mill.set_name("devices/mill");
+  mill.mutable_measured_pace()->set_least(1.183);
+  mill.mutable_measured_pace()->set_most(1.242);
+  EXPECT_EQ(queue_lines(mill)[2], "measured: the mill takes 1.18 to 1.24 times the longest time by its profile");
+}
+
 TEST(MillQueue, ATable) {
   ::setenv("TZ", "UTC", 1);
   ::tzset();

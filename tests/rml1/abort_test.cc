@@ -15,7 +15,9 @@
 
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/abort_bench.h"
+#include "tests/rml1/measured_by.h"
 #include "tests/rml1/random_mill_job.h"
+#include "tests/rml1/short_vectors.h"
 #include "tests/rml1/trace.h"
 #include "tests/simulation/random.h"
 
@@ -39,11 +41,24 @@ struct Combination {
   double slower_percent;
   const char* escape_k;
   std::uint64_t first_seed;
+  bool slack_as_measured = false;
 };
 
 std::string text(const Combination& of) {
-  return fmt::format("{} | {} | {} % | {}", kStreamings.at(static_cast<std::size_t>(of.streaming)),
-                     kFlows.at(static_cast<std::size_t>(of.flow)), of.slower_percent, of.escape_k);
+  return fmt::format("{} | {} | {} %{} | {}", kStreamings.at(static_cast<std::size_t>(of.streaming)),
+                     kFlows.at(static_cast<std::size_t>(of.flow)), of.slower_percent,
+                     of.slack_as_measured ? ", measured" : "", of.escape_k);
+}
+
+// The slack of a mill that is so much slower than the high end of its profile, and was measured.
+double slack_of(const Combination& of) {
+  if (!of.slack_as_measured) return SendSettings{}.slack;
+  simulator::MillSetup mill = simulator::with_options({{"acceleration", "worst"}});
+  mill.buffer_bytes = kBuffer;
+  mill.flow = Flow::rts;
+  mill.slower_percent = of.slower_percent;
+  const auto pace = measured_by(uniform_vectors(1500), mill, {.buffer = kBuffer, .converter = 0}, {.shows_cts = true});
+  return with_pace({.slack_as_measured = true}, pace).slack;
 }
 
 void PrintTo(const Combination& of, std::ostream* out) { *out << text(of); }
@@ -96,14 +111,14 @@ Job random_job(std::uint64_t seed, const Profile& profile) {
   return Job(prologue() + body + epilogue(profile, alone.turns_at_end()), profile);
 }
 
-AbortBench bench_of(const Job& job, const Combination& of, const Moment& moment) {
+AbortBench bench_of(const Job& job, const Combination& of, const Moment& moment, double slack) {
   simulator::MillSetup mill =
       simulator::with_options({{"escape_k", of.escape_k}}, simulator::with_options(moment.options));
   mill.buffer_bytes = kBuffer;
   mill.flow = of.flow;
   mill.slower_percent = of.slower_percent;
   return AbortBench(job.text, job.timeline, mill,
-                    {.streaming = of.streaming, .buffer = kBuffer, .converter = moment.converter},
+                    {.streaming = of.streaming, .slack = slack, .buffer = kBuffer, .converter = moment.converter},
                     {.shows_cts = of.flow == Flow::rts, .converter = moment.converter, .late = moment.late});
 }
 
@@ -145,7 +160,7 @@ class Aborts : public testing::TestWithParam<Combination> {
  protected:
   // False where the job had ended.
   bool abort(const Job& job, const Moment& moment) {
-    AbortBench bench = bench_of(job, GetParam(), moment);
+    AbortBench bench = bench_of(job, GetParam(), moment, slack_);
     run_to(bench, moment);
     if (is_end(bench.sender().state())) return false;
     const std::string before = bench.written();
@@ -190,7 +205,7 @@ class Aborts : public testing::TestWithParam<Combination> {
   }
 
   void only_stop_writing(const Job& job, const Moment& moment) {
-    AbortBench bench = bench_of(job, GetParam(), moment);
+    AbortBench bench = bench_of(job, GetParam(), moment, slack_);
     run_to(bench, moment);
     bench.stop_writing();
     run_to_the_end(bench, moment);
@@ -213,15 +228,20 @@ class Aborts : public testing::TestWithParam<Combination> {
   }
 
   Duration longest(const Job& job) const {
-    const double slack = GetParam().streaming == Streaming::paced ? SendSettings{}.slack : 1;
+    const double slack = GetParam().streaming == Streaming::paced ? slack_ : 1;
     return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.timeline.most_s() * slack));
   }
 
   const Profile profile_ = test_profile();
+  const double slack_ = slack_of(GetParam());
   Tally tally_;
 };
 
 TEST_P(Aborts, NothingIsWrittenTheBoundIsTrueAndTheToolIsUp) {
+  if (GetParam().slack_as_measured) {
+    EXPECT_LT(slack_, 1.45);
+    EXPECT_GT(slack_, 1 + GetParam().slower_percent / 100);
+  }
   for (std::uint64_t seed = first_seed(); tally_.aborts < kAborts && !HasFailure(); ++seed) {
     const Job job = random_job(seed, profile_);
     Random random(seed);
@@ -250,13 +270,26 @@ std::vector<Combination> combinations() {
   return all;
 }
 
-INSTANTIATE_TEST_SUITE_P(Mills, Aborts, testing::ValuesIn(combinations()), [](const auto& one) {
+// As slow as it was measured, so its slack is less than the default.
+std::vector<Combination> measured_combinations() {
+  std::vector<Combination> all;
+  for (const Flow flow : {Flow::none, Flow::xon, Flow::rts}) {
+    for (const char* escape_k : {"toggle", "in-band"})
+      all.push_back({Streaming::paced, flow, 20, escape_k, 1000 * (100 + all.size()), true});
+  }
+  return all;
+}
+
+std::string test_name(const testing::TestParamInfo<Combination>& one) {
   std::string name;
   for (const char c : text(one.param)) {
     if (std::isalnum(static_cast<unsigned char>(c)) != 0) name += c;
   }
   return name;
-});
+}
+
+INSTANTIATE_TEST_SUITE_P(Mills, Aborts, testing::ValuesIn(combinations()), test_name);
+INSTANTIATE_TEST_SUITE_P(Measured, Aborts, testing::ValuesIn(measured_combinations()), test_name);
 
 }  // namespace
 }  // namespace axisgate::rml1::abort_test

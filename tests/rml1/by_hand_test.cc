@@ -26,7 +26,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 std::string bytes_of(const HandAct& act, const Profile& profile = test_profile()) {
-  const Result<HandWords> words = words_of(act, profile);
+  const Result<HandWords> words = words_of(act, profile, SendSettings().slack);
   return words ? words->bytes : std::string(name(words.error().reason));
 }
 
@@ -35,6 +35,12 @@ TEST(ByHand, AStepIsRelativeAndTheSpindleStopsBeforeIt) {
   EXPECT_EQ(bytes_of(JogStep{5, 0, -0.5, 3}), ";!MC0;^PR;!VZ3;!ZZ500,0,-50;^PA;");
   EXPECT_EQ(bytes_of(JogStep{0, -50, 50, 3}), ";!MC0;^PR;!VZ3;!ZZ0,-5000,5000;^PA;");
   EXPECT_EQ(text_of(JogStep{5, 0, -0.5, {}}), "jog by X 5 mm, Z -0.5 mm");
+}
+
+TEST(ByHand, TheSlowestMillIsThatOfTheSettings) {
+  const JogStep step{50, 0, 0, 10.0};
+  EXPECT_EQ(words_of(step, test_profile(), 2)->longest, 2 * words_of(step, test_profile(), 1)->longest);
+  EXPECT_EQ(words_of(TurnSpindle{true}, test_profile(), 3)->longest, 6s) << "it spins up in 2 s";
 }
 
 TEST(ByHand, AStepIsShortSinceNothingChecksIt) {

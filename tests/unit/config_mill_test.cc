@@ -61,6 +61,7 @@ streaming = "full"
 window = 128
 buffer = 2048
 converter = 0
+slack = "measured"
 station = ["unix alice", "cert Ann Lee", "token anna", "unix uid 1000"]
 confirmation_minutes = 5
 tools = ["T1", "ball-nose_3"]
@@ -100,6 +101,8 @@ TEST(ConfigMill, IsReadWhole) {
   EXPECT_EQ(mill.sending.window, 128u);
   EXPECT_EQ(mill.sending.buffer, 2048u);
   EXPECT_EQ(mill.sending.converter, 0u);
+  EXPECT_TRUE(mill.sending.slack_as_measured);
+  EXPECT_EQ(mill.sending.slack, 1.5) << "as long as nothing is measured";
   EXPECT_EQ(mill.sending.baud, 19'200);
   EXPECT_THAT(mill.station, ElementsAre("unix alice", "cert Ann Lee", "token anna", "unix uid 1000"));
   EXPECT_EQ(mill.confirmation, std::chrono::minutes(5));
@@ -123,6 +126,8 @@ TEST(ConfigMill, Defaults) {
   EXPECT_EQ(mill.sending.window, 0u) << "chosen from the job";
   EXPECT_EQ(mill.sending.buffer, 1024u);
   EXPECT_EQ(mill.sending.converter, 512u);
+  EXPECT_EQ(mill.sending.slack, 1.5);
+  EXPECT_FALSE(mill.sending.slack_as_measured);
   EXPECT_THAT(mill.station, ElementsAre("unix"));
   EXPECT_EQ(mill.confirmation, std::chrono::minutes(10));
   EXPECT_THAT(mill.tools, ElementsAre("T1"));
@@ -238,20 +243,6 @@ TEST_F(ConfigMillProfile, AFileIsReadAndItsPathWrittenAndHidden) {
   EXPECT_EQ(mill_of(*config).profile.name, "MDX-50");
   EXPECT_THAT(to_toml(*config), HasSubstr("profile = \"" + file + "\"\n"));
   EXPECT_EQ(mill_of(Redactor().redact(*config)).profile_name, "/path-2") << "the socket has the first";
-}
-
-TEST(ConfigMill, FullStreamingNeedsALineThatHoldsTheHostBack) {
-  EXPECT_THAT(errors_with("flow_control = \"none\"\nstreaming = \"full\"\n"),
-              ElementsAre("lab.toml:8: device.streaming: \"full\" sends as fast as the line takes it, and with "
-                          "flow_control = \"none\" nothing holds the host back, so bytes would be lost when the mill's "
-                          "buffer is full; use \"paced\", or flow_control = \"rtscts\""));
-  EXPECT_THAT(errors_with("flow_control = \"none\"\n"), IsEmpty());
-  EXPECT_THAT(errors_with("streaming = \"full\"\n"), IsEmpty());
-  EXPECT_THAT(
-      errors_of(std::string(kSimulated) + "streaming = \"full\"\n"),
-      ElementsAre("lab.toml:6: device.streaming: \"full\" sends as fast as the line takes it, and nothing holds "
-                  "the host back from the built-in simulator, so bytes would be lost when the mill's buffer is "
-                  "full; use \"paced\", or rml1-sim behind a port"));
 }
 
 TEST(ConfigMill, OnlyCallersCanConfirm) {

@@ -146,6 +146,7 @@ TEST(ConfigText, AMillIsReadAsTheSame) {
 window = 128
 buffer = 2048
 converter = 0
+slack = "measured"
 station = ["unix alice", "token anna"]
 confirmation_minutes = 5
 tools = ["T1", "ball-nose_3"]
@@ -196,6 +197,7 @@ profile = "srm-20"
 streaming = "paced"
 buffer = 1024
 converter = 512
+slack = 1.5
 station = ["unix"]
 confirmation_minutes = 10
 tools = ["T1"]

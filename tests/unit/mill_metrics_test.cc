@@ -104,6 +104,13 @@ TEST_F(MillMetricsTest, TheBufferIsARangeWhileAJobRuns) {
   EXPECT_THAT(text, HasSubstr("axisgate_mill_busy{device=\"mill\"} 0\n"));
 }
 
+TEST_F(MillMetricsTest, TheMeasuredPaceIsARange) {
+  EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"most\",device=\"mill\"} 0\n"));
+  mill_.set_pace(rml1::MeasuredPace{1.125, 1.25});
+  EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"least\",device=\"mill\"} 1.125\n"));
+  EXPECT_THAT(page(), HasSubstr("axisgate_mill_pace_ratio{bound=\"most\",device=\"mill\"} 1.25\n"));
+}
+
 TEST_F(MillMetricsTest, TheQueueByState) {
   mill_.set_state({job(JobState::fed), job(JobState::queued), job(JobState::queued)}, std::nullopt);
   std::string text = page();
@@ -139,6 +146,7 @@ TEST_F(MillMetricsTest, NothingOfAStageIsShown) {
       {"axisgate_mill_job_seconds_total", {"device"}},
       {"axisgate_mill_jobs_total", {"device", "outcome"}},
       {"axisgate_mill_line_open", {"device"}},
+      {"axisgate_mill_pace_ratio", {"bound", "device"}},
       {"axisgate_mill_queued_jobs", {"device", "state"}},
       {"axisgate_mill_written_bytes_total", {"device"}},
   };

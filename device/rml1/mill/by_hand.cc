@@ -6,14 +6,10 @@
 #include <cmath>
 #include <utility>
 
-#include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
 namespace {
-
-// A mill may be so much slower than the high end of its profile (sending/README.md, "Streaming").
-const double kSlack = SendSettings().slack;
 
 Result<double> step_speed(const JogStep& step, const Profile& profile) {
   const double lowest = profile.speed.z_minimum, highest = profile.speed.z_maximum;
@@ -36,7 +32,7 @@ Result<void> check_length(const JogStep& step) {
 }
 
 // !ZZ starts a permitted spindle (guideline 5-2).
-Result<HandWords> step_words(const JogStep& step, const Profile& profile) {
+Result<HandWords> step_words(const JogStep& step, const Profile& profile, double slack) {
   if (const Result<void> good = check_length(step); !good) return tl::unexpected(good.error());
   const Result<double> speed = step_speed(step, profile);
   if (!speed) return tl::unexpected(speed.error());
@@ -48,7 +44,7 @@ Result<HandWords> step_words(const JogStep& step, const Profile& profile) {
   }
   const double way = std::hypot(step.x_mm, step.y_mm, step.z_mm);
   return HandWords{fmt::format(";!MC0;^PR;!VZ{:g};!ZZ{},{},{};^PA;", *speed, x, y, z),
-                   longest_way(way, *speed, profile, kSlack)};
+                   longest_way(way, *speed, profile, slack)};
 }
 
 // Behind PR a parameter of 0 is the present height, behind PA a machine coordinate (guideline 3-3 !ZO).
@@ -64,9 +60,9 @@ Result<HandWords> surface_words(const SetSurface& surface, const Profile& profil
 }
 
 // "Rotation is performed at the time of a command that involves movement", where it is not prohibited (guideline 5-2).
-Result<HandWords> spindle_words(const TurnSpindle& spindle, const Profile& profile) {
+Result<HandWords> spindle_words(const TurnSpindle& spindle, const Profile& profile, double slack) {
   if (!spindle.on) return HandWords{";!MC0;"};
-  const std::chrono::duration<double> spin_up(kSlack * profile.spindle.spin_up_s);
+  const std::chrono::duration<double> spin_up(slack * profile.spindle.spin_up_s);
   return HandWords{";!MC1;^PR;!ZZ0,0,0;^PA;", std::chrono::duration_cast<Duration>(spin_up)};
 }
 
@@ -95,11 +91,11 @@ std::string text_of(const HandAct& act) {
   return "raise the tool";
 }
 
-Result<HandWords> words_of(const HandAct& act, const Profile& profile) {
-  if (const auto* step = std::get_if<JogStep>(&act)) return step_words(*step, profile);
+Result<HandWords> words_of(const HandAct& act, const Profile& profile, double slack) {
+  if (const auto* step = std::get_if<JogStep>(&act)) return step_words(*step, profile, slack);
   if (const auto* surface = std::get_if<SetSurface>(&act)) return surface_words(*surface, profile);
-  if (const auto* spindle = std::get_if<TurnSpindle>(&act)) return spindle_words(*spindle, profile);
-  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile, kSlack)};
+  if (const auto* spindle = std::get_if<TurnSpindle>(&act)) return spindle_words(*spindle, profile, slack);
+  return HandWords{";!MC0;^PA;" + raise(profile), longest_way(profile.z_mm, profile.speed.z_maximum, profile, slack)};
 }
 
 }  // namespace axisgate::rml1

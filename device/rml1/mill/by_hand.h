@@ -41,8 +41,9 @@ struct HandWords {
   Duration longest{};  // that it takes on the slowest mill of the profile
 };
 
+// `slack`: by how much a mill may be slower than the high end of its profile (sending/README.md, "Streaming").
 // out_of_range, where the step is too long or too short, or the height is outside of the travel; too_fast.
-Result<HandWords> words_of(const HandAct& act, const Profile& profile);
+Result<HandWords> words_of(const HandAct& act, const Profile& profile, double slack);
 
 // A step that leads into something does little damage, and the person sees it.
 inline constexpr double kFarthestStepMm = 50, kDeepestStepMm = 5;

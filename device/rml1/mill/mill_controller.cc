@@ -281,6 +281,7 @@ void MillController::look_whether_busy(TimePoint now) {
 }
 
 void MillController::end_fed_part(TimePoint now) {
+  if (const auto measured = running_->sender.measured_pace()) measured_pace_ = measured;
   const Job& job = **find(running_->number);
   if (is_last_part(job)) return end_run(JobEvent::fed, "", "", now);
   end_run(JobEvent::part_fed, "", fmt::format("the next tool is {}", job.parts[job.part + 1].tool), now);

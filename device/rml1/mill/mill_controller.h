@@ -120,6 +120,8 @@ class MillController : public LineMachine {
   // No job runs, and no abort is on its way to the line.
   bool is_idle() const { return !running_ && !abort_since_; }
   MillLink link() const { return link_; }
+  // By the last job that could show it, since this began.
+  const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
   const MillSettings& settings() const { return settings_; }
 
   void link_up(TimePoint now) override;
@@ -203,6 +205,7 @@ class MillController : public LineMachine {
   std::vector<Job> jobs_;
   std::vector<std::string> left_;  // by the job that was started last
   std::unique_ptr<Running> running_;
+  std::optional<MeasuredPace> measured_pace_;
   bool must_abort_ = false;               // when the line is back
   TimePoint abort_arrives_{};             // at the mill, at the latest; in the past: it has, or none was sent
   TimePoint by_hand_until_{};             // what a person does with it ends, at the latest

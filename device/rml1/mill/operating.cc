@@ -34,7 +34,7 @@ Result<void> MillController::check_operable(const HandAct& act, TimePoint now) c
 }
 
 Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
-  const Result<HandWords> words = words_of(act, profile_);
+  const Result<HandWords> words = words_of(act, profile_, settings_.sending.slack);
   if (!words) return tl::unexpected(words.error());
   if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
   if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());

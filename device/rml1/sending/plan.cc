@@ -50,7 +50,7 @@ SendPlan plan_of(std::string_view job, const Timeline& timeline, const SendSetti
   const std::size_t longest = longest_write(job, window);
   const std::size_t full = settings.buffer + settings.converter + 2 * longest;
   const std::size_t at_most = settings.streaming == Streaming::full ? full : std::min(std::max(window, longest), full);
-  return {window, {at_most, full, longest_within(at_most, timeline, settings)}};
+  return {window, settings.slack, {at_most, full, longest_within(at_most, timeline, settings)}};
 }
 
 }  // namespace axisgate::rml1

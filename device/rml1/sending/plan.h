@@ -12,13 +12,17 @@ namespace axisgate::rml1 {
 
 // What may be executed after an abort, in bytes of the job.
 struct RunOn {
-  std::size_t at_most = 0;  // of a mill that executes, and began at the top above the work origin
-  std::size_t if_held = 0;  // of one that its panel holds, for when it is released
-  Duration longest{};       // within which the slowest mill has executed any `at_most` bytes of the job
+  // Of a mill that executes, takes no longer than SendPlan::slack says, and began at the top above the work origin.
+  std::size_t at_most = 0;
+  // Of one that its panel holds, for when it is released.
+  std::size_t if_held = 0;
+  // Within which the slowest mill has executed any `at_most` bytes of the job.
+  Duration longest{};
 };
 
 struct SendPlan {
   std::size_t window = 0;  // bytes, of paced streaming
+  double slack = 1;        // SendSettings::slack
   RunOn run_on;
 };
 

@@ -33,8 +33,9 @@ Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& pr
       settings_(settings),
       plan_(plan),
       line_(line),
-      slowest_(timeline, &Step::most_s, settings.slack),
+      slowest_(timeline, &Step::most_s, plan.slack),
       fastest_(timeline, &Step::least_s, 1),
+      meter_(timeline, settings.buffer + settings.converter),
       cutter_(job, plan.window) {}
 
 bool Sender::change(Event event) {
@@ -77,7 +78,9 @@ void Sender::pause(TimePoint now) {
 
 void Sender::resume(TimePoint now) {
   learn(now);
-  if (change(Event::resume)) send(now);
+  if (!change(Event::resume)) return;
+  meter_.interrupted();
+  send(now);
 }
 
 void Sender::raise(TimePoint now) {
@@ -128,7 +131,7 @@ bool Sender::has_raised(TimePoint now) {
     raised_at_.reset();
     return false;
   }
-  if (!raised_at_) raised_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, settings_.slack);
+  if (!raised_at_) raised_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, plan_.slack);
   return now >= *raised_at_;
 }
 
@@ -153,6 +156,7 @@ void Sender::send(TimePoint now) {
 void Sender::write(TimePoint now) {
   const std::size_t begin = cutter_.begin(), end = cutter_.end();
   line_.write(job_.substr(begin, end - begin));
+  leaves_ = std::max(leaves_, now) + transmit_time(end - begin, settings_.baud);
   arrives_ = std::max(arrives_, now) + transmit_time(end - begin, settings_.baud);
   slowest_.arrived(end, arrives_);
   fastest_.arrived(end, now);
@@ -174,11 +178,22 @@ void Sender::learn(TimePoint now) {
   if (left > unread) slowest_.has_read(left - unread, now);
   const std::size_t between = settings_.converter;
   if (heeds_flow_control() && left > between) taken_ = std::max<std::uint64_t>(taken_, left - between);
+  measure(now);
 }
 
 // Otherwise what leaves the host may be lost: in a full buffer, as after an abort, or with the line.
 bool Sender::heeds_flow_control() const {
   return settings_.flow_control && state_ != SenderState::aborting && !is_end(state_);
+}
+
+// A line that the mill stops shows that it has bytes to read. XOFF, and the printer driver, show only as bytes that do
+// not leave.
+void Sender::measure(TimePoint now) {
+  const bool sends = state_ == SenderState::sending || state_ == SenderState::finishing;
+  if (settings_.streaming != Streaming::full || !sends) return;
+  const std::size_t unsent = line_.unsent();
+  if (!line_.held() && (unsent == 0 || now <= leaves_ + kLook)) return;
+  meter_.stopped(cutter_.begin() - std::min(unsent, cutter_.begin()), now);
 }
 
 // On this side of a line that is held: in the host, and perhaps in a converter.

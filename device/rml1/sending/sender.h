@@ -11,6 +11,7 @@
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/pace.h"
+#include "device/rml1/sending/pace_meter.h"
 #include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/timeline.h"
@@ -56,6 +57,8 @@ class Sender {
 
   SenderState state() const { return state_; }
   SendProgress progress(TimePoint now);
+  // Of the mill, so far. Nothing with paced streaming, or where the line was not stopped for long enough.
+  std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
 
   // Flow control that forbids an abort is ignored after that time.
   static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
@@ -71,6 +74,7 @@ class Sender {
   void learn(TimePoint now);
   void learn_what_waits(TimePoint now);
   bool heeds_flow_control() const;
+  void measure(TimePoint now);
   bool all_is_executed(TimePoint now);
   bool has_raised(TimePoint now);
   bool rests_behind_written() const;
@@ -88,10 +92,12 @@ class Sender {
   const SendPlan plan_;
   FlowLink& line_;
   Pace slowest_, fastest_;
+  PaceMeter meter_;
   SenderState state_ = SenderState::ready;
   Cutter cutter_;  // written up to its begin()
   std::uint64_t taken_ = 0;
-  TimePoint arrives_{};  // the last of them, at the mill: a converter may hold what has left the host
+  TimePoint leaves_{};   // the last of them, the host, if nothing stops the line
+  TimePoint arrives_{};  // likewise, at the mill: a converter may hold what has left the host
   TimePoint abort_since_{};
   std::optional<TimePoint> raised_at_;  // at the latest; nothing: what was sent of the job may not have been executed
 };

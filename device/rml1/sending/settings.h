@@ -11,10 +11,11 @@ enum class AtLoss { abort, leave };  // what is sent when the line is back, for 
 
 struct SendSettings {
   Streaming streaming = Streaming::paced;
-  std::size_t window = 0;       // bytes, of paced streaming; 0: adapted to the job (window.h)
-  double slack = 1.5;           // by how much a mill may be slower than the slow end of its profile
-  std::size_t buffer = 1024;    // bytes, the mill's
-  std::size_t converter = 512;  // bytes, between host and mill
+  std::size_t window = 0;          // bytes, of paced streaming; 0: adapted to the job (window.h)
+  double slack = 1.5;              // by how much a mill may be slower than the slow end of its profile
+  bool slack_as_measured = false;  // that, or less where the mill's pace was measured (pace_meter.h)
+  std::size_t buffer = 1024;       // bytes, the mill's
+  std::size_t converter = 512;     // bytes, between host and mill
   int baud = 9600;
   bool flow_control = false;  // the line keeps the host from sending what the mill has no room for
 };

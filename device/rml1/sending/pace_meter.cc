@@ -1,0 +1,72 @@
+#include "device/rml1/sending/pace_meter.h"
+
+#include <algorithm>
+#include <chrono>
+#include <iterator>
+
+namespace axisgate::rml1 {
+namespace {
+
+constexpr double kWithin = 1.2;    // the high end of a range that says something, in low ends
+constexpr double kUnsteady = 1.1;  // by how much another job may be slower than the one that was measured
+
+double width(const MeasuredPace& pace) { return pace.most / pace.least; }
+
+}  // namespace
+
+SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured) {
+  if (settings.slack_as_measured && measured) {
+    settings.slack = std::clamp(measured->most * kUnsteady, 1.0, SendSettings().slack);
+  }
+  return settings;
+}
+
+// The first step is not counted: it begins where the tool happens to be, so nobody knows how long it should take.
+void PaceMeter::stopped(std::uint64_t left, TimePoint now) {
+  const auto& steps = timeline_.steps();
+  if (steps.empty() || begun(left) <= steps.front().end) return;
+  if (!first_) first_ = Stop{left, now};
+  last_ = Stop{left, now};
+}
+
+void PaceMeter::interrupted() {
+  before_ = pace();
+  first_.reset();
+  last_.reset();
+}
+
+std::optional<MeasuredPace> PaceMeter::pace() const {
+  const auto now = between_stops();
+  if (!now || width(*now) > kWithin) return before_;
+  return before_ && width(*before_) <= width(*now) ? before_ : now;
+}
+
+// What certainly was executed between the two took no longer than that time, and what may have been took no less.
+std::optional<MeasuredPace> PaceMeter::between_stops() const {
+  if (!first_) return std::nullopt;
+  const double seconds = std::chrono::duration<double>(last_->at - first_->at).count();
+  const double certain = most_s(first_->left + 1, begun(last_->left));
+  const double possible = most_s(begun(first_->left), last_->left + 1);
+  if (seconds <= 0 || certain <= 0) return std::nullopt;
+  return MeasuredPace{seconds / possible, seconds / certain};
+}
+
+// The end of the last command that the mill has certainly begun. Those before it are executed.
+std::uint64_t PaceMeter::begun(std::uint64_t left) const {
+  const auto& steps = timeline_.steps();
+  const auto next = std::ranges::upper_bound(steps, left - std::min<std::uint64_t>(unread_, left), {}, &Step::end);
+  return next == steps.begin() ? 0 : std::prev(next)->end;
+}
+
+// Of the steps that end there, `to` excluded.
+double PaceMeter::most_s(std::uint64_t from, std::uint64_t to) const {
+  const auto& steps = timeline_.steps();
+  double seconds = 0;
+  for (auto step = std::ranges::lower_bound(steps, from, {}, &Step::end); step != steps.end() && step->end < to;
+       ++step) {
+    seconds += step->most_s;
+  }
+  return seconds;
+}
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,60 @@
+#!/usr/bin/env python3
+"""The pace of a mill behind a pseudo-terminal, measured by a job that the daemon sends as fast as XOFF lets it.
+
+The mill runs 20 times as fast as its profile says, less 20 %. A busy machine makes it slower than that, so only the range's
+high end is compared with it.
+"""
+
+import pathlib
+import re
+import tempfile
+import unittest
+
+from mill_pty import CONFIG, Gateway, PtyMill, profile_text
+from programs import Daemon
+
+SPEED, SLOWER_PERCENT = 20, 20
+TRUTH = (1 + SLOWER_PERCENT / 100) / SPEED
+IN_TERMINAL = 20_480
+SETTINGS = f"""baud = 1000000
+streaming = "full"
+buffer = 512
+converter = {IN_TERMINAL}
+slack = "measured"
+"""
+
+
+class MillPace(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="axisctl-pace-")
+        self.addCleanup(folder.cleanup)
+        path = pathlib.Path(folder.name)
+        mill = PtyMill(path, "mill", profile_text(), "xon", "--buffer", 512, "--baud", 1_000_000, "--speed", SPEED, "--slower",
+                       SLOWER_PERCENT, "--option", "acceleration=worst", settings=SETTINGS)
+        self.addCleanup(mill.end)
+        self.daemon = Daemon(folder.name, CONFIG + mill.table)
+        self.addCleanup(lambda: self.daemon.stop())
+        self.gateway = Gateway(self.daemon, mill)
+        self.daemon.wait_for_log("mill: the line is open")
+
+    def pace(self):
+        page = self.daemon.metrics_page()
+        return [float(re.search(rf'(?m)^axisgate_mill_pace_ratio{{bound="{bound}",device="mill"}} (\S+)$', page)[1])
+                for bound in ("least", "most")]
+
+    def test_a_long_job_shows_it(self):
+        self.assertEqual(self.pace(), [0, 0])
+        self.assertNotIn("measured", self.gateway.axisctl("mill", "queue"))
+        # A step each, 12 bytes: 16 times what terminal and mill hold.
+        job = "^PA;!MC0;" + "PU1001,1000;PU1000,1000;" * 14_000
+        number = self.gateway.start(job, "5-1,5-2")
+        self.daemon.wait_for_log(rf"job {number} .* is FED")
+        least, most = self.pace()
+        self.assertGreaterEqual(most, TRUTH)
+        self.assertLessEqual(most, least * 1.2)
+        self.assertIn(f"measured: the mill takes {least:.2f} to {most:.2f} times the longest time by its profile\n",
+                      self.gateway.axisctl("mill", "queue"))
+
+
+if __name__ == "__main__":
+    unittest.main()
