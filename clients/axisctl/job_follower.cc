@@ -95,6 +95,7 @@ bool JobFollower::show(const v1::Mill& mill) {
   }
   const v1::Job* const job = find_job(mill, job_.name());
   gone_ = job == nullptr;
+  if (gone_ && mill.ended().name() == job_.name()) job_ = mill.ended();
   if (gone_) return true;
   job_ = *job;
   if (mill.running().job() == job_.name()) show_progress(mill.running());
@@ -124,8 +125,11 @@ int JobFollower::report_end() const {
     return kDone;
   }
   if (!gone_ && job_.state() == v1::JOB_STATE_PAUSED_UNKNOWN) throw unknown_sent(job_);
-  // An aborted job leaves the queue.
-  if (gone_ ? running_.sending() == v1::SENDING_STATE_ABORTING : job_.state() == v1::JOB_STATE_ABORTED) {
+  if (job_.state() == v1::JOB_STATE_DONE) {
+    if (!session_.options.json) print_line(fmt::format("{} DONE: somebody has seen its workpiece", job_text(job_)));
+    return kDone;
+  }
+  if (job_.state() == v1::JOB_STATE_ABORTED || (gone_ && running_.sending() == v1::SENDING_STATE_ABORTING)) {
     throw Failure{
         kFailed, "ABORTED",
         fmt::format("the abort of {} was sent; whether the mill has followed it is not known", job_text(job_)),

@@ -50,6 +50,11 @@ void add_send(CLI::App& mill, Options& options) {
   send->add_option("--origin", job.origin,
                    "a work origin of the configuration (default: as it is set at the mill's panel)")
       ->type_name("NAME");
+  send->add_option(
+          "--streaming", job.streaming,
+          "paced, or full: as fast as the mill takes it, so more runs on after an abort (default: as configured)")
+      ->check(CLI::IsMember({"paced", "full"}))
+      ->type_name("HOW");
   send->add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
   send->add_option("--accept", job.accepted,
                    "sections of the guideline whose warnings do not keep the job from the queue, e.g. 5-1,5-2")

@@ -80,6 +80,7 @@ int mill_send(const Session& session) {
   *header.mutable_context() = session.connection.new_call_context();
   header.set_title(title_of(job));
   header.set_origin(job.origin);
+  if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
   if (header.parts().empty()) header.set_tool(tool_of(session, device));
   for (const std::string& section : job.accepted) header.add_accepted_warnings(section);
   messages.front() = header;

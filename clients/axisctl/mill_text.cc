@@ -224,6 +224,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
                                  fmt::format("  takes     {}", takes_text(job)),
                                  fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
   if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
+  if (job.streaming() == v1::STREAMING_FULL) lines.emplace_back("  streaming full");
   if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
   return lines;

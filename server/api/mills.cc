@@ -61,8 +61,8 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
 Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
   const auto same = [&](const rml1::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
-           one.setup.origin == again.setup.origin && one.parts == again.parts && one.owner == again.owner &&
-           one.name == again.name;
+           one.setup.origin == again.setup.origin && one.parts == again.parts && one.streaming == again.streaming &&
+           one.owner == again.owner && one.name == again.name;
   };
   const rml1::Job* newest = nullptr;
   for (const rml1::Job& job : jobs) {
@@ -139,7 +139,8 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
                                         .least_s = checked->least_s,
                                         .most_s = checked->most_s,
                                         .parts = checked->parts,
-                                        .leaves = checked->leaves}));
+                                        .leaves = checked->leaves,
+                                        .streaming = job_.streaming}));
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
   call_.digest = std::move(digest);
@@ -175,6 +176,12 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
   const server::MillConfig& config = mill.config();
   if (const Result<void> parts = check_parts(job.parts, config.tools, mill.name()); !parts)
     return tl::unexpected(parts.error());
+  if (job.streaming == rml1::Streaming::full && !config.holds_host_back) {
+    return fail(
+        Reason::invalid_request,
+        fmt::format("nothing holds the host back while the buffer of {} is full, so bytes would be lost", mill.name()),
+        "send the job without a streaming of its own");
+  }
   rml1::CheckOptions options;
   if (!job.origin.empty()) {
     const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);

@@ -51,6 +51,7 @@ struct JobToSend {
   std::string title, origin;
   std::vector<PartToSend> parts;
   AcceptedWarnings accepted_warnings;
+  std::optional<rml1::Streaming> streaming{};  // none: as the mill has it
 };
 
 // Where a job continues, in its part; both count from 1. Line 0: none is named.
@@ -95,7 +96,8 @@ class Mills {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
   ~Mills() { worker_.join(); }
 
-  // invalid_request, where there is no such tool or origin, or there are too many parts; queue_full.
+  // invalid_request, where there is no such tool or origin, there are too many parts, or the line cannot stream so;
+  // queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
 
   void get(const Call& call, std::string_view device, Answer<MillState> answer) const;

@@ -77,8 +77,9 @@ struct MillConfig {
   std::vector<NamedOrigin> origins;
   std::chrono::seconds busy_limit{600};        // after so long without a byte taken it is reported as still busy
   rml1::AtLoss at_loss = rml1::AtLoss::abort;  // what is sent when the line is back, where a job ran when it broke
-  AtExit at_exit = AtExit::abort;              // what happens to a running job when the daemon ends
-  double slower_percent = 0;  // of a simulated mill: each motion takes so much longer than by the profile
+  bool holds_host_back = false;    // the line, while the mill's buffer is full: "full" streaming loses nothing
+  AtExit at_exit = AtExit::abort;  // what happens to a running job when the daemon ends
+  double slower_percent = 0;       // of a simulated mill: each motion takes so much longer than by the profile
 };
 
 struct DeviceConfig {

@@ -162,19 +162,22 @@ std::vector<NamedOrigin> read_origins(ConfigTable& device, const std::optional<r
 }
 
 // Paced, what is sent ahead fits the buffer by computation. In full, only the line can hold the host back.
-void check_streaming(ConfigTable& table, const DeviceConfig& device, rml1::Streaming streaming) {
-  if (streaming != rml1::Streaming::full) return;
+bool holds_host_back(const DeviceConfig& device) {
+  const auto* serial = std::get_if<SerialSettings>(&device.connection);
+  if (serial != nullptr) return serial->flow != FlowControl::none;
+  return !std::holds_alternative<SimulatedConnection>(device.connection);
+}
+
+void refuse_full(ConfigTable& table, const DeviceConfig& device) {
   constexpr std::string_view kWhy =
       "\"full\" sends as fast as the line takes it, and {}, so bytes would be lost when the mill's buffer is full; use "
       "{}";
-  const auto* serial = std::get_if<SerialSettings>(&device.connection);
-  if (serial != nullptr && serial->flow == FlowControl::none) {
-    table.error("streaming", fmt::format(fmt::runtime(kWhy), "with flow_control = \"none\" nothing holds the host back",
-                                         "\"paced\", or flow_control = \"rtscts\""));
-  } else if (std::holds_alternative<SimulatedConnection>(device.connection)) {
-    table.error("streaming", fmt::format(fmt::runtime(kWhy), "nothing holds the host back from the built-in simulator",
-                                         "\"paced\", or rml1-sim behind a port"));
-  }
+  const bool simulated = std::holds_alternative<SimulatedConnection>(device.connection);
+  table.error("streaming",
+              simulated ? fmt::format(fmt::runtime(kWhy), "nothing holds the host back from the built-in simulator",
+                                      "\"paced\", or rml1-sim behind a port")
+                        : fmt::format(fmt::runtime(kWhy), "with flow_control = \"none\" nothing holds the host back",
+                                      "\"paced\", or flow_control = \"rtscts\""));
 }
 
 // Of a serial server's line nothing is seen, and the built-in simulator holds nothing back.
@@ -205,7 +208,9 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   read_sending(table, mill.sending);
   mill.sending.baud = device.baud;
   mill.sending.flow_control = has_flow_control(device);
-  if (connection) check_streaming(table, device, mill.sending.streaming);
+  mill.holds_host_back = holds_host_back(device);
+  if (connection && mill.sending.streaming == rml1::Streaming::full && !mill.holds_host_back)
+    refuse_full(table, device);
   read_station(table, mill.station);
   if (const auto minutes = table.integer("confirmation_minutes", 1, 1440)) {
     mill.confirmation = std::chrono::minutes(*minutes);

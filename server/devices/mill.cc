@@ -103,6 +103,7 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   if (record_) record_->set_state(job);
   if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) keep(job);
   if (rml1::is_end(job.state)) {
+    ended_ = job;
     boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });
   }
 }
@@ -157,8 +158,13 @@ void Mill::publish(TimePoint at) {
 }
 
 MillNow Mill::now(TimePoint at) {
-  return {controller_.link(),      link_ ? link_->why : "",     controller_.jobs(),
-          controller_.running(at), controller_.measured_pace(), moment_of(at)};
+  return {controller_.link(),
+          link_ ? link_->why : "",
+          controller_.jobs(),
+          controller_.running(at),
+          controller_.measured_pace(),
+          moment_of(at),
+          ended_};
 }
 
 void Mill::wind_down(std::function<void()> done) {

@@ -28,7 +28,8 @@ struct MillNow {
   std::vector<rml1::Job> jobs;  // as MillController::jobs()
   std::optional<rml1::RunningJob> running;
   std::optional<rml1::MeasuredPace> measured_pace;
-  Moment clock;  // by which its times are shown
+  Moment clock;                    // by which its times are shown
+  std::optional<rml1::Job> ended;  // the one that left the queue last
 };
 
 class Mill final : public Device, private rml1::MillEvents {
@@ -94,6 +95,7 @@ class Mill final : public Device, private rml1::MillEvents {
   rml1::MillController controller_;
   bool changed_ = true;                     // since publish()
   std::optional<stage::LinkChanged> link_;  // a line that stays closed is tried again and again
+  std::optional<rml1::Job> ended_;          // as MillNow::ended
   std::uint64_t writes_ = 0;                // recorded, each by itself
   TimePoint published_{};
   TimePoint abort_at_{};                      // while the daemon ends: the job has run for long enough

@@ -75,6 +75,7 @@ std::string facts_of(const rml1::Job& job) {
                {"revolutions", job.leaves.revolutions},
                {"rotation", job.leaves.rotation},
                {"tool", job.leaves.tool}}}};
+  if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
   if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
   return facts.dump();
 }
@@ -96,6 +97,9 @@ rml1::Job job_of(const spool::Job& spooled) {
     job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0})});
   }
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
+  if (const std::string streaming = facts.value("streaming", ""); !streaming.empty()) {
+    job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
+  }
   job.setup.from = place_in(facts);
   if (job.part > 0) job.state = rml1::JobState::tool_change;
   if (job.setup.from) job.state = rml1::JobState::paused;
@@ -149,9 +153,10 @@ Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool
   Result<rml1::Approach> approach;
   if (job.setup.from) approach = rml1::approach_to(*body, job.setup.from->offset, config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
-  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin,
-                                                   with_pace(config.sending, measured), part_begin(job), job.setup.from,
-                                                   *approach);
+  rml1::SendSettings settings = with_pace(config.sending, measured);
+  settings.streaming = job.streaming.value_or(settings.streaming);
+  return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, settings,
+                                                   part_begin(job), job.setup.from, *approach);
 }
 
 Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,

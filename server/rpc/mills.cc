@@ -1,5 +1,7 @@
 #include "server/rpc/mills.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -78,7 +80,15 @@ v1::SendingState to_sending_state(SenderState state) {
   }
 }
 
-v1::Job to_proto(const api::CurrentJob& current) { return to_proto(current.mill->name(), current.job, current.clock); }
+v1::Streaming to_streaming(rml1::Streaming streaming) {
+  return streaming == rml1::Streaming::full ? v1::STREAMING_FULL : v1::STREAMING_PACED;
+}
+
+v1::Job to_proto(const api::CurrentJob& current) {
+  v1::Job proto = to_proto(current.mill->name(), current.job, current.clock);
+  proto.set_streaming(to_streaming(current.job.streaming.value_or(current.mill->config().sending.streaming)));
+  return proto;
+}
 
 v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock) {
   v1::Job proto;
@@ -143,6 +153,8 @@ v1::Mill to_proto(const api::MillState& state) {
     proto.mutable_measured_pace()->set_least(measured->least);
     proto.mutable_measured_pace()->set_most(measured->most);
   }
+  if (state.now->ended)
+    *proto.mutable_ended() = to_proto(api::CurrentJob{state.mill, *state.now->ended, state.now->clock});
   for (const std::string& tool : config.tools) proto.add_tools(tool);
   for (const server::NamedOrigin& origin : config.origins) proto.add_origins(origin.name);
   return proto;
@@ -195,6 +207,13 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   api::JobToSend job{
       request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+  if (!v1::Streaming_IsValid(request.streaming())) {
+    return fail(Reason::invalid_request, fmt::format("there is no streaming {}", static_cast<int>(request.streaming())),
+                "use PACED or FULL, or leave it out");
+  }
+  if (request.streaming() != v1::STREAMING_UNSPECIFIED) {
+    job.streaming = request.streaming() == v1::STREAMING_FULL ? rml1::Streaming::full : rml1::Streaming::paced;
+  }
   if (request.parts().empty()) {
     job.parts.push_back({request.tool()});
     return job;

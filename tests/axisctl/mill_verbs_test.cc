@@ -38,6 +38,7 @@ class MillSend : public MillVerbs {
 
 TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   options_.job.accepted = {"5-1", "5-2"};
+  options_.job.streaming = "full";
   EXPECT_EQ(run(mill_send).output, "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s\n");
   ASSERT_EQ(mill_.sent.size(), 2U);
   const v1::SendJobRequest& first = mill_.sent[0];
@@ -46,6 +47,7 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   EXPECT_EQ(first.tool(), "T1");  // the first one of the mill
   EXPECT_EQ(first.origin(), "");
   EXPECT_THAT(first.accepted_warnings(), ElementsAre("5-1", "5-2"));
+  EXPECT_EQ(first.streaming(), v1::STREAMING_FULL);
   EXPECT_EQ(first.data(), "");
   EXPECT_THAT(first.context().request_id(), HasSubstr("axisctl-"));
   EXPECT_EQ(first.context().request_memory(), "since noon");

@@ -120,6 +120,22 @@ TEST_F(MillWatch, AJobThatIsGoneIsNotSaidToBeAborted) {
   EXPECT_EQ(ended.reason, "OUTCOME_UNKNOWN");
 }
 
+// Its short last state as one that runs may not have been seen.
+TEST_F(MillWatch, HowAJobThatIsGoneHasEndedIsReported) {
+  report(v1::SENDING_STATE_SENDING, 0);
+  v1::Mill& gone = mill_.watched.emplace_back(mill_.mill);
+  *gone.mutable_ended() = gone.jobs(0);
+  gone.mutable_ended()->set_state(v1::JOB_STATE_ABORTED);
+  gone.clear_jobs();
+  EXPECT_EQ(run(mill_watch).reason, "ABORTED");
+  gone.mutable_ended()->set_state(v1::JOB_STATE_DONE);
+  const Ended done = run(mill_watch);
+  EXPECT_EQ(done.exit_code, kDone);
+  EXPECT_THAT(done.output, HasSubstr("job 7 (frame.rml) DONE: somebody has seen its workpiece\n"));
+  gone.mutable_ended()->set_name("devices/mill/jobs/6");
+  EXPECT_EQ(run(mill_watch).reason, "OUTCOME_UNKNOWN");
+}
+
 TEST_F(MillWatch, AfterALostLine) {
   report(v1::SENDING_STATE_SENDING, 0);
   report_end(v1::JOB_STATE_PAUSED_UNKNOWN);

@@ -44,7 +44,7 @@ class RpcMill : public RpcTest {
   }
 
   grpc::Status send(const std::string& job, v1::Job* sent = nullptr, const std::string& tool = "T1",
-                    const std::string& id = "") {
+                    const std::string& id = "", v1::Streaming streaming = v1::STREAMING_UNSPECIFIED) {
     grpc::ClientContext context;
     limit(context);
     v1::SendJobResponse response;
@@ -54,6 +54,7 @@ class RpcMill : public RpcTest {
     request.set_device(kMill);
     request.set_title("part.rml");
     request.set_tool(tool);
+    request.set_streaming(streaming);
     const std::size_t half = job.size() / 2;
     request.set_data(job.substr(0, half));
     writer->Write(request);

@@ -51,6 +51,16 @@ TEST_F(RpcMill, AJobWithErrorsIsRefusedWithItsPlace) {
   EXPECT_EQ(reason(send(vectors(2), nullptr, "T7")), v1::REASON_INVALID_REQUEST);
 }
 
+TEST_F(RpcMill, NothingHoldsTheHostBackFromTheBuiltInSimulator) {
+  const grpc::Status full = send(vectors(2), nullptr, "T1", "", v1::STREAMING_FULL);
+  EXPECT_EQ(reason(full), v1::REASON_INVALID_REQUEST);
+  EXPECT_THAT(full.error_message(), HasSubstr("nothing holds the host back while the buffer of mill is full"));
+  EXPECT_EQ(reason(send(vectors(2), nullptr, "T1", "", static_cast<v1::Streaming>(7))), v1::REASON_INVALID_REQUEST);
+  v1::Job job;
+  EXPECT_TRUE(send(vectors(2), &job, "T1", "", v1::STREAMING_PACED).ok());
+  EXPECT_EQ(job.streaming(), v1::STREAMING_PACED);
+}
+
 TEST_F(RpcMill, TheToolIsChangedBetweenTheParts) {
   v1::Job job, again;
   ASSERT_TRUE(send_parts({{"T1", vectors(1)}, {"T2", vectors(2)}}, &job).ok());

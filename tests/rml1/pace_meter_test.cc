@@ -76,11 +76,12 @@ TEST_F(PaceMeterTest, NoTimeIsCountedInWhichTheMillMayHaveWaitedForBytes) {
   expect_range(200.0 / 203, 200.0 / 197);  // 200 are more
 }
 
-TEST(PaceMeterSlack, IsATenthMoreThanWasMeasuredWithinOneAndTheDefault) {
+TEST(PaceMeterSlack, IsATenthMoreThanWasMeasuredAndAtLeastOne) {
   const SendSettings as_measured{.slack_as_measured = true};
   EXPECT_EQ(with_pace(as_measured, std::nullopt).slack, 1.5);
   EXPECT_DOUBLE_EQ(with_pace(as_measured, MeasuredPace{1.1, 1.2}).slack, 1.32);
-  EXPECT_EQ(with_pace(as_measured, MeasuredPace{1.3, 1.4}).slack, 1.5);
+  EXPECT_DOUBLE_EQ(with_pace(as_measured, MeasuredPace{1.4, 1.6}).slack, 1.76)
+      << "a mill that is slower than the default has it";
   EXPECT_EQ(with_pace(as_measured, MeasuredPace{0.5, 0.6}).slack, 1);
   EXPECT_EQ(with_pace({.slack = 1.4}, MeasuredPace{1, 1.1}).slack, 1.4) << "as it is configured";
 }

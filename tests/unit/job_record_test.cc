@@ -183,6 +183,15 @@ TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
 }
 
+TEST(JobOfTheSpool, KnowsHowItIsSent) {
+  rml1::Job sent = job();
+  EXPECT_EQ(job_of(spooled(sent)).streaming, std::nullopt);
+  for (const auto streaming : {rml1::Streaming::paced, rml1::Streaming::full}) {
+    sent.streaming = streaming;
+    EXPECT_EQ(job_of(spooled(sent)).streaming, streaming);
+  }
+}
+
 TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
   rml1::Job left = job();
   left.setup.from = rml1::Place{20, 2, 5};

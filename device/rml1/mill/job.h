@@ -11,6 +11,7 @@
 #include "device/core/time.h"
 #include "device/rml1/leaves.h"
 #include "device/rml1/place.h"
+#include "device/rml1/sending/settings.h"
 
 namespace axisgate::rml1 {
 
@@ -89,6 +90,7 @@ struct Job {
   std::size_t part = 0;                        // runs, or is the next to
   Leaves leaves{};                             // of all parts
   std::int64_t rank = 0;                       // as is_before() has it; 0 as it was sent
+  std::optional<Streaming> streaming{};        // none: as the mill has it
 };
 
 // Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower

@@ -197,7 +197,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
   running_.reset(new Running{number, std::move(prepared), now,
-                             Sender(it.text(), it.timeline(), profile_, settings_.sending, it.plan(), noted_line_),
+                             Sender(it.text(), it.timeline(), profile_, it.settings(), it.plan(), noted_line_),
                              SenderState::ready, 0, 0, now, false, ""});
   running_->sender.start(now);
   look_at_sender(now);

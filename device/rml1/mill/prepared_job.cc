@@ -28,6 +28,7 @@ PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profil
       rest_size_(body.size() - approach.at.offset),
       text_(wrapped(continued(body, approach), profile, origin)),
       timeline_(text_, profile, origin),
+      settings_(settings),
       plan_(plan_of(text_, timeline_, settings)) {}
 
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {

@@ -30,6 +30,7 @@ class PreparedJob {
   // With prologue and epilogue.
   const std::string& text() const { return text_; }
   const Timeline& timeline() const { return timeline_; }
+  const SendSettings& settings() const { return settings_; }
   const SendPlan& plan() const { return plan_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<Place>& from() const { return from_; }
@@ -46,6 +47,7 @@ class PreparedJob {
   const std::uint64_t rest_in_text_, rest_size_;
   const std::string text_;
   const Timeline timeline_;
+  const SendSettings settings_;
   const SendPlan plan_;
 };
 

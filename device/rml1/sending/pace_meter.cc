@@ -16,7 +16,7 @@ double width(const MeasuredPace& pace) { return pace.most / pace.least; }
 
 SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured) {
   if (settings.slack_as_measured && measured) {
-    settings.slack = std::clamp(measured->most * kUnsteady, 1.0, SendSettings().slack);
+    settings.slack = std::max(measured->most * kUnsteady, 1.0);
   }
   return settings;
 }
