@@ -55,6 +55,11 @@ void add_send(CLI::App& mill, Options& options) {
           "paced, or full: as fast as the mill takes it, so more runs on after an abort (default: as configured)")
       ->check(CLI::IsMember({"paced", "full"}))
       ->type_name("HOW");
+  send->add_option("--stock", job.stock, "the workpiece in mm, from the work origin, and its thickness")
+      ->type_name("X,Y,Z");
+  send->add_option("--profile", job.profile,
+                   "the profile that the job was made for: refused where the mill has another")
+      ->type_name("NAME");
   send->add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
   send->add_option("--accept", job.accepted,
                    "sections of the guideline whose warnings do not keep the job from the queue, e.g. 5-1,5-2")

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/lengths.h"
 #include "clients/axisctl/mill_calls.h"
 #include "clients/axisctl/mill_text.h"
 #include "clients/axisctl/print.h"
@@ -62,6 +63,13 @@ std::string tool_of(const Session& session, const std::string& device) {
   return mill.tools().empty() ? "" : mill.tools(0);
 }
 
+void set_stock(const std::string& text, v1::Stock& into) {
+  const rml1::Stock stock = stock_of(text);
+  into.set_x_mm(stock.x);
+  into.set_y_mm(stock.y);
+  into.set_z_mm(stock.z);
+}
+
 }  // namespace
 
 int mill_send(const Session& session) {
@@ -80,6 +88,8 @@ int mill_send(const Session& session) {
   *header.mutable_context() = session.connection.new_call_context();
   header.set_title(title_of(job));
   header.set_origin(job.origin);
+  if (job.stock) set_stock(*job.stock, *header.mutable_stock());
+  header.set_profile(job.profile);
   if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
   if (header.parts().empty()) header.set_tool(tool_of(session, device));
   for (const std::string& section : job.accepted) header.add_accepted_warnings(section);

@@ -214,10 +214,15 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
   return lines;
 }
 
+std::string stock_text(const v1::Job& job) {
+  const v1::Stock& stock = job.stock();
+  return job.has_stock() ? fmt::format(": {:g} x {:g} x {:g} mm", stock.x_mm(), stock.y_mm(), stock.z_mm()) : "";
+}
+
 std::vector<std::string> setup_lines(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
   std::vector<std::string> lines{fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
-                                 fmt::format("  material  for {}", on_one_line(job.title())),
+                                 fmt::format("  material  for {}{}", on_one_line(job.title()), stock_text(job)),
                                  fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
                                  fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
                                  fmt::format("  profile   {}", on_one_line(setup.profile())),

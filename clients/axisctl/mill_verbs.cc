@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/lengths.h"
 #include "clients/axisctl/mill_profiles.h"
 #include "clients/axisctl/mill_report.h"
 #include "clients/axisctl/print.h"
@@ -25,24 +26,7 @@ namespace {
 using namespace rml1;
 
 constexpr std::size_t kPiece = 1 << 16;
-constexpr double kFarthest = 10'000;                // mm; as in profiles
 constexpr double kThinnest = 0.1, kThickest = 100;  // tools, mm
-
-// "X,Y,Z" in mm.
-Point lengths(const std::string& text, const char* option) {
-  double values[3] = {};
-  const char* at = text.data();
-  const char* const end = at + text.size();
-  bool good = true;
-  for (int index = 0; index < 3 && good; ++index) {
-    const auto [stop, error] = std::from_chars(at, end, values[index]);
-    good = error == std::errc() && std::abs(values[index]) <= kFarthest &&
-           (index == 2 ? stop == end : stop != end && *stop == ',');
-    at = stop + 1;
-  }
-  if (good) return {values[0], values[1], values[2]};
-  throw usage(fmt::format("\"{}\" is not valid for {}", text, option), "use three lengths in mm, e.g. 10,10,5.5");
-}
 
 CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
   CheckOptions options;
@@ -61,12 +45,7 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
     }
     options.origin = Origin{p.x, p.y, p.z};
   }
-  if (asked.stock) {
-    const Point p = lengths(*asked.stock, "--stock");
-    if (p.x <= 0 || p.y <= 0 || p.z <= 0)
-      throw usage("--stock has no size", "use its three lengths in mm, e.g. 80,50,10");
-    options.stock = Stock{p.x, p.y, p.z};
-  }
+  if (asked.stock) options.stock = stock_of(*asked.stock);
   if (asked.tool_mm && !(*asked.tool_mm >= kThinnest && *asked.tool_mm <= kThickest)) {
     throw usage(fmt::format("--tool is {} mm", *asked.tool_mm),
                 fmt::format("use the tool's diameter in mm, {} to {}", kThinnest, kThickest));

@@ -112,6 +112,8 @@ struct JobOptions {
   std::string origin;                   // send: a configured one; empty: as it is set at the panel
   std::vector<std::string> files;       // send: "-" is the standard input
   std::vector<std::string> tools;       // send: configured ones, one for each file; none: the first, of one file
+  std::optional<std::string> stock;     // send: "80,50,10", mm
+  std::string profile;                  // send: that the job was made for; empty: any
   std::string streaming;                // send: "paced", "full"; empty: as the mill has it
   std::vector<std::string> accepted;    // send: sections of the guideline
   std::optional<std::uint64_t> number;  // of the job; none: the first that waits

@@ -9,13 +9,9 @@
 #include "device/rml1/bounds.h"
 #include "device/rml1/machine.h"
 #include "device/rml1/profile_judge.h"
+#include "device/rml1/stock.h"
 
 namespace axisgate::rml1 {
-
-// In mm, from the work origin: X and Y to the right and away, Z down from Z0.
-struct Stock {
-  double x = 0, y = 0, z = 0;
-};
 
 // Each warning is given once, at the first command that causes it.
 class Judge {

@@ -3,8 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/predicate.hpp>
 #include <string>
 #include <vector>
+
+#include "server/devices/spooled_jobs.h"
 
 namespace axisgate::api {
 namespace {
@@ -34,13 +37,25 @@ Result<void> check_setup(const server::Mill& mill, const rml1::Job& job) {
       job.setup.origin.empty() ||
       std::ranges::find(config.origins, job.setup.origin, &server::NamedOrigin::name) != config.origins.end();
   const auto has_tool = [&](const rml1::JobPart& part) { return has(config.tools, part.tool); };
-  if (job.setup.profile == config.profile.name && has_origin && std::ranges::all_of(job.parts, has_tool)) return {};
+  const bool as_checked = job.setup.profile == config.profile.name && has_origin &&
+                          job.checked_for == server::checked_for(config, job.setup.origin);
+  if (as_checked && std::ranges::all_of(job.parts, has_tool)) return {};
   return fail(
       Reason::stale_setpoint,
       fmt::format(
           "{} was checked for the profile {}, the origin \"{}\" and the tools {}, and {} is configured otherwise now",
           text_of(job), job.setup.profile, job.setup.origin, tools_text(job.parts), mill.name()),
       "cancel it, and send it again");
+}
+
+Result<void> check_profile(const server::Mill& mill, std::string_view made_for) {
+  const server::MillConfig& config = mill.config();
+  if (made_for.empty() || made_for == config.profile_name || boost::algorithm::iequals(made_for, config.profile.name))
+    return {};
+  return fail(
+      Reason::invalid_request,
+      fmt::format("the job was made for the profile {}, and {} is a {}", made_for, mill.name(), config.profile.name),
+      "make the job for that mill, or send it to another one");
 }
 
 Result<void> check_at_station(const server::Mill& mill, std::string_view who) {

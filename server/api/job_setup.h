@@ -12,6 +12,9 @@ namespace axisgate::api {
 // stale_setpoint: the configuration may have changed since the job was sent.
 Result<void> check_setup(const server::Mill& mill, const rml1::Job& job);
 
+// invalid_request: the job was made for another profile. Empty: for any.
+Result<void> check_profile(const server::Mill& mill, std::string_view made_for);
+
 // not_allowed: the caller is not at the mill's station.
 Result<void> check_at_station(const server::Mill& mill, std::string_view who);
 

@@ -62,7 +62,7 @@ Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, c
   const auto same = [&](const rml1::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
            one.setup.origin == again.setup.origin && one.parts == again.parts && one.streaming == again.streaming &&
-           one.owner == again.owner && one.name == again.name;
+           one.stock == again.stock && one.owner == again.owner && one.name == again.name;
   };
   const rml1::Job* newest = nullptr;
   for (const rml1::Job& job : jobs) {
@@ -140,7 +140,9 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
                                         .most_s = checked->most_s,
                                         .parts = checked->parts,
                                         .leaves = checked->leaves,
-                                        .streaming = job_.streaming}));
+                                        .streaming = job_.streaming,
+                                        .stock = job_.stock,
+                                        .checked_for = server::checked_for(mill_.config(), job_.origin)}));
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
   call_.digest = std::move(digest);
@@ -182,7 +184,10 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
         fmt::format("nothing holds the host back while the buffer of {} is full, so bytes would be lost", mill.name()),
         "send the job without a streaming of its own");
   }
+  if (const Result<void> made_for = check_profile(mill, job.profile); !made_for)
+    return tl::unexpected(made_for.error());
   rml1::CheckOptions options;
+  options.stock = job.stock;
   if (!job.origin.empty()) {
     const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
     if (origin == config.origins.end()) {

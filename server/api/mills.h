@@ -52,6 +52,8 @@ struct JobToSend {
   std::vector<PartToSend> parts;
   AcceptedWarnings accepted_warnings;
   std::optional<rml1::Streaming> streaming{};  // none: as the mill has it
+  std::optional<rml1::Stock> stock{};
+  std::string profile{};  // that it was made for; empty: any
 };
 
 // Where a job continues, in its part; both count from 1. Line 0: none is named.
@@ -96,7 +98,8 @@ class Mills {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
   ~Mills() { worker_.join(); }
 
-  // invalid_request, where there is no such tool or origin, there are too many parts, or the line cannot stream so;
+  // invalid_request, where there is no such tool or origin, or another profile, there are too many parts, or the
+  // line cannot stream so;
   // queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
 

@@ -70,6 +70,7 @@ struct MillConfig {
   std::string_view kind;     // DeviceKinds::mill
   std::string profile_name;  // as the configuration has it: "mdx-20", or the absolute path of a file
   rml1::Profile profile;
+  std::string profile_text;                                       // the content of its file
   rml1::SendSettings sending;                                     // with the device's baud
   std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // who may confirm at the mill, as in Caller::who
   std::chrono::minutes confirmation{10};                          // how long a confirmation is valid

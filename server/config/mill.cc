@@ -42,7 +42,7 @@ std::string profile_path(ConfigTable& table, const std::string& name) {
   return {};
 }
 
-std::optional<rml1::Profile> read_mill_profile(ConfigTable& table, const std::string& name,
+std::optional<rml1::Profile> read_mill_profile(ConfigTable& table, const std::string& name, std::string& content,
                                                std::vector<ConfigError>& errors) {
   const std::string path = profile_path(table, name);
   if (path.empty()) return std::nullopt;
@@ -51,7 +51,8 @@ std::optional<rml1::Profile> read_mill_profile(ConfigTable& table, const std::st
     table.error("profile", fmt::format("{} {}; use {}", path, text.error(), kProfileRule));
     return std::nullopt;
   }
-  auto profile = rml1::parse_profile(*text, path);
+  content = *text;
+  auto profile = rml1::parse_profile(content, path);
   if (profile) return *std::move(profile);
   errors.insert(errors.end(), profile.error().begin(), profile.error().end());
   return std::nullopt;
@@ -195,7 +196,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   const std::optional<std::string> name = table.text("profile");
   if (!name && !table.has("profile")) table.missing("profile", kProfileRule);
   std::optional<rml1::Profile> profile;
-  if (name) profile = read_mill_profile(table, *name, errors);
+  if (name) profile = read_mill_profile(table, *name, mill.profile_text, errors);
   mill.profile_name = name.value_or("");
   mill.profile = profile.value_or(rml1::Profile{});
   const auto check = [](std::string_view option, std::string_view value) {

@@ -8,6 +8,7 @@
 
 #include "server/events/wall_time.h"
 #include "server/explain.h"
+#include "server/spool/sha256.h"
 
 namespace axisgate::server {
 namespace {
@@ -75,6 +76,8 @@ std::string facts_of(const rml1::Job& job) {
                {"revolutions", job.leaves.revolutions},
                {"rotation", job.leaves.rotation},
                {"tool", job.leaves.tool}}}};
+  if (job.stock) facts["stock"] = {job.stock->x, job.stock->y, job.stock->z};
+  facts["checked_for"] = job.checked_for;
   if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
   if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
   return facts.dump();
@@ -99,6 +102,10 @@ rml1::Job job_of(const spool::Job& spooled) {
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
   if (const std::string streaming = facts.value("streaming", ""); !streaming.empty()) {
     job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
+  }
+  job.checked_for = facts.value("checked_for", "");
+  if (const Json stock = facts.value("stock", Json::array()); stock.size() == 3) {
+    job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
   }
   job.setup.from = place_in(facts);
   if (job.part > 0) job.state = rml1::JobState::tool_change;
@@ -144,6 +151,16 @@ rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
           std::abs(profile.top - z0) * profile.step_mm};
 }
 
+std::string checked_for(const MillConfig& config, const std::string& origin) {
+  spool::Sha256 sha256;
+  sha256.add(config.profile_text);
+  const auto named = std::ranges::find(config.origins, origin, &NamedOrigin::name);
+  if (named != config.origins.end()) {
+    sha256.add(fmt::format(" {} {} {}", named->x, named->y, named->z ? fmt::to_string(*named->z) : "-"));
+  }
+  return sha256.hexadecimal();
+}
+
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
                                                               const MillConfig& config, const rml1::Job& job,
                                                               const std::optional<rml1::MeasuredPace>& measured) {
@@ -167,7 +184,7 @@ Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& de
   const auto origin = check_origin(config, job);
   const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
-  return rml1::check_continued(*body, *approach, config.profile, origin).map([&] { return approach->at; });
+  return rml1::check_continued(*body, *approach, config.profile, origin, job.stock).map([&] { return approach->at; });
 }
 
 }  // namespace axisgate::server

@@ -35,6 +35,9 @@ void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber
 // The work origin as the check of a job takes it. Without a height of its own, Z0 is where the profile has it.
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 
+// A digest of the profile and of where that origin is: what a job is checked for.
+std::string checked_for(const MillConfig& config, const std::string& origin);
+
 // Those below read the whole job, so not on the device's strand. not_found; internal, where the bytes are others than
 // they were; and what is said there.
 

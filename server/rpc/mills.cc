@@ -108,6 +108,11 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.set_sent_least(static_cast<std::int64_t>(job.written->least));
     proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
   }
+  if (job.stock) {
+    proto.mutable_stock()->set_x_mm(job.stock->x);
+    proto.mutable_stock()->set_y_mm(job.stock->y);
+    proto.mutable_stock()->set_z_mm(job.stock->z);
+  }
   add_parts(job, proto);
   return proto;
 }
@@ -207,6 +212,14 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   api::JobToSend job{
       request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+  job.profile = request.profile();
+  if (request.has_stock()) {
+    const v1::Stock& stock = request.stock();
+    job.stock = rml1::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};
+    if (!(stock.x_mm() > 0 && stock.y_mm() > 0 && stock.z_mm() > 0)) {
+      return fail(Reason::invalid_request, "the workpiece has no size", "give its three lengths in mm, each above 0");
+    }
+  }
   if (!v1::Streaming_IsValid(request.streaming())) {
     return fail(Reason::invalid_request, fmt::format("there is no streaming {}", static_cast<int>(request.streaming())),
                 "use PACED or FULL, or leave it out");

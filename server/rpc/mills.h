@@ -25,7 +25,8 @@ v1::Device device_of(const api::MillState& state);
 rml1::JobSetup to_setup(const v1::JobSetup& proto);
 // invalid_request, where it names no act.
 Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
-// Of the first message of a job. invalid_request, where it has both a tool and parts, or an unknown streaming.
+// Of the first message of a job. invalid_request, where it has both a tool and parts, an unknown streaming, or a
+// workpiece without size.
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
 
 }  // namespace axisgate::rpc

@@ -188,6 +188,14 @@ TEST(MillTexts, WhatIsSetUpForTheRestOfAJob) {
   EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is as it was, and nothing is in the way? [yes/no]");
 }
 
+TEST(MillTexts, TheWorkpieceOfAJob) {
+  v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
+  job.mutable_stock()->set_x_mm(80);
+  job.mutable_stock()->set_y_mm(50);
+  job.mutable_stock()->set_z_mm(10.5);
+  EXPECT_EQ(setup_lines(job)[1], "  material  for frame.rml: 80 x 50 x 10.5 mm");
+}
+
 TEST(MillTexts, WhatTheJobBeforeHasLeft) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
   job.mutable_setup()->add_left("job 6 (a\x1b[2Jb) sets Z0");

@@ -39,6 +39,8 @@ class MillSend : public MillVerbs {
 TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   options_.job.accepted = {"5-1", "5-2"};
   options_.job.streaming = "full";
+  options_.job.stock = "80,50,10.5";
+  options_.job.profile = "mdx-20";
   EXPECT_EQ(run(mill_send).output, "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s\n");
   ASSERT_EQ(mill_.sent.size(), 2U);
   const v1::SendJobRequest& first = mill_.sent[0];
@@ -48,10 +50,22 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   EXPECT_EQ(first.origin(), "");
   EXPECT_THAT(first.accepted_warnings(), ElementsAre("5-1", "5-2"));
   EXPECT_EQ(first.streaming(), v1::STREAMING_FULL);
+  EXPECT_EQ(first.stock().x_mm(), 80);
+  EXPECT_EQ(first.stock().y_mm(), 50);
+  EXPECT_EQ(first.stock().z_mm(), 10.5);
+  EXPECT_EQ(first.profile(), "mdx-20");
   EXPECT_EQ(first.data(), "");
   EXPECT_THAT(first.context().request_id(), HasSubstr("axisctl-"));
   EXPECT_EQ(first.context().request_memory(), "since noon");
   EXPECT_EQ(mill_.sent[1].data(), "^IN;PU0,0;");
+}
+
+TEST_F(MillSend, AWorkpieceHasThreeLengthsAboveZero) {
+  for (const char* stock : {"", "80", "80,50", "80,50,0", "80,-50,10", "80,50,10,1", "a,b,c", "80,50,nan"}) {
+    options_.job.stock = stock;
+    EXPECT_EQ(run(mill_send).exit_code, kUsage) << stock;
+  }
+  EXPECT_THAT(mill_.sent, IsEmpty());
 }
 
 TEST_F(MillSend, WhatWasNamedIsSent) {

@@ -66,6 +66,19 @@ class RpcMill : public RpcTest {
     if (sent != nullptr) *sent = response.job();
     return status;
   }
+  grpc::Status send_whole(v1::SendJobRequest request, v1::Job* sent = nullptr) {
+    grpc::ClientContext context;
+    limit(context);
+    v1::SendJobResponse response;
+    const auto writer = stub_->SendJob(&context, &response);
+    request.set_title("part.rml");
+    request.set_tool("T1");
+    writer->Write(request);
+    writer->WritesDone();
+    const grpc::Status status = writer->Finish();
+    if (sent != nullptr) *sent = response.job();
+    return status;
+  }
   // Each is a tool and its bytes; `more` bytes come, or fewer.
   using Parts = std::vector<std::pair<std::string, std::string>>;
   grpc::Status send_parts(const Parts& parts, v1::Job* sent = nullptr, int more = 0, const std::string& tool = "") {

@@ -61,6 +61,29 @@ TEST_F(RpcMill, NothingHoldsTheHostBackFromTheBuiltInSimulator) {
   EXPECT_EQ(job.streaming(), v1::STREAMING_PACED);
 }
 
+TEST_F(RpcMill, AJobIsCheckedForItsWorkpieceAndItsProfile) {
+  v1::SendJobRequest request;
+  request.set_device(kMill);
+  request.set_data("PA;VS15;!PZ-100,200;PU100,100;PD2000,100;PU0,0;!MC0;");
+  EXPECT_TRUE(send_whole(request).ok());
+  request.mutable_stock()->set_x_mm(10);
+  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("the workpiece has no size"));
+  request.mutable_stock()->set_y_mm(10);
+  request.mutable_stock()->set_z_mm(5);
+  const grpc::Status beside = send_whole(request);
+  EXPECT_EQ(reason(beside), v1::REASON_INVALID_REQUEST) << "X reaches 50 mm";
+  EXPECT_THAT(beside.error_message(), HasSubstr("warning"));
+  request.mutable_stock()->set_x_mm(60);
+  v1::Job job;
+  const grpc::Status within = send_whole(request, &job);
+  EXPECT_TRUE(within.ok()) << within.error_message();
+  EXPECT_EQ(job.stock().x_mm(), 60);
+  request.set_profile("mdx-40");
+  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("was made for the profile mdx-40, and mill is a MDX-20"));
+  request.set_profile("mdx-20");
+  EXPECT_TRUE(send_whole(request).ok());
+}
+
 TEST_F(RpcMill, TheToolIsChangedBetweenTheParts) {
   v1::Job job, again;
   ASSERT_TRUE(send_parts({{"T1", vectors(1)}, {"T2", vectors(2)}}, &job).ok());

@@ -118,10 +118,10 @@ TEST(ContinuedJob, IsJudgedAsTheWholeIs) {
   const Profile profile = test_profile();
   const std::string job = "!PZ-100,200;PU100,200;PD300,200;PU0,0;";
   const Approach good = *approach_to(job, job.find("PU0,0"), profile, kWork);
-  EXPECT_TRUE(check_continued(job, good, profile, kWork));
+  EXPECT_TRUE(check_continued(job, good, profile, kWork, std::nullopt));
   Approach bad = good;
   bad.words = "Z0,0,-9000;" + bad.words;
-  EXPECT_THAT(check_continued(job, bad, profile, kWork).error().message,
+  EXPECT_THAT(check_continued(job, bad, profile, kWork, std::nullopt).error().message,
               HasSubstr("continued at line 1, column 33, the job has a warning that it does not have as a whole"));
 }
 
@@ -161,7 +161,7 @@ TEST(ContinuedJob, DoesFromThereOnWhatTheWholeJobDoes) {
     const Result<Approach> approach = approach_to(job, from, profile, kWork);
     if (!approach) continue;
     // Some would come down while the spindle is prohibited.
-    if (!check_continued(job, *approach, profile, kWork)) continue;
+    if (!check_continued(job, *approach, profile, kWork, std::nullopt)) continue;
     ++continued_jobs;
     const Course whole = course(job, setup), before = course(job.substr(0, approach->at.offset), setup);
     const Course after = course(continued(job, *approach), setup);

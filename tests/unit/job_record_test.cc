@@ -192,6 +192,27 @@ TEST(JobOfTheSpool, KnowsHowItIsSent) {
   }
 }
 
+TEST(JobOfTheSpool, KnowsItsWorkpieceAndWhatItWasCheckedFor) {
+  rml1::Job sent = job();
+  sent.stock = rml1::Stock{80, 50, 10.5};
+  sent.checked_for = "c1";
+  EXPECT_EQ(job_of(spooled(sent)).stock, sent.stock);
+  EXPECT_EQ(job_of(spooled(sent)).checked_for, "c1");
+}
+
+TEST(CheckedFor, IsTheProfileAndWhereTheOriginIs) {
+  MillConfig config;
+  config.profile_text = "p1";
+  config.origins = {{.name = "vice", .x = 1, .y = 2}};
+  const std::string vice = checked_for(config, "vice"), panel = checked_for(config, "");
+  EXPECT_NE(vice, panel);
+  config.origins[0].z = -800;
+  EXPECT_NE(checked_for(config, "vice"), vice);
+  EXPECT_EQ(checked_for(config, ""), panel);
+  config.profile_text = "p2";
+  EXPECT_NE(checked_for(config, ""), panel);
+}
+
 TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
   rml1::Job left = job();
   left.setup.from = rml1::Place{20, 2, 5};

@@ -126,9 +126,9 @@ std::string continued(std::string_view body, const Approach& approach) {
 }
 
 Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin) {
+                             std::optional<Origin> origin, std::optional<Stock> stock) {
   const auto check = [&](std::string_view job) {
-    Check checked(profile, {.origin = origin, .stock = {}, .others = {}});
+    Check checked(profile, {.origin = origin, .stock = stock, .others = {}});
     checked.feed(job);
     checked.finish();
     return checked.diagnostics().in_order();

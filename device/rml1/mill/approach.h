@@ -10,6 +10,7 @@
 #include "device/rml1/machine.h"
 #include "device/rml1/place.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/stock.h"
 
 namespace axisgate::rml1 {
 
@@ -31,7 +32,7 @@ std::string continued(std::string_view body, const Approach& approach);
 // Judges that as the part itself was judged. invalid_request: there is an error in it, or a warning of a kind that the
 // part as a whole does not have.
 Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
-                             std::optional<Origin> origin);
+                             std::optional<Origin> origin, std::optional<Stock> stock);
 
 // The byte at which a line, or a column of one, begins; both count from 1. Behind the end: the size.
 std::uint64_t offset_of(std::string_view body, std::uint64_t line, std::uint64_t column);

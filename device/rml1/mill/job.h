@@ -12,6 +12,7 @@
 #include "device/rml1/leaves.h"
 #include "device/rml1/place.h"
 #include "device/rml1/sending/settings.h"
+#include "device/rml1/stock.h"
 
 namespace axisgate::rml1 {
 
@@ -91,6 +92,8 @@ struct Job {
   Leaves leaves{};                             // of all parts
   std::int64_t rank = 0;                       // as is_before() has it; 0 as it was sent
   std::optional<Streaming> streaming{};        // none: as the mill has it
+  std::optional<Stock> stock{};                // none: nobody has said it
+  std::string checked_for{};                   // a digest of the profile and the origin with which it was checked
 };
 
 // Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower
