@@ -32,9 +32,8 @@ std::string confirmed_text(const v1::Job& job);
 std::string run_on_text(const v1::RunOn& run_on);
 
 // "SENDING [====-     ] 41 to 44 %, 15000 of 30000 bytes written, 14488 taken, 5 min 36 s to 9 min 50 s left". In the
-// bar
-// `=` is executed and `-` may be. Taken is by the mill, at least. The time left is the job's, in the ratio of the bytes
-// not yet executed.
+// bar `=` is executed and `-` may be. At least so many bytes are taken by the mill. The time left is the job's, in the
+// ratio of the bytes not yet executed.
 std::string progress_text(const v1::Job& job, const v1::RunningJob& running);
 
 inline constexpr std::string_view kBusyText = "the mill is busy: look at it";

@@ -137,11 +137,11 @@ Result<void> check_continued(std::string_view body, const Approach& approach, co
   for (const Diagnostic& one : check(continued(body, approach))) {
     if (one.severity == Severity::note || (one.severity == Severity::warning && accepted.contains(one.section)))
       continue;
-    return fail(
-        Reason::invalid_request,
-        fmt::format("continued at line {}, column {}, the job has a {} that it does not have as a whole: {} [{}]",
-                    approach.at.line, approach.at.column, name(one.severity), one.text, one.section),
-        "choose another line");
+    return fail(Reason::invalid_request,
+                fmt::format("continued at line {}, column {}, the job has {} that it does not have as a whole: {} [{}]",
+                            approach.at.line, approach.at.column,
+                            one.severity == Severity::error ? "an error" : "a warning", one.text, one.section),
+                "choose another line");
   }
   return {};
 }
