@@ -1,13 +1,12 @@
 // mill queue, start, pause, resume, abort, cancel, first, done: what is requested of a mill in one call.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdint>
 #include <string>
-#include <string_view>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/job_follower.h"
+#include "clients/axisctl/job_places.h"
 #include "clients/axisctl/mill_calls.h"
 #include "clients/axisctl/mill_text.h"
 #include "clients/axisctl/print.h"
@@ -33,22 +32,6 @@ Request job_request(const Session& session) {
   return request;
 }
 
-std::int64_t count_from_one(std::string_view text, const std::string& all) {
-  std::int64_t value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error == std::errc() && end == text.data() + text.size() && value > 0) return value;
-  throw usage(fmt::format("\"{}\" is not valid for --from", all),
-              "name a line, e.g. 12, or a line and a column, e.g. 1:340");
-}
-
-// Without a line the daemon's answer, a refusal, says where what was sent ends.
-void set_place(const std::string& from, v1::ContinueJobRequest& request) {
-  const std::string_view text = from;
-  const std::size_t colon = text.find(':');
-  request.set_line(count_from_one(text.substr(0, colon), from));
-  if (colon != std::string_view::npos) request.set_column(count_from_one(text.substr(colon + 1), from));
-}
-
 int report_answer(const Session& session, const google::protobuf::Message& response, const std::string& text) {
   session.options.json ? print_json(response) : print_line(text);
   return kDone;
@@ -56,7 +39,12 @@ int report_answer(const Session& session, const google::protobuf::Message& respo
 
 int choose_rest(const Session& session) {
   auto request = job_request<v1::ContinueJobRequest>(session);
-  if (session.options.job.from) set_place(*session.options.job.from, request);
+  // Without a line the daemon's answer, a refusal, says where what was sent ends.
+  if (session.options.job.from) {
+    const rml1::Place from = job_place(*session.options.job.from);
+    request.set_line(static_cast<std::int64_t>(from.line));
+    request.set_column(static_cast<std::int64_t>(from.column));
+  }
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ContinueJob, request, kStartLimit);
   return report_answer(session, response, rest_text(response.job()));

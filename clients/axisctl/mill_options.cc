@@ -25,6 +25,11 @@ void add_checks(CLI::App& mill, Options& options) {
     verb->add_option("--tool", options.mill.tool_mm, "the diameter of the tool in mm: says how much is removed")
         ->type_name("MM");
   }
+  preview
+      ->add_option("--from", options.mill.from,
+                   "draw what remains from a line, or line and column, on; what comes before is pale. Of a range, what "
+                   "begins in it is perhaps done")
+      ->type_name("LINE[:COLUMN][-LINE[:COLUMN]]");
   preview->add_option("-o,--output", options.mill.output, "an .svg or a .png file")->required()->type_name("FILE");
 }
 

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/job_places.h"
 #include "clients/axisctl/lengths.h"
 #include "clients/axisctl/mill_profiles.h"
 #include "clients/axisctl/mill_report.h"
@@ -101,7 +102,7 @@ int mill_preview(const Options& options) {
   if (!svg && ending != ".png") throw usage(output + " is not a picture", "name a file that ends in .svg or .png");
   const Profile profile = mill_profile(options.mill.profile);
   const CheckOptions asked = check_options(options.mill, profile);
-  Strokes strokes;
+  Strokes strokes(options.mill.from ? job_range(*options.mill.from) : PlaceRange());
   Check check(profile, asked, &strokes);
   read_job(options.mill.file, check);
   print_diagnostics(options.mill.file, check.diagnostics());

@@ -104,6 +104,7 @@ struct MillOptions {
   std::optional<std::string> stock;   // the same
   std::optional<double> tool_mm;      // its diameter
   std::string output;                 // preview: the picture
+  std::optional<std::string> from;    // preview: "8:1-13:1", as job_range()
 };
 
 // Of the verbs that call a mill.

@@ -31,6 +31,12 @@ struct Instruction {
   std::uint64_t end = 0;             // bytes of the job that had to come before it could be executed
 };
 
+// Of the command, or of that set of its coordinates.
+inline const Place& begin_of(const Instruction& instruction) {
+  if (instruction.first) return instruction.place;
+  return instruction.axes.empty() ? instruction.places[0] : instruction.axes.front().place;
+}
+
 class InstructionListener {
  public:
   virtual ~InstructionListener() = default;

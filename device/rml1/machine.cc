@@ -355,7 +355,7 @@ void Machine::drive(Piece piece, const Point& from, const Point& to, double spee
   if (piece == Piece::across) speed = profile_.speed.travel;
   if (piece == Piece::raise || piece == Piece::descent) speed = z_speed_;
   listener_.moved({from, to, possible(speed, to - from), lowered_ && by.row->operation == Operation::plot, turning_,
-                   by.end, by.row->operation, by.place});
+                   by.end, by.row->operation, by.place, begin_of(by)});
 }
 
 // No axis goes faster than it can.

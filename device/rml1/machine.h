@@ -26,7 +26,8 @@ struct Move {
   bool turning = false;                   // whether the spindle turns
   std::uint64_t end = 0;                  // bytes of the job that had to come before
   Operation operation = Operation::plot;  // of the command
-  Place place;                            // where it begins
+  Place place;                            // where that begins
+  Place begin;                            // the same, or where the set of its coordinates begins
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   bool lifts() const { return from.x == to.x && from.y == to.y && to.z > from.z; }

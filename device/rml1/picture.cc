@@ -86,6 +86,30 @@ std::string size_text(std::string_view axis, const Reach& reach, double step_mm)
                      reach.size() * step_mm);
 }
 
+// "812 mm driven, 600 mm cutting"
+std::string lengths_text(const Strokes& strokes, Strokes::Done done, double step_mm) {
+  double driven = 0, cutting = 0;
+  for (const Strokes::Stroke& stroke : strokes.all()) {
+    if (stroke.done != done || stroke.kind == Strokes::Kind::left_out) continue;
+    driven += stroke.length() * step_mm;
+    if (stroke.kind == Strokes::Kind::cut) cutting += stroke.length() * step_mm;
+  }
+  return fmt::format("{:.0f} mm driven, {:.0f} mm cutting", driven, cutting);
+}
+
+bool any_executed(const Strokes& strokes) { return strokes.executed().most != Place(); }
+
+void add_remains(std::vector<std::string>& lines, const Strokes& strokes, double step_mm) {
+  const auto add = [&](std::string_view what, const Place& end, Strokes::Done done) {
+    lines.push_back(fmt::format("{} up to line {}, column {}: {}", what, end.line, end.column,
+                                lengths_text(strokes, done, step_mm)));
+  };
+  const auto& [least, most] = strokes.executed();
+  add("done", least, Strokes::Done::yes);
+  if (least != most) add("perhaps done", most, Strokes::Done::perhaps);
+  lines.push_back("remains: " + lengths_text(strokes, Strokes::Done::no, step_mm));
+}
+
 std::vector<std::string> facts(const Check& check, const Profile& profile, const Strokes& strokes, bool stock,
                                bool area) {
   const Summary& job = check.summary();
@@ -94,6 +118,7 @@ std::vector<std::string> facts(const Check& check, const Profile& profile, const
   lines.push_back(fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; takes {}", job.commands,
                               job.distance_mm, job.cutting_mm, time_text(job)));
   lines.push_back("time: " + time_reason(job, profile));
+  if (any_executed(strokes)) add_remains(lines, strokes, profile.step_mm);
   if (cuts.x.any) {
     lines.push_back(fmt::format("cuts {}, {}, {:.2f} mm deep", size_text("X", cuts.x, profile.step_mm),
                                 size_text("Y", cuts.y, profile.step_mm),
@@ -169,8 +194,10 @@ Picture make_picture(const std::string& title, const Check& check, const Profile
   picture.strokes = &strokes;
   picture.shades.emplace(strokes, profile.step_mm);
   // A file's name may be of any bytes; what is no UTF-8 is left out.
-  picture.labels.push_back(
-      {kMargin, kMargin * 0.7, boost::locale::conv::utf_to_utf<char>(title) + " on the " + profile.name, true});
+  picture.labels.push_back({kMargin, kMargin * 0.7,
+                            fmt::format("{}{} on the {}", boost::locale::conv::utf_to_utf<char>(title),
+                                        any_executed(strokes) ? ": what remains" : "", profile.name),
+                            true});
   Legend legend(picture);
   legend.add_swatches(picture.shades->legend());
   for (const std::string& line : facts(check, profile, strokes, stock.has_value(), origin_known)) {

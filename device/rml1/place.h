@@ -13,4 +13,11 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
+// Where something ends that is not known better.
+struct PlaceRange {
+  Place least, most;
+
+  friend bool operator==(const PlaceRange&, const PlaceRange&) = default;
+};
+
 }  // namespace axisgate::rml1

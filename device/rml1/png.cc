@@ -66,7 +66,7 @@ void draw_strokes(cairo_t* cairo, const Shaded& shaded, bool many, const Picture
   for (std::size_t shade = 0; shade < shaded.size(); ++shade) {
     static constexpr double kDots[] = {2, 2};
     set_colour(cairo, kShadeColours[shade]);
-    cairo_set_line_width(cairo, shade == 0 ? 0.6 : 1);
+    cairo_set_line_width(cairo, shade == kTravel ? 0.6 : shade == kPerhapsDone ? 2 : 1);
     cairo_set_dash(cairo, kDots, shade == kLeftOut ? 2 : 0, 0);
     int waiting = 0;
     for (const Strokes::Stroke* stroke : shaded[shade]) {

@@ -13,18 +13,13 @@ double depth(const Strokes::Stroke& stroke) { return -std::min({stroke.from[2], 
 
 }  // namespace
 
-const std::array<const char*, kShades> kShadeColours = {"#9aa5b1", "#e6007e", "#fdae61", "#f98e52", "#ef6548",
-                                                        "#d7301f", "#a50f15", "#7a0177", "#54278f", "#1f005c"};
+const std::array<const char*, kShades> kShadeColours = {"#c3cbd3", "#9aa5b1", "#e6007e", "#fdae61",
+                                                        "#f98e52", "#ef6548", "#d7301f", "#a50f15",
+                                                        "#7a0177", "#54278f", "#1f005c", "#00a86b"};
 
 Shades::Shades(const Strokes& strokes, double step_mm) : step_mm_(step_mm) {
   set_levels(strokes);
-  for (const Strokes::Stroke& stroke : strokes.all()) {
-    if (stroke.kind == Strokes::Kind::cut) {
-      levels_[level_of(stroke)].used = true;
-    } else {
-      (stroke.kind == Strokes::Kind::travel ? travel_ : left_out_) = true;
-    }
-  }
+  for (const Strokes::Stroke& stroke : strokes.all()) used_[static_cast<std::size_t>(of(stroke))] = true;
 }
 
 long Shades::hundredths(double steps) const { return std::lround(steps * step_mm_ * 100); }
@@ -59,19 +54,25 @@ std::size_t Shades::level_of(const Strokes::Stroke& stroke) const {
 }
 
 int Shades::of(const Strokes::Stroke& stroke) const {
-  if (stroke.kind == Strokes::Kind::travel) return 0;
-  return stroke.kind == Strokes::Kind::left_out ? kLeftOut : levels_[level_of(stroke)].shade;
+  if (stroke.kind == Strokes::Kind::travel) return kTravel;
+  if (stroke.kind == Strokes::Kind::left_out) return kLeftOut;
+  if (stroke.done == Strokes::Done::yes) return kDone;
+  return stroke.done == Strokes::Done::perhaps ? kPerhapsDone : levels_[level_of(stroke)].shade;
 }
 
 std::vector<Shades::Entry> Shades::legend() const {
   std::vector<Entry> entries;
-  if (travel_) entries.push_back({0, "travel"});
+  const auto add = [&](int shade, std::string text) {
+    if (used_[static_cast<std::size_t>(shade)]) entries.push_back({shade, std::move(text)});
+  };
+  add(kTravel, "travel");
   for (const Level& level : levels_) {
-    if (!level.used) continue;
     const double mm = static_cast<double>(level.hundredths) / 100;
-    entries.push_back({level.shade, fmt::format("{}{:.2f} mm deep", ranges_ ? "to " : "", mm)});
+    add(level.shade, fmt::format("{}{:.2f} mm deep", ranges_ ? "to " : "", mm));
   }
-  if (left_out_) entries.push_back({kLeftOut, "not driven"});
+  add(kLeftOut, "not driven");
+  add(kDone, "done");
+  add(kPerhapsDone, "perhaps done");
   return entries;
 }
 

@@ -1,4 +1,4 @@
-// Which colour a stroke has: travel, and depths from shallow to deep.
+// Which colour a stroke has: travel, cuts from shallow to deep, and those that are done.
 #pragma once
 
 #include <array>
@@ -10,8 +10,9 @@
 
 namespace axisgate::rml1 {
 
-// In the order of drawing: 0 is travel, then comes what clipping leaves out, and then cutting.
-inline constexpr int kLeftOut = 1, kShallowest = 2, kDepths = 8, kShades = kShallowest + kDepths;
+// In the order of drawing. kLeftOut: by clipping. Cutting has kDepths of them, from kShallowest on.
+inline constexpr int kDone = 0, kTravel = 1, kLeftOut = 2, kShallowest = 3, kDepths = 8;
+inline constexpr int kPerhapsDone = kShallowest + kDepths, kShades = kPerhapsDone + 1;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
 // One shade for each depth where a job has few; else equal ranges of depth.
@@ -33,7 +34,6 @@ class Shades {
   struct Level {
     long hundredths;  // mm below Z0, at most
     int shade;
-    bool used = false;
   };
 
   long hundredths(double steps) const;
@@ -43,7 +43,7 @@ class Shades {
   double step_mm_;
   bool ranges_ = false;
   std::vector<Level> levels_;  // from shallow to deep
-  bool travel_ = false, left_out_ = false;
+  std::array<bool, kShades> used_{};
 };
 
 }  // namespace axisgate::rml1

@@ -15,23 +15,33 @@ namespace axisgate::rml1 {
 class Strokes : public MoveListener {
  public:
   enum class Kind : std::uint8_t { travel, cut, left_out };
+  enum class Done : std::uint8_t { yes, perhaps, no };
   struct Stroke {
     std::array<float, 3> from, to;  // steps
     Kind kind;
+    Done done;
+    double length() const;  // steps
   };
+
+  // `executed`: where what a mill has executed of the job ends, in lines and columns. By default it has executed
+  // nothing.
+  explicit Strokes(const PlaceRange& executed = {}) : executed_(executed) {}
 
   void moved(const Move& move) override;
   void left_out(const Point& from, const Point& to) override;
 
   const std::vector<Stroke>& all() const { return all_; }
+  const PlaceRange& executed() const { return executed_; }
   // Whether this one is drilled: straight down, and straight up again.
   bool is_hole(std::size_t index) const;
   const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts on its way along or down
   bool any_left_out() const { return any_left_out_; }
 
  private:
-  void add(const Point& from, const Point& to, Kind kind);
+  void add(const Point& from, const Point& to, Kind kind, Done done);
+  Done done(const Place& begin) const;
 
+  const PlaceRange executed_;
   std::vector<Stroke> all_;
   Reach feeds_;
   bool any_left_out_ = false;

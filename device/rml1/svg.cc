@@ -90,10 +90,12 @@ std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& 
 
 // How a path differs from the others of its view.
 std::string style_of(std::size_t shade, double pixel) {
-  if (shade == 0) {
+  if (shade == kTravel) {
     return fmt::format("class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"", 0.6 * pixel,
                        3 * pixel, 2 * pixel);
   }
+  if (shade == kPerhapsDone) return fmt::format("class=\"perhaps\" stroke-width=\"{:.6g}\"", 2 * pixel);
+  if (shade == kDone) return "class=\"done\"";
   if (shade != kLeftOut) return "class=\"cut\"";
   return fmt::format("class=\"left-out\" stroke-dasharray=\"{:.6g} {:.6g}\"", 2 * pixel, 2 * pixel);
 }

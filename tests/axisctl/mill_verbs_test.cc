@@ -294,7 +294,7 @@ TEST_F(MillCalls, ResumeOfAJobChoosesWhereItGoesOn) {
   ASSERT_EQ(mill_.continued.size(), 2U);
   EXPECT_EQ(mill_.continued[0].job(), "devices/mill/jobs/7");
   EXPECT_EQ(mill_.continued[0].line(), 12);
-  EXPECT_EQ(mill_.continued[0].column(), 0);
+  EXPECT_EQ(mill_.continued[0].column(), 1);
   EXPECT_EQ(mill_.continued[1].column(), 40);
   options_.job.from.reset();
   run(mill_resume);
@@ -303,7 +303,7 @@ TEST_F(MillCalls, ResumeOfAJobChoosesWhereItGoesOn) {
 
 TEST_F(MillCalls, WhatIsNoLineIsAUsageError) {
   options_.job.number = 7;
-  for (const char* from : {"", "0", "-1", "x", "12:", "12:0", "12:x", ":4", "12 "}) {
+  for (const char* from : {"", "0", "-1", "x", "12:", "12:0", "12:x", ":4", "12 ", "8:1-13:1"}) {
     options_.job.from = from;
     EXPECT_EQ(run(mill_resume).exit_code, kUsage) << from;
   }

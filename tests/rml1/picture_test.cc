@@ -1,4 +1,4 @@
-// The picture of a job as a file: what the title may hold, and whether it was written.
+// The picture of a job as a file: what the title may hold, what of it is done, and whether it was written.
 #include "device/rml1/picture.h"
 
 #include <gmock/gmock.h>
@@ -10,6 +10,7 @@
 #include <iterator>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/rml1/check.h"
 #include "tests/rml1/mill.h"
@@ -17,14 +18,20 @@
 namespace axisgate::rml1 {
 namespace {
 
+using testing::AllOf;
+using testing::AnyOf;
+using testing::Contains;
+using testing::Each;
+using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
-// A square that is cut, drawn under that title.
+// Two lines that are cut, 10 and 20 mm long, drawn under that title.
 class Drawn {
  public:
-  explicit Drawn(const std::string& title) {
-    check_.feed("PU10,10;PD20,10;PD20,20;PU;");
+  explicit Drawn(const std::string& title, const PlaceRange& executed = {}) : strokes_(executed) {
+    check_.feed("PU1000,1000;PD2000,1000;\nPD2000,3000;PU;");
     check_.finish();
     picture_.emplace(make_picture(title, check_, profile_, {}, true, strokes_));
   }
@@ -40,6 +47,58 @@ class Drawn {
 TEST(Svg, ATitleIsTextAndNothingElse) {
   EXPECT_THAT(to_svg(Drawn("a<b>&\"c").picture()), HasSubstr("a&#60;b&#62;&#38;&#34;c"));
   EXPECT_THAT(to_svg(Drawn("tab\t, unit\x1F, space ").picture()), HasSubstr("tab?, unit?, space "));
+}
+
+std::vector<std::string> texts(const Picture& picture) {
+  std::vector<std::string> all;
+  for (const Picture::Label& label : picture.labels) all.push_back(label.text);
+  return all;
+}
+
+std::vector<Strokes::Done> done_of(const Picture& picture) {
+  std::vector<Strokes::Done> all;
+  for (const Strokes::Stroke& stroke : picture.strokes->all()) all.push_back(stroke.done);
+  return all;
+}
+
+// 14.1 mm along and across, 1 mm of the tool's way down to Z1 of -100 steps: test_profile().
+TEST(WhatRemains, IsAllByDefault) {
+  const Drawn drawn("job");
+  EXPECT_THAT(done_of(drawn.picture()), Each(Strokes::Done::no));
+  EXPECT_THAT(texts(drawn.picture()), Not(Contains(AnyOf(StartsWith("done"), HasSubstr("remains")))));
+  EXPECT_THAT(to_svg(drawn.picture()), Not(HasSubstr("class=\"done\"")));
+}
+
+TEST(WhatRemains, BeginsAtThePlaceOrBehindIt) {
+  const Drawn drawn("job", {{0, 2, 1}, {0, 2, 1}});
+  EXPECT_THAT(texts(drawn.picture()),
+              AllOf(Contains("job: what remains on the test mill"), Contains("done"), Not(Contains("perhaps done")),
+                    Contains(StartsWith("done up to line 2, column 1: ")), Contains(EndsWith(" driven, 11 mm cutting")),
+                    Contains(EndsWith(" driven, 21 mm cutting"))));
+  const std::string svg = to_svg(drawn.picture());
+  EXPECT_THAT(svg, HasSubstr("class=\"done\""));
+  EXPECT_THAT(svg, Not(HasSubstr("class=\"perhaps\"")));
+}
+
+TEST(WhatRemains, OfARangeIsPerhapsDone) {
+  const Drawn drawn("job", {{0, 1, 13}, {0, 2, 1}});
+  EXPECT_THAT(texts(drawn.picture()),
+              AllOf(Not(Contains("done")), Contains("travel"), Contains("perhaps done"),
+                    Contains(StartsWith("done up to line 1, column 13: ")),
+                    Contains(StartsWith("perhaps done up to line 2, column 1: ")), Contains(StartsWith("remains: "))));
+  EXPECT_THAT(to_svg(drawn.picture()), HasSubstr("class=\"perhaps\""));
+}
+
+// A set of a list counts by where it begins itself.
+TEST(WhatRemains, OfAListOfCoordinates) {
+  const Profile profile = test_profile();
+  Strokes strokes({{0, 1, 13}, {0, 1, 13}});
+  Check check(profile, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
+  check.feed("PA;PD100,200,300,400;");
+  check.finish();
+  ASSERT_FALSE(strokes.all().empty());
+  EXPECT_EQ(strokes.all().front().done, Strokes::Done::yes);
+  EXPECT_EQ(strokes.all().back().done, Strokes::Done::no);
 }
 
 TEST(Png, SaysWhetherItWasWritten) {

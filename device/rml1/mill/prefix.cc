@@ -5,11 +5,6 @@
 namespace axisgate::rml1 {
 namespace {
 
-Place begin_of(const Instruction& instruction) {
-  if (instruction.first) return instruction.place;
-  return instruction.axes.empty() ? instruction.places[0] : instruction.axes.front().place;
-}
-
 std::optional<double> parameter(const Instruction& instruction, std::size_t index = 0) {
   const bool given = instruction.count > index && instruction.given[index];
   return given ? std::optional(instruction.values[index]) : std::nullopt;
