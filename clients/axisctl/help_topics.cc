@@ -147,7 +147,9 @@ needed. The profile describes the machine: the name of one in deploy/mills, or y
 work origin: X and Y from the home corner, and how far Z0 is below the top of the travel. Without it only sizes are
 checked. With --stock there is a warning for a cut beside or below the workpiece. With --tool, the diameter of the tool,
 the report says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from
-above, from the front and from the side, and reports the same errors and warnings.
+above, from the front and from the side, and reports the same errors and warnings. With --from it draws what remains from
+a line on. After an abort `mill queue` says between which places of the file what was executed ends: --from 8:1-13:1
+draws what begins there as perhaps done.
 
 The other commands call the daemon; with several mills --device names one. `mill send` puts a job into the queue, unless
 the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
@@ -176,6 +178,7 @@ After each of them a confirmation is void.)",
 printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10,10,30 --stock 5,5,2 --tool 1
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
 printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg
+printf '^IN;PU100,100;\nPD200,100;PU;\n' | axisctl mill preview - --profile mdx-40 --from 2 -o rest.svg
 printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill send - --title frame
 axisctl mill queue
 axisctl mill first 1

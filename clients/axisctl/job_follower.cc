@@ -130,10 +130,11 @@ int JobFollower::report_end() const {
     return kDone;
   }
   if (job_.state() == v1::JOB_STATE_ABORTED || (gone_ && running_.sending() == v1::SENDING_STATE_ABORTING)) {
-    throw Failure{
-        kFailed, "ABORTED",
-        fmt::format("the abort of {} was sent; whether the mill has followed it is not known", job_text(job_)),
-        "look at the mill"};
+    const bool known = job_.has_executed();
+    throw Failure{kFailed, "ABORTED",
+                  fmt::format("the abort of {} was sent; whether the mill has followed it is not known{}",
+                              job_text(job_), known ? "; " + executed_text(job_) : ""),
+                  known ? "look at the mill; " + remains_text(job_) : "look at the mill"};
   }
   throw Failure{kFailed, "OUTCOME_UNKNOWN",
                 fmt::format("job {} has left the queue: it was aborted, or somebody has reported its end",

@@ -4,6 +4,7 @@
 #include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <cstdint>
 #include <optional>
 
@@ -102,6 +103,12 @@ std::string place_text(const v1::JobPlace& place) {
   return fmt::format("line {}, column {}", place.line(), place.column());
 }
 
+// "ends at line 8, column 1", "ends between line 8, column 1 and line 13, column 1"
+std::string end_text(const v1::JobPlaceRange& range) {
+  const std::string least = place_text(range.least()), most = place_text(range.most());
+  return least == most ? fmt::format("ends at {}", least) : fmt::format("ends between {} and {}", least, most);
+}
+
 std::string beginning_cell(const std::optional<TimeRange>& earliest) {
   if (!earliest) return "-";
   const std::string range = duration_range_text(*earliest);
@@ -189,9 +196,26 @@ std::string paused_text(const v1::RunningJob& running) {
 std::string aborted_text(const v1::AbortJobResponse& response) {
   if (!response.has_running()) return "the abort was sent; no job ran; look at the mill";
   const v1::RunOn& run_on = response.running().run_on();
-  return fmt::format("the abort was sent: at most {} of job {}{} may run on{}; look at the mill",
+  const std::string executed = response.has_executed() ? fmt::format("; by the mill's profile what is executed {}",
+                                                                     end_text(response.executed()))
+                                                       : "";
+  return fmt::format("the abort was sent: at most {} of job {}{} may run on{}{}; look at the mill",
                      bytes_text(std::to_string(run_on.at_most())), last_part(response.running().job()),
-                     within_text(run_on), held_text(run_on));
+                     within_text(run_on), held_text(run_on), executed);
+}
+
+std::string executed_text(const v1::Job& job) {
+  const std::string part = part_text(job);
+  return fmt::format("by the mill's profile what was executed{} {}", part.empty() ? "" : " of part " + part,
+                     end_text(job.executed()));
+}
+
+std::string remains_text(const v1::Job& job) {
+  const auto place = [](const v1::JobPlace& at) { return fmt::format("{}:{}", at.line(), at.column()); };
+  const std::string least = place(job.executed().least()), most = place(job.executed().most());
+  return fmt::format("`axisctl mill preview FILE --profile {} --from {} -o rest.svg` draws what remains",
+                     boost::algorithm::to_lower_copy(job.setup().profile()),
+                     least == most ? least : least + "-" + most);
 }
 
 std::vector<std::string> queue_lines(const v1::Mill& mill) {
@@ -201,6 +225,9 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
   if (mill.has_measured_pace()) {
     lines.push_back(fmt::format("measured: the mill takes {:.2f} to {:.2f} times the longest time by its profile",
                                 mill.measured_pace().least(), mill.measured_pace().most()));
+  }
+  if (mill.ended().has_executed() && mill.ended().state() == v1::JOB_STATE_ABORTED) {
+    lines.push_back(fmt::format("{} was aborted: {}", job_text(mill.ended()), executed_text(mill.ended())));
   }
   if (mill.jobs().empty()) {
     lines.emplace_back("no jobs");

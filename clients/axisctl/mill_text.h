@@ -22,9 +22,10 @@ std::string state_text(const v1::Job& job);
 // "job 7 (part.rml) RUNNING: PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort was sent".
 std::string change_text(const v1::JobChange& change);
 
-// "job 7 (part.rml) is confirmed by unix anna until 2026-11-21 16:10:00".
 // Of a job that is PAUSED: where it continues, and what is to be done before.
 std::string rest_text(const v1::Job& job);
+
+// "job 7 (part.rml) is confirmed by unix anna until 2026-11-21 16:10:00".
 std::string confirmed_text(const v1::Job& job);
 
 // "after an abort at most 64 bytes, up to 3.2 s, run on, at most 2048 if the panel holds the mill (VIEW, an open
@@ -41,12 +42,18 @@ inline constexpr std::string_view kBusyText = "the mill is busy: look at it";
 // "job 7 is paused: 10 to 64 bytes of it, up to 3.2 s, still run, ...; the cutter keeps turning in the cut".
 std::string paused_text(const v1::RunningJob& running);
 
-// "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; look at the mill". Never that anything has
-// stopped.
+// "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; by the mill's profile what is executed ends
+// between line 8, column 1 and line 13, column 1; look at the mill". Never that anything has stopped.
 std::string aborted_text(const v1::AbortJobResponse& response);
 
-// The mill in one line, what runs in another, its measured pace in a third where it is known, and the queue as a table.
-// When a job begins is said "at the earliest", since people confirm between.
+// Of a job that has Job.executed: "by the mill's profile what was executed ends between line 8, column 1 and line 13,
+// column 1".
+std::string executed_text(const v1::Job& job);
+// Which command draws the rest of it.
+std::string remains_text(const v1::Job& job);
+
+// The mill in one line, what runs in another, its measured pace and what was aborted last where there are such, and the
+// queue as a table. When a job begins is said "at the earliest", since people confirm between.
 std::vector<std::string> queue_lines(const v1::Mill& mill);
 
 // What a person sets up for the job, a line each.

@@ -317,7 +317,10 @@ void Mills::abort(const Call& call, std::string_view device, Answer<CurrentRun> 
                   if (!turn.controller.abort(turn.context, turn.now)) {
                     return respond(tl::unexpected(not_sent_to(turn.device)));
                   }
-                  if (turn.controller.running_job() != 0) run.running = turn.controller.running(turn.now);
+                  if (const rml1::JobNumber number = turn.controller.running_job(); number != 0) {
+                    run.running = turn.controller.running(turn.now);
+                    run.executed = find_job(turn.controller, number)->executed;
+                  }
                   respond(std::move(run));
                 });
 }

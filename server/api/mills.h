@@ -39,6 +39,7 @@ struct CurrentRun {
   const server::Mill* mill = nullptr;  // never null
   std::optional<rml1::RunningJob> running;
   server::Moment clock;
+  std::optional<rml1::PlaceRange> executed{};  // rml1::Job::executed of it
 };
 
 struct MillState {

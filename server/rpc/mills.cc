@@ -45,6 +45,14 @@ void add_parts(const rml1::Job& job, v1::Job& proto) {
   proto.set_part(static_cast<std::int32_t>(job.part));
 }
 
+v1::JobPlace place_of(const rml1::Place& place) {
+  v1::JobPlace proto;
+  proto.set_byte(static_cast<std::int64_t>(place.offset));
+  proto.set_line(static_cast<std::int64_t>(place.line));
+  proto.set_column(static_cast<std::int64_t>(place.column));
+  return proto;
+}
+
 v1::JobSetup setup_of(const rml1::JobSetup& setup) {
   v1::JobSetup proto;
   proto.set_digest(setup.digest);
@@ -52,11 +60,7 @@ v1::JobSetup setup_of(const rml1::JobSetup& setup) {
   proto.set_origin(setup.origin);
   proto.set_tool(setup.tool);
   *proto.mutable_left() = {setup.left.begin(), setup.left.end()};
-  if (setup.from) {
-    proto.mutable_from()->set_byte(static_cast<std::int64_t>(setup.from->offset));
-    proto.mutable_from()->set_line(static_cast<std::int64_t>(setup.from->line));
-    proto.mutable_from()->set_column(static_cast<std::int64_t>(setup.from->column));
-  }
+  if (setup.from) *proto.mutable_from() = place_of(*setup.from);
   return proto;
 }
 
@@ -108,12 +112,20 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.set_sent_least(static_cast<std::int64_t>(job.written->least));
     proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
   }
+  if (job.executed) *proto.mutable_executed() = to_proto(*job.executed);
   if (job.stock) {
     proto.mutable_stock()->set_x_mm(job.stock->x);
     proto.mutable_stock()->set_y_mm(job.stock->y);
     proto.mutable_stock()->set_z_mm(job.stock->z);
   }
   add_parts(job, proto);
+  return proto;
+}
+
+v1::JobPlaceRange to_proto(const rml1::PlaceRange& range) {
+  v1::JobPlaceRange proto;
+  *proto.mutable_least() = place_of(range.least);
+  *proto.mutable_most() = place_of(range.most);
   return proto;
 }
 

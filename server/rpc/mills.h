@@ -15,6 +15,7 @@ namespace axisgate::rpc {
 v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock);
 v1::Job to_proto(const api::CurrentJob& job);
 v1::SendingState to_sending_state(rml1::SenderState state);
+v1::JobPlaceRange to_proto(const rml1::PlaceRange& range);
 v1::RunOn to_proto(const rml1::RunOn& run_on);
 // Of what runs; without a job where nothing does.
 v1::RunningJob to_proto(const api::CurrentRun& run);

@@ -119,6 +119,7 @@ std::unique_ptr<Answer> OwnAnswers::abort_job(const v1::AbortJobRequest& request
   const auto fill = [](const api::CurrentRun& run) {
     v1::AbortJobResponse response;
     if (run.running) *response.mutable_running() = to_proto(run);
+    if (run.executed) *response.mutable_executed() = to_proto(*run.executed);
     return response;
   };
   const api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());

@@ -1,6 +1,7 @@
 // What axisctl says about a mill's jobs. Sizes, times and ranges are typed by hand: of 30,000 bytes 12,300 are 41 %.
 #include "clients/axisctl/mill_text.h"
 
+#include <gmock/gmock.h>
 #include <google/protobuf/util/time_util.h>
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -9,10 +10,15 @@
 #include <string>
 #include <vector>
 
+#include "tests/axisctl/executed_lines.h"
+
 namespace axisgate::axisctl {
 namespace {
 
 using google::protobuf::util::TimeUtil;
+using testing::Contains;
+using testing::HasSubstr;
+using testing::Not;
 using Lines = std::vector<std::string>;
 
 v1::Job frame(int number, v1::JobState state) {
@@ -153,6 +159,32 @@ TEST(MillTexts, AnAbortNeverSaysThatTheMillHasStopped) {
   *response.mutable_running() = running(15'000, 12'300, 13'200);
   *response.mutable_running()->mutable_run_on() = run_on(64, 64);
   EXPECT_EQ(aborted_text(response), "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill");
+}
+
+// Seen through the mill's profile: its panel may have held it.
+TEST(MillTexts, WhereWhatWasExecutedEnds) {
+  v1::AbortJobResponse response;
+  *response.mutable_running() = running(15'000, 12'300, 13'200);
+  *response.mutable_running()->mutable_run_on() = run_on(64, 64);
+  *response.mutable_executed() = executed_lines(8, 13);
+  EXPECT_EQ(aborted_text(response),
+            "the abort was sent: at most 64 bytes of job 7 may run on; by the mill's profile what is executed ends "
+            "between line "
+            "8, column 1 and line 13, column 1; look at the mill");
+  v1::Job job = frame(7, v1::JOB_STATE_ABORTED);
+  *job.mutable_executed() = executed_lines(8, 8);
+  EXPECT_EQ(executed_text(job), "by the mill's profile what was executed ends at line 8, column 1");
+  job.add_parts();
+  job.add_parts();
+  job.set_part(1);
+  EXPECT_EQ(executed_text(job), "by the mill's profile what was executed of part 2 of 2 ends at line 8, column 1");
+  EXPECT_EQ(remains_text(job),
+            "`axisctl mill preview FILE --profile mdx-20 --from 8:1 -o rest.svg` draws what remains");
+  v1::Mill mill;
+  *mill.mutable_ended() = job;
+  EXPECT_THAT(queue_lines(mill), Contains("job 7 (frame.rml) was aborted: " + executed_text(job)));
+  mill.mutable_ended()->set_state(v1::JOB_STATE_DONE);
+  EXPECT_THAT(queue_lines(mill), Not(Contains(HasSubstr("aborted"))));
 }
 
 TEST(MillTexts, WhatIsSetUp) {

@@ -7,6 +7,7 @@
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/verbs.h"
+#include "tests/axisctl/executed_lines.h"
 #include "tests/axisctl/scripted_mill.h"
 
 namespace axisgate::axisctl {
@@ -128,6 +129,10 @@ TEST_F(MillWatch, HowAJobThatIsGoneHasEndedIsReported) {
   gone.mutable_ended()->set_state(v1::JOB_STATE_ABORTED);
   gone.clear_jobs();
   EXPECT_EQ(run(mill_watch).reason, "ABORTED");
+  *gone.mutable_ended()->mutable_executed() = executed_lines(8, 13);
+  EXPECT_EQ(run(mill_watch).message,
+            "the abort of job 7 (frame.rml) was sent; whether the mill has followed it is not known; by the mill's "
+            "profile what was executed ends between line 8, column 1 and line 13, column 1");
   gone.mutable_ended()->set_state(v1::JOB_STATE_DONE);
   const Ended done = run(mill_watch);
   EXPECT_EQ(done.exit_code, kDone);

@@ -149,10 +149,15 @@ class MillJobs(unittest.TestCase):
         watching.until(r"\ASENDING \[.{10}\] \d+( to \d+)? %, \d+ of \d+ bytes written, \d+ taken, ")
         self.send(SMALL)
         self.assertRegex(self.run_well("abort"),
-                         rf"\Athe abort was sent: at most \d+ bytes of job {number}, up to .* s, may run on")
+                         rf"\Athe abort was sent: at most \d+ bytes of job {number}, up to .* s, may run on.*; "
+                         r"by the mill's profile what is executed ends (at|between) line \d+, column \d+( and .*)?; look at")
         self.assertEqual(watching.end(), 1)
         self.assertRegex(watching.errors, rf"ABORTED: the abort of job {number} |OUTCOME_UNKNOWN: job {number} has left")
-        self.assertNotRegex(self.run_well("queue"), rf"(?m)^{number} ")
+        queue = self.run_well("queue")
+        self.assertNotRegex(queue, rf"(?m)^{number} ")
+        executed = rf"job {number} \(frame\) was aborted: by the mill's profile (what was executed ends (at|between) line .*)"
+        history = self.daemon.run("--device", "mill", "history").stdout
+        self.assertIn(re.search(executed, queue)[1], history)
         self.refused("NOT_ALLOWED", "start")  # the next one is not confirmed by that
 
     def test_the_history_has_what_became_of_a_job(self):

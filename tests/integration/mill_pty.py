@@ -123,5 +123,5 @@ class Gateway:
         return re.match(r"job (\d+) ", sent.stdout)[1]
 
     def abort(self):
-        """The job that ran, as the answer has it."""
-        return json.loads(self.axisctl("--json", "mill", "abort")).get("running")
+        """The answer."""
+        return json.loads(self.axisctl("--json", "mill", "abort"))

@@ -224,8 +224,9 @@ class Aborts(unittest.TestCase):
         mill.await_true(lambda entries: len(commands(entries[first:])) > moment.after, "the job does not run")
         time.sleep(moment.pause_s)  # the moment itself, as those below
         self.hold_before(mill, moment)
-        running = gateway.abort()
-        self.assertIsNotNone(running, "the job had ended")
+        answer = gateway.abort()
+        self.assertIn("running", answer, "the job had ended")
+        running = answer["running"]
         if combination.streaming == "full" and int(running["written"]) == len(job.text):
             return self.forget(mill, tally)
         asked = self.logged(mill, "requests: abort", number)
@@ -245,6 +246,7 @@ class Aborts(unittest.TestCase):
         bound = int(running["run_on"]["if_held" if moment.held_before else "at_most"])
         tally.add(moment, ran_on, bound)
         self.assertLessEqual(ran_on, bound, "more ran on than was stated")
+        self.check_executed(answer["executed"], aborted, moment)
 
     def forget(self, mill, tally):
         """An abort that has ignored XOFF: here that lets go what the terminal holds. Or one that came on a busy machine when
@@ -282,6 +284,13 @@ class Aborts(unittest.TestCase):
             self.assertEqual(begun, written)
         else:
             self.assertLessEqual(begun + aborted.discarded(), written)
+
+    def check_executed(self, said, aborted, moment):
+        """The places, by the mill's profile: with VIEW the mill has executed less."""
+        least, most = (int(said[end].get("byte", 0)) for end in ("least", "most"))
+        if not moment.held_before:
+            self.assertLessEqual(least, aborted.end_of(aborted.executed(False)), "it says more than was executed")
+        self.assertGreaterEqual(most, aborted.end_of(aborted.begun), "it says less than was begun")
 
     def test_nothing_is_written_the_bound_is_true_and_the_tool_is_up(self):
         with concurrent.futures.ThreadPoolExecutor(max_workers=AT_ONCE) as pool:

@@ -206,7 +206,8 @@ TEST_F(MillPartsTest, AnAbortOfALaterPartEndsTheJob) {
   mill_.abort({.who = "unix carl"}, now_);
   run_to_end();
   EXPECT_THAT(mill_.jobs(), IsEmpty());
-  EXPECT_EQ(said_.back(), "ABORTED: the abort was sent");
+  EXPECT_EQ(said_.back(),
+            "ABORTED: the abort was sent; by the mill's profile what was executed of part 2 ends at line 1, column 1");
 }
 
 TEST_F(MillPartsTest, NoOtherJobIsConfirmedBetweenTwoParts) {

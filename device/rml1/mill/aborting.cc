@@ -15,8 +15,17 @@ bool MillController::abort(std::string_view by, TimePoint now) {
   if (!running_) return send_abort(now);
   running_->aborted_by = by;
   running_->sender.abort(now);
+  note_executed(now);
   look_at_sender(now);
   return true;
+}
+
+// What has left the model of the mill since an abort was requested first may have been discarded.
+void MillController::note_executed(TimePoint now) {
+  Job& job = **find(running_->number);
+  if (job.executed) return;
+  const SendProgress progress = running_->sender.progress(now);
+  job.executed = running_->prepared->executed(progress.executed_least, progress.written);
 }
 
 // Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.

@@ -86,6 +86,14 @@ std::vector<std::string> left_by(const Job& job) {
   return texts;
 }
 
+std::string executed_text(const Job& job) {
+  const auto text = [](const Place& place) { return fmt::format("line {}, column {}", place.line, place.column); };
+  const auto& [least, most] = job.executed.value();
+  const std::string part = job.parts.size() < 2 ? "" : fmt::format(" of part {}", job.part + 1);
+  if (least == most) return fmt::format("by the mill's profile what was executed{} ends at {}", part, text(least));
+  return fmt::format("by the mill's profile what was executed{} ends between {} and {}", part, text(least), text(most));
+}
+
 std::string text_of(const Job& job) { return fmt::format("job {} ({}, by {})", job.number, job.name, job.owner); }
 
 }  // namespace axisgate::rml1

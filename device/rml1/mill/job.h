@@ -87,6 +87,7 @@ struct Job {
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed
   std::optional<WrittenRange> written{};       // of one that is paused_unknown
+  std::optional<PlaceRange> executed{};        // PreparedJob::executed() of one whose abort was requested
   std::vector<JobPart> parts{};                // at most kPartsAtMost; none: all of it is one
   std::size_t part = 0;                        // runs, or is the next to
   Leaves leaves{};                             // of all parts
@@ -113,6 +114,9 @@ JobEvent void_event(const Job& job);
 
 // "job 7 (part.rml) sets Z0": what the jobs after it find, for people.
 std::vector<std::string> left_by(const Job& job);
+
+// "by the mill's profile what was executed ends between line 8, column 1 and line 13, column 1".
+std::string executed_text(const Job& job);
 
 // "job 7 (part.rml, by unix anna)".
 std::string text_of(const Job& job);

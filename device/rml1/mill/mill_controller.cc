@@ -193,6 +193,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if (const Result<void> may = authorize(by, number, now); !may) return may;
   if ((*job)->part == 0 && !(*job)->setup.from) left_ = left_by(**job);
   (*job)->written.reset();
+  (*job)->executed.reset();
   change(**job, JobEvent::start, by.who, "", now);
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
@@ -261,7 +262,8 @@ void MillController::look_at_sender(TimePoint now) {
   if (state == SenderState::raised) end_raised(now);
   if (state != SenderState::aborted) return;
   abort_has_left(now);
-  end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent", now);
+  end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent; " + executed_text(**find(running_->number)),
+          now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.

@@ -182,6 +182,7 @@ class MillController : public LineMachine {
   Result<void> check_pausable(bool raise, TimePoint now);
   Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
   bool send_abort(TimePoint now);
+  void note_executed(TimePoint now);
   void look_after_abort(TimePoint now);
   void abort_has_left(TimePoint now);
   bool may_have_lost_abort(TimePoint now) const;

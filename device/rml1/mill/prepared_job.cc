@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "device/rml1/characters.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -40,6 +41,13 @@ Place PreparedJob::place(std::uint64_t bytes) const {
   const Place in_rest = place_of(rest, of_body(bytes) - begin_ - rest_.offset);
   return {rest_.offset + in_rest.offset, rest_.line + in_rest.line - 1,
           in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
+}
+
+// The last of the bytes that a command needs may be the first of the next one (guideline 2-3).
+PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) const {
+  std::uint64_t begin = std::max(least, rest_in_text_ + 1) - 1;
+  while (begin < text_.size() && (is_delimiter(text_[begin]) || text_[begin] == ',')) ++begin;
+  return {place(begin), place(std::max(begin, written))};
 }
 
 }  // namespace axisgate::rml1

@@ -37,6 +37,9 @@ class PreparedJob {
   // So many bytes of text() reach up to this byte of the job itself, and to this place in the part.
   std::uint64_t of_body(std::uint64_t bytes) const;
   Place place(std::uint64_t bytes) const;
+  // Where what a mill executes of the part ends that has executed so many bytes of text() at least and gets no more
+  // than those written. What begins before the one place is executed; what begins at the other or behind it is not.
+  PlaceRange executed(std::uint64_t least, std::uint64_t written) const;
 
  private:
   const std::string digest_;
