@@ -119,7 +119,7 @@ TEST_P(SentJob, TheTruthIsWithinTheRangeAtEverySecond) {
 // What the line takes has room in the mill's buffer and in a converter, or has been read: at most two commands more are
 // in the host and under way.
 TEST_P(SentJob, FullStreamingKnowsTheTruthToABuffer) {
-  const SendSettings settings{.streaming = Streaming::full};
+  const SendSettings settings{.streaming = Streaming::full, .flow_control = true};
   for (const std::string& job : {uniform_vectors(3000), bursts_of_vectors(3000)}) {
     const Sent found = sent(job, GetParam(), settings);
     EXPECT_LE(found.width, settings.buffer + settings.converter + 36);

@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <cstddef>
+#include <string>
 
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/sender_fixture.h"
@@ -46,6 +47,23 @@ TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotTaken) {
   run_for(milliseconds(500));
   ASSERT_EQ(sender_->state(), SenderState::aborted);
   EXPECT_EQ(progress().taken, left);
+}
+
+// Nor does it show that the mill has read what was before it.
+TEST_F(Taken, WhatAnAbortPushesIntoAFullBufferIsNotExecuted) {
+  std::string list = "PD0,0";
+  for (int i = 1; i < 60; ++i) list += ",1000,0,0,0";
+  begin(vectors(10) + list + ";", {.streaming = Streaming::full, .buffer = 100, .converter = 0, .flow_control = true});
+  run_for(milliseconds(120));
+  line_.busy = true;
+  const std::uint64_t executed = progress().executed_least;
+  ASSERT_GT(progress().written, 150u);
+  ASSERT_LT(line_.received.size(), 130u);
+  sender_->abort(now_);
+  run_for(milliseconds(1000));
+  ASSERT_EQ(sender_->state(), SenderState::aborted);
+  ASSERT_GT(line_.received.size(), 150u);
+  EXPECT_EQ(progress().executed_least, executed);
 }
 
 TEST_F(Taken, WhatIsDiscardedWithTheLineIsNotTaken) {

@@ -173,12 +173,12 @@ bool Sender::has_room(TimePoint now) {
 // control alone: without it a mill loses what it has no room for.
 void Sender::learn(TimePoint now) {
   learn_what_waits(now);
-  const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
-  const std::size_t unread = settings_.buffer + settings_.converter;
-  if (left > unread) slowest_.has_read(left - unread, now);
-  const std::size_t between = settings_.converter;
-  if (heeds_flow_control() && left > between) taken_ = std::max<std::uint64_t>(taken_, left - between);
   measure(now);
+  if (!heeds_flow_control()) return;
+  const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
+  const std::size_t between = settings_.converter, unread = settings_.buffer + between;
+  if (left > unread) slowest_.has_read(left - unread, now);
+  if (left > between) taken_ = std::max<std::uint64_t>(taken_, left - between);
 }
 
 // Otherwise what leaves the host may be lost: in a full buffer, as after an abort, or with the line.
