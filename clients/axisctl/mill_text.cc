@@ -45,8 +45,10 @@ std::string range_text(std::int64_t least, std::int64_t most) {
   return range_text(std::to_string(least), std::to_string(most));
 }
 
+// Of one that continues in its middle, too, it is the time of all of it.
 std::string takes_text(const v1::Job& job) {
-  return range_text(duration_text(job.shortest()), duration_text(job.longest()));
+  const std::string range = range_text(duration_text(job.shortest()), duration_text(job.longest()));
+  return job.setup().has_from() ? "as a whole " + range : range;
 }
 
 std::string duration_range_text(const TimeRange& range) {
@@ -99,6 +101,12 @@ std::string tool_cell(const v1::Job& job) {
   return part.empty() ? tool : fmt::format("part {}, {}", part, tool);
 }
 
+// "PAUSED (line 8)": of one that continues there.
+std::string state_cell(const v1::Job& job) {
+  const std::string state = name_of(job.state());
+  return job.setup().has_from() ? fmt::format("{} (line {})", state, job.setup().from().line()) : state;
+}
+
 std::string place_text(const v1::JobPlace& place) {
   return fmt::format("line {}, column {}", place.line(), place.column());
 }
@@ -119,7 +127,7 @@ std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeR
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
           on_one_line(job.owner()),
-          name_of(job.state()),
+          state_cell(job),
           tool_cell(job),
           named_or(job.setup().origin(), "panel"),
           takes_text(job),

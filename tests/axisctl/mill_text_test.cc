@@ -283,6 +283,14 @@ TEST(MillQueue, APartOfAJob) {
       "        -");
 }
 
+TEST(MillQueue, WhereAJobContinues) {
+  v1::Mill mill;
+  v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_PAUSED));
+  job.mutable_setup()->mutable_from()->set_line(8);
+  EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED (line 8)  T1"));
+  EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED; takes as a whole 10 min 0 s to 16 min 40 s");
+}
+
 // Of each job of the queue what is said of its beginning. Column by column, so that the widths are of no account.
 Lines beginnings(const v1::Mill& mill) {
   const Lines lines = queue_lines(mill);
