@@ -121,6 +121,7 @@ server::spool::Bounds bounds_of(const server::JobsConfig& jobs) {
           .bytes_of_one = bytes(jobs.megabytes_each),
           .bytes_of_identity = bytes(jobs.megabytes_per_person),
           .jobs = static_cast<std::size_t>(jobs.count),
+          .jobs_of_identity = static_cast<std::size_t>(jobs.count_per_person),
           .kept = std::chrono::days(jobs.days)};
 }
 

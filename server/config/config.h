@@ -116,6 +116,7 @@ struct JobsConfig {
   int megabytes_each = 64;  // of one
   int megabytes_per_person = 128;
   int count = 200;
+  int count_per_person = 100;
   int days = 30;  // that a job is kept after its end
 };
 

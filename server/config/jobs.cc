@@ -19,6 +19,7 @@ void read_jobs(const toml::table& source, std::string_view file, std::vector<Con
   read_number(table, "megabytes_each", kMegabytesAtMost, jobs.megabytes_each);
   read_number(table, "megabytes_per_person", kMegabytesAtMost, jobs.megabytes_per_person);
   read_number(table, "count", kCountAtMost, jobs.count);
+  read_number(table, "count_per_person", kCountAtMost, jobs.count_per_person);
   read_number(table, "days", kDaysAtMost, jobs.days);
   for (const auto& [key, value] : {std::pair("megabytes_each", jobs.megabytes_each),
                                    std::pair("megabytes_per_person", jobs.megabytes_per_person)}) {
@@ -31,6 +32,10 @@ void read_jobs(const toml::table& source, std::string_view file, std::vector<Con
     table.error("megabytes_each", fmt::format("{} is more than one person's jobs may have; use at most "
                                               "megabytes_per_person = {}",
                                               jobs.megabytes_each, jobs.megabytes_per_person));
+  }
+  if (jobs.count_per_person > jobs.count && table.has("count_per_person")) {
+    table.error("count_per_person", fmt::format("{} is more than all jobs may be; use at most count = {}",
+                                                jobs.count_per_person, jobs.count));
   }
   table.refuse_unknown();
 }

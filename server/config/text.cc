@@ -102,6 +102,7 @@ void write(TomlWriter& out, const JobsConfig& jobs) {
   out.number("megabytes_each", jobs.megabytes_each);
   out.number("megabytes_per_person", jobs.megabytes_per_person);
   out.number("count", jobs.count);
+  out.number("count_per_person", jobs.count_per_person);
   out.number("days", jobs.days);
 }
 

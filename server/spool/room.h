@@ -20,6 +20,7 @@ struct Bounds {
   std::int64_t bytes_of_one = 64 * kMebibyte;        // of one job
   std::int64_t bytes_of_identity = 128 * kMebibyte;  // of all jobs of one identity
   std::size_t jobs = 200;
+  std::size_t jobs_of_identity = 100;
   std::chrono::days kept{30};  // after the end of a job
 };
 
@@ -30,7 +31,7 @@ class Room {
  public:
   explicit Room(const Bounds& bounds) : bounds_(bounds) {}
 
-  // For a job without bytes yet. queue_full, where there are as many as may be.
+  // For a job without bytes yet. queue_full, where there are as many as may be, or as one identity may have.
   Result<std::unique_ptr<Place>> take(std::string identity);
   // Whether a job of the greatest size may not fit: beside all jobs, or beside those of the identity.
   bool is_short();
@@ -40,14 +41,19 @@ class Room {
 
  private:
   friend class Place;
+  struct Taken {
+    std::size_t jobs = 0;
+    std::int64_t bytes = 0;
+  };
+
   Result<void> check(const Place& place, std::int64_t more) const;  // under mutex_
-  void add(const std::string& identity, std::int64_t bytes);        // under mutex_
+  // Likewise; both may be negative.
+  void add(const std::string& identity, int jobs, std::int64_t bytes);
 
   const Bounds bounds_;
   std::mutex mutex_;
-  std::size_t jobs_ = 0;
-  std::int64_t bytes_ = 0;
-  std::map<std::string, std::int64_t> bytes_of_;  // by identity
+  Taken all_;
+  std::map<std::string, Taken> by_identity_;  // who has none is not in it
 };
 
 // What one job takes up, for as long as this lives. Used by one thread at a time.

@@ -67,11 +67,12 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
   if (!is_name(device)) return fail(Reason::unknown_device, fmt::format("there is no device {}", quoted_bytes(device)));
   auto name = job_name(fresh.name);
   if (!name) return tl::unexpected(name.error());
-  make_room(fresh.identity, fresh.created);
-  auto place = room_.take(fresh.identity);
-  if (!place) return tl::unexpected(place.error());
+  (void)drop_old(fresh.created);  // a problem of the disk shows again where the job is written
   Device& home = device_of(device);
   const std::lock_guard writing(writing_);
+  make_room(fresh.identity);
+  auto place = room_.take(fresh.identity);
+  if (!place) return tl::unexpected(place.error());
   const auto id = home.folder.next_id();
   if (!id) return tl::unexpected(id.error());
   auto file = home.folder.create(*id);
@@ -87,10 +88,7 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
       [this, &home](const Job& whole, std::unique_ptr<Place> held) { return keep(home, whole, std::move(held)); });
 }
 
-// A problem of the disk shows again where the job is written.
-void Spool::make_room(const std::string& identity, std::chrono::sys_seconds now) {
-  (void)drop_old(now);
-  const std::lock_guard writing(writing_);
+void Spool::make_room(const std::string& identity) {
   while (room_.is_short_for(identity) && drop_oldest_ended(&identity)) continue;
   while (room_.is_short() && drop_oldest_ended(nullptr)) continue;
 }

@@ -64,7 +64,7 @@ class Spool {
 
   Spool(std::string directory, const Bounds& bounds);
   Result<void> read_all();
-  void make_room(const std::string& identity, std::chrono::sys_seconds now);
+  void make_room(const std::string& identity);          // under writing_
   bool drop_oldest_ended(const std::string* identity);  // false: there is none
   Device& device_of(const std::string& name);
   Result<Found> find(const std::string& device, std::uint64_t id) const;

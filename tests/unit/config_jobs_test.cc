@@ -29,17 +29,20 @@ TEST(ConfigJobs, Defaults) {
   EXPECT_EQ(config->jobs.megabytes_each, 64);
   EXPECT_EQ(config->jobs.megabytes_per_person, 128);
   EXPECT_EQ(config->jobs.count, 200);
+  EXPECT_EQ(config->jobs.count_per_person, 100);
   EXPECT_EQ(config->jobs.days, 30);
 }
 
 TEST(ConfigJobs, IsReadAndWritten) {
-  const std::string keys = "megabytes = 32\nmegabytes_each = 8\nmegabytes_per_person = 16\ncount = 50\ndays = 7\n";
+  const std::string keys =
+      "megabytes = 32\nmegabytes_each = 8\nmegabytes_per_person = 16\ncount = 50\ncount_per_person = 20\ndays = 7\n";
   const auto config = read(keys);
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->jobs.megabytes, 32);
   EXPECT_EQ(config->jobs.megabytes_each, 8);
   EXPECT_EQ(config->jobs.megabytes_per_person, 16);
   EXPECT_EQ(config->jobs.count, 50);
+  EXPECT_EQ(config->jobs.count_per_person, 20);
   EXPECT_EQ(config->jobs.days, 7);
   EXPECT_THAT(to_toml(*config), HasSubstr("[jobs]\n" + keys));
 }
@@ -51,6 +54,9 @@ TEST(ConfigJobs, WhatCannotBeIsRefusedWithItsLine) {
   EXPECT_EQ(first_error("megabytes_each = 200\n"),
             "lab.toml:2: jobs.megabytes_each: 200 is more than one person's jobs may have; use at most "
             "megabytes_per_person = 128");
+  EXPECT_EQ(first_error("count = 10\ncount_per_person = 20\n"),
+            "lab.toml:3: jobs.count_per_person: 20 is more than all jobs may be; use at most count = 10");
+  EXPECT_EQ(first_error("count = 10\n"), "it is read") << "of which one person may have all";
   EXPECT_THAT(first_error("weeks = 2\n"), HasSubstr("lab.toml:2: jobs.weeks: is not a key here"));
 }
 

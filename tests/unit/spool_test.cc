@@ -1,4 +1,4 @@
-// Jobs on disk: what is kept of them, for how long, and how much there may be.
+// Jobs on disk: what is kept of them, and for how long.
 #include "server/spool/spool.h"
 
 #include <gmock/gmock.h>
@@ -181,113 +181,6 @@ TEST_F(Spool, WhatIsNotThere) {
   EXPECT_EQ(why(spool_->remove("laser", 1)), "NOT_FOUND: there is no job 1 on \"laser\"");
   EXPECT_EQ(why(spool_->begin("../mill", new_job())), "UNKNOWN_DEVICE: there is no device \"../mill\"");
   EXPECT_THAT(files(), ElementsAre("last"));
-}
-
-// The bounds of one caller and of all are small, so that bytes can be counted.
-class SpoolBounds : public SpoolBed {
- protected:
-  SpoolBounds() { open(bounds()); }
-  static spool::Bounds bounds() { return {.bytes = 25, .bytes_of_one = 10, .bytes_of_identity = 16, .jobs = 4}; }
-};
-
-TEST_F(SpoolBounds, OfOneJob) {
-  EXPECT_TRUE(upload("0123456789"));
-  EXPECT_EQ(why(upload("0123456789a", "unix bert")),
-            "OUT_OF_RANGE: the job is larger than 10 bytes, the most for one job");
-  EXPECT_THAT(files(), ElementsAre("1.json", "1.rml", "last"));
-}
-
-TEST_F(SpoolBounds, OfOneCaller) {
-  ASSERT_TRUE(upload("0123456789"));
-  EXPECT_EQ(why(upload("0123456")),
-            "QUEUE_FULL: with it the jobs of unix anna are larger than 16 bytes, the most for one caller");
-  EXPECT_TRUE(upload("0123456", "unix bert"));
-  EXPECT_TRUE(upload("012345"));
-}
-
-TEST_F(SpoolBounds, OfAll) {
-  ASSERT_TRUE(upload("0123456789"));
-  ASSERT_TRUE(upload("0123456789", "unix bert"));
-  EXPECT_EQ(why(upload("012345", "unix carla")),
-            "QUEUE_FULL: with it all jobs are larger than 25 bytes, the most together");
-  EXPECT_TRUE(upload("01234", "unix carla"));
-}
-
-TEST_F(SpoolBounds, OfTheNumberOfJobs) {
-  for (int job = 1; job <= 3; ++job) ASSERT_TRUE(upload("0"));
-  auto fourth = begin();
-  ASSERT_TRUE(fourth);
-  EXPECT_EQ(why(begin("unix bert", "lathe")), "QUEUE_FULL: 4 jobs are kept already, as many as may be");
-  fourth->reset();
-  EXPECT_TRUE(begin("unix bert", "lathe"));
-}
-
-TEST_F(SpoolBounds, CountUploadsUnderWay) {
-  auto first = begin(), second = begin();
-  ASSERT_TRUE((*first)->append("0123456789"));
-  ASSERT_TRUE((*second)->append("012345"));
-  EXPECT_EQ((*second)->append("6").error().reason, Reason::queue_full);
-  first->reset();
-  second->reset();
-  EXPECT_TRUE(upload("0123456789"));
-  EXPECT_TRUE(upload("012345"));
-}
-
-TEST_F(SpoolBounds, WhatIsRemovedMakesRoom) {
-  ASSERT_TRUE(upload("0123456789"));
-  ASSERT_TRUE(upload("012345"));
-  ASSERT_FALSE(upload("0"));
-  ASSERT_TRUE(spool_->remove("mill", 1));
-  EXPECT_TRUE(upload("0123456789"));
-}
-
-TEST_F(SpoolBounds, JobsThatHaveEndedGiveWayTheOldestFirst) {
-  for (int job = 1; job <= 4; ++job) ASSERT_TRUE(upload("0"));
-  ASSERT_TRUE(spool_->end("mill", 3, kNow));
-  ASSERT_TRUE(spool_->end("mill", 2, kNow + std::chrono::seconds(1)));
-  EXPECT_TRUE(upload("0"));
-  EXPECT_THAT(ids(), ElementsAre(1, 2, 4, 5));
-  EXPECT_TRUE(upload("0"));
-  EXPECT_THAT(ids(), ElementsAre(1, 4, 5, 6));
-  EXPECT_EQ(why(upload("0")), "QUEUE_FULL: 4 jobs are kept already, as many as may be");
-}
-
-TEST_F(SpoolBounds, OnlyOnesOwnGiveWayWhereOnesOwnAreTooMany) {
-  ASSERT_TRUE(upload("0123456789", "unix bert"));
-  ASSERT_TRUE(spool_->end("mill", 1, kNow));
-  ASSERT_TRUE(upload("0123456789"));
-  ASSERT_TRUE(spool_->end("mill", 2, kNow + std::chrono::seconds(1)));
-  EXPECT_TRUE(upload("012345"));
-  EXPECT_THAT(ids(), ElementsAre(1, 3));
-}
-
-TEST_F(SpoolBounds, WhatIsTooOldGoesWithTheNextUpload) {
-  ASSERT_TRUE(upload("0"));
-  ASSERT_TRUE(spool_->end("mill", 1, kNow - std::chrono::days(30)));
-  EXPECT_TRUE(upload("1"));
-  EXPECT_THAT(ids(), ElementsAre(2));
-}
-
-TEST_F(SpoolBounds, AJobThatLacksAPieceIsNone) {
-  auto begun = begin();
-  ASSERT_TRUE((*begun)->append("01234567"));
-  const std::string refusal = why((*begun)->append("89a"));
-  EXPECT_EQ(why((*begun)->append("8")), refusal);
-  EXPECT_EQ(why((*begun)->finish()), refusal);
-  begun->reset();
-  EXPECT_THAT(files(), ElementsAre("last"));
-}
-
-TEST_F(SpoolBounds, HoldOverARestartAndRefuseNothingThatIsThere) {
-  ASSERT_TRUE(upload("0123456789"));
-  ASSERT_TRUE(upload("01234"));
-  open(bounds());
-  EXPECT_FALSE(upload("01"));
-  EXPECT_TRUE(upload("0"));
-  open({.bytes = 2, .bytes_of_one = 2, .bytes_of_identity = 2, .jobs = 1});
-  EXPECT_THAT(ids(), ElementsAre(1, 2, 4));
-  EXPECT_EQ(spool_->read("mill", 1).value(), "0123456789");
-  EXPECT_EQ(begin().error().reason, Reason::queue_full);
 }
 
 TEST_F(Spool, IsUsedByManyThreads) {
