@@ -104,7 +104,8 @@ rml1::Job job_of(const spool::Job& spooled) {
     job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
   }
   job.checked_for = facts.value("checked_for", "");
-  if (const Json stock = facts.value("stock", Json::array()); stock.size() == 3) {
+  const Json stock = facts.value("stock", Json::array());
+  if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
     job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
   }
   job.setup.from = place_in(facts);

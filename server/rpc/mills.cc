@@ -14,6 +14,8 @@
 namespace axisgate::rpc {
 namespace {
 
+constexpr double kLongestStock = 10'000;  // mm; as axisctl has it
+
 using rml1::JobState;
 using rml1::SenderState;
 
@@ -228,8 +230,10 @@ Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   if (request.has_stock()) {
     const v1::Stock& stock = request.stock();
     job.stock = rml1::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};
-    if (!(stock.x_mm() > 0 && stock.y_mm() > 0 && stock.z_mm() > 0)) {
-      return fail(Reason::invalid_request, "the workpiece has no size", "give its three lengths in mm, each above 0");
+    const auto is_length = [](double mm) { return mm > 0 && mm <= kLongestStock; };
+    if (!is_length(stock.x_mm()) || !is_length(stock.y_mm()) || !is_length(stock.z_mm())) {
+      return fail(Reason::invalid_request, "the workpiece has no size, or one that cannot be",
+                  fmt::format("give its three lengths in mm, each above 0 and at most {}", kLongestStock));
     }
   }
   if (!v1::Streaming_IsValid(request.streaming())) {

@@ -1,6 +1,8 @@
 // MillService with the built-in simulator: from a job's bytes to what a person says of the workpiece.
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <limits>
 #include <string>
 
 #include "tests/integration/rpc_mill_fixture.h"
@@ -69,6 +71,10 @@ TEST_F(RpcMill, AJobIsCheckedForItsWorkpieceAndItsProfile) {
   request.mutable_stock()->set_x_mm(10);
   EXPECT_THAT(send_whole(request).error_message(), HasSubstr("the workpiece has no size"));
   request.mutable_stock()->set_y_mm(10);
+  for (const double length : {std::numeric_limits<double>::infinity(), std::nan(""), 10'001.0}) {
+    request.mutable_stock()->set_z_mm(length);
+    EXPECT_THAT(send_whole(request).error_message(), HasSubstr("the workpiece has no size")) << length;
+  }
   request.mutable_stock()->set_z_mm(5);
   const grpc::Status beside = send_whole(request);
   EXPECT_EQ(reason(beside), v1::REASON_INVALID_REQUEST) << "X reaches 50 mm";
