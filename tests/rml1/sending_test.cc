@@ -49,6 +49,15 @@ TEST(Cut, OfALongListIsBehindASet) {
   EXPECT_THAT(pieces("!ZE X10Y20:Z30;PU;", 8), ElementsAre("!ZE X10Y20:Z30;", "PU;")) << "it has no sets";
 }
 
+// Capitals and small letters are the same, and what divides commands and numbers may be left out (guideline 2-2, 2-3).
+TEST(Cut, OfAListHoweverItIsWritten) {
+  EXPECT_THAT(pieces("pd10,20,30,40,50,60;pu;", 8), ElementsAre("pd10,20,", "30,40,", "50,60;", "pu;"));
+  EXPECT_THAT(pieces("M0,0D10,20,30,40,50,60;", 8), ElementsAre("M0,0D10,20,", "30,40,", "50,60;"));
+  EXPECT_THAT(pieces("Z1,2,3PD10,20,30,40;", 8), ElementsAre("Z1,2,3PD10,20,", "30,40;"));
+  EXPECT_THAT(pieces("PD10 20,30 40,50,60;", 8), ElementsAre("PD10 20,", "30 40,", "50,60;"));
+  EXPECT_THAT(pieces("PD1-2,3,4,5,6,7,8;", 8), ElementsAre("PD1-2,3,4,5,6,7,8;")) << "what makes a set is not known";
+}
+
 // A list may be as long as the job. If each cut read it to its end, this would take minutes.
 TEST(Cut, OfAListOfAMillionNumbers) {
   std::string job = "PD";
