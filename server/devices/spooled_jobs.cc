@@ -171,6 +171,10 @@ Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool
   Result<rml1::Approach> approach;
   if (job.setup.from) approach = rml1::approach_to(*body, job.setup.from->offset, config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
+  if (job.setup.from) {
+    const auto checked = rml1::check_continued(*body, *approach, config.profile, origin, job.stock);
+    if (!checked) return tl::unexpected(checked.error());
+  }
   rml1::SendSettings settings = with_pace(config.sending, measured);
   settings.streaming = job.streaming.value_or(settings.streaming);
   return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, settings,
@@ -185,6 +189,9 @@ Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& de
   const auto origin = check_origin(config, job);
   const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
+  if (const auto same = rml1::check_unchanged(*body, *approach, config.profile, origin); !same) {
+    return tl::unexpected(same.error());
+  }
   return rml1::check_continued(*body, *approach, config.profile, origin, job.stock).map([&] { return approach->at; });
 }
 

@@ -91,6 +91,22 @@ TEST(Approach, IsRefusedWhereNobodyKnowsTheWay) {
   EXPECT_THAT(words("PU5,5;^PR;Z1,1,-20;Z2,2,-20;", "Z2,2"), EndsWith("!ZZ6,6,4980;^PR;Z2,2,-20;"));
 }
 
+// The mill may have been there already.
+TEST(Approach, IsNotChosenBeforeWhatNothingGivesBack) {
+  Profile profile = test_profile();
+  profile.spindle.law = Spindle::Law::direct;
+  const auto chosen = [&profile](const std::string& job, const std::string& part) {
+    const Result<Approach> approach = approach_to(job, job.find(part), profile, kWork);
+    const Result<void> same = check_unchanged(job, *approach, profile, kWork);
+    return same ? "chosen" : same.error().message;
+  };
+  EXPECT_EQ(chosen("PU1,1;PU2,2;", "PU2,2"), "chosen");
+  EXPECT_EQ(chosen("PU1,1;PU2,2;!ZO-100;PU3,3;", "PU2,2"),
+            "behind that place the job sets Z0 (!ZO), and the mill may have done so already");
+  EXPECT_THAT(chosen("PU1,1;PU2,2;!RC8;PU3,3;", "PU2,2"), HasSubstr("sets the spindle speed (!RC)"));
+  EXPECT_EQ(chosen("!RC5;PU1,1;PU2,2;!RC8;PU3,3;", "PU2,2"), "chosen") << "the way there sets it";
+}
+
 TEST(Approach, IsRefusedBehindATurnOfTheRotaryAxis) {
   Profile profile = test_profile();
   profile.rotary = Rotary{'A', false, 10};

@@ -125,6 +125,21 @@ std::string continued(std::string_view body, const Approach& approach) {
   return approach.words + std::string(body.substr(approach.at.offset));
 }
 
+Result<void> check_unchanged(std::string_view body, const Approach& approach, const Profile& profile,
+                             std::optional<Origin> origin) {
+  const Prefix before(body, approach.at.offset, profile, origin), all(body, body.size(), profile, origin);
+  const Leaves &then = before.leaves(), &now = all.leaves();
+  const auto changed = [](std::string_view what) {
+    return fail(Reason::invalid_request,
+                fmt::format("behind that place the job {}, and the mill may have done so already", what),
+                "cancel it, and send what is left as a job of its own");
+  };
+  if (now.surface && !then.surface) return changed("sets Z0 (!ZO)");
+  if (now.rotation && !then.rotation) return changed("turns the rotary axis");
+  if (now.revolutions && !then.revolutions) return changed("sets the spindle speed (!RC)");
+  return {};
+}
+
 Result<void> check_continued(std::string_view body, const Approach& approach, const Profile& profile,
                              std::optional<Origin> origin, std::optional<Stock> stock) {
   const auto check = [&](std::string_view job) {
