@@ -93,7 +93,7 @@ void cost(const Job& job, Streaming streaming) {
   const Timeline timeline(text, profile, kAtHome);
   const double planned = cpu_s();
   Drain line;
-  const SendSettings settings{.streaming = streaming};
+  const SendSettings settings{.streaming = streaming, .flow_control = streaming == Streaming::full};
   Sender sender(text, timeline, profile, settings, plan_of(text, timeline, settings), line);
   const double ready = cpu_s();
   double most = allocated_mib();
@@ -152,7 +152,7 @@ double seconds(const std::string& job, const Pair& pair, SendSettings settings) 
 
 void loss(const Job& job, const Pair& pair, double slack) {
   const std::string text = job.text(kFewer);
-  const double full = seconds(text, pair, {.streaming = Streaming::full});
+  const double full = seconds(text, pair, {.streaming = Streaming::full, .flow_control = true});
   fmt::print("| {} | {} | {:g} |", job.name, pair.name, slack);
   for (const std::size_t window : {64, 128, 256, 0}) {
     fmt::print(" {:.1f} % |", (seconds(text, pair, {.window = window, .slack = slack}) / full - 1) * 100);
@@ -177,7 +177,7 @@ void print_all() {
   for (const Job& job : {kRelief, kUniform}) {
     for (const Pair& pair : pairs()) {
       for (const Streaming streaming : {Streaming::paced, Streaming::full})
-        progress(job, pair, {.streaming = streaming});
+        progress(job, pair, {.streaming = streaming, .flow_control = streaming == Streaming::full});
     }
   }
   fmt::print("\nLonger than with full streaming, {} commands, by window in bytes\n\n", kFewer);
