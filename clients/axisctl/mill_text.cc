@@ -11,6 +11,7 @@
 #include "clients/axisctl/mill_times.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/table.h"
+#include "device/rml1/profile_files.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -104,7 +105,7 @@ std::string tool_cell(const v1::Job& job) {
 // "PAUSED (line 8)": of one that continues there.
 std::string state_cell(const v1::Job& job) {
   const std::string state = name_of(job.state());
-  return job.setup().has_from() ? fmt::format("{} (line {})", state, job.setup().from().line()) : state;
+  return job.setup().has_from() && waits(job) ? fmt::format("{} (line {})", state, job.setup().from().line()) : state;
 }
 
 std::string place_text(const v1::JobPlace& place) {
@@ -140,6 +141,11 @@ std::string running_line(const v1::Mill& mill) {
   if (job == nullptr) return fmt::format("job {} runs", last_part(mill.running().job()));
   const std::string text = fmt::format("{} {}", job_text(*job), progress_text(*job, mill.running()));
   return mill.running().busy() ? fmt::format("{}; {}", text, kBusyText) : text;
+}
+
+bool is_shipped(const std::string& profile) {
+  const auto files = rml1::shipped_profiles();
+  return std::ranges::any_of(files, [&](const auto& file) { return file.stem() == profile; });
 }
 
 }  // namespace
@@ -221,9 +227,9 @@ std::string executed_text(const v1::Job& job) {
 std::string remains_text(const v1::Job& job) {
   const auto place = [](const v1::JobPlace& at) { return fmt::format("{}:{}", at.line(), at.column()); };
   const std::string least = place(job.executed().least()), most = place(job.executed().most());
+  const std::string profile = boost::algorithm::to_lower_copy(job.setup().profile());
   return fmt::format("`axisctl mill preview FILE --profile {} --from {} -o rest.svg` draws what remains",
-                     boost::algorithm::to_lower_copy(job.setup().profile()),
-                     least == most ? least : least + "-" + most);
+                     is_shipped(profile) ? profile : "PROFILE", least == most ? least : least + "-" + most);
 }
 
 std::vector<std::string> queue_lines(const v1::Mill& mill) {

@@ -180,6 +180,8 @@ TEST(MillTexts, WhereWhatWasExecutedEnds) {
   EXPECT_EQ(executed_text(job), "by the mill's profile what was executed of part 2 of 2 ends at line 8, column 1");
   EXPECT_EQ(remains_text(job),
             "`axisctl mill preview FILE --profile mdx-20 --from 8:1 -o rest.svg` draws what remains");
+  job.mutable_setup()->set_profile("Our mill");
+  EXPECT_THAT(remains_text(job), HasSubstr("--profile PROFILE --from 8:1 "));
   v1::Mill mill;
   *mill.mutable_ended() = job;
   EXPECT_THAT(queue_lines(mill), Contains("job 7 (frame.rml) was aborted: " + executed_text(job)));
@@ -288,6 +290,9 @@ TEST(MillQueue, WhereAJobContinues) {
   v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_PAUSED));
   job.mutable_setup()->mutable_from()->set_line(8);
   EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED (line 8)  T1"));
+  job.set_state(v1::JOB_STATE_PAUSED_UNKNOWN);
+  EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED_UNKNOWN  T1")) << "that was before the line broke";
+  job.set_state(v1::JOB_STATE_PAUSED);
   EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED; takes as a whole 10 min 0 s to 16 min 40 s");
 }
 
