@@ -26,7 +26,7 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 struct JobRecord::Content {
   std::array<char, 16> mark;
   std::array<char, 48> boot;
-  std::atomic<std::uint64_t> job, state, through, part;
+  std::atomic<std::uint64_t> job, state, through, part, from, abort_waits;
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -50,8 +50,9 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   const std::uint64_t state = content->state;
   if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::paused)) {
     before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll,
-                      content->part};
+                      content->part, content->from};
   }
+  abort_waited_ = known && content->abort_waits != 0;
   if (!known) content->job = 0;
   if (!same_boot) content->through = kAll;  // also for the run after this one
   content->mark = kMark;
@@ -65,17 +66,21 @@ void JobRecord::begin(const rml1::Job& job) {
   content_->job = 0;
   content_->through = next_byte(job);
   content_->part = job.part;
+  content_->from = next_byte(job);
   content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
   content_->job = job.number;
 }
 
 void JobRecord::going_to(std::uint64_t through) { content_->through = through; }
 
-// The part comes first: killed between, the daemon leaves a part that may have begun, not one that runs again.
+// Part and place come first: killed between, the daemon leaves a part that may have begun, not one that runs again.
 void JobRecord::set_state(const rml1::Job& job) {
   if (content_->job != job.number) return;
   content_->part = job.part;
+  content_->from = next_byte(job);
   content_->state = static_cast<std::uint64_t>(job.state);
 }
+
+void JobRecord::set_abort_waits(bool waits) { content_->abort_waits = waits ? 1 : 0; }
 
 }  // namespace axisgate::server

@@ -18,6 +18,7 @@ struct LastJob {
   rml1::JobState state = rml1::JobState::running;
   std::uint64_t through = 0;  // bytes of the job that may have gone to the line
   std::size_t part = 0;       // as Job::part
+  std::uint64_t from = 0;     // as next_byte()
 };
 
 // On the device's strand. The file is mapped, as that of MotionRecord: nothing waits for the disk, and a crash of the
@@ -32,6 +33,8 @@ class JobRecord {
 
   // As the run before left it; nothing where no job was sent. After a boot of the machine any byte may have gone.
   const std::optional<LastJob>& before() const { return before_; }
+  // The run before had an abort that had not left this host.
+  bool abort_waited() const { return abort_waited_; }
 
   // Its next part, or the rest of that.
   void begin(const rml1::Job& job);
@@ -39,6 +42,7 @@ class JobRecord {
   void going_to(std::uint64_t through);
   // Its state and its part. Of another job than the last that was begun: nothing.
   void set_state(const rml1::Job& job);
+  void set_abort_waits(bool waits);
 
  private:
   struct Content;
@@ -47,6 +51,7 @@ class JobRecord {
 
   Content* const content_;
   std::optional<LastJob> before_;
+  bool abort_waited_ = false;
 };
 
 }  // namespace axisgate::server

@@ -44,6 +44,7 @@ Mill::~Mill() { spool_thread_.join(); }
 
 // What had not ended when the run before ended. A confirmation is void by then.
 void Mill::restore_jobs() {
+  if (record_ && record_->abort_waited()) controller_.inherit_abort();
   const auto last = record_ ? record_->before() : std::nullopt;
   if (const auto left = last ? spooled_job(spool_, name(), last->job) : std::nullopt) controller_.inherit_left(*left);
   for (rml1::Job& job : unended_jobs(spool_, name())) {
@@ -144,6 +145,7 @@ void Mill::abort_requested(std::string_view by, TimePoint now) {
 
 void Mill::after_call() {
   const TimePoint now = monotonic_now();
+  if (record_) record_->set_abort_waits(controller_.abort_waits());
   if (changed_ || (controller_.running_job() != 0 && now - published_ >= kPublishPause)) publish(now);
   look_whether_wound_down(now);
 }

@@ -36,12 +36,13 @@ std::optional<rml1::Origin> check_origin(const MillConfig& config, const rml1::J
   return named == config.origins.end() ? std::nullopt : std::optional(origin_of(*named, config.profile));
 }
 
-// Its place may not have come into the spool any more: then it is not known where it continues.
+// Its place may not have come into the spool any more, or is that of an earlier rest: then it is not known where it
+// continues.
 rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
   using enum rml1::JobState;
   const bool between = last.state == tool_change || last.state == confirmed;
   if (last.state == fed) return fed;
-  if (job.setup.from && (between || last.state == paused)) return paused;
+  if (job.setup.from && next_byte(job) == last.from && (between || last.state == paused)) return paused;
   return between && job.part > 0 ? tool_change : paused_unknown;
 }
 
@@ -126,7 +127,7 @@ rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
   if (last.part != job.part && last.part < job.parts.size()) go_to_part(job, last.part);
   job.state = state_as_left(job, last);
   if (job.state == rml1::JobState::paused_unknown) {
-    job.written = rml1::WrittenRange{next_byte(job), std::min(last.through, job.bytes)};
+    job.written = rml1::WrittenRange{std::min(last.from, job.bytes), std::min(last.through, job.bytes)};
   }
   return job;
 }

@@ -247,6 +247,22 @@ TEST_F(MillControllerTest, ALostLineLeavesARangeAndResumesNothing) {
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_));
 }
 
+TEST_F(MillControllerTest, AnAbortThatWaitedWhenTheDaemonEndedIsSent) {
+  mill_.link_down(now_, "unplugged");
+  EXPECT_FALSE(mill_.abort_waits());
+  EXPECT_FALSE(mill_.abort({.who = "unix bert"}, now_));
+  EXPECT_TRUE(mill_.abort_waits());
+  MillController after(profile_, settings_, line_, *this, permission_);
+  after.inherit_abort();
+  line_.writes.clear();
+  after.link_up(now_);
+  EXPECT_THAT(line_.writes, ElementsAre(abort_words(profile_, true)));
+  EXPECT_TRUE(after.abort_waits()) << "it has not left this host";
+  line_.run_to(now_ + 1s);
+  after.advance(now_ + 1s);
+  EXPECT_FALSE(after.abort_waits());
+}
+
 // It may still have been in the host, or in a converter of 512 bytes: 0.53 s at 9600 baud.
 TEST_F(MillControllerTest, AnAbortThatTheLineMayHaveLostIsSentAgain) {
   settings_.at_loss = AtLoss::leave;

@@ -66,6 +66,26 @@ TEST_F(JobRecordTest, ANewJobBeginsAtItsFirstByte) {
   EXPECT_EQ(before->through, 0u);
 }
 
+TEST_F(JobRecordTest, KeepsWhereItContinues) {
+  rml1::Job paused = job(7, JobState::paused);
+  const auto record = open();
+  record->begin(paused);
+  paused.setup.from = rml1::Place{20, 2, 5};
+  record->set_state(paused);
+  EXPECT_EQ(open()->before()->from, 20u);
+  record->begin(job());
+  EXPECT_EQ(open()->before()->from, 0u);
+}
+
+TEST_F(JobRecordTest, KeepsThatAnAbortWaits) {
+  const auto record = open();
+  EXPECT_FALSE(open()->abort_waited());
+  record->set_abort_waits(true);
+  EXPECT_TRUE(open()->abort_waited());
+  record->set_abort_waits(false);
+  EXPECT_FALSE(open()->abort_waited());
+}
+
 TEST_F(JobRecordTest, StatesAreThoseOfTheLastJob) {
   const auto record = open();
   record->begin(job());
@@ -117,7 +137,7 @@ TEST(JobAsItWasLeft, WhatMayHaveGoneIsWithinTheJob) {
 }
 
 TEST(JobAsItWasLeft, ALaterPartThatMayHaveBegun) {
-  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 352, 1});
+  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 352, 1, 300});
   EXPECT_EQ(left.state, JobState::paused_unknown);
   EXPECT_EQ(left.written, (rml1::WrittenRange{300, 352})) << "the part before was executed";
   EXPECT_EQ(left.setup.tool, "T3");
@@ -125,7 +145,7 @@ TEST(JobAsItWasLeft, ALaterPartThatMayHaveBegun) {
 
 TEST(JobAsItWasLeft, AToolChangeIsOneAndItsConfirmationIsVoid) {
   for (const JobState state : {JobState::tool_change, JobState::confirmed}) {
-    const rml1::Job left = as_it_was_left(job(), {7, state, 300, 1});
+    const rml1::Job left = as_it_was_left(job(), {7, state, 300, 1, 300});
     EXPECT_EQ(left.state, JobState::tool_change);
     EXPECT_EQ(left.part, 1u);
     EXPECT_EQ(left.setup.tool, "T3");
@@ -138,12 +158,12 @@ TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
   go_to_part(before, 1);
   before.setup.from = rml1::Place{20, 2, 5};
   for (const JobState state : {JobState::paused, JobState::confirmed}) {
-    const rml1::Job left = as_it_was_left(before, {7, state, 320, 1});
+    const rml1::Job left = as_it_was_left(before, {7, state, 320, 1, 320});
     EXPECT_EQ(left.state, JobState::paused);
     EXPECT_EQ(left.setup.from, before.setup.from);
     EXPECT_FALSE(left.written);
   }
-  const rml1::Job lost = as_it_was_left(before, {7, JobState::running, 352, 1});
+  const rml1::Job lost = as_it_was_left(before, {7, JobState::running, 352, 1, 320});
   EXPECT_EQ(lost.state, JobState::paused_unknown);
   EXPECT_EQ(lost.written, (rml1::WrittenRange{320, 352})) << "what comes before it was executed";
   EXPECT_EQ(as_it_was_left(before, {7, JobState::tool_change, 400, 0}).setup.from, std::nullopt) << "of another part";
@@ -151,9 +171,20 @@ TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
 
 // The daemon was killed before it was in the spool.
 TEST(JobAsItWasLeft, WhatWasPausedAtAPlaceThatIsNotKnown) {
-  const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52});
+  const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52, 0, 52});
   EXPECT_EQ(left.state, JobState::paused_unknown);
-  EXPECT_EQ(left.written, (rml1::WrittenRange{0, 52}));
+  EXPECT_EQ(left.written, (rml1::WrittenRange{52, 52}));
+}
+
+// That in the spool is of an earlier pause.
+TEST(JobAsItWasLeft, WhatWasPausedAtAnotherPlaceThanTheOneThatIsKnown) {
+  rml1::Job before = job();
+  before.setup.from = rml1::Place{20, 2, 5};
+  for (const JobState state : {JobState::paused, JobState::confirmed}) {
+    const rml1::Job left = as_it_was_left(before, {7, state, 52, 0, 52});
+    EXPECT_EQ(left.state, JobState::paused_unknown);
+    EXPECT_EQ(left.written, (rml1::WrittenRange{52, 52}));
+  }
 }
 
 TEST(JobAsItWasLeft, WhatWasFedIsFed) {

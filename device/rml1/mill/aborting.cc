@@ -52,6 +52,10 @@ void MillController::abort_has_left(TimePoint now) {
   abort_arrives_ = now + transmit_time(settings_.sending.converter, settings_.sending.baud);
 }
 
+bool MillController::abort_waits() const {
+  return must_abort_ || abort_since_ || (running_ && running_->sender.state() == SenderState::aborting);
+}
+
 // What somebody requested, whatever is sent for a job that was lost.
 bool MillController::may_have_lost_abort(TimePoint now) const {
   const bool under_way = running_ && running_->sender.state() == SenderState::aborting;

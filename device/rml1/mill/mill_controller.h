@@ -76,6 +76,8 @@ class MillController : public LineMachine {
   void inherit(Job job);
   // The job that was begun last in the runs before, whatever has become of it. Before link_up().
   void inherit_left(const Job& last);
+  // An abort that the run before could not send any more. Before link_up().
+  void inherit_abort() { must_abort_ = true; }
   // Behind all others. The number ascends.
   void add(Job job, TimePoint now);
   // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
@@ -119,6 +121,8 @@ class MillController : public LineMachine {
   JobNumber running_job() const { return running_ ? running_->number : 0; }
   // No job runs, and no abort is on its way to the line.
   bool is_idle() const { return !running_ && !abort_since_; }
+  // One is to be sent, or has not left this host.
+  bool abort_waits() const;
   MillLink link() const { return link_; }
   // By the last job that could show it, since this began.
   const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
