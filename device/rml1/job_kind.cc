@@ -11,8 +11,7 @@ bool is_mark(char c) { return c == '\xEF' || c == '\xBB' || c == '\xBF'; }
 JobKind::Verdict JobKind::take(char c) {
   if (verdict_ != Verdict::nothing_yet) return verdict_;
   verdict_ = judge(c);
-  next_ =
-      c == '\n' ? Place{next_.offset + 1, next_.line + 1, 1} : Place{next_.offset + 1, next_.line, next_.column + 1};
+  next_ = behind(next_, c);
   if (verdict_ == Verdict::nothing_yet && next_.offset == kLongest) verdict_ = Verdict::rml;
   return verdict_;
 }

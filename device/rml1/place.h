@@ -13,6 +13,11 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
+// Where the byte behind `c` stands, which stands at `place`.
+inline Place behind(const Place& place, char c) {
+  return c == '\n' ? Place{place.offset + 1, place.line + 1, 1} : Place{place.offset + 1, place.line, place.column + 1};
+}
+
 // Where something ends that is not known better.
 struct PlaceRange {
   Place least, most;

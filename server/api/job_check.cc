@@ -24,9 +24,9 @@ Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector
   return {};
 }
 
-JobCheck::JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, const std::vector<PartToSend>& parts,
-                   const AcceptedWarnings& accepted)
-    : profile_(profile), options_(std::move(options)), parts_(parts), accepted_(accepted) {
+JobCheck::JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
+                   const std::vector<PartToSend>& parts, const AcceptedWarnings& accepted)
+    : profile_(profile), options_(std::move(options)), buffer_(buffer), parts_(parts), accepted_(accepted) {
   check_.emplace(profile_, options_);
 }
 
@@ -38,6 +38,7 @@ Result<void> JobCheck::feed(std::string_view bytes) {
     }
     const std::string_view piece = bytes.substr(0, part().bytes ? *part().bytes - come_ : bytes.size());
     check_->feed(piece);
+    pieces_.take(piece);
     come_ += piece.size();
     bytes.remove_prefix(piece.size());
     if (part().bytes != come_) continue;
@@ -60,6 +61,7 @@ Result<CheckedJob> JobCheck::finish() {
 Result<void> JobCheck::finish_part() {
   check_->finish();
   if (const Result<void> good = judge(); !good) return good;
+  if (const Result<void> fit = check_pieces(); !fit) return fit;
   const rml1::Summary& summary = check_->summary();
   checked_.least_s += summary.seconds_low;
   checked_.most_s += summary.seconds_high;
@@ -68,6 +70,7 @@ Result<void> JobCheck::finish_part() {
   const std::string& tool = part().tool;
   checked_.parts.push_back({tool, begin_});
   check_.reset();
+  pieces_ = {};
   if (checked_.parts.size() < parts_.size()) check_.emplace(profile_, options_);
   return {};
 }
@@ -89,6 +92,17 @@ Result<void> JobCheck::judge() const {
                           count == 1 ? "" : fmt::format("; {} more keep the job from the queue", count - 1)),
               warns ? fmt::format("`axisctl mill check` shows all; --accept {} accepts such warnings", first->section)
                     : "correct the job; `axisctl mill check` shows all errors");
+}
+
+// What is written at once must have room: without flow control its end would be lost.
+Result<void> JobCheck::check_pieces() const {
+  const auto& [begin, bytes] = pieces_.longest();
+  if (bytes <= buffer_) return {};
+  return fail(Reason::invalid_request,
+              fmt::format("{}line {}, column {}: a command of {} bytes, which can only be sent as one piece, and the "
+                          "mill's buffer has {}",
+                          file_text(), begin.line, begin.column, bytes, buffer_),
+              "divide it into several commands, and leave out blanks in it");
 }
 
 // Which one, where there are several.

@@ -13,6 +13,7 @@
 #include "device/core/problem.h"
 #include "device/rml1/check.h"
 #include "device/rml1/mill/job.h"
+#include "device/rml1/sending/longest_piece.h"
 
 namespace axisgate::api {
 
@@ -34,12 +35,13 @@ Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector
 using AcceptedWarnings = std::set<std::string, std::less<>>;  // sections of the guideline, "5-2"
 
 // Not thread safe. What both calls refuse is invalid_request: the first error of a part that has come whole, or the
-// first warning that is not accepted; and bytes that are more or less than those of the parts.
+// first warning that is not accepted; a piece that cannot be cut and is longer than the mill's buffer; and bytes that
+// are more or less than those of the parts.
 class JobCheck {
  public:
-  // All outlive this. `parts`: at least one.
-  JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, const std::vector<PartToSend>& parts,
-           const AcceptedWarnings& accepted);
+  // All outlive this. `buffer`: of the mill, in bytes. `parts`: at least one.
+  JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
+           const std::vector<PartToSend>& parts, const AcceptedWarnings& accepted);
 
   Result<void> feed(std::string_view bytes);
   Result<CheckedJob> finish();
@@ -48,13 +50,16 @@ class JobCheck {
   const PartToSend& part() const { return parts_[checked_.parts.size()]; }
   Result<void> finish_part();
   Result<void> judge() const;
+  Result<void> check_pieces() const;
   std::string file_text() const;
 
   const rml1::Profile& profile_;
   const rml1::CheckOptions options_;
+  const std::size_t buffer_;
   const std::vector<PartToSend>& parts_;
   const AcceptedWarnings& accepted_;
   std::optional<rml1::Check> check_;  // of part(); none: all parts have come
+  rml1::LongestPiece pieces_;         // of part()
   std::uint64_t begin_ = 0;           // of part(), in bytes of the job
   std::uint64_t come_ = 0;            // bytes of part()
   CheckedJob checked_;

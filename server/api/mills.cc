@@ -120,7 +120,7 @@ JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline,
       worker_(worker),
       job_(std::move(job)),
       spooled_(std::move(spooled)),
-      check_(mill.config().profile, options, job_.parts, job_.accepted_warnings) {}
+      check_(mill.config().profile, options, mill.config().sending.buffer, job_.parts, job_.accepted_warnings) {}
 
 Result<void> JobUpload::append(std::string_view bytes) {
   const Result<void> checked = check_.feed(bytes);

@@ -32,43 +32,6 @@ std::vector<std::string> pieces(const std::string& job, std::size_t window = 64)
   return all;
 }
 
-TEST(Cut, IsBehindACommandAndItsDelimiters) {
-  EXPECT_THAT(pieces("PU;PA1,2;\r\nPD 3 4;\n;Z1,2,3\nV 5"),
-              ElementsAre("PU;", "PA1,2;\r\n", "PD 3 4;\n;", "Z1,2,3\n", "V 5"));
-}
-
-// "^" waits for the command that it calls, whatever delimiters are between (guideline 1-2).
-TEST(Cut, DoesNotPartACircumflexFromItsCommand) {
-  EXPECT_THAT(pieces("^;\nPA;^ PD1,1;PU;"), ElementsAre("^;\nPA;", "^ PD1,1;", "PU;"));
-}
-
-TEST(Cut, OfALongListIsBehindASet) {
-  EXPECT_THAT(pieces("PD10,20,30,40,50,60;PU;", 8), ElementsAre("PD10,20,", "30,40,", "50,60;", "PU;"));
-  EXPECT_THAT(pieces("Z10,20,30,40,50,60;", 8), ElementsAre("Z10,20,30,", "40,50,60;"));
-  EXPECT_THAT(pieces("^PD10,20,30,40;", 8), ElementsAre("^PD10,20,", "30,40;"));
-  EXPECT_THAT(pieces("!ZE X10Y20:Z30;PU;", 8), ElementsAre("!ZE X10Y20:Z30;", "PU;")) << "it has no sets";
-}
-
-// Capitals and small letters are the same, and what divides commands and numbers may be left out (guideline 2-2, 2-3).
-TEST(Cut, OfAListHoweverItIsWritten) {
-  EXPECT_THAT(pieces("pd10,20,30,40,50,60;pu;", 8), ElementsAre("pd10,20,", "30,40,", "50,60;", "pu;"));
-  EXPECT_THAT(pieces("M0,0D10,20,30,40,50,60;", 8), ElementsAre("M0,0D10,20,", "30,40,", "50,60;"));
-  EXPECT_THAT(pieces("Z1,2,3PD10,20,30,40;", 8), ElementsAre("Z1,2,3PD10,20,", "30,40;"));
-  EXPECT_THAT(pieces("PD10 20,30 40,50,60;", 8), ElementsAre("PD10 20,", "30 40,", "50,60;"));
-  EXPECT_THAT(pieces("PD1-2,3,4,5,6,7,8;", 8), ElementsAre("PD1-2,3,4,5,6,7,8;")) << "what makes a set is not known";
-}
-
-// A list may be as long as the job. If each cut read it to its end, this would take minutes.
-TEST(Cut, OfAListOfAMillionNumbers) {
-  std::string job = "PD";
-  for (int i = 0; i < 500'000; ++i) job += "10,20,";
-  job.back() = ';';
-  const auto all = pieces(job);
-  EXPECT_EQ(all.size(), 50'000u) << "ten sets of six bytes fit the window";
-  EXPECT_EQ(all.front(), "PD10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,10,20,");
-  EXPECT_EQ(all.back().back(), ';');
-}
-
 // By hand, from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
 TEST(Words, OfAnAbort) {
   EXPECT_EQ(abort_words(test_profile(), false), "\x1B.K\x1B.K^PA;!VZ15;!ZM0;!MC0;");
