@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "server/api/job_setup.h"
@@ -22,54 +21,71 @@ Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
               "`axisctl mill queue` lists them");
 }
 
-}  // namespace
-
-void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
-  const Result<JobName> found = find_job_name(gateway_, name);
-  const auto admitted = pipeline_.admit({RequestKind::start_job, call, device_of(found)});
-  if (!admitted) return answer(tl::unexpected(admitted.error()));
-  boost::asio::post(worker_, [this, call, name = std::string(name), &mill = *admitted->device, number = found->number,
-                              answer = std::move(answer)] { start_on_worker(call, name, mill, number, answer); });
+// Who prepared it in vain, since the job was in another state, is refused for that state where it still is.
+Problem changed_meanwhile(const rml1::Job& job) {
+  return {.reason = Reason::wrong_mode,
+          .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
+          .hint = "ask again"};
 }
 
-// Where it cannot be prepared it is refused for that, unless the request came before.
-void Mills::start_on_worker(const Call& call, const std::string& name, server::Mill& mill, rml1::JobNumber number,
-                            const Answer<CurrentJob>& answer) const {
-  const auto prepared = published_job(mill, number).and_then([&mill](const rml1::Job& job) {
-    return server::prepared_job(mill.spool(), mill.name(), mill.config(), job,
-                                mill.newest().get().value->measured_pace);
-  });
-  act_on_job(
+}  // namespace
+
+// It is posted to the mill first: what is published then is no older than what the caller was answered before.
+template <class Read, class Act>
+void Mills::read_and_act(RequestKind kind, const Call& call, std::string_view name, Read read, Act act,
+                         Answer<CurrentJob> answer) const {
+  const Result<JobName> found = find_job_name(gateway_, name);
+  const auto admitted = pipeline_.admit({kind, call, device_of(found)});
+  if (!admitted) return answer(tl::unexpected(admitted.error()));
+  const auto on_worker = [this, kind, call, name = std::string(name), read, act, answer, &mill = *admitted->device,
+                          number = found->number] {
+    const auto came = published_job(mill, number).and_then([&](const rml1::Job& job) { return read(mill, job); });
+    act_on_job(
+        kind, call, name,
+        [came, act](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn) {
+          return act(controller, it, turn, came);
+        },
+        answer);
+  };
+  admitted->device->post([worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](
+                             rml1::MillController&, TimePoint) { worker->post(identity, on_worker); });
+}
+
+void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
+  using Prepared = Result<std::shared_ptr<const rml1::PreparedJob>>;
+  read_and_act(
       RequestKind::start_job, call, name,
-      [prepared](rml1::MillController& controller, const rml1::Job& it,
-                 const TurnOf<server::Mill>& turn) -> Result<void> {
+      [](server::Mill& mill, const rml1::Job& job) -> Prepared {
+        if (job.state != rml1::JobState::confirmed) return tl::unexpected(changed_meanwhile(job));
+        return server::prepared_job(mill.spool(), mill.name(), mill.config(), job,
+                                    mill.newest().get().value->measured_pace);
+      },
+      [](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
+         const Prepared& prepared) -> Result<void> {
+        if (const Result<void> can = controller.check_startable(it.number, turn.now); !can) return can;
         if (!prepared) return tl::unexpected(prepared.error());
         const Result<void> fits = check_setup(turn.device, it);
         return fits ? controller.start(it.number, *prepared, turn.context, turn.now) : fits;
       },
-      answer);
+      std::move(answer));
 }
 
-// In another state the job is refused for that.
 void Mills::choose_rest(const Call& call, std::string_view name, LineToChoose from, Answer<CurrentJob> answer) const {
-  const Result<JobName> found = find_job_name(gateway_, name);
-  const auto admitted = pipeline_.admit({RequestKind::continue_job, call, device_of(found)});
-  if (!admitted) return answer(tl::unexpected(admitted.error()));
-  boost::asio::post(worker_, [this, call, name = std::string(name), from, &mill = *admitted->device,
-                              number = found->number, answer = std::move(answer)] {
-    const auto place = published_job(mill, number).and_then([&](const rml1::Job& job) {
-      return server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
-    });
-    act_on_job(
-        RequestKind::continue_job, call, name,
-        [place](rml1::MillController& controller, const rml1::Job& it,
-                const TurnOf<server::Mill>& turn) -> Result<void> {
-          const bool can = rml1::next(it.state, rml1::JobEvent::choose_rest).has_value();
-          if (can && !place) return tl::unexpected(place.error());
-          return controller.choose_rest(it.number, place.value_or(rml1::Place()), turn.caller.who, turn.now);
-        },
-        answer);
-  });
+  const auto can_be_chosen = [](const rml1::Job& job) {
+    return rml1::next(job.state, rml1::JobEvent::choose_rest).has_value();
+  };
+  read_and_act(
+      RequestKind::continue_job, call, name,
+      [from, can_be_chosen](server::Mill& mill, const rml1::Job& job) -> Result<rml1::Place> {
+        if (!can_be_chosen(job)) return tl::unexpected(changed_meanwhile(job));
+        return server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
+      },
+      [can_be_chosen](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
+                      const Result<rml1::Place>& place) -> Result<void> {
+        if (can_be_chosen(it) && !place) return tl::unexpected(place.error());
+        return controller.choose_rest(it.number, place.value_or(rml1::Place()), turn.caller.who, turn.now);
+      },
+      std::move(answer));
 }
 
 }  // namespace axisgate::api

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <boost/asio/post.hpp>
 #include <utility>
 
 #include "server/api/audit.h"
@@ -112,15 +111,17 @@ Problem not_sent_to(const Mill& mill) {
           .hint = "use the mill's own switch"};
 }
 
-JobUpload::JobUpload(const Call& call, Mill& mill, const MillPipeline& pipeline, boost::asio::thread_pool& worker,
-                     JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled)
+JobUpload::JobUpload(const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline,
+                     FairWorker& worker, JobToSend job, const rml1::CheckOptions& options,
+                     std::unique_ptr<server::spool::Upload> spooled)
     : call_(call),
-      mill_(mill),
+      mill_(*admitted.device),
       pipeline_(pipeline),
+      identity_(server::identity_of(admitted.caller.who)),
       worker_(worker),
       job_(std::move(job)),
       spooled_(std::move(spooled)),
-      check_(mill.config().profile, options, mill.config().sending.buffer, job_.parts, job_.accepted_warnings) {}
+      check_(mill_.config().profile, options, mill_.config().sending.buffer, job_.parts, job_.accepted_warnings) {}
 
 Result<void> JobUpload::append(std::string_view bytes) {
   const Result<void> checked = check_.feed(bytes);
@@ -128,7 +129,7 @@ Result<void> JobUpload::append(std::string_view bytes) {
 }
 
 void JobUpload::finish(std::string digest, const Answer<CurrentJob>& answer) {
-  boost::asio::post(worker_, [this, digest = std::move(digest), answer] { keep(digest, answer); });
+  worker_.post(identity_, [this, digest = std::move(digest), answer] { keep(digest, answer); });
 }
 
 // A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
@@ -201,7 +202,8 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
                                                   .identity = server::identity_of(admitted->caller.who),
                                                   .created = server::calendar_now()});
   if (!spooled) return tl::unexpected(spooled.error());
-  return std::make_unique<JobUpload>(call, mill, pipeline_, worker_, std::move(job), options, *std::move(spooled));
+  return std::make_unique<JobUpload>(call, *admitted, pipeline_, *worker_, std::move(job), options,
+                                     *std::move(spooled));
 }
 
 void Mills::get(const Call& call, std::string_view device, Answer<MillState> answer) const {

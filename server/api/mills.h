@@ -1,7 +1,6 @@
 // The jobs of mills: their queue, confirmation at the machine, and the one that runs.
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -15,6 +14,7 @@
 #include "device/rml1/check.h"
 #include "device/rml1/mill/mill_controller.h"
 #include "server/api/call.h"
+#include "server/api/fair_worker.h"
 #include "server/api/job_check.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
@@ -65,7 +65,7 @@ struct LineToChoose {
 // A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
 class JobUpload {
  public:
-  JobUpload(const Call& call, server::Mill& mill, const MillPipeline& pipeline, boost::asio::thread_pool& worker,
+  JobUpload(const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline, FairWorker& worker,
             JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
 
   // queue_full, where the spool has no room for more; what JobCheck::feed() refuses.
@@ -79,7 +79,8 @@ class JobUpload {
   Call call_;
   server::Mill& mill_;
   const MillPipeline& pipeline_;
-  boost::asio::thread_pool& worker_;
+  const std::string identity_;
+  FairWorker& worker_;
   const JobToSend job_;
   const std::unique_ptr<server::spool::Upload> spooled_;
   JobCheck check_;
@@ -97,7 +98,7 @@ class Mills {
   // All outlive this.
   Mills(server::Gateway& gateway, const MillPipeline& pipeline, Streams& streams)
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
-  ~Mills() { worker_.join(); }
+  ~Mills() { worker_->join(); }
 
   // invalid_request, where there is no such tool or origin, or another profile, there are too many parts, or the
   // line cannot stream so;
@@ -127,8 +128,10 @@ class Mills {
   using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
   void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
                   Answer<CurrentJob> answer) const;
-  void start_on_worker(const Call& call, const std::string& name, server::Mill& mill, rml1::JobNumber number,
-                       const Answer<CurrentJob>& answer) const;
+  // Reads the job as it was published last, on the worker, and acts on it with what came of that.
+  template <class Read, class Act>
+  void read_and_act(RequestKind kind, const Call& call, std::string_view job, Read read, Act act,
+                    Answer<CurrentJob> answer) const;
   using RunAct = std::function<Result<void>(const TurnOf<server::Mill>&)>;
   void act_on_run(RequestKind kind, const Call& call, std::string_view device, RunAct act,
                   Answer<CurrentRun> answer) const;
@@ -136,9 +139,9 @@ class Mills {
   server::Gateway& gateway_;
   const MillPipeline& pipeline_;
   Streams& streams_;
-  // What reads or writes a whole job: one at a time, and neither on a device's strand nor on a thread that serves
-  // others.
-  mutable boost::asio::thread_pool worker_{1};
+  // What reads or writes a whole job: neither on a device's strand nor on a thread that serves others.
+  // Shared with what is posted to a mill, which may come to its turn when this is gone.
+  const std::shared_ptr<FairWorker> worker_ = std::make_shared<FairWorker>();
 };
 
 }  // namespace axisgate::api

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <fstream>
 #include <limits>
 #include <string>
 
@@ -43,6 +44,19 @@ TEST_F(RpcMill, WithoutAConfirmationItDoesNotStart) {
   v1::Job other = job;
   other.mutable_setup()->set_tool("T2");
   EXPECT_EQ(reason(confirm(other)), v1::REASON_STALE_SETPOINT);
+}
+
+// Nobody waits for a worker that reads jobs in vain.
+TEST_F(RpcMill, WhatCannotStartOrContinueIsNotRead) {
+  const v1::Job job = sent(vectors(6));
+  std::ofstream(directory_ + ".spool/mill/1.rml", std::ios::app) << "PU;";
+  EXPECT_EQ(reason(start(job)), v1::REASON_NOT_ALLOWED);
+  v1::ContinueJobRequest request;
+  request.set_job(job.name());
+  request.set_line(1);
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_WRONG_MODE);
+  ASSERT_TRUE(confirm(job).ok());
+  EXPECT_EQ(reason(start(job)), v1::REASON_INTERNAL) << "its bytes are others than they were";
 }
 
 TEST_F(RpcMill, AJobWithErrorsIsRefusedWithItsPlace) {

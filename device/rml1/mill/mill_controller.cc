@@ -28,6 +28,15 @@ stage::Occupation occupation_by(const Job& job, const std::string& who, TimePoin
   return {fmt::format("{}, started by {}", job.name, who), fmt::format("job {} runs", job.number), "", now + longest};
 }
 
+Result<void> check_same(const Job& confirmed, const PreparedJob& prepared) {
+  if (prepared.digest() == confirmed.setup.digest && prepared.begin() == part_begin(confirmed) &&
+      prepared.from() == confirmed.setup.from) {
+    return {};
+  }
+  return fail(Reason::internal, fmt::format("the bytes of {} are not those that were confirmed", text_of(confirmed)),
+              "send the job again");
+}
+
 std::optional<TimePoint> sooner(std::optional<TimePoint> one, std::optional<TimePoint> other) {
   if (!one || !other) return one ? one : other;
   return std::min(*one, *other);
@@ -170,26 +179,26 @@ Result<void> MillController::check_free() const {
   return {};
 }
 
-Result<void> MillController::check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const {
+Result<void> MillController::check_startable(const Job& job, TimePoint now) const {
   if (const Result<void> free = check_free(); !free) return free;
   if (job.state != JobState::confirmed || job.confirmation->until <= now) {
     return fail(Reason::not_allowed, fmt::format("{} is not confirmed at the mill, or not any more", text_of(job)),
                 "somebody at the mill confirms it: `axisctl mill confirm`");
   }
-  if (prepared.digest() != job.setup.digest || prepared.begin() != part_begin(job) ||
-      prepared.from() != job.setup.from) {
-    return fail(Reason::internal, fmt::format("the bytes of {} are not those that were confirmed", text_of(job)),
-                "send the job again");
-  }
   const Result<void> taken = check_taken();
   return taken ? check_still(now) : taken;
+}
+
+Result<void> MillController::check_startable(JobNumber number, TimePoint now) {
+  return find(number).and_then([&](const Job* job) { return check_startable(*job, now); });
 }
 
 Result<void> MillController::start(JobNumber number, std::shared_ptr<const PreparedJob> prepared,
                                    const stage::RequestContext& by, TimePoint now) {
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
-  if (const Result<void> startable = check_startable(**job, *prepared, now); !startable) return startable;
+  if (const Result<void> startable = check_startable(**job, now); !startable) return startable;
+  if (const Result<void> same = check_same(**job, *prepared); !same) return same;
   if (const Result<void> may = authorize(by, number, now); !may) return may;
   if ((*job)->part == 0 && !(*job)->setup.from) left_ = left_by(**job);
   (*job)->written.reset();

@@ -84,8 +84,11 @@ class MillController : public LineMachine {
   // became of the last one is not known; link_down;
   // stale_setpoint: `seen` is not what the job needs, or not what the one before has left.
   Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
-  // Its first byte goes out, if the mill takes it. `prepared` is of the bytes of its next part. not_found; wrong_mode;
-  // not_allowed, where it is not confirmed any more; link_down; what Permission::authorize() refuses.
+  // What start() refuses, as far as it needs neither the bytes nor the right to the mill: not_found; wrong_mode;
+  // not_allowed, where it is not confirmed any more; link_down.
+  Result<void> check_startable(JobNumber job, TimePoint now);
+  // Its first byte goes out, if the mill takes it. `prepared` is of the bytes of its next part. What check_startable()
+  // and Permission::authorize() refuse.
   Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
                      TimePoint now);
   // Of the running job; wrong_mode where none runs, or not so. `raise`: behind what was sent the tool is raised and the
@@ -184,7 +187,7 @@ class MillController : public LineMachine {
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
   Result<void> check_pausable(bool raise, TimePoint now);
-  Result<void> check_startable(const Job& job, const PreparedJob& prepared, TimePoint now) const;
+  Result<void> check_startable(const Job& job, TimePoint now) const;
   bool send_abort(TimePoint now);
   void note_executed(TimePoint now);
   void look_after_abort(TimePoint now);

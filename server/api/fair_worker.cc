@@ -1,0 +1,33 @@
+#include "server/api/fair_worker.h"
+
+#include <boost/asio/post.hpp>
+#include <utility>
+
+namespace axisgate::api {
+
+void FairWorker::post(const std::string& identity, Task task) {
+  {
+    const std::lock_guard lock(mutex_);
+    std::deque<Task>& own = waiting_[identity];
+    if (own.empty()) turns_.push_back(identity);
+    own.push_back(std::move(task));
+  }
+  boost::asio::post(thread_, [this] { run_next(); });
+}
+
+void FairWorker::run_next() {
+  std::unique_lock lock(mutex_);
+  const auto own = waiting_.find(turns_.front());
+  turns_.pop_front();
+  const Task task = std::move(own->second.front());
+  own->second.pop_front();
+  if (own->second.empty()) {
+    waiting_.erase(own);
+  } else {
+    turns_.push_back(own->first);
+  }
+  lock.unlock();
+  task();
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,36 @@
+// Long tasks of many people on one thread.
+#pragma once
+
+#include <boost/asio/thread_pool.hpp>
+#include <deque>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <string>
+
+namespace axisgate::api {
+
+// Thread safe. One task at a time: the next is of whose turn it is, so that nobody waits for all that somebody else
+// has requested. Those of one identity run in their order.
+class FairWorker {
+ public:
+  using Task = std::function<void()>;
+
+  ~FairWorker() { join(); }
+
+  // Runs what waits. What is posted afterwards is dropped.
+  void join() { thread_.join(); }
+
+  // `identity`: server::identity_of() whom the task is for.
+  void post(const std::string& identity, Task task);
+
+ private:
+  void run_next();
+
+  std::mutex mutex_;
+  std::map<std::string, std::deque<Task>> waiting_;  // by identity; none is empty
+  std::deque<std::string> turns_;                    // of those in waiting_
+  boost::asio::thread_pool thread_{1};
+};
+
+}  // namespace axisgate::api
