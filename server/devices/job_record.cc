@@ -18,7 +18,29 @@ namespace axisgate::server {
 namespace {
 
 constexpr std::array<char, 16> kMark = {'a', 'x', 'i', 's', 'g', 'a', 't', 'e', ' ', 'j', 'o', 'b', ' ', '1', '\n', 0};
+constexpr std::size_t kNameSize = 104;  // a name of the spool, and an end
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+
+std::uint64_t bits_of(const rml1::Leaves& leaves) {
+  return (leaves.surface ? 1u : 0u) | (leaves.revolutions ? 2u : 0u) | (leaves.rotation ? 4u : 0u) |
+         (leaves.tool ? 8u : 0u);
+}
+
+rml1::Leaves leaves_of(std::uint64_t bits) {
+  return {(bits & 1u) != 0, (bits & 2u) != 0, (bits & 4u) != 0, (bits & 8u) != 0};
+}
+
+template <std::size_t size>
+std::string text_in(const std::array<char, size>& chars) {
+  return {chars.data(), ::strnlen(chars.data(), size)};
+}
+
+// Cut where it does not fit. The last character stays an end.
+template <std::size_t size>
+void set_text(std::array<char, size>& chars, std::string_view text) {
+  chars.fill(0);
+  std::ranges::copy(text.substr(0, size - 1), chars.begin());
+}
 
 }  // namespace
 
@@ -26,7 +48,8 @@ constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
 struct JobRecord::Content {
   std::array<char, 16> mark;
   std::array<char, 48> boot;
-  std::atomic<std::uint64_t> job, state, through, part, from, abort_waits;
+  std::atomic<std::uint64_t> job, state, through, part, from, abort_waits, leaves;
+  std::array<char, kNameSize> name;  // changes while `job` is 0
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -45,19 +68,22 @@ Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std:
 
 JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content) {
   const bool known = content->mark == kMark;
-  const bool same_boot =
-      !boot.empty() && std::string_view(content->boot.data(), ::strnlen(content->boot.data(), 48)) == boot;
+  const bool same_boot = !boot.empty() && text_in(content->boot) == boot;
   const std::uint64_t state = content->state;
   if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::paused)) {
-    before_ = LastJob{content->job, static_cast<rml1::JobState>(state), same_boot ? content->through.load() : kAll,
-                      content->part, content->from};
+    before_ = LastJob{.job = content->job,
+                      .state = static_cast<rml1::JobState>(state),
+                      .through = same_boot ? content->through.load() : kAll,
+                      .part = content->part,
+                      .from = content->from,
+                      .name = text_in(content->name),
+                      .leaves = leaves_of(content->leaves)};
   }
   abort_waited_ = known && content->abort_waits != 0;
   if (!known) content->job = 0;
   if (!same_boot) content->through = kAll;  // also for the run after this one
   content->mark = kMark;
-  content->boot.fill(0);
-  std::ranges::copy(boot.substr(0, 47), content->boot.begin());
+  set_text(content->boot, boot);
 }
 
 JobRecord::~JobRecord() { ::munmap(content_, sizeof(Content)); }
@@ -68,6 +94,8 @@ void JobRecord::begin(const rml1::Job& job) {
   content_->part = job.part;
   content_->from = next_byte(job);
   content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
+  content_->leaves = bits_of(job.leaves);
+  set_text(content_->name, job.name);
   content_->job = job.number;
 }
 

@@ -19,6 +19,8 @@ struct LastJob {
   std::uint64_t through = 0;  // bytes of the job that may have gone to the line
   std::size_t part = 0;       // as Job::part
   std::uint64_t from = 0;     // as next_byte()
+  std::string name{};         // as Job::name; what it leaves is said with it
+  rml1::Leaves leaves{};
 };
 
 // On the device's strand. The file is mapped, as that of MotionRecord: nothing waits for the disk, and a crash of the

@@ -46,7 +46,7 @@ Mill::~Mill() { spool_thread_.join(); }
 void Mill::restore_jobs() {
   if (record_ && record_->abort_waited()) controller_.inherit_abort();
   const auto last = record_ ? record_->before() : std::nullopt;
-  if (const auto left = last ? spooled_job(spool_, name(), last->job) : std::nullopt) controller_.inherit_left(*left);
+  if (last) controller_.inherit_left({.number = last->job, .name = last->name, .leaves = last->leaves});
   for (rml1::Job& job : unended_jobs(spool_, name())) {
     if (!last || last->job != job.number) {
       controller_.inherit(std::move(job));

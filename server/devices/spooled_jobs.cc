@@ -137,12 +137,6 @@ void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job&
   if (!kept) spdlog::warn("{}", explain(kept.error()));
 }
 
-std::optional<rml1::Job> spooled_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber job) {
-  const auto jobs = spool.list(device);
-  const auto found = std::ranges::find(jobs, job, &spool::Job::id);
-  return found == jobs.end() ? std::nullopt : std::optional(job_of(*found));
-}
-
 void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job) {
   if (const auto ended = spool.end(device, job, calendar_now()); !ended) spdlog::warn("{}", explain(ended.error()));
 }

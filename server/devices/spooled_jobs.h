@@ -27,8 +27,6 @@ std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string
 rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
 // So that a run after this one knows where it continues and its place in the queue. What goes wrong is in the log.
 void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job);
-// The job with this number, also one that has ended; nothing where the spool has it no more.
-std::optional<rml1::Job> spooled_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 // It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
 void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job);
 

@@ -77,6 +77,20 @@ TEST_F(JobRecordTest, KeepsWhereItContinues) {
   EXPECT_EQ(open()->before()->from, 0u);
 }
 
+// The spool may have dropped the job by then.
+TEST_F(JobRecordTest, KeepsWhatTheLastJobLeaves) {
+  rml1::Job last = job();
+  last.name = std::string(100, 'n');
+  for (const rml1::Leaves leaves :
+       {rml1::Leaves(), rml1::Leaves{.surface = true}, rml1::Leaves{.revolutions = true},
+        rml1::Leaves{.rotation = true}, rml1::Leaves{.tool = true}, rml1::Leaves{true, true, true, true}}) {
+    last.leaves = leaves;
+    open()->begin(last);
+    EXPECT_EQ(open()->before()->leaves, leaves);
+  }
+  EXPECT_EQ(open()->before()->name, last.name);
+}
+
 TEST_F(JobRecordTest, KeepsThatAnAbortWaits) {
   const auto record = open();
   EXPECT_FALSE(open()->abort_waited());
