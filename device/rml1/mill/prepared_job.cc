@@ -28,6 +28,7 @@ PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profil
       rest_in_text_(prologue().size() + approach.words.size()),
       rest_size_(body.size() - approach.at.offset),
       text_(wrapped(continued(body, approach), profile, origin)),
+      places_(std::string_view(text_).substr(rest_in_text_, rest_size_)),
       timeline_(text_, profile, origin),
       settings_(settings),
       plan_(plan_of(text_, timeline_, settings)) {}
@@ -37,8 +38,7 @@ std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
 }
 
 Place PreparedJob::place(std::uint64_t bytes) const {
-  const std::string_view rest = std::string_view(text_).substr(rest_in_text_, rest_size_);
-  const Place in_rest = place_of(rest, of_body(bytes) - begin_ - rest_.offset);
+  const Place in_rest = places_.at(of_body(bytes) - begin_ - rest_.offset);
   return {rest_.offset + in_rest.offset, rest_.line + in_rest.line - 1,
           in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
 }

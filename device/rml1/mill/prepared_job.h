@@ -9,6 +9,7 @@
 
 #include "device/rml1/machine.h"
 #include "device/rml1/mill/approach.h"
+#include "device/rml1/mill/place_index.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
@@ -25,6 +26,8 @@ class PreparedJob {
   PreparedJob(std::string_view body, std::string digest, const Profile& profile, std::optional<Origin> origin,
               const SendSettings& settings, std::uint64_t begin = 0, std::optional<Place> from = {},
               const Approach& approach = {});
+  PreparedJob(const PreparedJob&) = delete;
+  PreparedJob& operator=(const PreparedJob&) = delete;
 
   const std::string& digest() const { return digest_; }
   // With prologue and epilogue.
@@ -49,6 +52,7 @@ class PreparedJob {
   const Place rest_;
   const std::uint64_t rest_in_text_, rest_size_;
   const std::string text_;
+  const PlaceIndex places_;  // of what is sent of the part itself: an abort waits for it
   const Timeline timeline_;
   const SendSettings settings_;
   const SendPlan plan_;

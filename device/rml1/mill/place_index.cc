@@ -1,0 +1,23 @@
+#include "device/rml1/mill/place_index.h"
+
+#include <algorithm>
+
+namespace axisgate::rml1 {
+
+PlaceIndex::PlaceIndex(std::string_view text) : text_(text) {
+  Place place;
+  for (const char c : text) {
+    if (place.offset % kStep == 0) places_.push_back(place);
+    place = behind(place, c);
+  }
+  if (place.offset % kStep == 0) places_.push_back(place);
+}
+
+Place PlaceIndex::at(std::uint64_t offset) const {
+  const std::size_t end = std::min<std::size_t>(offset, text_.size());
+  Place place = places_[end / kStep];
+  while (place.offset < end) place = behind(place, text_[place.offset]);
+  return place;
+}
+
+}  // namespace axisgate::rml1
