@@ -26,6 +26,11 @@ std::optional<rml1::Place> place_in(const Json& facts) {
   return from.size() == 3 ? std::optional(rml1::Place{from[0], from[1], from[2]}) : std::nullopt;
 }
 
+std::optional<rml1::WrittenRange> written_in(const Json& facts) {
+  const Json written = facts.value("written", Json::array());
+  return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
+}
+
 Result<std::string> part_bytes(const spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const std::uint64_t begin = part_begin(job), end = part_end(job);
   return spool.read(device, job.number).map([&](const std::string& all) { return all.substr(begin, end - begin); });
@@ -46,7 +51,7 @@ rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
   return between && job.part > 0 ? tool_change : paused_unknown;
 }
 
-// What was written of the part is a range after a loss, and known of one that was paused.
+// What was written of the part is a range after a loss, and known where the tool was raised.
 tl::unexpected<Problem> no_line_named(std::string_view body, const rml1::Job& job) {
   const auto text = [&](std::uint64_t byte) {
     const rml1::Place place = rml1::place_of(body, byte - part_begin(job));
@@ -81,6 +86,7 @@ std::string facts_of(const rml1::Job& job) {
   facts["checked_for"] = job.checked_for;
   if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
   if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
+  if (job.written) facts["written"] = {job.written->least, job.written->most};
   return facts.dump();
 }
 
@@ -110,6 +116,7 @@ rml1::Job job_of(const spool::Job& spooled) {
     job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
   }
   job.setup.from = place_in(facts);
+  if (job.setup.from) job.written = written_in(facts);
   if (job.part > 0) job.state = rml1::JobState::tool_change;
   if (job.setup.from) job.state = rml1::JobState::paused;
   return job;

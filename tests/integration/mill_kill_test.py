@@ -169,6 +169,9 @@ class MillKill(unittest.TestCase):
         self.assertIn(f"PAUSED: it continues at line {len(before) + 2}, column 1",
                       self.axisctl("mill", "resume", "1", "--from", str(len(before) + 2)))
         self.assertEqual(self.numbers(1), before, "nothing is sent before somebody confirms it")
+        self.restart()
+        again = self.daemon.run("--device", "mill", "mill", "resume", "1")
+        self.assertEqual(again.stderr, refused.stderr, "what was sent ends there still, wherever it continues")
         self.axisctl("mill", "confirm", "1", "--yes", "--start")
         self.await_state("FED")
         self.assertEqual([one for one in self.numbers(1) if one not in before], list(range(len(before) + 1, 61)),
@@ -241,6 +244,17 @@ class MillKill(unittest.TestCase):
             answer = self.daemon.run(*words)
             self.assertNotEqual(answer.returncode, 0, words)
             self.assertIn("LINK_DOWN", answer.stderr)
+
+    def test_an_abort_that_waits_for_the_line_outlives_the_daemon(self):
+        self.open_line()
+        self.mill.kill()
+        self.await_true(lambda: "line open" not in self.axisctl("mill", "queue"), "the line does not close")
+        self.assertIn("LINK_DOWN", self.daemon.run("--device", "mill", "mill", "abort").stderr)
+        self.daemon.signal(signal.SIGKILL)
+        self.daemon.wait(LIMIT_S)
+        self.plug_in()
+        self.daemon = Daemon(str(self.folder), self.config)
+        self.await_true(self.aborted, "no abort")
 
     def test_unplugged_lines(self):
         for run in range(1, KILLS + 1):

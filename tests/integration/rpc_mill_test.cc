@@ -246,6 +246,9 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   EXPECT_EQ(response.job().setup().from().line(), 4) << "the next command";
   EXPECT_EQ(response.job().setup().from().column(), 1);
   EXPECT_EQ(response.job().setup().from().byte(), 29);
+  request.set_line(0);
+  EXPECT_EQ(ask(&v1::MillService::Stub::ContinueJob, request).error_message(), unnamed.error_message())
+      << "not the place that was chosen";
   ASSERT_TRUE(confirm(response.job()).ok());
   ASSERT_TRUE(start(response.job()).ok());
   watch_until(job_is(job, v1::JOB_STATE_FED));

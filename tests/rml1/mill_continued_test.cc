@@ -193,6 +193,18 @@ TEST_F(MillContinuedTest, ALostJobGoesOnWhereSomebodyHasChosen) {
   EXPECT_TRUE(start_rest({18, 1, 19}));
 }
 
+TEST_F(MillContinuedTest, WhatWasSentOfItIsKnownUntilItContinues) {
+  raise_to_end();
+  const Place from = *job(1).setup.from;
+  const WrittenRange written{from.offset, from.offset};
+  EXPECT_EQ(job(1).written, written);
+  ASSERT_TRUE(mill_.choose_rest(1, {9, 1, 10}, "unix anna", now_));
+  EXPECT_EQ(job(1).written, written) << "and not the place that was chosen";
+  ASSERT_TRUE(confirm_as_shown(1));
+  ASSERT_TRUE(start_rest({9, 1, 10}));
+  EXPECT_EQ(job(1).written, std::nullopt);
+}
+
 TEST_F(MillContinuedTest, OfARestThatIsLostAtLeastWhatCameBeforeItWasSent) {
   raise_to_end();
   const Place from = *job(1).setup.from;

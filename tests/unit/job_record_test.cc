@@ -265,6 +265,16 @@ TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
   EXPECT_EQ(job_of(spooled(left)).setup.from, (rml1::Place{20, 2, 5}));
 }
 
+TEST(JobOfTheSpool, KnowsHowFarOneThatContinuesWasSent) {
+  rml1::Job left = job();
+  left.written = rml1::WrittenRange{30, 40};
+  EXPECT_FALSE(job_of(spooled(left)).written) << "it begins at its beginning";
+  left.setup.from = rml1::Place{20, 2, 5};
+  EXPECT_EQ(job_of(spooled(left)).written, left.written);
+  EXPECT_EQ(as_it_was_left(job_of(spooled(left)), {7, JobState::paused, 40, 0, 20}).written, left.written);
+  EXPECT_EQ(as_it_was_left(job_of(spooled(left)), {7, JobState::tool_change, 300, 1, 300}).written, std::nullopt);
+}
+
 TEST(JobOfTheSpool, HasItsPlaceInTheQueue) {
   rml1::Job moved = job();
   EXPECT_EQ(job_of(spooled(moved)).rank, 0);

@@ -67,6 +67,7 @@ void go_to_part(Job& job, std::size_t part) {
   job.part = part;
   job.setup.tool = job.parts[part].tool;
   job.setup.from.reset();
+  job.written.reset();
 }
 
 JobEvent void_event(const Job& job) {

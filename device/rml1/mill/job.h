@@ -86,7 +86,7 @@ struct Job {
   double least_s = 0, most_s = 0;  // how long the mill takes
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed
-  std::optional<WrittenRange> written{};       // of one that is paused_unknown
+  std::optional<WrittenRange> written{};       // of one that was lost or paused, until it continues
   std::optional<PlaceRange> executed{};        // PreparedJob::executed() of one whose abort was requested
   std::vector<JobPart> parts{};                // at most kPartsAtMost; none: all of it is one
   std::size_t part = 0;                        // runs, or is the next to

@@ -51,8 +51,11 @@ Result<void> MillController::choose_rest(JobNumber number, const Place& from, st
 
 // Its rest is confirmed as a job is: the tool is elsewhere, and somebody may have reached into the machine.
 void MillController::end_raised(TimePoint now) {
-  const Place from = running_->prepared->place(running_->sender.progress(now).written);
-  (*find(running_->number))->setup.from = from;
+  const std::uint64_t written = running_->sender.progress(now).written;
+  const Place from = running_->prepared->place(written);
+  Job& job = **find(running_->number);
+  job.setup.from = from;
+  job.written = WrittenRange{running_->prepared->of_body(written), running_->prepared->of_body(written)};
   end_run(JobEvent::raised, "",
           fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);
 }
