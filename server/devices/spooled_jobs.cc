@@ -31,6 +31,12 @@ std::optional<rml1::WrittenRange> written_in(const Json& facts) {
   return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
 }
 
+// As far as the mill may have been sent it.
+std::string_view sent_of(std::string_view body, const rml1::Job& job) {
+  const bool known = job.written && job.written->most >= part_begin(job);
+  return known ? body.substr(0, job.written->most - part_begin(job)) : body;
+}
+
 Result<std::string> part_bytes(const spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const std::uint64_t begin = part_begin(job), end = part_end(job);
   return spool.read(device, job.number).map([&](const std::string& all) { return all.substr(begin, end - begin); });
@@ -191,7 +197,7 @@ Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& de
   const auto origin = check_origin(config, job);
   const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());
-  if (const auto same = rml1::check_unchanged(*body, *approach, config.profile, origin); !same) {
+  if (const auto same = rml1::check_unchanged(sent_of(*body, job), *approach, config.profile, origin); !same) {
     return tl::unexpected(same.error());
   }
   return rml1::check_continued(*body, *approach, config.profile, origin, job.stock).map([&] { return approach->at; });
