@@ -10,8 +10,8 @@
 
 namespace axisgate::api {
 
-// Thread safe. One task at a time: the next is of whose turn it is, so that nobody waits for all that somebody else
-// has requested. Those of one identity run in their order.
+// Thread safe. Runs one task at a time. Identities take turns, so that nobody waits for all that somebody else has
+// requested. The tasks of one identity run in their order.
 class FairWorker {
  public:
   using Task = std::function<void()>;

@@ -21,7 +21,8 @@ Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
               "`axisctl mill queue` lists them");
 }
 
-// Who prepared it in vain, since the job was in another state, is refused for that state where it still is.
+// The job was not read, since its state was another one, and now it could be. In most cases it still has that state,
+// and the request is refused for it.
 Problem changed_meanwhile(const rml1::Job& job) {
   return {.reason = Reason::wrong_mode,
           .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
