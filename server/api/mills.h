@@ -128,7 +128,7 @@ class Mills {
   using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
   void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
                   Answer<CurrentJob> answer) const;
-  // Reads the job as it was published last, on the worker, and acts on it with what came of that.
+  // Reads the job as it was published last, on the worker, and acts on it with the result.
   template <class Read, class Act>
   void read_and_act(RequestKind kind, const Call& call, std::string_view job, Read read, Act act,
                     Answer<CurrentJob> answer) const;

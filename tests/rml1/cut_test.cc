@@ -1,26 +1,16 @@
 // Where a job is cut in writes, and what of it cannot be cut.
-#include "device/rml1/sending/cut.h"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <string>
-#include <vector>
 
 #include "device/rml1/sending/longest_piece.h"
+#include "tests/rml1/pieces.h"
 
 namespace axisgate::rml1 {
 namespace {
 
 using testing::ElementsAre;
-
-std::vector<std::string> pieces(const std::string& job, std::size_t window = 64) {
-  std::vector<std::string> all;
-  for (Cutter cutter(job, window); cutter.begin() < job.size(); cutter.next()) {
-    all.push_back(job.substr(cutter.begin(), cutter.end() - cutter.begin()));
-  }
-  return all;
-}
 
 TEST(Cut, IsBehindACommandAndItsDelimiters) {
   EXPECT_THAT(pieces("PU;PA1,2;\r\nPD 3 4;\n;Z1,2,3\nV 5"),

@@ -6,13 +6,12 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <vector>
 
-#include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/sender.h"
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/mill.h"
+#include "tests/rml1/pieces.h"
 #include "tests/rml1/sender_fixture.h"
 
 namespace axisgate::rml1 {
@@ -23,14 +22,6 @@ using testing::ElementsAre;
 using testing::IsEmpty;
 using testing::StartsWith;
 using enum SenderState;
-
-std::vector<std::string> pieces(const std::string& job, std::size_t window = 64) {
-  std::vector<std::string> all;
-  for (Cutter cutter(job, window); cutter.begin() < job.size(); cutter.next()) {
-    all.push_back(job.substr(cutter.begin(), cutter.end() - cutter.begin()));
-  }
-  return all;
-}
 
 // By hand, from guideline 3-1, 3-3, 4-2 and 5-2. The highest speed of Z is 15 mm/s, the top is 0.
 TEST(Words, OfAnAbort) {

@@ -29,8 +29,8 @@ Result<Approach> approach_to(std::string_view body, std::uint64_t from, const Pr
 // What is then sent of the part, between prologue and epilogue.
 std::string continued(std::string_view body, const Approach& approach);
 
-// Of a place that a person has chosen. `body`: as far as the mill may have been sent it. invalid_request: there, behind
-// the place, a command has set what nothing gives back: Z0, the spindle speed, the rotary axis.
+// Of a place that a person has chosen. `body`: the part, as far as the mill may have been sent it. invalid_request: a
+// command in it behind the place has set what nothing gives back: Z0, the spindle speed, the rotary axis.
 Result<void> check_unchanged(std::string_view body, const Approach& approach, const Profile& profile,
                              std::optional<Origin> origin);
 

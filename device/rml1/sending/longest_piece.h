@@ -18,7 +18,7 @@ class LongestPiece {
   };
 
   void take(std::string_view bytes);
-  // Of what was taken, the longest piece within which CutPlaces has none; the first of several.
+  // Of what was taken, the longest piece without a place to cut it; the first of several.
   const Piece& longest() const { return longest_; }
 
  private:
