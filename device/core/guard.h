@@ -101,6 +101,18 @@ enum class Guard {
   stops_join,
   stops_by_turns,
   stop_off_host,
+  stop_stays_open,
+  stop_written_at_open,
+  stop_written_when_heard,
+  stop_not_to_another_unit,
+  stop_reopens_soon,
+  stop_seen_twice,
+  stop_awaits_outcomes,
+  wider_stop_replaces,
+  open_stop_refuses_motion,
+  unseen_motion_keeps_its_axes,
+  emergency_latches,
+  emergency_cleared_for_all,
 
   // Set and go is one step
   one_motion_at_a_time,

@@ -55,8 +55,9 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "JOURNAL_UNAVAILABLE",
     "REQUEST_ID_REUSED",
     "REQUEST_MEMORY_LOST",
+    "STOP_UNCONFIRMED",
 });
-static_assert(kNames.size() == static_cast<std::size_t>(Reason::request_memory_lost) + 1, "a name for each Reason");
+static_assert(kNames.size() == static_cast<std::size_t>(kLastReason) + 1, "a name for each Reason");
 
 }  // namespace
 

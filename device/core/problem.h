@@ -64,7 +64,10 @@ enum class Reason {
   journal_unavailable,
   request_id_reused,
   request_memory_lost,
+  // stops
+  stop_unconfirmed,
 };
+inline constexpr Reason kLastReason = Reason::stop_unconfirmed;
 
 // "STALE_SETPOINT" and the like, as they stand in the API and in log lines.
 std::string_view name(Reason reason);

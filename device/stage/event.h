@@ -11,6 +11,7 @@
 #include "device/core/lane.h"
 #include "device/stage/motion.h"
 #include "device/stage/state.h"
+#include "device/stage/stop.h"
 
 namespace axisgate::stage {
 
@@ -44,6 +45,17 @@ struct LinkChanged {
 struct StopRequested {
   AxisSet axes;
   bool emergency = false;
+  std::string who;
+};
+
+// A stop is in another state, or has another caller. A fact once it is not open any more; before that for its record.
+struct StopChanged {
+  Stop stop;
+};
+
+// An emergency stop latched the device, or ClearErrors by `who` lifted the latch.
+struct EmergencyLatchChanged {
+  std::optional<EmergencyLatch> latch;  // nullopt: lifted
   std::string who;
 };
 
@@ -155,10 +167,10 @@ struct IllegalTransition {
 // Positions, mode, excitation or the like are newer; ask StageController::state().
 struct StateChanged {};
 
-using Event =
-    std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, ForeignMotion,
-                 SwitchesChanged, ProgramNotice, BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded,
-                 BarrierEntered, LineLearned, UnexpectedLine, IllegalTransition, UnfinishedJudged, StateChanged>;
+using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, StopChanged,
+                           EmergencyLatchChanged, ForeignMotion, SwitchesChanged, ProgramNotice, BytesWritten,
+                           BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned, UnexpectedLine,
+                           IllegalTransition, UnfinishedJudged, StateChanged>;
 
 class EventSink {
  public:

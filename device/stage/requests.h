@@ -16,6 +16,7 @@
 #include "device/stage/arc.h"
 #include "device/stage/axes.h"
 #include "device/stage/motion.h"
+#include "device/stage/stop.h"
 
 namespace axisgate::stage {
 
@@ -138,7 +139,9 @@ struct StopReport {
     std::optional<std::int64_t> position_pulses;
   };
   std::vector<Axis> axes;
-  std::optional<Problem> problem;  // outcome_unknown, link_down, stale_setpoint ...
+  std::optional<Problem> problem;  // outcome_unknown, wrong_mode, stale_setpoint ...
+  StopId stop = 0;                 // 0: none was needed, or of a mill
+  bool stays_open = false;         // it is repeated until the axes are seen stationary
 };
 
 // What became of the motions that there were when the gateway began to end.

@@ -61,12 +61,18 @@ class StageController : public LineMachine {
   virtual Result<void> check(const ScanRequest& request) const = 0;
   virtual Result<void> check(const GoToPositionRequest& request) const = 0;
 
-  // Answers when the axes are stationary or the wait for it has run out. Empty: all controllable axes. Needs no lease.
+  // Answers when the axes are stationary or the wait for that has run out; the stop itself stays open until they were
+  // seen stationary, and is repeated over reconnects. Empty: all controllable axes. Needs no lease.
   using OnStopped = std::function<void(StopReport)>;
   virtual void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) = 0;
+  // The same for all axes. From now on all motion is refused, until clear_errors() for all axes.
   virtual void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) = 0;
 
   using OnDone = std::function<void(Result<void>)>;
+  // Gives an open stop up, whose controller will never answer again: not_found.
+  virtual void withdraw_stop(StopId, const RequestContext&, TimePoint, OnDone done) {
+    done(fail(Reason::not_found, "this kind of controller has no open stops"));
+  }
   virtual void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) = 0;
 
   using OnExecute = std::function<void(const ExecuteEvent&)>;
@@ -82,9 +88,9 @@ class StageController : public LineMachine {
   // Answers to abandoned probes of the line that may still come.
   virtual int outstanding_answers() const = 0;
 
-  // Before link_up(): what the run before this one had started. It is stopped, or finishes where the profile's
-  // at_exit lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
-  virtual void inherit(const Unfinished&) {}
+  // Before link_up(): what the run before this one left. Its motions are stopped, or finish if the profile's at_exit
+  // lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
+  virtual void inherit(const Inheritance&) {}
   // Once, before the first request: the next motion has the number behind this one. Otherwise they count from 1.
   virtual void number_motions_after(MotionId last) = 0;
 

@@ -5,10 +5,12 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/core/quantity.h"
 #include "device/core/time.h"
 #include "device/stage/axes.h"
+#include "device/stage/stop.h"
 #include "device/stage/trigger.h"
 
 namespace axisgate::stage {
@@ -26,6 +28,7 @@ struct AxisStatusBits {
   std::uint32_t raw = 0;
 
   bool bit(int number) const { return (raw >> (number - 1)) & 1u; }
+  bool emergency() const { return bit(6); }
   bool cw_limit() const { return bit(20); }
   bool ccw_limit() const { return bit(21); }
 };
@@ -63,10 +66,12 @@ struct State {
   TimePoint epoch_began{};         // when that was last seen
   std::uint64_t frame_epoch = 0;   // raised with it, and when coordinates were set again: R: RC: PSET:
   std::array<AxisState, kAxisCount> axes;
-  std::optional<int> outputs;      // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
-  std::optional<Trigger> trigger;  // as last read or set
-  bool moving_unknown = false;     // the line was lost while something moved and nothing was read since
-  TimePoint read{};                // when the positions were last read
+  std::optional<int> outputs;               // OUT1 to OUT6 as bits 0 to 5, as last read or set (manual 26), 96))
+  std::optional<Trigger> trigger;           // as last read or set
+  bool moving_unknown = false;              // the line was lost while something moved and nothing was read since
+  TimePoint read{};                         // when the positions were last read
+  std::vector<Stop> open_stops;             // not seen to be obeyed yet; oldest first
+  std::optional<EmergencyLatch> emergency;  // while all motion is forbidden
   AxisSet controllable() const;
   AxisState& axis(int number) { return axes[static_cast<std::size_t>(number - 1)]; }
   const AxisState& axis(int number) const { return axes[static_cast<std::size_t>(number - 1)]; }

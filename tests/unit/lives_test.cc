@@ -50,15 +50,16 @@ TEST(JogTable, EachPairLeadsWhereThePageSays) {
 
 TEST(StopTable, EachPairLeadsWhereThePageSays) {
   const Table table = {
-      {"writing", {"slowing", "ended", "-", "-"}},
-      {"slowing", {"-", "-", "slowing_again", "ended"}},
-      {"slowing_again", {"-", "-", "-", "ended"}},
-      {"ended", {"-", "-", "-", "-"}},
+      {"asked", {"written", "-", "confirmed", "replaced", "withdrawn"}},
+      {"written", {"written", "confirmed", "-", "replaced", "withdrawn"}},
+      {"confirmed", {"-", "-", "-", "-", "-"}},
+      {"replaced", {"-", "-", "-", "-", "-"}},
+      {"withdrawn", {"-", "-", "-", "-", "-"}},
   };
-  const int illegal =
-      illegal_pairs<StopPhase, StopEvent>(table, kStopPhases, {"answered", "refused", "ran_on", "finished"},
-                                          [](StopPhase phase, StopEvent event) { return next(phase, event); });
-  EXPECT_EQ(illegal, 11);
+  const int illegal = illegal_pairs<StopState, StopEvent>(
+      table, stage::kStopStates, {"wrote", "seen_at_rest", "returned_at_rest", "widened", "given_up"},
+      [](StopState state, StopEvent event) { return next(state, event); });
+  EXPECT_EQ(illegal, 17);
 }
 
 TEST(NonHostTable, EachPairLeadsWhereThePageSays) {

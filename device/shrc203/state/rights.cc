@@ -1,10 +1,30 @@
 #include "device/shrc203/state/rights.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "device/core/guard.h"
+#include "device/core/spans.h"
 
 namespace axisgate::shrc203 {
+
+namespace {
+
+Problem not_confirmed(const Stop& stop, TimePoint now) {
+  if (stop.stale) {
+    return {
+        .reason = Reason::stale_setpoint,
+        .message = fmt::format("a stop left a stale setpoint of {} in the controller, which the next start would run",
+                               to_string(stop.axes)),
+        .hint = "reset the controller (RESET: or power) before moving these axes"};
+  }
+  return {.reason = Reason::stop_unconfirmed,
+          .message = fmt::format("the {} by {} ({} ago) is not confirmed: nobody has seen the axes obey it",
+                                 title_of(stop), fmt::join(stop.callers, ", "), for_people(now - stop.asked)),
+          .hint = "try again once it is confirmed; `axisctl status` shows the open stops"};
+}
+
+}  // namespace
 
 Result<void> Rights::check_epochs(const RequestContext& context) const {
   const State& state = store_.state();
@@ -29,6 +49,28 @@ Result<void> Rights::check_epochs(const RequestContext& context) const {
 Result<void> Rights::authorize(const RequestContext& context, AxisSet axes) {
   if (const auto good = check_epochs(context); !good) return good;
   return still_authorized({context.who, context.lease, axes, 0});
+}
+
+Result<void> Rights::authorize_motion(const RequestContext& context, AxisSet axes) {
+  if (auto forbidden = motion_forbidden(axes)) return tl::unexpected(*std::move(forbidden));
+  return authorize(context, axes);
+}
+
+std::optional<Problem> Rights::motion_forbidden(AxisSet axes) const {
+  const State& state = store_.state();
+  if (axes.empty()) return std::nullopt;
+  if (state.emergency) {
+    return Problem{
+        .reason = Reason::emergency_stopped,
+        .message = fmt::format("{} asked for an emergency stop {} ago, and nothing moves until it is cleared",
+                               state.emergency->who, for_people(tasks_.now() - state.emergency->at)),
+        .hint = "see that it is safe, then clear it for all axes: axisctl clear"};
+  }
+  for (const Stop& stop : state.open_stops) {
+    if (!stop.late || !stop.axes.touches(axes) || !guarded(Guard::open_stop_refuses_motion)) continue;
+    return not_confirmed(stop, tasks_.now());
+  }
+  return std::nullopt;
 }
 
 }  // namespace axisgate::shrc203

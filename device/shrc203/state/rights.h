@@ -2,6 +2,7 @@
 // (device/stage/permission.h).
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "device/core/problem.h"
@@ -21,6 +22,11 @@ class Rights {
   Result<void> check_epochs(const RequestContext& context) const;
   // Also what the keeper of leases refuses: before anything is queued.
   Result<void> authorize(const RequestContext& context, AxisSet axes);
+  // The same for a motion, or a line that sets or starts one. Also emergency_stopped, stop_unconfirmed, stale_setpoint.
+  Result<void> authorize_motion(const RequestContext& context, AxisSet axes);
+  // Why nobody may move these axes now: the latch of an emergency stop, or a stop that was not seen to be obeyed.
+  // nullopt if somebody may, and for no axes.
+  std::optional<Problem> motion_forbidden(AxisSet axes) const;
   // What the keeper alone refuses.
   Result<void> still_authorized(const Use& use) { return permission_.authorize(use, tasks_.now()); }
 

@@ -40,6 +40,11 @@ void StateStore::lost() {
   }
 }
 
+bool StateStore::is_expected(const Identity& identity) const {
+  const std::string& serial_number = expected_unit();
+  return identity.model == profile_.model && (serial_number.empty() || identity.serial_number == serial_number);
+}
+
 void StateStore::identified(const Identity& identity) {
   state_.vendor = identity.vendor;
   state_.model = identity.model;

@@ -6,6 +6,8 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
@@ -20,7 +22,7 @@
 namespace axisgate::shrc203 {
 
 // Why the link is not up, as far as anything is decided by it; State::link_problem has it in words.
-enum class LinkTrouble { none, line, mode, format, motion };
+enum class LinkTrouble { none, line, mode, format, motion, other_unit };
 
 // On the controller's strand, like all of this folder.
 class StateStore {
@@ -60,6 +62,9 @@ class StateStore {
   void identified(const Identity& identity);
   // The serial number that has passed a handshake; empty before the first.
   const std::string& unit() const { return unit_; }
+  // The serial number that must answer: the configured one, or that of the unit before; empty: any.
+  const std::string& expected_unit() const { return profile_.serial_number.empty() ? unit_ : profile_.serial_number; }
+  bool is_expected(const Identity& identity) const;
   void note_mode(std::string mode) { state_.mode = std::move(mode); }
   void note_format(std::string format) { state_.format = std::move(format); }
   void note_controllable(AxisSet axes);
@@ -83,6 +88,8 @@ class StateStore {
   void note_outputs(std::optional<int> outputs) { state_.outputs = outputs; }
   void note_trigger(std::optional<Trigger> trigger) { state_.trigger = std::move(trigger); }
   void note_armed(AxisSet axes, bool armed);
+  void note_open_stops(std::vector<Stop> stops) { state_.open_stops = std::move(stops); }
+  void note_emergency(std::optional<EmergencyLatch> latch) { state_.emergency = std::move(latch); }
   // `reported`: what ?:P was answered.
   void note_scale(int axis, const Scale& scale) { state_.axis(axis).scale = scale; }
   void note_reported_scales(std::string reported) { reported_scales_ = std::move(reported); }

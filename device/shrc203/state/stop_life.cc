@@ -5,26 +5,28 @@
 #include "device/core/transitions.h"
 
 namespace axisgate::shrc203 {
-std::string_view name(StopPhase phase) {
-  static constexpr std::array<std::string_view, kStopPhases> kNames = {"writing", "slowing", "slowing_again", "ended"};
-  return kNames.at(static_cast<std::size_t>(phase));
-}
+
 std::string_view name(StopEvent event) {
-  static constexpr std::array<std::string_view, kStopEvents> kNames = {"answered", "refused", "ran_on", "finished"};
+  static constexpr std::array<std::string_view, kStopEvents> kNames = {"wrote", "seen_at_rest", "returned_at_rest",
+                                                                       "widened", "given_up"};
   return kNames.at(static_cast<std::size_t>(event));
 }
+
 // As README.md draws it.
-std::optional<StopPhase> next(StopPhase phase, StopEvent event) {
-  using Phase = StopPhase;
+std::optional<StopState> next(StopState state, StopEvent event) {
+  using State = StopState;
   using Event = StopEvent;
-  static constexpr auto kTable = std::to_array<Transition<Phase, Event>>({
-      {Phase::writing, Event::answered, Phase::slowing},
-      {Phase::writing, Event::refused, Phase::ended},
-      {Phase::slowing, Event::ran_on, Phase::slowing_again},
-      {Phase::slowing, Event::finished, Phase::ended},
-      {Phase::slowing_again, Event::finished, Phase::ended},
+  static constexpr auto kTable = std::to_array<Transition<State, Event>>({
+      {State::asked, Event::wrote, State::written},
+      {State::asked, Event::returned_at_rest, State::confirmed},
+      {State::asked, Event::widened, State::replaced},
+      {State::asked, Event::given_up, State::withdrawn},
+      {State::written, Event::wrote, State::written},
+      {State::written, Event::seen_at_rest, State::confirmed},
+      {State::written, Event::widened, State::replaced},
+      {State::written, Event::given_up, State::withdrawn},
   });
-  return next_in(kTable, phase, event);
+  return next_in(kTable, state, event);
 }
 
 }  // namespace axisgate::shrc203

@@ -1,4 +1,4 @@
-// The life of a stop: one enum, changed in one place by the table of README.md.
+// The life of a stop: one enum (stage::StopState), changed in one place by the table of README.md.
 #pragma once
 
 #include <cstddef>
@@ -12,39 +12,43 @@
 
 namespace axisgate::shrc203 {
 
-enum class StopPhase {
-  writing,        // its L: is not answered yet: the same stop by others joins it
-  slowing,        // waits until the axes are stationary
-  slowing_again,  // they ran on, or may have started again: it was written once more
-  ended,          // its report is complete
-};
-inline constexpr std::size_t kStopPhases = 4;
-
 enum class StopEvent {
-  answered,  // its L: was, and the axes can be looked at
-  refused,   // it was not written, or nobody can look at the axes
-  ran_on,
-  finished,  // the axes are stationary, or the wait for that has run out
+  wrote,             // its line is about to go out, for the first time or again
+  seen_at_rest,      // a reading that began after the write showed its axes stationary and their prebuffers empty
+  returned_at_rest,  // the controller took no stop in its mode, and its axes were stationary when it was back in HOST
+  widened,           // a wider stop includes it
+  given_up,          // an administrator withdraws it
 };
-inline constexpr std::size_t kStopEvents = 4;
+inline constexpr std::size_t kStopEvents = 5;
 
-std::string_view name(StopPhase phase);  // "writing", as in README.md
-std::string_view name(StopEvent event);
-// The phase after the event; nothing where the table has none.
-std::optional<StopPhase> next(StopPhase phase, StopEvent event);
+std::string_view name(StopEvent event);  // "wrote", as in README.md
+// Returns the state after the event; nullopt if the table has none.
+std::optional<StopState> next(StopState state, StopEvent event);
 
-enum class StopKind { stop, emergency };  // L:, L:E
-
+// A stop and the callers who wait for it.
 struct StopJob {
-  AxisSet axes;
-  StopKind kind = StopKind::stop;
-  StopPhase phase = StopPhase::writing;  // changed by Stops::change() alone
-  RequestContext context;
-  std::vector<StageController::OnStopped> done;  // empty ones have been answered
-  StopReport report;
-  bool stationary = false;  // the last reading showed it
+  struct Caller {
+    AxisSet axes;  // that this caller named
+    TimePoint asked{};
+    std::optional<TimePoint> answer_by{};
+    StageController::OnStopped done;  // empty once answered
+  };
 
-  AxisSet stops() const { return kind == StopKind::emergency ? AxisSet::all() : axes; }
+  AxisSet excluded() const { return stop.kind == StopKind::emergency ? AxisSet::all() : stop.axes; }
+  bool open() const { return is_open(stop.state); }
+
+  Stop stop;               // its state is changed by OpenStops alone
+  RequestContext context;  // of the first caller
+  std::vector<Caller> callers;
+  StopReport report;           // of all its axes
+  TimePoint write_at{};        // TimePoint::max(): once the line has spoken
+  bool taken = false;          // the newest write was received, so that one READY is enough
+  bool named_several = false;  // the newest write was not answered yet, and NG may be due to one of its axes
+  bool kept_waiting = false;   // the mode took no stop: it is written only if an axis is busy on the return to HOST
+  bool at_rest = false;        // the newest reading showed it
+  int looks_at_rest = 0;       // readings in a row that showed it
+  TimePoint rest_since{};      // of the first of them
+  int kept_looks = 0;          // readings that showed a segment in a prebuffer although the axes rest
 };
 using StopJobPtr = std::shared_ptr<StopJob>;
 
