@@ -30,17 +30,20 @@
 #include "device/shrc203/session/lease_orders.h"
 #include "device/shrc203/session/lease_settings.h"
 #include "device/shrc203/session/non_host_visit.h"
-#include "device/shrc203/session/orphans.h"
 #include "device/shrc203/session/polling.h"
+#include "device/shrc203/session/previous_run.h"
 #include "device/shrc203/session/reader.h"
 #include "device/shrc203/session/restart_check.h"
 #include "device/shrc203/session/restorer.h"
 #include "device/shrc203/session/session.h"
 #include "device/shrc203/session/settings_reader.h"
+#include "device/shrc203/session/stop_look.h"
+#include "device/shrc203/session/stop_writer.h"
 #include "device/shrc203/session/stops.h"
 #include "device/shrc203/session/wind_down.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/open_stops.h"
 #include "device/shrc203/state/pending_restores.h"
 #include "device/shrc203/state/registers.h"
 #include "device/shrc203/state/rights.h"
@@ -58,6 +61,7 @@ struct Controller::Rooms {
         line(profile, link, tasks.executor(), session),
         rights(keeper, store, tasks),
         non_host(session),
+        open_stops(store, tasks, session),
         motions(store, line, registers, rights, tasks, session) {}
 
   const Profile profile;
@@ -71,6 +75,7 @@ struct Controller::Rooms {
   PendingRestores pending;
   Rights rights;
   NonHost non_host;
+  OpenStops open_stops;
   Motions motions;
 
   Dialogue dialogue{line, tasks};
@@ -78,18 +83,21 @@ struct Controller::Rooms {
   Reader reader{dialogue, line, panel, store, registers, motions, tasks};
   SettingsReader settings_reader{dialogue, reader, store};
   Explainer explainer{dialogue, reader, line, store, registers, non_host, tasks};
-  Stops stops{dialogue, line, reader, store, motions, registers, non_host, tasks, session};
-  Orphans orphans{stops, store};
+  StopWriter stop_writer{dialogue, line, store, open_stops, non_host, tasks};
+  StopLook stop_look{dialogue, reader, store, open_stops, registers, non_host, tasks};
+  Stops stops{stop_writer, stop_look, line, store, open_stops, motions, tasks};
+  PreviousRun previous_run{stops, store};
   LeaseSettings lease_settings{reader, store, pending, permission};
   Restorer restorer{dialogue, reader, store, motions, pending, permission, ending, tasks};
   LeaseOrders lease_orders{permission, stops, restorer, tasks};
   NonHostVisit non_host_visit{dialogue, line, reader, settings_reader, store, motions, registers, non_host, tasks};
-  Handshake handshake{dialogue, line,      reader,   settings_reader, orphans, store,
-                      motions,  registers, non_host, permission,      tasks};
+  Handshake handshake{dialogue, line,    reader,    settings_reader, stops,      stop_writer, previous_run,
+                      store,    motions, registers, non_host,        permission, tasks};
   RestartCheck restart_check{dialogue, line, reader, store, tasks};
-  ErrorClearing error_clearing{dialogue, reader, store, rights, non_host, tasks};
+  ErrorClearing error_clearing{dialogue, reader, store, open_stops, rights, non_host, tasks};
   WindDown wind_down{line, stops, restorer, store, motions, ending, tasks};
-  Session session{line, handshake, restart_check, stops, orphans, store, motions, registers, rights, ending, tasks};
+  Session session{line,  handshake, restart_check, stops,  stop_writer, previous_run,
+                  store, motions,   registers,     rights, ending,      tasks};
 
   TriggerCount triggers{dialogue, store};
   Watch watch{line, reader, triggers, store, motions, tasks};
@@ -257,6 +265,10 @@ void Controller::emergency_stop(const RequestContext& context, TimePoint now, On
   });
 }
 
+void Controller::withdraw_stop(StopId id, const RequestContext& context, TimePoint now, OnDone done) {
+  at(now, [&] { rooms_->stops.withdraw(id, context, done); });
+}
+
 void Controller::clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) {
   if (rooms_->ending) return done(tl::unexpected(*rooms_->ending));
   at(now, [&] { rooms_->error_clearing.clear(axes, context, std::move(done)); });
@@ -279,9 +291,10 @@ void Controller::cancel_motion(MotionId id, const RequestContext& context, TimeP
 
 void Controller::number_motions_after(MotionId last) { rooms_->motions.number_after(last); }
 
-void Controller::inherit(const stage::Unfinished& unfinished) {
-  rooms_->line.ask_line_before();
-  rooms_->orphans.inherit(unfinished);
+void Controller::inherit(const stage::Inheritance& left) {
+  if (left.unfinished) rooms_->line.ask_line_before();
+  rooms_->previous_run.inherit(left.unfinished);
+  rooms_->stops.inherit(left);
 }
 
 void Controller::wind_down(TimePoint now, OnWoundDown done) {

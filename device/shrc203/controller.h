@@ -44,6 +44,7 @@ class Controller : public StageController {
   Result<void> check(const GoToPositionRequest& request) const override;
   void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) override;
   void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) override;
+  void withdraw_stop(StopId id, const RequestContext& context, TimePoint now, OnDone done) override;
   void clear_errors(AxisSet axes, const RequestContext& context, TimePoint now, OnDone done) override;
   void execute(ExecuteRequest request, TimePoint now, OnExecute event) override;
   std::vector<Motion> motions() const override;
@@ -51,7 +52,7 @@ class Controller : public StageController {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
   int outstanding_answers() const override;
-  void inherit(const stage::Unfinished& unfinished) override;
+  void inherit(const stage::Inheritance& left) override;
   void number_motions_after(MotionId last) override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 

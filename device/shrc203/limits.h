@@ -101,20 +101,21 @@ inline constexpr Duration kTriggerRestorePause = std::chrono::milliseconds(60);
 
 // --- Stop ---
 
-// A stop can be written twice without harm, so one that was not answered is written again.
-inline constexpr int kStopTries = 3;
-// How long a stop waits for a line that is down.
+// A caller is told after this time that the line does not work, and that the stop stays open.
 inline constexpr Duration kStopReopenLimit = std::chrono::seconds(1);
 // How long a stop waits for its turn on a line that is open: only other stops and a barrier are before it.
 inline constexpr Duration kStopWriteLimit = std::chrono::seconds(10);
-// How long the axes may take to be stationary. The longest R is 1 s (manual 89) D:).
+// How long the axes may take to be stationary before a caller is told that the stop stays open. The longest R is 1 s
+// (manual 89) D:).
 inline constexpr Duration kStopStationaryLimit = std::chrono::seconds(10);
 // An axis that still moves so long after it should have slowed down is stopped again.
 inline constexpr Duration kStopRepeatAfterSlowing = std::chrono::milliseconds(200);
 // What is asked once the axes are stationary (prebuffers, excitation) holds up the answer to a stop no longer than
 // this.
 inline constexpr Duration kStopAnswerLimit = std::chrono::milliseconds(500);
+// Between two looks at axes that are to be stationary soon, and at those that only a person can help.
 inline constexpr Duration kStopStationaryPoll = std::chrono::milliseconds(50);
+inline constexpr Duration kStopLastingPoll = std::chrono::seconds(5);
 
 // --- Jog ---
 

@@ -36,6 +36,8 @@ class RecordingListener : public LineListener {
     news.push_back("connected " + identity.serial_number);
   }
   void line_opened(TimePoint) override {}
+  std::vector<ExchangeRequest> stops_to_write(std::string_view, TimePoint) override { return {}; }
+  bool stop_is_open() const override { return false; }
   void line_trusted(TimePoint) override {}
   void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override { news.push_back("lost: " + why); }

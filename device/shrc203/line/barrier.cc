@@ -126,6 +126,7 @@ void Barrier::advance(TimePoint now) {
 
 void Barrier::probe_again(TimePoint now) {
   if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
+    if (step_ == Step::echo && line_in_doubt_ == kAnyLine) return begin(Step::identity, now);
     state_ = State::failed;
   } else {
     probe(now);

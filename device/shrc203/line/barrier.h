@@ -34,8 +34,10 @@ class Barrier {
     Duration silence;
   };
 
-  // `line_in_doubt` is empty after a connect: ?:CMD is then not asked. `is_known`: that of the controller that is
-  // expected. `write` sends one line.
+  // `line_in_doubt` is empty after a connect, and ?:CMD is then not asked; kAnyLine after a connect that begins with
+  // it: a controller that does not answer it is asked for its identity all the same. `is_known`: that of the controller
+  // that is expected. `write` sends one line.
+  static constexpr std::string_view kAnyLine = "?";
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
           std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write);
 

@@ -45,9 +45,8 @@ void Line::link_up(TimePoint now) {
   completions_.connected();
   continuity_.connected();
   // Whatever ?:CMD answers is new here.
-  constexpr const char* kUnknown = "?";
-  barrier_ = make_barrier(asks_line_before_ ? kUnknown : "", connect_limits());
-  write_waiting_stops();
+  barrier_ = make_barrier(std::string(asks_line_before_ ? Barrier::kAnyLine : ""), connect_limits());
+  write_open_stops({});
   barrier_->start(now);
 }
 
@@ -58,8 +57,21 @@ void Line::link_down(TimePoint now, std::string_view why) {
   }
   change(LinkEvent::lost, now);
   listener_.line_lost(std::string(why), now);
-  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
-  backoff_ = std::min(backoff_ * 2, kReopenBackoffMax);
+  link_.reopen(pause_before_reopening());
+}
+
+// While a stop is open every moment counts.
+Duration Line::pause_before_reopening() {
+  if (!guarded(Guard::backoff)) return Duration::zero();
+  if (listener_.stop_is_open() && guarded(Guard::stop_reopens_soon)) return kReopenBackoffMin;
+  return std::exchange(backoff_, std::min(backoff_ * 2, kReopenBackoffMax));
+}
+
+void Line::open_at_once(TimePoint now) {
+  if (state_.phase() != LinkPhase::closed) return;
+  now_ = now;
+  change(LinkEvent::stop_waits, now);
+  link_.reopen(Duration::zero());
 }
 
 void Line::disconnect(const std::string& why, TimePoint now) {
@@ -76,10 +88,9 @@ void Line::disconnect(const std::string& why, TimePoint now) {
   if (in_flight_) {
     finish({.written = true, .problem = lost}, ExchangeEnded::Outcome::link_lost, now);
   }
-  withdraw([](const ExchangeRequest& request) { return request.lane != Lane::stop; }, lost);
+  withdraw([](const ExchangeRequest&) { return true; }, lost);
   listener_.line_lost(why, now);
-  link_.reopen(guarded(Guard::backoff) ? backoff_ : Duration::zero());
-  backoff_ = std::min(backoff_ * 2, kReopenBackoffMax);
+  link_.reopen(pause_before_reopening());
 }
 
 void Line::open(AxisSet controllable, TimePoint now) {
@@ -111,7 +122,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     answer.deliver({.written = false, .problem = *sealed_});
     return answer;
   }
-  if (!state_.port_open() && !is_stop) {
+  if (!state_.port_open()) {
     const Problem down = problem_of(Reason::link_down, "the line to the controller is down", request.command.line);
     answer.deliver({.written = false, .problem = down});
     return answer;
@@ -143,11 +154,6 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     full.sent = waiting->request.command.line;
     answer.deliver({.written = false, .problem = std::move(full)});
     return answer;
-  }
-  if (is_stop && state_.phase() == LinkPhase::closed) {
-    // A line that answers nothing may still carry a Stop.
-    change(LinkEvent::stop_waits, now);
-    link_.reopen(Duration::zero());
   }
   if (is_stop && barrier_) send_stops_now(now);
   pump(now);

@@ -68,6 +68,11 @@ class LineListener {
  public:
   virtual ~LineListener() = default;
   virtual void line_opened(TimePoint now) = 0;
+  // Returns the stops to write now, before any probe: the port was opened (`heard` is empty), or a line that is no axis
+  // number came in during a barrier. Their answers are not waited for.
+  virtual std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) = 0;
+  // Whether a stop waits to be obeyed, so that a closed port is opened again soon.
+  virtual bool stop_is_open() const = 0;
   // The identity was received and the line fell silent: the handshake may run.
   // `line_before`: what the controller had been sent before, where Line::ask_line_before() was called.
   virtual void line_connected(const Identity& identity, const std::optional<std::string>& line_before,
@@ -97,6 +102,9 @@ class Line {
   void receive(std::string_view bytes, TimePoint now);
   void advance(TimePoint now);
   std::optional<TimePoint> next_deadline(TimePoint now) const;
+
+  // A closed port is opened now instead of after its pause: a stop waits.
+  void open_at_once(TimePoint now);
 
   // co_await yields an ExchangeResult, always. Identical questions that wait in one lane share an exchange.
   OneShot<ExchangeResult> exchange(ExchangeRequest request, TimePoint now);
@@ -161,6 +169,8 @@ class Line {
   void send(WaitingPtr waiting, TimePoint now);
   void send_stops_now(TimePoint now);
   bool write_waiting_stops();  // whether there were any
+  bool write_open_stops(std::string_view heard);
+  Duration pause_before_reopening();
   // `cause` is null for what the line asks for itself.
   void write_line(std::string_view line, std::uint64_t exchange = 0, const ExchangeRequest* cause = nullptr);
   ExchangeEnded ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,

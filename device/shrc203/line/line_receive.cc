@@ -66,6 +66,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     return listener_.line_event(ProgramNotice{*reported}, now);
   }
   if (!overlong && on_axis_number(line.text, now)) return;
+  if (barrier_ && write_open_stops(line.text) && guarded(Guard::barrier_after_stop)) barrier_->restart(now);
   if (barrier_) return in_barrier(line.text, now);
   if (!in_flight_) {
     if (!settle_outstanding(outstanding_, line.text)) unexpected(line.text, now);
@@ -274,7 +275,6 @@ void Line::enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome,
 void Line::barrier_moved(TimePoint now) {
   if (!barrier_ || barrier_->state() == Barrier::State::probing) return;
   if (barrier_->state() == Barrier::State::failed) {
-    asks_line_before_ = false;  // a controller that does not say is connected without it
     disconnect(barrier_->why_failed(), now);
     return;
   }

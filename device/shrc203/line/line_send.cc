@@ -166,6 +166,12 @@ void Line::send_stops_now(TimePoint now) {
   if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);
 }
 
+bool Line::write_open_stops(std::string_view heard) {
+  const auto stops = listener_.stops_to_write(heard, now_);
+  for (const ExchangeRequest& stop : stops) write_line(stop.command.line, ++exchanges_, &stop);
+  return !stops.empty();
+}
+
 bool Line::write_waiting_stops() {
   bool any = false;
   queue_.drain([](const WaitingPtr& waiting) { return waiting->request.lane == Lane::stop; },

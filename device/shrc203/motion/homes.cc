@@ -48,7 +48,7 @@ Result<void> Homes::check_alone(MotionKind kind, AxisSet axes) const {
 void Homes::home(MotionKind kind, HomeRequest request, StageController::OnStarted started) {
   const AxisSet axes = request.axes.empty() ? store_.controllable() : request.axes;
   auto good = check(kind, axes, request.context);
-  if (good) good = rights_.authorize(request.context, axes);
+  if (good) good = rights_.authorize_motion(request.context, axes);
   if (good) good = check_alone(kind, axes);
   if (!good) return started(tl::unexpected(good.error()));
   tasks_.spawn(run(motions_.create(kind, axes, request.context, std::move(started))));

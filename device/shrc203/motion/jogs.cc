@@ -56,7 +56,7 @@ Command jog_setter(const Jog& jog, AxisSet axes) {
 MotionId Jogs::jog(JogRequest request, StageController::OnStarted started) {
   const auto speeds = check_jog(request.axes, store_.envelope(request.context));
   const AxisSet axes = axes_of(request.axes);
-  auto good = speeds ? rights_.authorize(request.context, axes) : tl::unexpected(speeds.error());
+  auto good = speeds ? rights_.authorize_motion(request.context, axes) : tl::unexpected(speeds.error());
   if (!good) {
     started(tl::unexpected(good.error()));
     return 0;

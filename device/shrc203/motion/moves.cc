@@ -42,7 +42,7 @@ Result<MovePlan> Moves::check(const MoveRequest& request) const {
 void Moves::move(MoveRequest request, StageController::OnStarted started) {
   const auto plan = check(request);
   if (!plan) return started(tl::unexpected(plan.error()));
-  if (const auto allowed = rights_.authorize(request.context, plan->set()); !allowed) {
+  if (const auto allowed = rights_.authorize_motion(request.context, plan->set()); !allowed) {
     return started(tl::unexpected(allowed.error()));
   }
   auto live = motions_.create(MotionKind::move, plan->set(), request.context, std::move(started));

@@ -49,7 +49,7 @@ Result<PathPlan> Paths::plan(const PathRequest& request) const {
 void Paths::run(PathRequest request, StageController::OnStarted started) {
   const auto planned = plan(request);
   if (!planned) return started(tl::unexpected(planned.error()));
-  if (const auto allowed = rights_.authorize(request.context, planned->axes); !allowed) {
+  if (const auto allowed = rights_.authorize_motion(request.context, planned->axes); !allowed) {
     return started(tl::unexpected(allowed.error()));
   }
   auto live = motions_.create(MotionKind::path, planned->axes, request.context, std::move(started));

@@ -83,7 +83,7 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
   }
   auto good = check(request);
   // Which axes need not move is the controller's business: it is one command for all.
-  if (good) good = rights_.authorize(request.context, AxisSet::all());
+  if (good) good = rights_.authorize_motion(request.context, AxisSet::all());
   if (!good) return started(tl::unexpected(good.error()));
   auto live = motions_.create(MotionKind::move, axes, request.context, std::move(started));
   live->uses = AxisSet::all();

@@ -15,7 +15,7 @@ Result<void> Scans::check(const ScanRequest& request) const {
 
 void Scans::scan(ScanRequest request, StageController::OnStarted started) {
   auto good = check(request);
-  if (good) good = rights_.authorize(request.context, store_.controllable());
+  if (good) good = rights_.authorize_motion(request.context, store_.controllable());
   if (!good) return started(tl::unexpected(good.error()));
   auto live = motions_.create(MotionKind::scan, AxisSet::of(request.axis), request.context, std::move(started));
   live->uses = store_.controllable();  // there is one trigger

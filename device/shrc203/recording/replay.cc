@@ -55,6 +55,7 @@ class Replay : LineListener, ByteLink {
   void provoke(std::size_t index);
   void ask_for(std::size_t index);
   void ask(std::size_t index);
+  std::optional<ExchangeRequest> request_of(const Moment& moment) const;
   void lose(std::size_t index);
   std::size_t next_asked_by_somebody(std::size_t index) const;
   bool waited_at(std::size_t index, const Moment& question) const;
@@ -67,6 +68,8 @@ class Replay : LineListener, ByteLink {
 
   // LineListener
   void line_opened(TimePoint) override {}
+  std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) override;
+  bool stop_is_open() const override { return false; }
   void line_connected(const Identity&, const std::optional<std::string>&, TimePoint) override {}
   void line_trusted(TimePoint) override {}
   void same_controller(TimePoint) override {}
@@ -96,6 +99,7 @@ class Replay : LineListener, ByteLink {
   TimePoint now_{};
   bool up_ = false, suspected_ = false;
   std::uint64_t last_exchange_ = 0;
+  std::size_t fed_ = 0;               // the moment that the line is fed now
   std::deque<Operation> operations_;  // of the core, not yet compared
   std::set<std::size_t> asked_;       // moments whose exchange has been requested
   std::set<std::size_t> applied_;     // moments that have been fed ahead of others
@@ -209,15 +213,24 @@ void Replay::let_stops_wait(std::size_t index) {
   }
 }
 
+// The recording says which stops were open: those that it has directly after what the line is fed now.
+std::vector<ExchangeRequest> Replay::stops_to_write(std::string_view, TimePoint) {
+  std::vector<ExchangeRequest> stops;
+  for (std::size_t next = fed_ + 1; is_stop_at_once(next, moments_[fed_].at); ++next) {
+    if (!asked_.insert(next).second) continue;
+    if (auto stop = request_of(moments_[next])) stops.push_back(*std::move(stop));
+  }
+  return stops;
+}
+
 void Replay::feed(std::size_t index) {
   const Moment& moment = moments_[index];
+  fed_ = index;
   switch (moment.what) {
     case What::received:
       report_.bytes_received += moment.text.size();
       return line_.receive(moment.text, now_);
     case What::connecting:
-      // Stops that were waiting go before anything else.
-      for (std::size_t next = index + 1; is_stop_at_once(next, moment.at); ++next) ask(next);
       return line_.link_up(now_);
     case What::up:
       up_ = true;
@@ -327,9 +340,13 @@ bool Replay::is_stop_at_once(std::size_t index, TimePoint at) const {
 
 void Replay::ask(std::size_t index) {
   asked_.insert(index);
-  const Moment& moment = moments_[index];
+  if (auto request = request_of(moments_[index])) line_.exchange(*std::move(request), now_);
+}
+
+// nullopt for a line that is no command: nothing is written then, which is a difference.
+std::optional<ExchangeRequest> Replay::request_of(const Moment& moment) const {
   auto command = command_of(moment);
-  if (!command) return;  // nothing is written, which is a difference
+  if (!command) return std::nullopt;
   ExchangeRequest request;
   request.command = *std::move(command);
   request.lane = *moment.begins->lane;
@@ -338,7 +355,7 @@ void Replay::ask(std::size_t index) {
   request.completes = moment.begins->completes;
   request.closed = moment.begins->closed;
   request.handshake = !up_ || suspected_;
-  line_.exchange(std::move(request), now_);
+  return request;
 }
 
 }  // namespace

@@ -1,8 +1,12 @@
 #include "device/shrc203/session/clear_errors.h"
 
+#include <fmt/format.h>
+
 #include <utility>
 
+#include "device/core/guard.h"
 #include "device/shrc203/limits.h"
+#include "device/stage/envelope.h"
 
 namespace axisgate::shrc203 {
 
@@ -10,24 +14,29 @@ void ErrorClearing::clear(AxisSet axes, RequestContext context, StageController:
   tasks_.spawn(run(axes, std::move(context), std::move(done)));
 }
 
-Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageController::OnDone done) {
-  ExchangeRequest request;
+// The axes to clear.
+Result<AxisSet> ErrorClearing::check(AxisSet axes, const RequestContext& context) {
   const AxisSet named = axes.empty() ? store_.controllable() : axes;
-  if (named.empty()) {
-    done(tl::unexpected(store_.not_up()));
+  if (named.empty()) return tl::unexpected(store_.not_up());
+  if (non_host_.away()) return tl::unexpected(non_host_.problem());
+  if (open_stops_.including(store_.controllable(), StopKind::emergency) && guarded(Guard::emergency_cleared_for_all)) {
+    return fail(Reason::stop_unconfirmed, "the emergency stop is not confirmed: nobody has seen the axes obey it",
+                "clear it once it is confirmed; `axisctl status` shows the open stops");
+  }
+  if (const auto allowed = rights_.authorize(context, named); !allowed) return tl::unexpected(allowed.error());
+  return named;
+}
+
+Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageController::OnDone done) {
+  const auto named = check(axes, context);
+  if (!named) {
+    done(tl::unexpected(named.error()));
     co_return;
   }
-  if (non_host_.away()) {
-    done(tl::unexpected(non_host_.problem()));
-    co_return;
-  }
-  if (const auto allowed = rights_.authorize(context, named); !allowed) {
-    done(tl::unexpected(allowed.error()));
-    co_return;
-  }
-  request.command = commands::clear_errors(named);
+  ExchangeRequest request;
+  request.command = commands::clear_errors(*named);
   request.lease = context.lease;
-  request.uses = named;
+  request.uses = *named;
   request.lane = Lane::motion;
   request.caller = context.who;
   request.identity = context.takes_turns_as();
@@ -46,8 +55,23 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   } else if (!read) {
     done(tl::unexpected(read.error()));
   } else {
-    done({});
+    done(lift_latch(*named, context.who));
   }
+}
+
+// Where a new emergency stop has come meanwhile, its latch stays.
+Result<void> ErrorClearing::lift_latch(AxisSet axes, const std::string& who) {
+  if (!store_.state().emergency) return {};
+  const bool all = axes.contains(store_.controllable()) || !guarded(Guard::emergency_cleared_for_all);
+  if (!all || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
+  for (const int axis : store_.controllable().list()) {
+    if (!store_.state().axis(axis).status.emergency()) continue;
+    return fail_on(axis, Reason::emergency_stopped,
+                   fmt::format("axis {} is still in emergency stop, although BEC: was accepted", axis),
+                   "release the emergency stop button, then clear again");
+  }
+  open_stops_.unlatch(who);
+  return {};
 }
 
 }  // namespace axisgate::shrc203

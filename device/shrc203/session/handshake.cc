@@ -15,15 +15,17 @@ namespace axisgate::shrc203 {
 
 // Gives the line up where another unit answers than the configured one, or than the first that passed.
 bool Handshake::is_expected(const Identity& identity) {
+  if (!guarded(Guard::serial_number) || store_.is_expected(identity)) return true;
   const Profile& profile = store_.profile();
-  const bool configured = !profile.serial_number.empty();
-  const std::string& serial_number = configured ? profile.serial_number : store_.unit();
-  const bool wrong_serial = !serial_number.empty() && identity.serial_number != serial_number;
-  if (!guarded(Guard::serial_number) || (identity.model == profile.model && !wrong_serial)) return true;
-  const bool as_configured = configured || store_.unit().empty();
-  line_.disconnect(fmt::format("{} {} answers, but {} {} {}", escaped(identity.model), escaped(identity.serial_number),
-                               profile.model, serial_number, as_configured ? "is configured" : "was here before"),
-                   tasks_.now());
+  const bool as_configured = !profile.serial_number.empty() || store_.unit().empty();
+  const bool stop_open = !store_.state().open_stops.empty();
+  const std::string why =
+      fmt::format("{} {} answers, but {} {} {}{}", escaped(identity.model), escaped(identity.serial_number),
+                  profile.model, store_.expected_unit(), as_configured ? "is configured" : "was here before",
+                  stop_open ? "; it may have received the open stop, and receives no more" : "");
+  stop_writer_.other_unit_answered();
+  line_.disconnect(why, tasks_.now());
+  store_.note_trouble(LinkTrouble::other_unit);
   return false;
 }
 
@@ -106,7 +108,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
     }
     const bool busy = ready.reply->text.find('B') != std::string::npos && guarded(Guard::ready_before_open);
     if (!busy) {
-      orphans_.all_stationary();
+      previous_run_.all_stationary();
       line_.ready(AxisSet::all(), tasks_.now());
       auto quiet = tasks_.pause(kNoCompletionAfterReady);
       co_await quiet;
@@ -118,13 +120,17 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
   co_return false;
 }
 
+std::string_view Handshake::origin_of_motion() const {
+  if (!store_.left_moving().empty()) return "the gateway had started before it was killed";
+  return store_.state().moving_unknown ? "the gateway had started before the line was lost"
+                                       : "the gateway did not start";
+}
+
 Task<void> Handshake::wait_for_others() {
   line_.busy(AxisSet::all(), tasks_.now());
-  orphans_.stop();
-  const bool left = !store_.left_moving().empty();
+  stops_.axes_move();
   store_.note_trouble(LinkTrouble::motion,
-                      fmt::format("something moves that {}; waiting until it is stationary",
-                                  left ? "the gateway had started before it was killed" : "the gateway did not start"));
+                      fmt::format("something moves that {}; waiting until it is stationary", origin_of_motion()));
   const auto read = co_await reader_.read_positions(Lane::question, kGateway, true);
   if (!read) store_.publish();
   auto pause = tasks_.pause(kHandshakeReadyPoll);

@@ -16,8 +16,8 @@ namespace axisgate::shrc203 {
 // What each of them refuses: the problem of its exchange; device_refused where the answer does not report it.
 class Reader {
  public:
-  Reader(Dialogue& dialogue, Line& line, FrontPanel& panel, StateStore& store, Registers& registers,
-         const Motions& motions, const Tasks& tasks)
+  Reader(Dialogue& dialogue, Line& line, FrontPanel& panel, StateStore& store, Registers& registers, Motions& motions,
+         const Tasks& tasks)
       : dialogue_(dialogue),
         line_(line),
         panel_(panel),
@@ -52,7 +52,7 @@ class Reader {
   FrontPanel& panel_;
   StateStore& store_;
   Registers& registers_;
-  const Motions& motions_;
+  Motions& motions_;
   const Tasks& tasks_;
 };
 

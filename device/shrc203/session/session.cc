@@ -14,20 +14,32 @@ namespace axisgate::shrc203 {
 void Session::line_opened(TimePoint) {
   show_link();
   store_.emit(LinkChanged{LinkState::connecting, "the line is open"});
+  stops_.line_opened();
+}
+
+std::vector<ExchangeRequest> Session::stops_to_write(std::string_view heard, TimePoint) {
+  if (!heard.empty() && !line_.state().trusted()) previous_run_.heard(heard);
+  return stop_writer_.lines_due(heard);
 }
 
 void Session::line_trusted(TimePoint) {
   show_link();
   store_.note_trouble(LinkTrouble::none, "");
+  stops_.line_answers();
   store_.emit(LinkChanged{LinkState::up, "", store_.controllable(), store_.state().serial_number});
 }
 
-void Session::same_controller(TimePoint) { show_link(); }
+void Session::same_controller(TimePoint) {
+  show_link();
+  stops_.line_answers();
+}
 
 void Session::line_connected(const Identity& identity, const std::optional<std::string>& line_before, TimePoint) {
   store_.connected();
-  orphans_.identified(identity, line_before);
-  orphans_.stop();
+  if (store_.is_expected(identity)) {
+    previous_run_.identified(identity, line_before);
+    stops_.line_answers();
+  }
   tasks_.spawn(handshake_.run(identity, store_.connection()));
 }
 
@@ -37,23 +49,34 @@ void Session::line_lost(const std::string& why, TimePoint) {
   show_link();
   store_.note_trouble(LinkTrouble::line, why);
   store_.lost();
-  for (const auto& [id, live] : motions_.live()) {
-    if (live->jog && live->life.has_written()) orphans_.add_jogs(live->motion.axes);
-  }
+  stops_.line_lost();
+  stop_jogs();
   motions_.line_lost(why);
   if (!changed) return;
   store_.emit(LinkChanged{LinkState::down, why});
   store_.publish();
 }
 
+// A jog never ends by itself.
+void Session::stop_jogs() {
+  AxisSet axes;
+  for (const auto& [id, live] : motions_.live()) {
+    if (live->jog && live->life.has_written() && !live->life.has_outcome()) axes = axes | live->motion.axes;
+  }
+  if (axes.empty() || !guarded(Guard::orphans_stopped)) return;
+  stops_.stop(axes, {.who = "the gateway, since the line was lost during a jog"});
+}
+
 void Session::barrier_entered(const std::string& why, TimePoint) {
   store_.unsettle();
+  stops_.barrier_entered();
   show_link();
   store_.emit(BarrierEntered{why});
 }
 
 void Session::barrier_passed(const Identity& identity, TimePoint now) {
   show_link();
+  stops_.line_answers();
   if (!line_.state().trusted()) return;
   const State& state = store_.state();
   const bool same = identity.serial_number == state.serial_number && identity.model == state.model;
@@ -110,6 +133,9 @@ Task<void> Session::tell_notices(ProgramNotice::Kind kind) {
 
 std::optional<Problem> Session::may_write(const ExchangeRequest& request, TimePoint) {
   const auto live = motions_.find_live(request.motion);
+  if (live && store_.state().emergency) {
+    if (auto forbidden = rights_.motion_forbidden(live->motion.axes)) return forbidden;
+  }
   // What was abandoned at the gateway's end sends nothing more.
   if (!live && ending_) return ending_;
   const bool alone = request.motion == 0 && !request.uses.empty();

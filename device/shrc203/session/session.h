@@ -6,12 +6,14 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "device/core/tasks.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/handshake.h"
-#include "device/shrc203/session/orphans.h"
+#include "device/shrc203/session/previous_run.h"
 #include "device/shrc203/session/restart_check.h"
 #include "device/shrc203/session/stops.h"
 #include "device/shrc203/state/motions.h"
@@ -24,13 +26,15 @@ namespace axisgate::shrc203 {
 
 class Session : public LineListener, public Violations {
  public:
-  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, Orphans& orphans,
-          StateStore& store, Motions& motions, Registers& registers, Rights& rights, const Ending& ending, Tasks& tasks)
+  Session(Line& line, Handshake& handshake, RestartCheck& restart_check, Stops& stops, StopWriter& stop_writer,
+          PreviousRun& previous_run, StateStore& store, Motions& motions, Registers& registers, Rights& rights,
+          const Ending& ending, Tasks& tasks)
       : line_(line),
         handshake_(handshake),
         restart_check_(restart_check),
         stops_(stops),
-        orphans_(orphans),
+        stop_writer_(stop_writer),
+        previous_run_(previous_run),
         store_(store),
         motions_(motions),
         registers_(registers),
@@ -39,6 +43,8 @@ class Session : public LineListener, public Violations {
         tasks_(tasks) {}
 
   void line_opened(TimePoint now) override;
+  std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) override;
+  bool stop_is_open() const override { return !store_.state().open_stops.empty(); }
   void line_connected(const Identity& identity, const std::optional<std::string>& line_before, TimePoint now) override;
   void line_trusted(TimePoint now) override;
   void line_lost(const std::string& why, TimePoint now) override;
@@ -59,6 +65,7 @@ class Session : public LineListener, public Violations {
 
  private:
   void show_link() { store_.show_link(line_.state().phase()); }
+  void stop_jogs();
   Task<void> tell_notices(ProgramNotice::Kind kind);
 
   struct NoticeCount {
@@ -70,7 +77,8 @@ class Session : public LineListener, public Violations {
   Handshake& handshake_;
   RestartCheck& restart_check_;
   Stops& stops_;
-  Orphans& orphans_;
+  StopWriter& stop_writer_;
+  PreviousRun& previous_run_;
   StateStore& store_;
   Motions& motions_;
   Registers& registers_;

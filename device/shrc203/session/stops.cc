@@ -3,68 +3,72 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "device/core/guard.h"
 #include "device/shrc203/limits.h"
-#include "device/shrc203/session/program_status.h"
 
 namespace axisgate::shrc203 {
-
-void Stops::change(StopJob& job, StopEvent event) {
-  const auto to = next(job.phase, event);
-  if (!to) return violations_.illegal("stop", name(job.phase), name(event));
-  job.phase = *to;
-}
 
 void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done) {
   const AxisSet known = store_.controllable().empty() ? AxisSet::all() : store_.controllable();
   const AxisSet possible = axes & known;
   const AxisSet named = axes.empty() ? known : possible.empty() ? axes : possible;
-  auto job = std::make_shared<StopJob>();
-  job->axes = named;
-  job->kind = kind;
-  job->context = context;
-  store_.emit(StopRequested{named, kind == StopKind::emergency, context.who});
-  withdraw_motions(job->stops(), context);
-  for (const auto& pending : jobs_) {
-    if (guarded(Guard::stops_join) && pending->phase == StopPhase::writing && pending->kind == kind &&
-        pending->axes.contains(named)) {
-      return add_caller(pending, context, std::move(done));
+  const bool emergency = kind == StopKind::emergency;
+  store_.emit(StopRequested{named, emergency, context.who});
+  if (emergency) open_.latch(context.who);
+  withdraw_motions(emergency ? AxisSet::all() : named, context);
+  StopJobPtr job = guarded(Guard::stops_join) ? open_.including(named, kind) : nullptr;
+  if (!job) {
+    job = begin(named, kind, context);
+  } else if (job->taken) {
+    job->write_at = tasks_.now();  // whoever asks again has a reason
+  }
+  add_caller(job, named, context, std::move(done));
+  line_.open_at_once(tasks_.now());
+  wake();
+}
+
+StopJobPtr Stops::begin(AxisSet axes, StopKind kind, const RequestContext& context) {
+  auto job = open_.open(axes, kind, context);
+  motions_.gate().hold(job->excluded());
+  if (guarded(Guard::wider_stop_replaces)) replace_narrower(job);
+  tasks_.spawn(carry_out(job));
+  return job;
+}
+
+// A stop that the wider one includes is over; who waits for it, waits for the wider one.
+void Stops::replace_narrower(const StopJobPtr& wider) {
+  for (const StopJobPtr& job : open_.all()) {
+    const bool emergency = wider->stop.kind == StopKind::emergency;
+    const bool includes = job->stop.kind == StopKind::stop && wider->excluded().contains(job->stop.axes);
+    if (job == wider || (!includes && !(emergency && job->stop.kind == StopKind::stop))) continue;
+    for (const std::string& who : job->stop.callers) open_.note_caller(*wider, who);
+    for (StopJob::Caller& caller : job->callers) {
+      if (!caller.done) continue;
+      wider->callers.push_back({caller.axes, caller.asked, caller.answer_by, std::exchange(caller.done, {})});
+      tasks_.spawn(answer_in_time(wider, wider->callers.size() - 1));
     }
+    wider->stop.late = wider->stop.late || job->stop.late;
+    job->stop.replaced_by = wider->stop.id;
+    open_.change(job, StopEvent::widened);
   }
-  add_caller(job, context, std::move(done));
-  for (const int axis : named.list()) job->report.axes.emplace_back().axis = axis;
-  jobs_.push_back(job);
-  motions_.gate().hold(job->stops());
-  tasks_.spawn(run(job));
 }
 
-void Stops::add_caller(const StopJobPtr& job, const RequestContext& context, OnStopped done) {
-  job->done.push_back(std::move(done));
-  if (context.answer_by) tasks_.spawn(answer_at(job, job->done.size() - 1, *context.answer_by));
+void Stops::add_caller(const StopJobPtr& job, AxisSet axes, const RequestContext& context, OnStopped done) {
+  job->callers.push_back({axes, tasks_.now(), context.answer_by, std::move(done)});
+  open_.note_caller(*job, context.who);
+  tasks_.spawn(answer_in_time(job, job->callers.size() - 1));
 }
 
-// Once. What was seen is the outcome, whatever became of the reply; before that the outcome is unknown.
-void Stops::answer(StopJob& job, std::size_t caller) {
-  const OnStopped done = std::exchange(job.done[caller], {});
-  if (!done) return;
-  StopReport report = job.report;
-  const bool in_doubt = report.problem && report.problem->reason == Reason::outcome_unknown;
-  if (job.stationary && in_doubt) report.problem.reset();
-  if (!job.stationary && !report.problem) {
-    report.problem = Problem{.reason = Reason::outcome_unknown,
-                             .message = "the axes were not confirmed stationary in the time allowed",
-                             .hint = "check with `axisctl status`; use the wired emergency stop if they move"};
+void Stops::inherit(const stage::Inheritance& left) {
+  if (left.emergency) open_.inherit(*left.emergency);
+  for (const StopJobPtr& job : open_.inherit(left.open_stops, left.last_stop)) {
+    job->write_at = TimePoint::max();
+    motions_.gate().hold(job->excluded());
+    tasks_.spawn(carry_out(job));
   }
-  done(std::move(report));
-}
-
-// The stop itself continues.
-Task<void> Stops::answer_at(StopJobPtr job, std::size_t caller, TimePoint limit) {
-  auto pause = tasks_.until(limit);
-  co_await pause;
-  answer(*job, caller);
 }
 
 // The queue of motion on these axes is emptied: what was not written never will be.
@@ -80,205 +84,158 @@ void Stops::withdraw_motions(AxisSet axes, const RequestContext& context) {
   store_.unsettle();
 }
 
-// In the edit modes nothing moves and no stop is taken (manual 111), 117)); a program is stopped by P:E (manual
-// 107)).
-bool Stops::has_no_use(StopJob& job) const {
-  if (!non_host_.edits() || motions_.anything_moves() || !guarded(Guard::stop_off_host)) return false;
-  job.report.problem = non_host_.problem();
-  job.report.problem->hint = "nothing moves in it; use the wired emergency stop if something does";
-  return true;
+Task<void> Stops::carry_out(StopJobPtr job) {
+  bool first = true;
+  while (job->open()) {
+    if (writer_.takes_none()) job->kept_waiting = true;
+    const bool due = tasks_.now() >= job->write_at && !job->kept_waiting;
+    const bool may = first || guarded(Guard::stop_stays_open);
+    if (due && may && writer_.can_write()) co_await writer_.write(job);
+    first = false;
+    if (job->open() && store_.line_works() && !writer_.takes_none()) co_await look_.look(job);
+    seen_.notify();
+    if (!job->open()) break;
+    auto due_now = due_.wait_until(next_step(*job));
+    co_await due_now;
+  }
+  motions_.gate().let_go(job->excluded());
+  seen_.notify();
+}
+
+void Stops::wake() {
+  due_.notify();
+  seen_.notify();
+}
+
+TimePoint Stops::next_step(const StopJob& job) const {
+  const TimePoint now = tasks_.now();
+  const bool lasts =
+      !store_.line_works() || job.stop.stale || (job.stop.late && now - job.stop.asked > kStopStationaryLimit);
+  return now + (lasts ? kStopLastingPoll : kStopStationaryPoll);
+}
+
+void Stops::barrier_entered() { writer_.barrier_entered(); }
+
+void Stops::line_answers() {
+  writer_.line_answers();
+  wake();
+}
+
+void Stops::line_lost() {
+  writer_.line_lost();
+  wake();
+}
+
+void Stops::axes_move() {
+  for (const StopJobPtr& job : open_.all()) {
+    if (std::exchange(job->kept_waiting, false)) job->write_at = tasks_.now();
+  }
+  wake();
+}
+
+// Stationary axes whose motion has an outcome, and whose user has left them: what GetMotion and AcquireLease then say
+// agrees with the answer.
+bool Stops::is_over(const StopJob& job) const {
+  return !job.open() && (!motions_.inside().touches(job.excluded()) || !guarded(Guard::stop_awaits_outcomes));
+}
+
+Task<void> Stops::answer_in_time(StopJobPtr job, std::size_t caller) {
+  ++answering_;
+  while (job->callers[caller].done && !is_over(*job)) {
+    const TimePoint limit = limit_of(*job, job->callers[caller]);
+    if (tasks_.now() >= limit) break;
+    auto seen = job->open() ? seen_.wait_until(limit) : motions_.ended_or_left().wait_until(limit);
+    co_await seen;
+  }
+  --answering_;
+  answer(*job, caller);
+}
+
+TimePoint Stops::limit_of(const StopJob& job, const StopJob::Caller& caller) const {
+  TimePoint limit = caller.asked + kStopStationaryLimit;
+  if (job.open()) {
+    if (writer_.takes_none() || job.stop.stale) limit = caller.asked;
+    // What is asked once the axes are stationary must not hold an answer up on a line that garbles it.
+    if (job.at_rest) limit = std::min(limit, job.rest_since + kStopAnswerLimit);
+    if (!store_.line_works()) limit = std::min(limit, caller.asked + kStopReopenLimit);
+  }
+  return caller.answer_by ? std::min(limit, *caller.answer_by) : limit;
+}
+
+// Once. What was seen is the outcome, whatever became of the reply; before that the outcome is unknown.
+void Stops::answer(StopJob& job, std::size_t caller) {
+  const OnStopped done = std::exchange(job.callers[caller].done, {});
+  if (!done) return;
+  StopReport report = report_for(job, job.callers[caller]);
+  if (report.stays_open) open_.note_late(job);
+  done(std::move(report));
+}
+
+StopReport Stops::report_for(const StopJob& job, const StopJob::Caller& caller) const {
+  StopReport report = job.report;
+  report.stays_open = job.open();
+  std::erase_if(report.axes, [&](const StopReport::Axis& axis) { return !caller.axes.has(axis.axis); });
+  const AxisSet inside = motions_.inside();
+  bool at_rest = job.at_rest || job.stop.state == StopState::confirmed;
+  for (auto& axis : report.axes) {
+    const bool moves = inside.has(axis.axis) && guarded(Guard::stop_awaits_outcomes);
+    if (moves || !at_rest) at_rest = false;
+    if (moves) axis.ready.reset();
+  }
+  if (!at_rest && !report.problem) report.problem = unseen(job);
+  return report;
 }
 
 // In a non-host mode no stop is accepted and no position reported (manual 4., last note); the caller learns it at once.
-Problem Stops::unseen() const {
+Problem Stops::unseen(const StopJob& job) const {
+  constexpr const char* kHint = "use the front panel, or the wired emergency stop, if the axes move";
+  if (job.stop.state == StopState::withdrawn) {
+    return {
+        .reason = Reason::outcome_unknown,
+        .message = fmt::format("the stop was withdrawn by {}; nobody has seen the axes obey it", job.stop.withdrawn_by),
+        .hint = kHint};
+  }
   const State& state = store_.state();
-  if (!state.mode.empty() && state.mode != "HOST" && guarded(Guard::stop_off_host)) {
+  if (writer_.takes_none()) {
     return {.reason = Reason::wrong_mode,
-            .message = fmt::format("the controller is in {} mode, where it takes no stop from here", state.mode),
-            .hint = "use the front panel, or the wired emergency stop"};
+            .message = fmt::format("the controller is in {} mode, where it takes no stop; the stop is sent when it is "
+                                   "back in HOST mode and an axis moves",
+                                   state.mode.empty() ? "another" : state.mode),
+            .hint = kHint};
+  }
+  const bool written = job.stop.state == StopState::written;
+  if (!store_.line_works()) {
+    return {.reason = Reason::outcome_unknown,
+            .message =
+                fmt::format("the stop was {}, and its outcome is not known: {}; it stays open, and is sent {} as "
+                            "soon as the controller answers",
+                            written ? "written" : "not written yet", state.link_problem, written ? "again" : "first"),
+            .hint = kHint};
   }
   return {.reason = Reason::outcome_unknown,
-          .message = "the stop was written, but its outcome is not known yet: " + state.link_problem,
-          .hint = "use the front panel, or the wired emergency stop"};
+          .message = "the axes were not confirmed stationary in the time allowed; the stop stays open and is repeated",
+          .hint = kHint};
 }
 
-Task<void> Stops::run(StopJobPtr job) {
-  if (!has_no_use(*job)) co_await write(job);
-  const bool written = !job->report.problem || job->report.problem->reason == Reason::outcome_unknown;
-  const bool works = written && !non_host_.edits() && store_.line_works();
-  change(*job, works ? StopEvent::answered : StopEvent::refused);
-  if (written && !works) job->report.problem = unseen();
-  if (works && guarded(Guard::stop_confirmed_stationary)) co_await wait_for_standstill(job);
-  if (works && job->kind == StopKind::emergency) {
-    // Whether the motors stay excited depends on a memory switch (manual 66)).
-    const auto excitation = co_await reader_.read_excitation(job->context.who);
-    if (!excitation) store_.unsettle();
-  }
-  if (works) change(*job, StopEvent::finished);
-  std::erase(jobs_, job);
-  motions_.gate().let_go(job->stops());
-  for (std::size_t caller = 0; caller < job->done.size(); ++caller) answer(*job, caller);
-}
-
-Command Stops::command_for(const StopJob& job, AxisSet axes) const {
-  if (job.kind == StopKind::emergency) return commands::emergency_stop();
-  return non_host_.in_program() ? commands::stop_program() : commands::stop(axes);
-}
-
-Task<ExchangeResult> Stops::write_line(StopJobPtr job, Command command) {
-  ExchangeRequest request;
-  request.command = std::move(command);
-  request.lane = Lane::stop;
-  request.caller = job->context.who;
-  request.not_after = tasks_.now() + (store_.state().link == LinkState::down ? kStopReopenLimit : kStopWriteLimit);
-  auto pending = dialogue_.exchange(std::move(request));
-  auto result = co_await pending;
-  co_return result;
-}
-
-// What is known of the excitation may be old: where no motor seems to be on, the controller is to say.
-AxisSet Stops::excited(const StopJob& job) const {
-  AxisSet named = job.axes;
-  for (const int axis : job.axes.list()) {
-    const bool off = !store_.state().axis(axis).excited.value_or(true) && guarded(Guard::stop_names_excited_axes);
-    if (job.kind != StopKind::emergency && off) named.remove(axis);
-  }
-  return named.empty() ? job.axes : named;
-}
-
-// A stop can be written twice without harm, so one that was not answered is written again.
-Task<void> Stops::write(StopJobPtr job) {
-  const AxisSet named = excited(*job);
-  const Command all = command_for(*job, named);
-  for (auto& axis : job->report.axes) axis.named = named.has(axis.axis);
-  ExchangeResult result;
-  for (int attempt = 0; attempt < kStopTries; ++attempt) {
-    result = co_await write_line(job, all);
-    const bool inside_barrier = result.problem && result.problem->reason == Reason::outcome_unknown;
-    const bool received = result.received.value_or(false);
-    if (result.reply || !result.written || inside_barrier || received || !guarded(Guard::stop_again)) break;
-  }
-  job->report.problem = result.problem;
-  if (!result.written && result.problem) {
-    job->report.problem->message = "the stop could not be written: " + result.problem->message;
-    job->report.problem->hint = "use the wired emergency stop if the axes move";
-  }
-  const bool unreadable = result.in_doubt() && result.problem->reason == Reason::line_fault;
-  // It was written: what is seen of the axes decides.
-  if (result.in_doubt()) job->report.problem->reason = Reason::outcome_unknown;
-  for (auto& axis : job->report.axes) {
-    if (!axis.named) continue;
-    if (result.reply) axis.wire_reply = result.reply->text;
-    axis.reply_unreadable = unreadable;
-  }
-  if (!result.refused() || job->kind == StopKind::emergency || named.count() < 2) co_return;
-  if (!guarded(Guard::stop_one_axis_at_a_time)) co_return;
-  for (auto& axis : job->report.axes) {
-    if (!axis.named) continue;
-    const auto one = co_await write_line(job, commands::stop(AxisSet::of(axis.axis)));
-    axis.wire_reply = one.reply ? one.reply->text : "";
-  }
-}
-
-// How long the axes may take from F to S (manual 89) D:).
-Duration Stops::slowing(AxisSet axes) const {
-  int longest_ms = 0;
-  for (const int axis : axes.list()) {
-    longest_ms = std::max(longest_ms, store_.state().axis(axis).acceleration_ms.value_or(1000));
-  }
-  return std::chrono::milliseconds(longest_ms);
-}
-
-// Whether the axes, and a program, are seen to be stationary.
-Task<bool> Stops::look(StopJobPtr job) {
-  const auto read = co_await reader_.read_positions(Lane::motion, job->context.who);
-  bool ready = read.has_value();
-  for (auto& axis : job->report.axes) {
-    if (!read) continue;
-    axis.ready = !store_.state().axis(axis.axis).busy.value_or(true);
-    axis.position_pulses = store_.state().axis(axis.axis).position_pulses;
-    ready = ready && *axis.ready;
-  }
-  if (ready && non_host_.in_program()) {
-    const auto reported = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, job->context.who);
-    const auto program = program_status(reported);
-    ready = program && !program->runs();
-  }
-  job->stationary = ready;
-  co_return ready;
-}
-
-// A kept segment may start by itself, and a stop inside a barrier may be lost: it is written once more.
-Task<bool> Stops::write_again(StopJobPtr job) {
-  change(*job, StopEvent::ran_on);
-  AxisSet named;
-  for (const auto& axis : job->report.axes) {
-    if (axis.named) named.add(axis.axis);
-  }
-  const Command again = command_for(*job, named);
-  const auto stopped = co_await write_line(job, again);
-  co_return stopped.written;
-}
-
-// What is still to be asked holds nobody up on a line that garbles the answers.
-void Stops::answer_soon(const StopJobPtr& job) {
-  for (std::size_t caller = 0; caller < job->done.size(); ++caller) {
-    tasks_.spawn(answer_at(job, caller, tasks_.now() + kStopAnswerLimit));
-  }
-}
-
-Task<void> Stops::wait_for_standstill(StopJobPtr job) {
-  const TimePoint limit = tasks_.now() + kStopStationaryLimit;
-  const TimePoint again_at = tasks_.now() + slowing(job->axes) + kStopRepeatAfterSlowing;
-  bool ready = false;
-  while (tasks_.now() < limit && store_.state().link != LinkState::down) {
-    ready = co_await look(job);
-    const bool once_more = job->phase == StopPhase::slowing;
-    if (ready) answer_soon(job);
-    const bool runs_on = !ready && tasks_.now() >= again_at && guarded(Guard::stop_again);
-    if (ready || (runs_on && once_more)) {
-      const bool empty = !runs_on && co_await prebuffer_is_empty(job);
-      if (empty || !once_more) break;
-      ready = false;
-      const bool written = co_await write_again(job);
-      if (!written) break;
-    }
-    auto pause = tasks_.pause(kStopStationaryPoll);
-    co_await pause;
-  }
-}
-
-// Whether L: clears the prebuffer is not documented (manual 65), 87)); what it left would run on the next start.
-Task<bool> Stops::prebuffer_is_empty(StopJobPtr job) {
-  if (!guarded(Guard::stop_looks_at_prebuffer)) co_return true;
-  auto reading = registers_.begin_reading();
-  for (const Register reg : {Register::mp, Register::ap, Register::kp, Register::ep}) {
-    const auto question = commands::question_of(reg);
-    const auto answer = co_await dialogue_.ask(question, Lane::motion, job->context.who);
-    if (!answer.reply || answer.problem) co_return true;  // not known; the registers stay unknown
-    reading.take(reg, *answer.reply, store_.controllable());
-    if (!reading.set().touches(job->stops())) continue;
-    job->report.problem = Problem{
-        .reason = Reason::stale_setpoint,
-        .message = fmt::format("the axes were stopped, but {} reports that a stale setpoint is left in the controller",
-                               commands::text(question)),
-        .hint = "reset the controller (RESET: or power) before moving these axes",
-        .wire_reply = answer.reply->text};
-    co_return false;
-  }
-  if (job->report.problem && job->report.problem->reason == Reason::stale_setpoint) job->report.problem.reset();
-  co_return true;
+void Stops::withdraw(StopId id, const RequestContext& context, const OnDone& done) {
+  const StopJobPtr job = open_.find(id);
+  if (!job) return done(fail(Reason::not_found, fmt::format("stop {} is not open", id), "see `axisctl status`"));
+  job->stop.withdrawn_by = context.who;
+  open_.change(job, StopEvent::given_up);
+  wake();
+  done({});
 }
 
 void Stops::cancel(MotionId id, const RequestContext& context, OnDone done) {
   const auto live = motions_.find_live(id);
-  if (!live) {
+  const AxisSet left = live ? AxisSet() : motions_.left_moving(id);
+  if (!live && left.empty()) {
     return done(motions_.find(id)
                     ? Result<void>()
                     : fail(Reason::not_found, fmt::format("there is no motion {}", id), "see `axisctl status`"));
   }
-  if (live->life.has_turn()) {
-    return stop(live->motion.axes, StopKind::stop, context, [done](const StopReport& report) {
+  if (!live || live->life.has_turn()) {
+    return stop(live ? live->motion.axes : left, StopKind::stop, context, [done](const StopReport& report) {
       done(report.problem ? Result<void>(tl::unexpected(*report.problem)) : Result<void>());
     });
   }

@@ -1,19 +1,19 @@
-// Stop goes first: L: and L:E, and what follows from them. Not a safety function.
+// Stop goes first: L: and L:E, who asked for them, and when each caller is answered. A stop stays open until it was
+// seen to be obeyed, over barriers, reconnects and restarts of the gateway. Not a safety function.
 #pragma once
 
 #include <cstddef>
-#include <string>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "device/core/tasks.h"
-#include "device/shrc203/session/dialogue.h"
-#include "device/shrc203/session/reader.h"
+#include "device/shrc203/session/stop_look.h"
+#include "device/shrc203/session/stop_writer.h"
 #include "device/shrc203/state/motions.h"
-#include "device/shrc203/state/non_host.h"
-#include "device/shrc203/state/registers.h"
+#include "device/shrc203/state/open_stops.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/shrc203/state/stop_life.h"
-#include "device/shrc203/state/violations.h"
+#include "device/stage/unfinished.h"
 
 namespace axisgate::shrc203 {
 
@@ -22,59 +22,68 @@ class Stops {
   using OnStopped = StageController::OnStopped;
   using OnDone = StageController::OnDone;
 
-  Stops(Dialogue& dialogue, Line& line, Reader& reader, StateStore& store, Motions& motions, const Registers& registers,
-        const NonHost& non_host, Tasks& tasks, Violations& violations)
-      : dialogue_(dialogue),
+  Stops(StopWriter& writer, StopLook& look, Line& line, StateStore& store, OpenStops& open, Motions& motions,
+        Tasks& tasks)
+      : writer_(writer),
+        look_(look),
         line_(line),
-        reader_(reader),
         store_(store),
+        open_(open),
         motions_(motions),
-        registers_(registers),
-        non_host_(non_host),
         tasks_(tasks),
-        violations_(violations) {}
+        due_(tasks.executor()),
+        seen_(tasks.executor()) {}
 
-  // No axes: all. Where the same one is pending, this joins it.
+  // No axes: all. If an open stop includes these axes, this joins it; open stops that this one includes are replaced.
   void stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done);
-  // For which nobody waits.
+  // Without a caller who waits.
   void stop(AxisSet axes, const RequestContext& context) {
     stop(axes, StopKind::stop, context, [](const StopReport&) {});
   }
-  // Stops the motion, or turns it away where it waits. not_found; what the stop reports.
+  // Stops the motion, or turns it away while it waits. A motion that ended UNKNOWN is stopped as long as its axes were
+  // not seen stationary. Fails with not_found, and with what the stop reports.
   void cancel(MotionId id, const RequestContext& context, OnDone done);
+  // Gives an open stop up: not_found.
+  void withdraw(StopId id, const RequestContext& context, const OnDone& done);
+  // Before the line is opened: what the run before left.
+  void inherit(const stage::Inheritance& left);
 
-  bool pending() const { return !jobs_.empty(); }
+  // Whether a caller waits for an answer.
+  bool pending() const { return answering_ > 0; }
+
+  // What the line reports.
+  void line_opened() { wake(); }
+  void barrier_entered();
+  void line_answers();
+  void line_lost();
+  // The handshake has seen an axis move.
+  void axes_move();
 
  private:
+  void wake();
   void withdraw_motions(AxisSet axes, const RequestContext& context);
-  Task<void> run(StopJobPtr job);
-  void change(StopJob& job, StopEvent event);
-  bool has_no_use(StopJob& job) const;
-  Problem unseen() const;
-  void add_caller(const StopJobPtr& job, const RequestContext& context, OnStopped done);
+  StopJobPtr begin(AxisSet axes, StopKind kind, const RequestContext& context);
+  void replace_narrower(const StopJobPtr& wider);
+  void add_caller(const StopJobPtr& job, AxisSet axes, const RequestContext& context, OnStopped done);
+  Task<void> carry_out(StopJobPtr job);
+  TimePoint next_step(const StopJob& job) const;
+  Task<void> answer_in_time(StopJobPtr job, std::size_t caller);
+  TimePoint limit_of(const StopJob& job, const StopJob::Caller& caller) const;
+  bool is_over(const StopJob& job) const;
   void answer(StopJob& job, std::size_t caller);
-  void answer_soon(const StopJobPtr& job);
-  Task<void> answer_at(StopJobPtr job, std::size_t caller, TimePoint limit);
-  AxisSet excited(const StopJob& job) const;
-  Command command_for(const StopJob& job, AxisSet axes) const;
-  Task<ExchangeResult> write_line(StopJobPtr job, Command command);
-  Task<void> write(StopJobPtr job);
-  Duration slowing(AxisSet axes) const;
-  Task<bool> look(StopJobPtr job);
-  Task<bool> write_again(StopJobPtr job);
-  Task<void> wait_for_standstill(StopJobPtr job);
-  Task<bool> prebuffer_is_empty(StopJobPtr job);
+  StopReport report_for(const StopJob& job, const StopJob::Caller& caller) const;
+  Problem unseen(const StopJob& job) const;
 
-  Dialogue& dialogue_;
+  StopWriter& writer_;
+  StopLook& look_;
   Line& line_;
-  Reader& reader_;
   StateStore& store_;
+  OpenStops& open_;
   Motions& motions_;
-  const Registers& registers_;
-  const NonHost& non_host_;
   Tasks& tasks_;
-  Violations& violations_;
-  std::vector<StopJobPtr> jobs_;
+  Signal due_;         // for those who carry stops out: something is to be written or looked at
+  Signal seen_;        // for those who wait for an answer
+  int answering_ = 0;  // callers who wait
 };
 
 }  // namespace axisgate::shrc203

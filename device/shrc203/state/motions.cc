@@ -18,7 +18,8 @@ Motions::Motions(StateStore& store, const Line& line, Registers& registers, Righ
       tasks_(tasks),
       violations_(violations),
       gate_(tasks, store.profile().busy_scope, [&line] { return line.held_question(); }),
-      pace_changed_(tasks.executor()) {}
+      pace_changed_(tasks.executor()),
+      ended_or_left_(tasks.executor()) {}
 
 void Motions::change(LiveMotion& live, MotionEvent event) {
   const MotionPhase before = live.life.phase();
@@ -76,6 +77,7 @@ Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   const Use use{live->context.who, live->context.lease, live->uses, live->motion.id};
   const auto allowed = rights_.still_authorized(use);
   if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
+  if (auto forbidden = rights_.motion_forbidden(live->motion.axes)) co_return tl::unexpected(*std::move(forbidden));
   const auto meant = rights_.check_epochs(live->context);
   rights_.begin(use, live->motion);
   if (!meant) co_return meant;
@@ -133,10 +135,35 @@ void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> 
   ended_.push_back(live.motion);
   while (ended_.size() > StageController::kMotionsKept) ended_.pop_front();
   const bool leaves = had_turn && live.life.phase() == MotionPhase::ended;
+  const bool unseen = outcome == MotionState::unknown && wrote && guarded(Guard::unseen_motion_keeps_its_axes);
+  if (unseen) left_moving_[id] = live.motion.axes;
   live_.erase(id);  // `live` may be gone
-  if (!leaves) return;
+  if (leaves) has_left(id);
+  ended_or_left_.notify();
+}
+
+// Nobody else has the right to axes that may still be moving.
+void Motions::has_left(MotionId id) {
   gate_.leave(id);
-  rights_.end(id);
+  if (!left_moving_.contains(id)) rights_.end(id);
+}
+
+void Motions::seen_at_rest(AxisSet axes) {
+  for (auto left = left_moving_.begin(); left != left_moving_.end();) {
+    left->second = left->second - axes;
+    if (!left->second.empty()) {
+      ++left;
+      continue;
+    }
+    const MotionId id = left->first;
+    left = left_moving_.erase(left);
+    if (!gate_.is_inside(id)) rights_.end(id);
+  }
+}
+
+AxisSet Motions::left_moving(MotionId id) const {
+  const auto left = left_moving_.find(id);
+  return left == left_moving_.end() ? AxisSet() : left->second;
 }
 
 void Motions::refuse(LiveMotion& live, const Problem& problem) {
@@ -150,8 +177,8 @@ void Motions::disconnect(LiveMotion& live, const Problem& problem) {
 void Motions::leave(LiveMotion& live) {
   if (live.life.phase() == MotionPhase::ended) return;
   change(live, MotionEvent::left);
-  gate_.leave(live.motion.id);
-  rights_.end(live.motion.id);
+  has_left(live.motion.id);
+  ended_or_left_.notify();
 }
 
 void Motions::stop_requested(const RequestContext& by, AxisSet axes) {

@@ -64,6 +64,11 @@ class Motions {
   void line_lost(const std::string& why);
   void completion_seen(int axis, bool doubtful, bool deduced);
 
+  // A reading showed these axes stationary: whoever left one of them UNKNOWN there has left it now.
+  void seen_at_rest(AxisSet axes);
+  // The axes of a motion that ended UNKNOWN and were not seen stationary since.
+  AxisSet left_moving(MotionId id) const;
+
   const Live& live() const { return live_; }
   LiveMotionPtr find_live(MotionId id) const;  // null: none
   std::optional<Motion> find(MotionId id) const;
@@ -84,10 +89,13 @@ class Motions {
   void expire_waiting();
   // Notified when the pace of the polls may be another.
   Signal& pace_changed() { return pace_changed_; }
+  // Notified when a motion has its outcome, and when it has left its axes.
+  Signal& ended_or_left() { return ended_or_left_; }
 
  private:
   void change(LiveMotion& live, MotionEvent event);
   void show(LiveMotion& live, MotionState state);
+  void has_left(MotionId id);
   std::string occupation_of(AxisSet axes) const;
 
   StateStore& store_;
@@ -96,9 +104,10 @@ class Motions {
   Tasks& tasks_;
   Violations& violations_;
   MotionGate gate_;
-  Signal pace_changed_;
+  Signal pace_changed_, ended_or_left_;
   Live live_;
   std::deque<Motion> ended_;
+  std::map<MotionId, AxisSet> left_moving_;
   MotionId last_ = 0;
 };
 

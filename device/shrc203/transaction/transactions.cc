@@ -61,6 +61,9 @@ Result<void> Transactions::check(const ExecuteRequest& request, const std::vecto
     const auto allowed = may_wait_for_inputs(store_.profile(), commands::setter_of(Register::wi).name);
     if (!allowed) return allowed;
   }
+  if (auto forbidden = rights_.motion_forbidden(axes_moved(commands, state.controllable()))) {
+    return tl::unexpected(*std::move(forbidden));
+  }
   return rights_.authorize(request.context, axes_used(commands, state.controllable()));
 }
 

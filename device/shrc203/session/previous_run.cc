@@ -1,0 +1,52 @@
+#include "device/shrc203/session/previous_run.h"
+
+#include <algorithm>
+
+#include "device/core/guard.h"
+
+namespace axisgate::shrc203 {
+
+// A stop that this run has written at the opening of the port is no other program's.
+bool PreviousRun::is_ours(std::string_view line_before) const {
+  return line_before.starts_with("L:") ||
+         std::ranges::find(unfinished_->last_lines, line_before) != unfinished_->last_lines.end();
+}
+
+void PreviousRun::heard(std::string_view text) {
+  if (unfinished_ && store_.left_moving().empty() && is_ours(text)) take_over();
+}
+
+void PreviousRun::identified(const Identity& identity, const std::optional<std::string>& line_before) {
+  if (!unfinished_) return;
+  const bool same_unit = identity.serial_number == unfinished_->serial_number;
+  if (same_unit && !store_.left_moving().empty()) return;  // heard() has taken it over
+  if (same_unit && (!line_before || is_ours(*line_before))) return take_over();
+  store_.note_left_moving({});
+  store_.emit(UnfinishedJudged{UnfinishedJudged::What::not_ours, unfinished_->moving, unfinished_->motions});
+  unfinished_.reset();
+}
+
+void PreviousRun::take_over() {
+  const AxisSet moving = unfinished_->moving;
+  const bool finishes = store_.profile().at_exit == AtExit::finish;
+  const AxisSet stopped = finishes ? unfinished_->jogged : moving;
+  store_.note_left_moving(moving);
+  if (!stopped.empty()) {
+    store_.emit(UnfinishedJudged{UnfinishedJudged::What::stopped, stopped, unfinished_->motions});
+    if (guarded(Guard::orphans_stopped)) {
+      stops_.stop(stopped, {.who = "the gateway, since it was killed during a motion"});
+    }
+  }
+  if (stopped != moving) {
+    store_.emit(UnfinishedJudged{UnfinishedJudged::What::finishes, moving - stopped, unfinished_->motions});
+  }
+}
+
+void PreviousRun::all_stationary() {
+  if (store_.left_moving().empty()) return;
+  store_.emit(UnfinishedJudged{UnfinishedJudged::What::stationary, store_.left_moving(), unfinished_->motions});
+  store_.note_left_moving({});
+  unfinished_.reset();
+}
+
+}  // namespace axisgate::shrc203

@@ -1,0 +1,61 @@
+// Writes the lines of open stops: when their turn has come on a line that answers, and without waiting for any answer
+// where nobody knows whether it does.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/core/tasks.h"
+#include "device/shrc203/line/line.h"
+#include "device/shrc203/session/dialogue.h"
+#include "device/shrc203/state/non_host.h"
+#include "device/shrc203/state/open_stops.h"
+#include "device/shrc203/state/state_store.h"
+
+namespace axisgate::shrc203 {
+
+class StopWriter {
+ public:
+  StopWriter(Dialogue& dialogue, const Line& line, StateStore& store, OpenStops& open, const NonHost& non_host,
+             const Tasks& tasks)
+      : dialogue_(dialogue), line_(line), store_(store), open_(open), non_host_(non_host), tasks_(tasks) {}
+
+  // LineListener::stops_to_write(). Each open stop is due when the port opens, and again after the first line that is
+  // heard. NG to several axes is followed by each of them alone, since one motor may be off (manual 65)).
+  std::vector<ExchangeRequest> lines_due(std::string_view heard);
+  // A barrier begins on an open port: the next line is the first again.
+  void barrier_entered() { heard_ = false; }
+  // Another unit is at the line, and must not receive any stop.
+  void other_unit_answered() { other_unit_ = true; }
+  // What was written without an answer is due again: the line answers now, or was closed.
+  void line_answers();
+  void line_lost();
+
+  // Whether the controller takes no stop in its present mode (manual 111), 117); section 4, last note).
+  bool takes_none() const;
+  bool can_write() const { return line_.state().port_open() && !takes_none() && !other_unit_; }
+  // Writes the stop, and says in its report what the controller answered.
+  Task<void> write(StopJobPtr job);
+  // When an axis that the stop names should be stationary (manual 89) D:).
+  Duration slowing(AxisSet axes) const;
+
+ private:
+  AxisSet excited(const StopJob& job) const;
+  Command command_for(const StopJob& job, AxisSet axes) const;
+  ExchangeRequest request_for(const StopJob& job, Command command) const;
+  void write_blindly(const StopJobPtr& job, bool alone, std::vector<ExchangeRequest>& lines);
+  Task<void> write_one_at_a_time(StopJobPtr job);
+  void note_result(StopJob& job, AxisSet named, const ExchangeResult& result) const;
+
+  Dialogue& dialogue_;
+  const Line& line_;
+  StateStore& store_;
+  OpenStops& open_;
+  const NonHost& non_host_;
+  const Tasks& tasks_;
+  bool heard_ = false;  // a line has come in since the port was opened, or since the barrier began
+  bool other_unit_ = false;
+};
+
+}  // namespace axisgate::shrc203
