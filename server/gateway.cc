@@ -30,9 +30,8 @@ Executor posting_to(boost::asio::io_context& context) {
 }
 
 // Null where nothing can be kept.
-std::unique_ptr<MotionRecord> record_of(const DeviceConfig& device, const std::string& state_directory) {
-  if (state_directory.empty()) return nullptr;
-  auto record = MotionRecord::open(fmt::format("{}/motions-{}", state_directory, device.name), boot_id());
+template <class Record>
+std::unique_ptr<Record> kept(Result<std::unique_ptr<Record>> record) {
   if (record) return *std::move(record);
   spdlog::warn("{}", explain(record.error()));
   return nullptr;
@@ -87,20 +86,23 @@ Gateway::Gateway(const Config& config, std::uint32_t generation, const std::stri
 }
 
 void Gateway::add_stage(const DeviceConfig& device, const StageConfig& config, const std::string& state_directory) {
+  const bool keeps = !state_directory.empty();
+  auto motions =
+      keeps ? kept(MotionRecord::open(fmt::format("{}/motions-{}", state_directory, device.name), boot_id())) : nullptr;
+  auto stops = keeps ? kept(StopRecord::open(fmt::format("{}/stops-{}", state_directory, device.name))) : nullptr;
   auto stage = std::make_unique<Stage>(device, config, make_line(device, lines_.new_strand()), lines_, events_,
-                                       metrics_, posting_to(readers_), lease_tokens_,
-                                       record_of(device, state_directory), journal_, requests_);
+                                       metrics_, posting_to(readers_), lease_tokens_, std::move(motions),
+                                       std::move(stops), journal_, requests_);
   stages_.push_back(stage.get());
   devices_.push_back(std::move(stage));
 }
 
 void Gateway::add_mill(const DeviceConfig& device, const MillConfig& config, const std::string& state_directory,
                        spool::Spool& spool) {
-  auto record = JobRecord::open(fmt::format("{}/job-{}", state_directory, device.name), boot_id());
-  if (!record) spdlog::warn("{}", explain(record.error()));
+  auto record = kept(JobRecord::open(fmt::format("{}/job-{}", state_directory, device.name), boot_id()));
   devices_.push_back(std::make_unique<Mill>(device, config, make_line(device, lines_.new_strand()), lines_, events_,
-                                            metrics_, posting_to(readers_), lease_tokens_, spool,
-                                            record ? *std::move(record) : nullptr, journal_));
+                                            metrics_, posting_to(readers_), lease_tokens_, spool, std::move(record),
+                                            journal_));
 }
 
 Gateway::~Gateway() {

@@ -108,4 +108,12 @@ void Devices::clear_errors(const Call& call, std::string_view device, const Resu
       });
 }
 
+void Devices::withdraw_stop(const Call& call, std::string_view stop, Answer<void> answer) const {
+  const Result<StopName> name = find_stop_name(gateway_, stop);
+  pipeline_.once({RequestKind::withdraw_stop, call, device_of(name)}, std::move(answer),
+                 [id = name ? name->id : 0](const Turn& turn, const Answer<void>& respond) {
+                   turn.controller.withdraw_stop(id, turn.context, turn.now, respond);
+                 });
+}
+
 }  // namespace axisgate::api

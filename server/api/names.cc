@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::string_view kDevices = "devices/";
 constexpr std::string_view kMotions = "/motions/";
+constexpr std::string_view kStops = "/stops/";
 constexpr std::string_view kJobs = "/jobs/";
 constexpr std::string_view kPositions = "/positions/";
 
@@ -32,6 +33,10 @@ std::optional<std::pair<std::string_view, std::uint64_t>> numbered(std::string_v
 }  // namespace
 
 std::string device_name(std::string_view device_of_config) { return fmt::format("{}{}", kDevices, device_of_config); }
+
+std::string stop_name(std::string_view device_of_config, stage::StopId stop) {
+  return fmt::format("{}{}{}{}", kDevices, device_of_config, kStops, stop);
+}
 
 std::string motion_name(std::string_view device_of_config, stage::MotionId motion) {
   return fmt::format("{}{}{}{}", kDevices, device_of_config, kMotions, motion);
@@ -86,6 +91,15 @@ Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_
                 "take it from Motion.name, e.g. \"devices/stage/motions/1\"");
   }
   return find_stage(gateway, parts->first).map([&](server::Stage* stage) { return MotionName{stage, parts->second}; });
+}
+
+Result<StopName> find_stop_name(const server::Gateway& gateway, std::string_view name) {
+  const auto parts = numbered(name, kStops);
+  if (!parts) {
+    return fail(Reason::invalid_request, fmt::format("\"{}\" is not the name of a stop", escaped(name)),
+                "take it from OpenStop.name, e.g. \"devices/stage/stops/1\"");
+  }
+  return find_stage(gateway, parts->first).map([&](server::Stage* stage) { return StopName{stage, parts->second}; });
 }
 
 Result<JobName> find_job_name(const server::Gateway& gateway, std::string_view name) {

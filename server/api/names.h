@@ -7,6 +7,7 @@
 #include "device/core/problem.h"
 #include "device/rml1/mill/job.h"
 #include "device/stage/motion.h"
+#include "device/stage/stop.h"
 #include "server/devices/mill.h"
 #include "server/gateway.h"
 
@@ -14,6 +15,7 @@ namespace axisgate::api {
 
 std::string device_name(std::string_view device_of_config);                          // "devices/{d}"
 std::string motion_name(std::string_view device_of_config, stage::MotionId motion);  // "devices/{d}/motions/{id}"
+std::string stop_name(std::string_view device_of_config, stage::StopId stop);        // "devices/{d}/stops/{id}"
 std::string position_name(std::string_view device_of_config,
                           std::string_view position);  // "devices/{d}/positions/{name}"
 
@@ -45,6 +47,14 @@ struct MotionName {
 // invalid_request where the name is not "devices/{d}/motions/{id}", unknown_device. Whether there is such a motion is
 // not looked up.
 Result<MotionName> find_motion_name(const server::Gateway& gateway, std::string_view name);
+
+struct StopName {
+  server::Stage* device = nullptr;  // never null
+  stage::StopId id = 0;
+};
+// Fails with invalid_request if the name is not "devices/{d}/stops/{id}", and with unknown_device. Does not look up
+// whether there is such a stop.
+Result<StopName> find_stop_name(const server::Gateway& gateway, std::string_view name);
 
 struct PositionName {
   server::Stage* device = nullptr;  // never null

@@ -29,6 +29,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::get_device,         "get device",           Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::watch_device,       "watch device",         Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::clear_errors,       "clear errors",         Role::operator_, Kept::clear_errors, Quota::request, Patience::change,   Use::axes,      true},
+    {Kind::withdraw_stop,      "withdraw stop",        Role::admin,     Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::record,             "record",               Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::get_support_report, "get support report",   Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::watch_events,       "watch events",         Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},

@@ -27,6 +27,7 @@ enum class RequestKind {
   get_device,
   watch_device,
   clear_errors,
+  withdraw_stop,
   record,
   get_support_report,
   watch_events,

@@ -155,7 +155,7 @@ std::optional<Ending> ending_on_record(const Journal& journal, const std::string
   const auto state = named(text_in(body, "outcome"), MotionState::unknown);
   if (!state || !stage::is_outcome(*state)) return std::nullopt;
   if (*state == MotionState::succeeded) return Ending{*state, {}};
-  const Reason reason = named(text_in(body, "reason"), Reason::request_memory_lost).value_or(Reason::outcome_unknown);
+  const Reason reason = named(text_in(body, "reason"), kLastReason).value_or(Reason::outcome_unknown);
   return Ending{*state, Problem{.reason = reason,
                                 .message = "the daemon ended before it reported this; the details are not on record",
                                 .hint = fmt::format("look at `axisctl history --motion {}`", id)}};

@@ -1,5 +1,6 @@
 #include "server/devices/device_events.h"
 
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <chrono>
@@ -23,25 +24,33 @@ std::string because(const std::optional<Problem>& problem) {
   return problem ? fmt::format(": {} {}", name(problem->reason), explain(*problem)) : "";
 }
 
+// ": axis 1 at 5000 pulses, axis 2 at 0 pulses"; empty if no position is known.
+std::string places_text(const stage::Stop& stop) {
+  std::string text;
+  for (const auto& [axis, pulses] : stop.came_to) {
+    text += fmt::format("{}axis {} at {} pulses", text.empty() ? ": " : ", ", axis, pulses);
+  }
+  return text;
+}
+
 }  // namespace
 
 DeviceEvents::DeviceEvents(std::string device, EventBus& bus, StageMetrics& metrics, DeviceRecorder& recorder,
-                           const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record,
-                           journal::DeviceEntries* entries)
+                           const Newest<stage::State>& newest_state, OnDue due, Keepers keepers)
     : device_(std::move(device)),
       bus_(bus),
       metrics_(metrics),
       recorder_(recorder),
       newest_state_(newest_state),
       due_(std::move(due)),
-      record_(record),
-      entries_(entries) {}
+      keepers_(keepers) {}
 
 void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
   metrics_.on_event(event);
   recorder_.on_event(event, now);
-  if (record_ != nullptr) record_->on_event(event);
-  if (entries_ != nullptr) entries_->on_event(event, now);
+  if (keepers_.motions != nullptr) keepers_.motions->on_event(event);
+  if (keepers_.stops != nullptr) keepers_.stops->on_event(event);
+  if (keepers_.entries != nullptr) keepers_.entries->on_event(event, now);
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 
@@ -80,6 +89,40 @@ void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
   publish(stop, now);
   spdlog::warn("{}: {} of {} asked by {}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
                escaped(stop.who));
+}
+
+// A stop that everybody expects to be obeyed is no news before it is; one that stays open is.
+void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
+  const stage::Stop& stop = change.stop;
+  const bool open = is_open(stop.state);
+  if (open && !stop.late) return;
+  publish(change, now);
+  const std::string who = escaped(fmt::format("{}", fmt::join(stop.callers, ", ")));
+  const auto seconds = [](Duration time) { return std::chrono::duration<double>(time).count(); };
+  switch (stop.state) {
+    case stage::StopState::asked:
+    case stage::StopState::written:
+      return spdlog::warn("{}: the {} by {} stays open: nobody has seen the axes obey it, and it is repeated", device_,
+                          title_of(stop), who);
+    case stage::StopState::confirmed:
+      return spdlog::info("{}: the {} by {} is confirmed after {:.3f} s{}", device_, title_of(stop), who,
+                          seconds(stop.ended - stop.asked), places_text(stop));
+    case stage::StopState::replaced:
+      return spdlog::info("{}: the {} by {} is replaced by stop {}", device_, title_of(stop), who, stop.replaced_by);
+    case stage::StopState::withdrawn:
+      return spdlog::warn("{}: the {} by {} was withdrawn by {}; nobody has seen the axes obey it", device_,
+                          title_of(stop), who, escaped(stop.withdrawn_by));
+  }
+}
+
+void DeviceEvents::tell(const stage::EmergencyLatchChanged& change, TimePoint now) {
+  publish(change, now);
+  if (change.latch) {
+    spdlog::warn("{}: latched by the emergency stop of {}: nothing moves before ClearErrors for all axes", device_,
+                 escaped(change.who));
+  } else {
+    spdlog::info("{}: the latch of the emergency stop was lifted by {}", device_, escaped(change.who));
+  }
 }
 
 void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {

@@ -9,6 +9,7 @@
 
 #include "device/stage/event.h"
 #include "server/devices/motion_record.h"
+#include "server/devices/stop_record.h"
 #include "server/events/event_bus.h"
 #include "server/events/newest.h"
 #include "server/journal/device_entries.h"
@@ -24,11 +25,16 @@ class DeviceEvents : public stage::EventSink {
   enum class Due { queues, state };
   using OnDue = std::function<void(Due)>;
 
-  // All that is referred to outlives this. Without `record` nothing is kept for the next run, without `entries`
-  // nothing in the journal.
+  // Where events are kept; null: nowhere.
+  struct Keepers {
+    MotionRecord* motions = nullptr;  // for the next run
+    StopRecord* stops = nullptr;      // likewise
+    journal::DeviceEntries* entries = nullptr;
+  };
+
+  // All that is referred to outlives this.
   DeviceEvents(std::string device, EventBus& bus, StageMetrics& metrics, DeviceRecorder& recorder,
-               const Newest<stage::State>& newest_state, OnDue due, MotionRecord* record = nullptr,
-               journal::DeviceEntries* entries = nullptr);
+               const Newest<stage::State>& newest_state, OnDue due, Keepers keepers);
 
   void on_event(const stage::Event& event, TimePoint now) override;
   bool state_followed() const override { return newest_state_.has_subscribers(); }
@@ -50,6 +56,8 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::MotionChanged& change, TimePoint now);
   void tell(const stage::LinkChanged& change, TimePoint now);
   void tell(const stage::StopRequested& stop, TimePoint now);
+  void tell(const stage::StopChanged& change, TimePoint now);
+  void tell(const stage::EmergencyLatchChanged& change, TimePoint now);
   void tell(const stage::ForeignMotion& motion, TimePoint now);
   void tell(const stage::UnfinishedJudged& judged, TimePoint now);
   void tell(const stage::SwitchesChanged& change, TimePoint now);
@@ -74,8 +82,7 @@ class DeviceEvents : public stage::EventSink {
   DeviceRecorder& recorder_;
   const Newest<stage::State>& newest_state_;
   const OnDue due_;
-  MotionRecord* const record_;
-  journal::DeviceEntries* const entries_;
+  const Keepers keepers_;
   std::map<stage::MotionId, Known> motions_;
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;

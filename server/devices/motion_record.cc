@@ -1,26 +1,18 @@
 #include "server/devices/motion_record.h"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/mman.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <charconv>
-#include <cstring>
 #include <fstream>
 #include <sstream>
-#include <system_error>
 #include <utility>
-
-#include "server/access/synced_file.h"
 
 namespace axisgate::server {
 namespace {
 
-constexpr std::size_t kTextMax = 8192, kLinesKept = 2;
+// More different lines than that are never written between two answers.
+constexpr std::size_t kLinesKept = 16;
 // Their ends may not be in the journal yet. More are never under way without an outcome.
 constexpr std::size_t kStartedKept = 16;
 constexpr std::size_t kNamesMax = 512, kLineMax = 256, kNameMax = 160;
@@ -68,36 +60,6 @@ std::string one_line(std::string_view text) {
 
 }  // namespace
 
-// Two texts, of which the first byte names the one that counts: a process that is killed while it writes the other
-// leaves this one.
-struct MotionRecord::File {
-  struct Content {
-    char counts;
-    std::array<std::array<char, kTextMax>, 2> texts;
-  };
-
-  explicit File(Content* mapped) : content(mapped) {}
-  ~File() { ::munmap(content, sizeof(Content)); }
-  File(const File&) = delete;
-  File& operator=(const File&) = delete;
-
-  std::size_t counting() const { return content->counts == '1' ? 1 : 0; }
-  std::string_view text() const {
-    const auto& bytes = content->texts[counting()];
-    return {bytes.data(), ::strnlen(bytes.data(), bytes.size())};
-  }
-  void replace(const std::string& text) {
-    const std::size_t other = 1 - counting();
-    auto& bytes = content->texts[other];
-    bytes.fill('\0');
-    std::memcpy(bytes.data(), text.data(), std::min(text.size(), bytes.size()));
-    std::atomic_thread_fence(std::memory_order_seq_cst);
-    content->counts = other == 1 ? '1' : '0';
-  }
-
-  Content* const content;
-};
-
 struct MotionRecord::Left {
   std::optional<stage::Unfinished> unfinished;
   StartedMotions started;
@@ -138,23 +100,15 @@ std::optional<MotionRecord::Left> MotionRecord::parsed(std::string_view text, st
 }
 
 Result<std::unique_ptr<MotionRecord>> MotionRecord::open(const std::string& path, std::string boot) {
-  const Result<Descriptor> file = open_state_file(path, O_RDWR | O_CREAT);
-  if (!file) return tl::unexpected(file.error());
-  const auto failed = [&path](int error) {
-    return fail(Reason::internal, fmt::format("cannot keep {}: {}", path, std::generic_category().message(error)),
-                "a motion that runs when the daemon is killed will be taken for somebody else's");
-  };
-  if (!file->valid()) return failed(ENOENT);
-  if (::ftruncate(file->get(), sizeof(File::Content)) != 0) return failed(errno);
-  // All of it now: a write to a hole of a full disk would be a signal.
-  if (const int error = ::posix_fallocate(file->get(), 0, sizeof(File::Content)); error != 0) return failed(error);
-  void* const mapped = ::mmap(nullptr, sizeof(File::Content), PROT_READ | PROT_WRITE, MAP_SHARED, file->get(), 0);
-  if (mapped == MAP_FAILED) return failed(errno);
-  auto content = std::make_unique<File>(static_cast<File::Content*>(mapped));
-  return std::unique_ptr<MotionRecord>(new MotionRecord(std::move(content), std::move(boot)));
+  auto file = MappedText::open(path);
+  if (!file) {
+    file.error().hint = "a motion that runs when the daemon is killed will be taken for somebody else's";
+    return tl::unexpected(file.error());
+  }
+  return std::unique_ptr<MotionRecord>(new MotionRecord(*std::move(file), std::move(boot)));
 }
 
-MotionRecord::MotionRecord(std::unique_ptr<File> file, std::string boot)
+MotionRecord::MotionRecord(std::unique_ptr<MappedText> file, std::string boot)
     : file_(std::move(file)), boot_(std::move(boot)) {
   std::optional<Left> left = parsed(file_->text(), boot_);
   if (!left) return;
@@ -180,6 +134,8 @@ void MotionRecord::note(const stage::MotionChanged& change) {
   }
   if (stage::is_outcome(motion.state)) {
     motions_.erase(motion.id);
+    // Nobody has seen its axes come to rest.
+    if (motion.state == stage::MotionState::unknown && motion.written) left_moving_[motion.id] = motion;
   } else {
     motions_.insert_or_assign(motion.id, motion);
   }
@@ -188,12 +144,25 @@ void MotionRecord::note(const stage::MotionChanged& change) {
 
 void MotionRecord::note(const stage::BytesWritten& bytes) {
   std::string line = bytes.bytes.substr(0, bytes.bytes.find_last_not_of("\r\n") + 1);
+  std::erase(last_lines_, line);
   last_lines_.push_front(std::move(line));
   if (last_lines_.size() > kLinesKept) last_lines_.pop_back();
   started_ = started_ | bytes.completes;
   if (bytes.motion != 0) note_started(bytes.motion);
-  if (!motions_.empty() || unfinished_) write();
+  if (something_may_move()) write();
 }
+
+// The controller has received this line, and none before it counts any more; a refused one it may not remember
+// (manual 40) ?:CMD).
+void MotionRecord::note(const stage::ExchangeEnded& ended) {
+  using Outcome = stage::ExchangeEnded::Outcome;
+  const bool taken = ended.outcome == Outcome::ok || ended.outcome == Outcome::ok_d || ended.outcome == Outcome::data;
+  if (!taken || last_lines_.empty() || last_lines_.front() != ended.line) return;
+  last_lines_.resize(1);
+  if (something_may_move()) write();
+}
+
+bool MotionRecord::something_may_move() const { return !motions_.empty() || !left_moving_.empty() || unfinished_; }
 
 void MotionRecord::note_started(stage::MotionId id) {
   const auto motion = motions_.find(id);
@@ -207,7 +176,10 @@ void MotionRecord::note_started(stage::MotionId id) {
 }
 
 void MotionRecord::note(const stage::LinkChanged& change) {
-  if (change.link == stage::LinkState::up) serial_number_ = change.serial_number;
+  if (change.link != stage::LinkState::up) return;
+  serial_number_ = change.serial_number;
+  // The handshake ends when all axes are stationary.
+  if (!std::exchange(left_moving_, {}).empty()) write();
 }
 
 void MotionRecord::note(const stage::UnfinishedJudged& judged) {
@@ -221,7 +193,9 @@ std::string MotionRecord::text() const {
   const stage::Unfinished left = unfinished_.value_or(stage::Unfinished{});
   stage::AxisSet moving = left.moving, jogged = left.jogged;
   std::string names = left.motions;
-  for (const auto& [id, motion] : motions_) {
+  auto motions = left_moving_;
+  motions.insert(motions_.begin(), motions_.end());
+  for (const auto& [id, motion] : motions) {
     const bool waits = motion.state == stage::MotionState::queued;
     const stage::AxisSet its = waits ? motion.axes & started_ : motion.axes;
     if (its.empty()) continue;

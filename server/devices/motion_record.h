@@ -13,6 +13,7 @@
 #include "device/core/problem.h"
 #include "device/stage/event.h"
 #include "device/stage/unfinished.h"
+#include "server/access/mapped_text.h"
 
 namespace axisgate::server {
 
@@ -54,33 +55,35 @@ class MotionRecord {
   void on_event(const stage::Event& event);
 
  private:
-  struct File;
   struct Left;
 
-  MotionRecord(std::unique_ptr<File> file, std::string boot);
+  MotionRecord(std::unique_ptr<MappedText> file, std::string boot);
   static std::optional<Left> parsed(std::string_view text, std::string_view boot);
 
   void note(const stage::MotionChanged& change);
   void note(const stage::BytesWritten& bytes);
+  void note(const stage::ExchangeEnded& ended);
   void note(const stage::LinkChanged& change);
   void note(const stage::UnfinishedJudged& judged);
   template <class Other>
   void note(const Other&) {}
+  bool something_may_move() const;
   void note_started(stage::MotionId motion);
   std::string text() const;
   std::string started_lines() const;
   void write();
 
-  const std::unique_ptr<File> file_;
+  const std::unique_ptr<MappedText> file_;
   const std::string boot_;
   std::optional<stage::Unfinished> unfinished_;  // until it is known what became of it
   std::optional<StartedMotions> started_before_;
   stage::MotionId last_motion_ = 0;
   std::string serial_number_;
-  std::map<stage::MotionId, stage::Motion> motions_;  // without an outcome
+  std::map<stage::MotionId, stage::Motion> motions_;      // without an outcome
+  std::map<stage::MotionId, stage::Motion> left_moving_;  // that ended UNKNOWN, and were not seen to end since
   StartedMotions started_motions_;
   stage::AxisSet started_;              // by a line that was not answered yet
-  std::deque<std::string> last_lines_;  // newest first
+  std::deque<std::string> last_lines_;  // stage::Unfinished::last_lines, newest first
 };
 
 // Of this boot of the machine; empty where the kernel does not say.

@@ -34,7 +34,8 @@ stage::Profile profile_of(const DeviceConfig& device, const StageConfig& config)
 
 Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_ptr<Line> line, LineThread& thread,
              EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
-             std::unique_ptr<MotionRecord> record, journal::Journal* journal, journal::RequestMemory& requests)
+             std::unique_ptr<MotionRecord> record, std::unique_ptr<StopRecord> stops, journal::Journal* journal,
+             journal::RequestMemory& requests)
     : Device(device.name, recording_header(profile_of(device, config)), std::move(line), thread, metrics, readers,
              lease_tokens, journal),
       kind_(*config.kind),
@@ -42,14 +43,20 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
       newest_state_(readers),
       metrics_(*metrics.registry(), profile_.name),
       record_(std::move(record)),
+      stops_(std::move(stops)),
       entries_(profile_.name, journal, requests),
-      events_(
-          profile_.name, bus, metrics_, recorder(), newest_state_, [this](DeviceEvents::Due due) { on_due(due); },
-          record_.get(), &entries_),
+      events_(profile_.name, bus, metrics_, recorder(), newest_state_, [this](DeviceEvents::Due due) { on_due(due); },
+              {record_.get(), stops_.get(), &entries_}),
       controller_(kind_.make_controller(profile_, config.kind_settings, runner(), events_, leases())) {
-  if (record_ && record_->unfinished()) controller_->inherit(*record_->unfinished());
+  inherit();
   if (journal != nullptr) number_motions_after(*journal);
   runner().attach(*controller_, [this] { publish_due(); });
+}
+
+void Stage::inherit() {
+  stage::Inheritance left = stops_ ? stops_->before() : stage::Inheritance{};
+  if (record_) left.unfinished = record_->unfinished();
+  controller_->inherit(left);
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {

@@ -12,6 +12,7 @@
 #include "server/devices/device.h"
 #include "server/devices/device_events.h"
 #include "server/devices/motion_record.h"
+#include "server/devices/stop_record.h"
 #include "server/events/event_bus.h"
 #include "server/journal/device_entries.h"
 #include "server/metrics/stage_metrics.h"
@@ -22,11 +23,12 @@ class Stage final : public Device {
  public:
   using Controller = stage::StageController;
 
-  // `bus`, `metrics`, `thread` and `requests` outlive this. `record` and `journal` may be null. With a journal,
-  // motions are numbered on from the last that it has, or the record.
+  // `bus`, `metrics`, `thread` and `requests` outlive this. `record`, `stops` and `journal` may be null. With a
+  // journal, motions are numbered on from the last that it has, or the record.
   Stage(const DeviceConfig& device, const StageConfig& config, std::unique_ptr<Line> line, LineThread& thread,
         EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
-        std::unique_ptr<MotionRecord> record, journal::Journal* journal, journal::RequestMemory& requests);
+        std::unique_ptr<MotionRecord> record, std::unique_ptr<StopRecord> stops, journal::Journal* journal,
+        journal::RequestMemory& requests);
 
   // From any thread.
   std::string_view kind_name() const override { return kind_.name(); }
@@ -50,6 +52,7 @@ class Stage final : public Device {
   Duration wind_down_limit() const override;
 
  private:
+  void inherit();
   void number_motions_after(const journal::Journal& journal);
   void on_wound_down(const stage::WindDownReport& report);
   void on_due(DeviceEvents::Due due);
@@ -60,6 +63,7 @@ class Stage final : public Device {
   Newest<stage::State> newest_state_;
   StageMetrics metrics_;
   const std::unique_ptr<MotionRecord> record_;
+  const std::unique_ptr<StopRecord> stops_;
   journal::DeviceEntries entries_;
   DeviceEvents events_;
   std::unique_ptr<stage::StageController> controller_;

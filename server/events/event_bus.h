@@ -38,8 +38,8 @@ struct JobChanged {
 
 // What every watcher receives, each exactly once and in order. Telemetry is not part of it: newest.h.
 using Fact = std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
-                          stage::StopRequested, stage::ForeignMotion, stage::SwitchesChanged, stage::ProgramNotice,
-                          DaemonStarted, JobChanged>;
+                          stage::StopRequested, stage::StopChanged, stage::EmergencyLatchChanged, stage::ForeignMotion,
+                          stage::SwitchesChanged, stage::ProgramNotice, DaemonStarted, JobChanged>;
 
 struct FactRecord {
   std::uint64_t revision = 0;  // ascends over all devices, and over the runs of the daemon that are kept

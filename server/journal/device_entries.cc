@@ -70,6 +70,28 @@ std::optional<Noted> said(const stage::StopRequested& stop) {
   return Noted{EntryKind::stop_requested, {{"axes", axes_of(stop.axes)}, {"emergency", stop.emergency}}, stop.who};
 }
 
+// A replaced stop ends with the one that replaced it.
+std::optional<Noted> said(const stage::StopChanged& change) {
+  const stage::Stop& stop = change.stop;
+  if (is_open(stop.state) || stop.state == stage::StopState::replaced) return std::nullopt;
+  Json body{{"stop", stop.id},
+            {"axes", axes_of(stop.axes)},
+            {"emergency", stop.kind == stage::StopKind::emergency},
+            {"outcome", name(stop.state)},
+            {"late", stop.late},
+            {"after_ms", std::chrono::duration_cast<std::chrono::milliseconds>(stop.ended - stop.asked).count()}};
+  for (const auto& [axis, pulses] : stop.came_to) {
+    body["results"].push_back({{"axis", axis}, {"command_pulses", pulses}});
+  }
+  const std::string who = stop.callers.empty() ? "" : stop.callers.front();
+  return Noted{EntryKind::stop_ended, std::move(body),
+               stop.state == stage::StopState::withdrawn ? stop.withdrawn_by : who};
+}
+
+std::optional<Noted> said(const stage::EmergencyLatchChanged& change) {
+  return Noted{change.latch ? EntryKind::emergency_latched : EntryKind::emergency_cleared, Json::object(), change.who};
+}
+
 std::optional<Noted> said(const stage::LinkChanged& change) {
   Json body{{"link", name(change.link)}, {"why", change.why}};
   if (!change.serial_number.empty()) body["serial_number"] = change.serial_number;

@@ -24,6 +24,12 @@ std::string name(EntryKind kind) {
       return "motion ended";
     case EntryKind::stop_requested:
       return "stop requested";
+    case EntryKind::stop_ended:
+      return "stop ended";
+    case EntryKind::emergency_latched:
+      return "emergency stop latched";
+    case EntryKind::emergency_cleared:
+      return "emergency stop cleared";
     case EntryKind::link_changed:
       return "link changed";
     case EntryKind::barrier_entered:

@@ -22,6 +22,9 @@ enum class EntryKind {
   motion_started = 11,
   motion_ended = 12,
   stop_requested = 20,
+  stop_ended = 21,         // it was seen to be obeyed, or was withdrawn
+  emergency_latched = 22,  // nothing moves until emergency_cleared
+  emergency_cleared = 23,
   link_changed = 30,
   barrier_entered = 31,
   foreign_motion = 32,

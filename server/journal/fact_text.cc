@@ -111,6 +111,56 @@ struct Form<stage::StopRequested> {
 };
 
 template <>
+struct Form<stage::StopChanged> {
+  static constexpr const char* key = "stop_changed";
+  static Json write(const stage::StopChanged& change) {
+    const stage::Stop& stop = change.stop;
+    Json places = Json::array();
+    for (const auto& [axis, pulses] : stop.came_to) places.push_back({axis, pulses});
+    return {{"id", stop.id},
+            {"kind", static_cast<int>(stop.kind)},
+            {"axes", stop.axes.list()},
+            {"state", static_cast<int>(stop.state)},
+            {"callers", stop.callers},
+            {"took_us", std::chrono::duration_cast<std::chrono::microseconds>(stop.ended - stop.asked).count()},
+            {"late", stop.late},
+            {"stale", stop.stale},
+            {"replaced_by", stop.replaced_by},
+            {"withdrawn_by", stop.withdrawn_by},
+            {"came_to", std::move(places)}};
+  }
+  // Its times are those since it was asked for.
+  static stage::StopChanged read(const Json& json) {
+    stage::Stop stop;
+    stop.id = json.at("id");
+    stop.kind = static_cast<stage::StopKind>(json.at("kind").get<int>());
+    stop.axes = axes_in(json.at("axes"));
+    stop.state = static_cast<stage::StopState>(json.at("state").get<int>());
+    stop.callers = json.at("callers").get<std::vector<std::string>>();
+    stop.ended = stop.asked + std::chrono::microseconds(json.at("took_us").get<std::int64_t>());
+    stop.late = json.at("late");
+    stop.stale = json.at("stale");
+    stop.replaced_by = json.at("replaced_by");
+    stop.withdrawn_by = json.at("withdrawn_by");
+    for (const Json& place : json.at("came_to")) stop.came_to[place.at(0)] = place.at(1);
+    return {std::move(stop)};
+  }
+};
+
+template <>
+struct Form<stage::EmergencyLatchChanged> {
+  static constexpr const char* key = "emergency_latch";
+  static Json write(const stage::EmergencyLatchChanged& change) {
+    return {{"latched", change.latch.has_value()}, {"who", change.who}};
+  }
+  static stage::EmergencyLatchChanged read(const Json& json) {
+    stage::EmergencyLatchChanged change{.latch = {}, .who = json.at("who")};
+    if (json.at("latched")) change.latch = stage::EmergencyLatch{change.who, {}};
+    return change;
+  }
+};
+
+template <>
 struct Form<stage::ForeignMotion> {
   static constexpr const char* key = "foreign_motion";
   static Json write(const stage::ForeignMotion& motion) { return motion.axes.list(); }

@@ -49,6 +49,7 @@ class Pass {
 
   std::map<std::int64_t, Person> persons;  // by their numbers
   Listed<StopSummary> stops;
+  Listed<LateStop> late_stops;
   std::vector<LinkEntry> links;
   std::vector<DaemonEntry> daemon;
 
@@ -65,7 +66,9 @@ class Pass {
     refusals,
     emergency,
     link,
-    who
+    who,
+    late,
+    after_ms
   };
 
   static std::string sql();
@@ -77,14 +80,18 @@ class Pass {
 std::string Pass::sql() {
   return fmt::format(
       "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, {}, {}, "
-      "iif({}, (SELECT name FROM person WHERE id = person), NULL) FROM entry "
+      "iif({} OR {}, (SELECT name FROM person WHERE id = person), NULL), {}, {} FROM entry "
       "WHERE time_us >= ? AND time_us < ? AND kind < {} AND (? = '' OR device = ? OR {} OR {}) AND (? = '' OR {}) "
       "ORDER BY time_us",
-      fact_of(EntryKind::motion_ended, "kind"), fact_of(EntryKind::motion_ended, "outcome"),
+      fact_of(EntryKind::motion_ended, "kind"),
+      fmt::format("iif({} OR {}, {}, NULL)", is(EntryKind::motion_ended), is(EntryKind::stop_ended), fact("outcome")),
       fact_of(EntryKind::motion_ended, "refused"), fact_of(EntryKind::request_refused, "count"),
-      fact_of(EntryKind::stop_requested, "emergency"), fact_of(EntryKind::link_changed, "link"),
-      is(EntryKind::stop_requested), static_cast<int>(EntryKind::lines_exchanged), is(EntryKind::daemon_started),
-      is(EntryKind::daemon_ended), kOfIdentity);
+      fmt::format("iif({} OR {}, {}, NULL)", is(EntryKind::stop_requested), is(EntryKind::stop_ended),
+                  fact("emergency")),
+      fact_of(EntryKind::link_changed, "link"), is(EntryKind::stop_requested), is(EntryKind::stop_ended),
+      fact_of(EntryKind::stop_ended, "late"), fact_of(EntryKind::stop_ended, "after_ms"),
+      static_cast<int>(EntryKind::lines_exchanged), is(EntryKind::daemon_started), is(EntryKind::daemon_ended),
+      kOfIdentity);
 }
 
 Result<void> Pass::run(Database& database, const Span& span) {
@@ -107,6 +114,14 @@ void Pass::take(const Statement& row) {
     case EntryKind::stop_requested:
       return stops.add(
           {row.time(time), std::string(row.bytes(who)), std::string(row.bytes(device)), row.integer(emergency) != 0});
+    case EntryKind::stop_ended:
+      if (row.integer(late) == 0) return;
+      return late_stops.add({.time = row.time(time),
+                             .who = std::string(row.bytes(who)),
+                             .device = std::string(row.bytes(device)),
+                             .emergency = row.integer(emergency) != 0,
+                             .after = std::chrono::milliseconds(row.integer(after_ms)),
+                             .confirmed = row.bytes(outcome) == "confirmed"});
     case EntryKind::link_changed:
       return links.push_back(
           {row.integer(number), row.time(time), std::string(row.bytes(device)), std::string(row.bytes(link))});
@@ -256,7 +271,8 @@ Result<Summary> summarize(Database& database, const Span& span) {
   if (!lost) return tl::unexpected(lost.error());
   auto started = starts(database, std::move(pass.daemon));
   if (!started) return tl::unexpected(started.error());
-  return Summary{*std::move(persons), std::move(pass.stops), *std::move(lost), *std::move(started)};
+  return Summary{*std::move(persons), std::move(pass.stops), std::move(pass.late_stops), *std::move(lost),
+                 *std::move(started)};
 }
 
 }  // namespace axisgate::server::journal

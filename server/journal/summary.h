@@ -38,6 +38,15 @@ struct StopSummary {
   bool emergency = false;
 };
 
+// A stop of which a caller was told that it stays open.
+struct LateStop {
+  WallTime time;  // when it ended
+  std::string who, device;
+  bool emergency = false;
+  Duration after{};        // since it was asked for
+  bool confirmed = false;  // false: withdrawn
+};
+
 struct LinkLoss {
   std::string device;
   WallTime down;               // may be before the span
@@ -67,6 +76,7 @@ struct Listed {
 struct Summary {
   Listed<PersonSummary> persons;
   Listed<StopSummary> stops;
+  Listed<LateStop> late_stops;
   Listed<LinkLoss> losses;
   Listed<DaemonStart> starts;  // in the order of their entries, whatever the span's device
 };

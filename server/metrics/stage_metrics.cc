@@ -2,6 +2,7 @@
 
 #include <prometheus/histogram.h>
 
+#include <algorithm>
 #include <chrono>
 #include <limits>
 #include <optional>
@@ -25,6 +26,9 @@ const Histogram::BucketBoundaries kExchangeSeconds = {0.0005, 0.001, 0.002, 0.00
 
 // Seconds. On an idle line a command waits for nothing, behind one exchange some 12 ms, behind a barrier up to 2 s.
 const Histogram::BucketBoundaries kQueueWaitSeconds = {0.001, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};
+
+// Seconds. Axes slow down for up to 1 s (manual 89) D:); a line that is cut can keep a stop open for hours.
+const Histogram::BucketBoundaries kStopSeconds = {0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10, 60, 600, 3600};
 
 double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
@@ -62,6 +66,14 @@ struct StageMetrics::Families {
         motions(counter_family(registry, "axisgate_motions_total", "Motions that ended, by kind and outcome.")),
         stops(counter_family(registry, "axisgate_stops_total",
                              "Stops requested: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
+        open_stops(gauge_family(registry, "axisgate_open_stops",
+                                "Stops that nobody has seen the axes obey; late: and somebody was told so.")),
+        stop_seconds(prometheus::BuildHistogram()
+                         .Name("axisgate_stop_confirmed_seconds")
+                         .Help("Time from asking for a stop until its axes were seen stationary.")
+                         .Register(registry)),
+        emergency_latched(gauge_family(registry, "axisgate_emergency_latched",
+                                       "1 from an emergency stop until it is cleared for all axes, else 0.")),
         positions(gauge_family(registry, "axisgate_position_pulses",
                                "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
         link_up(gauge_family(registry, "axisgate_link_up", "1 when the configured controller answers, else 0.")),
@@ -84,6 +96,9 @@ struct StageMetrics::Families {
   Family<Counter>& completions;
   Family<Counter>& motions;
   Family<Counter>& stops;
+  Family<Gauge>& open_stops;
+  Family<Histogram>& stop_seconds;
+  Family<Gauge>& emergency_latched;
   Family<Gauge>& positions;
   Family<Gauge>& link_up;
   Family<Counter>& barriers;
@@ -102,6 +117,10 @@ StageMetrics::StageMetrics(const Families& families, std::string device)
       positions_family_(families.positions),
       normal_stops_(families.stops.Add({{"device", device_}, {"kind", "normal"}})),
       emergency_stops_(families.stops.Add({{"device", device_}, {"kind", "emergency"}})),
+      open_stops_(families.open_stops.Add({{"device", device_}, {"late", "no"}})),
+      late_stops_(families.open_stops.Add({{"device", device_}, {"late", "yes"}})),
+      stop_seconds_(families.stop_seconds.Add({{"device", device_}}, kStopSeconds)),
+      emergency_latched_(families.emergency_latched.Add({{"device", device_}})),
       link_up_(families.link_up.Add({{"device", device_}})),
       barriers_(families.barriers.Add({{"device", device_}})),
       underruns_(families.underruns.Add({{"device", device_}})),
@@ -145,6 +164,10 @@ void StageMetrics::on_event(const stage::Event& event) {
 
 void StageMetrics::set_state(const stage::State& state) {
   link_up_.Set(state.link == stage::LinkState::up ? 1 : 0);
+  const auto late = std::ranges::count_if(state.open_stops, [](const stage::Stop& stop) { return stop.late; });
+  late_stops_.Set(static_cast<double>(late));
+  open_stops_.Set(static_cast<double>(state.open_stops.size()) - static_cast<double>(late));
+  emergency_latched_.Set(state.emergency ? 1 : 0);
   for (std::size_t axis = 0; axis < positions_.size(); ++axis) {
     const std::optional<std::int64_t>& position = state.axes[axis].position_pulses;
     if (positions_[axis] == nullptr) {
@@ -193,6 +216,11 @@ void StageMetrics::count(const stage::PathProgress& progress) {
 
 void StageMetrics::count(const stage::StopRequested& stop) {
   (stop.emergency ? emergency_stops_ : normal_stops_).Increment();
+}
+
+void StageMetrics::count(const stage::StopChanged& change) {
+  const stage::Stop& stop = change.stop;
+  if (stop.state == stage::StopState::confirmed) stop_seconds_.Observe(seconds(stop.ended - stop.asked));
 }
 
 void StageMetrics::count(const stage::LinkChanged& change) {

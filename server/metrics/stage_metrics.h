@@ -48,6 +48,8 @@ class StageMetrics {
   void count(const stage::CompletionSeen& completion);
   void count(const stage::PathProgress& progress);
   void count(const stage::StopRequested& stop);
+  void count(const stage::StopChanged& change);
+  void count(const stage::EmergencyLatchChanged&) {}
   void count(const stage::ForeignMotion&) {}
   void count(const stage::SwitchesChanged&) {}
   void count(const stage::ProgramNotice&) {}
@@ -74,6 +76,10 @@ class StageMetrics {
   std::array<prometheus::Gauge*, stage::kAxisCount> positions_{};  // null until a position is known
   prometheus::Counter& normal_stops_;
   prometheus::Counter& emergency_stops_;
+  prometheus::Gauge& open_stops_;
+  prometheus::Gauge& late_stops_;
+  prometheus::Histogram& stop_seconds_;
+  prometheus::Gauge& emergency_latched_;
   prometheus::Gauge& link_up_;
   prometheus::Counter& barriers_;
   prometheus::Counter& underruns_;

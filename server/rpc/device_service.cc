@@ -25,4 +25,12 @@ grpc::ServerUnaryReactor* DeviceService::ClearErrors(grpc::CallbackServerContext
   return call.get();
 }
 
+grpc::ServerUnaryReactor* DeviceService::WithdrawStop(grpc::CallbackServerContext* context,
+                                                      const v1::WithdrawStopRequest* request,
+                                                      v1::WithdrawStopResponse* response) {
+  const auto call = UnaryCall<v1::WithdrawStopResponse>::start(response);
+  devices_.withdraw_stop(to_call(*context, request->context()), request->name(), answering(call));
+  return call.get();
+}
+
 }  // namespace axisgate::rpc

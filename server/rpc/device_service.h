@@ -16,6 +16,8 @@ class DeviceService final : public v1::DeviceService::CallbackService {
                                                                  const v1::WatchDeviceRequest* request) override;
   grpc::ServerUnaryReactor* ClearErrors(grpc::CallbackServerContext* context, const v1::ClearErrorsRequest* request,
                                         v1::ClearErrorsResponse* response) override;
+  grpc::ServerUnaryReactor* WithdrawStop(grpc::CallbackServerContext* context, const v1::WithdrawStopRequest* request,
+                                         v1::WithdrawStopResponse* response) override;
 
  private:
   const api::Devices& devices_;

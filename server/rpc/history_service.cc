@@ -28,6 +28,7 @@ using server::journal::StoredEntry;
 static_assert(static_cast<int>(EntryKind::entries_left_out) == v1::HISTORY_KIND_ENTRIES_LEFT_OUT);
 static_assert(static_cast<int>(EntryKind::motion_ended) == v1::HISTORY_KIND_MOTION_ENDED);
 static_assert(static_cast<int>(EntryKind::stop_requested) == v1::HISTORY_KIND_STOP_REQUESTED);
+static_assert(static_cast<int>(EntryKind::emergency_cleared) == v1::HISTORY_KIND_EMERGENCY_CLEARED);
 static_assert(static_cast<int>(EntryKind::foreign_motion) == v1::HISTORY_KIND_FOREIGN_MOTION);
 static_assert(static_cast<int>(EntryKind::switches_changed) == v1::HISTORY_KIND_SWITCHES_CHANGED);
 static_assert(static_cast<int>(EntryKind::request_ended) == v1::HISTORY_KIND_REQUEST_ENDED);
@@ -102,6 +103,17 @@ v1::PersonSummary message_of(const server::journal::PersonSummary& person) {
   return proto;
 }
 
+v1::LateStop message_of(const server::journal::LateStop& stop) {
+  v1::LateStop proto;
+  *proto.mutable_time() = to_proto(stop.time);
+  proto.set_who(stop.who);
+  proto.set_device(api::device_name(stop.device));
+  proto.set_emergency(stop.emergency);
+  *proto.mutable_after() = to_proto(stop.after);
+  proto.set_confirmed(stop.confirmed);
+  return proto;
+}
+
 v1::StopSummary message_of(const server::journal::StopSummary& stop) {
   v1::StopSummary proto;
   *proto.mutable_time() = message_of(stop.time);
@@ -133,6 +145,8 @@ void fill(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer
   proto.set_more_persons(summary.persons.more);
   for (const auto& stop : summary.stops.items) *proto.add_stops() = message_of(stop);
   proto.set_more_stops(summary.stops.more);
+  for (const auto& stop : summary.late_stops.items) *proto.add_late_stops() = message_of(stop);
+  proto.set_more_late_stops(summary.late_stops.more);
   for (const auto& loss : summary.losses.items) *proto.add_link_losses() = message_of(loss);
   proto.set_more_link_losses(summary.losses.more);
   for (const auto& start : summary.starts.items) *proto.add_daemon_starts() = message_of(start);

@@ -30,6 +30,7 @@ constexpr std::array<MethodKind, 59> kKinds = {{
     {"DeviceService/GetDevice", Kind::get_device},
     {"DeviceService/WatchDevice", Kind::watch_device},
     {"DeviceService/ClearErrors", Kind::clear_errors},
+    {"DeviceService/WithdrawStop", Kind::withdraw_stop},
     {"DiagnosticsService/Record", Kind::record},
     {"DiagnosticsService/GetSupportReport", Kind::get_support_report},
     {"EventService/Watch", Kind::watch_events},

@@ -24,6 +24,7 @@ template <class Response>
 Response reports_in(const std::vector<api::DeviceStop>& stops) {
   Response response;
   for (const api::DeviceStop& one : stops) *response.add_devices() = to_proto(one);
+  response.set_stays_open(std::ranges::any_of(stops, [](const auto& one) { return one.report.stays_open; }));
   if (response.devices_size() != 1) return response;
   const v1::DeviceStop& only = response.devices(0);
   *response.mutable_axes() = only.axes();

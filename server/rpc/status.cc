@@ -15,7 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
-static_assert(static_cast<int>(Reason::request_memory_lost) == v1::REASON_REQUEST_MEMORY_LOST);
+static_assert(static_cast<int>(kLastReason) == v1::REASON_STOP_UNCONFIRMED);
 
 void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -74,6 +74,7 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::not_homed:
     case Reason::unexplained:
     case Reason::request_memory_lost:
+    case Reason::stop_unconfirmed:
       return grpc::StatusCode::FAILED_PRECONDITION;
     case Reason::link_down:
     case Reason::not_sent:

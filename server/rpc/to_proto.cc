@@ -98,6 +98,38 @@ void fill_age(TimePoint read, v1::Device& device) {
   *device.mutable_read_time() = to_proto(server::to_wall(read));
 }
 
+v1::StopChange::State to_stop_state(stage::StopState state) {
+  switch (state) {
+    case stage::StopState::asked:
+    case stage::StopState::written:
+      return v1::StopChange::STATE_OPEN;
+    case stage::StopState::confirmed:
+      return v1::StopChange::STATE_CONFIRMED;
+    case stage::StopState::replaced:
+      return v1::StopChange::STATE_REPLACED;
+    case stage::StopState::withdrawn:
+      break;
+  }
+  return v1::StopChange::STATE_WITHDRAWN;
+}
+
+void fill_stops(const std::string& device, const stage::State& state, v1::Device& proto) {
+  for (const stage::Stop& stop : state.open_stops) {
+    v1::OpenStop& one = *proto.add_open_stops();
+    one.set_name(api::stop_name(device, stop.id));
+    for (const int axis : stop.axes.list()) one.add_axes(axis);
+    one.set_emergency(stop.kind == stage::StopKind::emergency);
+    for (const std::string& who : stop.callers) one.add_callers(who);
+    *one.mutable_ask_time() = to_proto(server::to_wall(stop.asked));
+    one.set_written(stop.state == stage::StopState::written);
+    one.set_late(stop.late);
+    one.set_stale_setpoint(stop.stale);
+  }
+  if (!state.emergency) return;
+  proto.mutable_emergency_latch()->set_who(state.emergency->who);
+  *proto.mutable_emergency_latch()->mutable_time() = to_proto(server::to_wall(state.emergency->at));
+}
+
 // Each fact's own place in an Event.
 struct EventFiller {
   const server::FactRecord& record;
@@ -141,6 +173,27 @@ struct EventFiller {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
     event.mutable_stop_requested()->set_emergency(stop.emergency);
     event.mutable_stop_requested()->set_who(stop.who);
+  }
+  void operator()(const stage::StopChanged& change) const {
+    const stage::Stop& stop = change.stop;
+    v1::StopChange& proto = *event.mutable_stop();
+    proto.set_name(api::stop_name(record.device, stop.id));
+    proto.set_state(to_stop_state(stop.state));
+    for (const int axis : stop.axes.list()) proto.add_axes(axis);
+    proto.set_emergency(stop.kind == stage::StopKind::emergency);
+    for (const std::string& who : stop.callers) proto.add_callers(who);
+    if (!is_open(stop.state)) *proto.mutable_after() = to_proto(stop.ended - stop.asked);
+    for (const auto& [axis, pulses] : stop.came_to) {
+      v1::AxisRest& rest = *proto.add_rests();
+      rest.set_axis(axis);
+      rest.set_position_pulses(pulses);
+    }
+    if (stop.replaced_by != 0) proto.set_replaced_by(api::stop_name(record.device, stop.replaced_by));
+    proto.set_withdrawn_by(stop.withdrawn_by);
+  }
+  void operator()(const stage::EmergencyLatchChanged& change) const {
+    event.mutable_emergency_latch()->set_latched(change.latch.has_value());
+    event.mutable_emergency_latch()->set_who(change.who);
   }
   void operator()(const server::DaemonStarted& started) const {
     event.mutable_daemon_started()->set_after_unclean_end(started.after_unclean_end);
@@ -196,6 +249,7 @@ v1::Device to_proto(const server::Stage& device, const stage::State& state) {
   if (state.outputs) proto.set_outputs(*state.outputs);
   if (state.trigger) fill_trigger(*state.trigger, *proto.mutable_trigger());
   proto.set_moving_unknown(state.moving_unknown);
+  fill_stops(device.name(), state, proto);
   fill_age(state.read, proto);
   return proto;
 }
@@ -288,6 +342,8 @@ v1::DeviceStop to_proto(const api::DeviceStop& stop) {
     one.set_position(position_text(axis.position_pulses, stop.state.axis(axis.axis).scale, profile.unit));
   }
   if (stop.report.problem) *proto.mutable_problem() = to_proto(*stop.report.problem);
+  proto.set_stays_open(stop.report.stays_open);
+  if (stop.report.stop != 0) proto.set_stop(api::stop_name(stop.device->name(), stop.report.stop));
   return proto;
 }
 

@@ -242,6 +242,9 @@ Reason ask_devices(World& world, RequestKind kind, const Call& call) {
     case RequestKind::clear_errors:
       devices.clear_errors(call, kDevice, stage::AxisSet(), done.answer());
       return done.reason();
+    case RequestKind::withdraw_stop:
+      devices.withdraw_stop(call, std::string(kDevice) + "/stops/1", done.answer());
+      return done.reason();
     case RequestKind::operate_simulator:
       world.api->simulators.operate(call, kDevice, "position", text.answer());
       return text.reason();
@@ -338,6 +341,7 @@ Reason ask(World& world, RequestKind kind, const Call& call) {
     case Kind::get_device:
     case Kind::watch_device:
     case Kind::clear_errors:
+    case Kind::withdraw_stop:
     case Kind::operate_simulator:
     case Kind::list_commands:
     case Kind::execute:

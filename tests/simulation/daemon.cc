@@ -63,10 +63,13 @@ Daemon::Daemon(const StateFolder& folder, const MemoryBounds& bounds, std::uint3
       journal_(Journal::open(folder.journal(), kBoot).value()),
       requests_(bounds, journal_->epoch(), Duration::zero(), journal_->take_requests()),
       record_(server::MotionRecord::open(folder.motions(), kBoot).value()),
+      stops_(server::StopRecord::open(folder.stops()).value()),
       entries_(kDevice, journal_.get(), requests_) {}
 
 void Daemon::prepare(stage::StageController& controller) {
-  if (record_->unfinished()) controller.inherit(*record_->unfinished());
+  stage::Inheritance left = stops_->before();
+  left.unfinished = record_->unfinished();
+  controller.inherit(left);
   controller.number_motions_after(std::max(journal_->last_motion(kDevice).value(), record_->last_motion()));
   server::EventBus nobody_watches([](std::function<void()>) {});
   server::settle_what_was_left(journal_.get(), requests_, nobody_watches,
@@ -76,6 +79,7 @@ void Daemon::prepare(stage::StageController& controller) {
 
 void Daemon::on_event(const stage::Event& event, TimePoint now) {
   record_->on_event(event);
+  stops_->on_event(event);
   entries_.on_event(event, now);
 }
 

@@ -11,6 +11,7 @@
 #include "device/stage/stage_controller.h"
 #include "server/access/leases.h"
 #include "server/devices/motion_record.h"
+#include "server/devices/stop_record.h"
 #include "server/journal/device_entries.h"
 #include "server/journal/journal.h"
 #include "server/journal/request_memory.h"
@@ -29,6 +30,7 @@ class StateFolder {
 
   std::string journal() const { return path_ + "/journal.sqlite"; }
   std::string motions() const { return path_ + "/motions"; }
+  std::string stops() const { return path_ + "/stops"; }
 
   // Keeps the journal as it is; the other puts it back. Nobody may write meanwhile.
   void keep_journal() const;
@@ -65,6 +67,7 @@ class Daemon {
   std::unique_ptr<server::journal::Journal> journal_;
   server::journal::RequestMemory requests_;
   std::unique_ptr<server::MotionRecord> record_;
+  std::unique_ptr<server::StopRecord> stops_;
   server::journal::DeviceEntries entries_;
   bool disk_hangs_ = false;
 };

@@ -35,7 +35,8 @@ class DeviceEventsTest : public ::testing::Test {
   Newest<stage::State> state_{[](std::function<void()>) {}};
   std::vector<DeviceEvents::Due> due_;
   DeviceEvents events_{"stage",   bus_,   stage_metrics_,
-                       recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); }};
+                       recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); },
+                       {}};
 };
 
 TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {

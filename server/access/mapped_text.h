@@ -1,0 +1,40 @@
+// A small text in a mapped file of the state directory: a process that is killed leaves the newest whole one, and
+// nothing waits for the disk.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+
+namespace axisgate::server {
+
+// Not thread safe, but for sync().
+class MappedText {
+ public:
+  static constexpr std::size_t kMax = 8192;  // bytes; more is cut off
+
+  // internal, where the file cannot be made or is no regular one.
+  static Result<std::unique_ptr<MappedText>> open(const std::string& path);
+  ~MappedText();
+  MappedText(const MappedText&) = delete;
+  MappedText& operator=(const MappedText&) = delete;
+
+  // Holds until the second replace() from then on.
+  std::string_view text() const;
+  void replace(const std::string& text);
+
+  // Writes the newest text to the disk, so that it survives a power cut, too. Waits for the disk. From any thread.
+  void sync() const;
+
+ private:
+  struct Content;
+  explicit MappedText(Content* content) : content_(content) {}
+  std::size_t counting() const;
+
+  Content* const content_;
+};
+
+}  // namespace axisgate::server
