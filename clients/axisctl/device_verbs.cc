@@ -1,5 +1,6 @@
 // devices, status, position, clear, commands: what there is, and how it is.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <google/protobuf/util/time_util.h>
 
 #include <optional>
@@ -44,8 +45,28 @@ std::string axis_text(const v1::Axis& axis) {
                      speed_text(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
 }
 
+std::string ago(const google::protobuf::Timestamp& time) {
+  return duration_text(time, google::protobuf::util::TimeUtil::GetCurrentTime()) + " ago";
+}
+
+void print_stops(const v1::Device& device) {
+  if (device.has_emergency_latch()) {
+    print_line(fmt::format("EMERGENCY STOP by {} {}: nothing moves until `axisctl clear`",
+                           device.emergency_latch().who(), ago(device.emergency_latch().time())));
+  }
+  for (const v1::OpenStop& stop : device.open_stops()) {
+    const char* state = stop.stale_setpoint()
+                            ? "the axes are stationary, but a stale setpoint is left; reset the controller"
+                            : "nobody has seen the axes obey it; it is repeated";
+    print_line(fmt::format("OPEN STOP {} of {} {} by {} {}: {}", last_part(stop.name()),
+                           stop.axes_size() == 1 ? "axis" : "axes", fmt::join(stop.axes(), ", "),
+                           fmt::join(stop.callers(), ", "), ago(stop.ask_time()), state));
+  }
+}
+
 void print_status(const v1::Device& device) {
   print_line(fmt::format("{}  {}", last_part(device.name()), link_text(device)));
+  print_stops(device);
   if (device.device_epoch() == 0) {
     print_line("controller unknown: it has not replied since the daemon started");
     return;

@@ -90,7 +90,9 @@ has stored there is overwritten.)",
     {"forget", "", "axisctl forget sample"},
     {"stop",
      R"(Anybody may stop all axes, also those that others move. After a stop by somebody else, motions are refused until their
-caller types `axisctl rearm`. With `estop` the axes do not slow down first, and nothing moves until `axisctl clear`.)",
+caller types `axisctl rearm`. With `estop` the axes do not slow down first, and nothing moves until `axisctl clear`.
+If nobody could see the axes obey, the exit code is 1 and the stop stays open: the daemon repeats it as soon as the
+controller answers, also after a restart, and refuses motion of these axes until then. `axisctl status` shows it.)",
      "axisctl stop"},
     {"rearm",
      R"(A stop by somebody else sets a latch: your motions on these axes are refused until you rearm. This moves nothing, and
@@ -98,9 +100,14 @@ the stopped motion does not continue. Type it in any terminal: it also ends the 
 After an emergency stop by somebody else, type `axisctl rearm` first, then `axisctl clear`.)",
      "axisctl rearm"},
     {"estop", "Not a safety function: keep the wired emergency stop within reach.", "axisctl estop"},
+    {"withdraw",
+     R"(An open stop refuses motion of its axes until the gateway has seen them stationary. If its controller will never answer
+again, an administrator gives the stop up. The history records who did it.)",
+     "axisctl withdraw 12"},
     {"clear",
-     "Needs the role admin, unless `admin_commands` in the configuration leaves out BEC:. After an emergency stop\n"
-     "the motors may be off. `rearm` ends the latch of a stop by somebody else.",
+     R"(Needs the role admin, unless `admin_commands` in the configuration leaves out BEC:. After an emergency stop the motors
+may be off. Only `clear` without axes ends an emergency stop, once that stop is confirmed. `rearm` ends the latch of a
+stop by somebody else.)",
      "axisctl clear\naxisctl motor 1,2,3 on"},
     {"exec", "Each LINE is a command of the manual. `axisctl commands` lists them.", "axisctl exec 'M:1+P1000' 'G:1'"},
     {"watch", "", "axisctl watch --from 1   # all events from number 1 on, until Ctrl-C"},

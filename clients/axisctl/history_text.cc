@@ -95,6 +95,15 @@ std::string job_entry_text(const Json& details, const std::string& because) {
                      because);
 }
 
+std::string stop_end_text(const Json& details) {
+  const std::string title = fmt::format("{} {} of {}", details.value("emergency", false) ? "emergency stop" : "stop",
+                                        details.value("stop", std::uint64_t{}), axes_text(details));
+  const std::string outcome = details.value("outcome", "?");
+  if (outcome != "confirmed") return title + " " + outcome + "; nobody has seen the axes obey it";
+  return fmt::format("{} confirmed after {}{}", title, elapsed_text(details.value("after_ms", std::int64_t{}) * 1000),
+                     results_text(details));
+}
+
 std::string text_of(const v1::HistoryEntry& entry) {
   const Json details = Json::parse(entry.details(), nullptr, false);
   if (!details.is_object()) return entry.details();
@@ -125,6 +134,12 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return motion_text(entry, details);
     case v1::HISTORY_KIND_STOP_REQUESTED:
       return fmt::format("{} of {}", details.value("emergency", false) ? "emergency stop" : "stop", axes_text(details));
+    case v1::HISTORY_KIND_STOP_ENDED:
+      return stop_end_text(details);
+    case v1::HISTORY_KIND_EMERGENCY_LATCHED:
+      return "latched by an emergency stop: nothing moves until it is cleared";
+    case v1::HISTORY_KIND_EMERGENCY_CLEARED:
+      return "emergency stop cleared";
     case v1::HISTORY_KIND_LINK_CHANGED:
       return "link " + details.value("link", "?") + because;
     case v1::HISTORY_KIND_BARRIER_ENTERED:

@@ -31,6 +31,7 @@ constexpr Row kRows[] = {
     {Verb::jog, jog, true},
     {Verb::stop, stop},
     {Verb::estop, emergency_stop},
+    {Verb::withdraw, withdraw_stop},
     {Verb::clear, clear},
     {Verb::exec, execute},
     {Verb::watch, watch},

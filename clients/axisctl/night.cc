@@ -116,6 +116,13 @@ std::string stop_text(const v1::StopSummary& stop, const NightClock& clock) {
                      stop.who().empty() ? "an unknown caller" : stop.who(), clock.text(stop.time()));
 }
 
+std::string late_text(const v1::LateStop& stop, const NightClock& clock) {
+  return fmt::format("{} of {} by {} {} at {}, {} after it was asked for", stop.emergency() ? "emergency stop" : "stop",
+                     last_part(stop.device()), stop.who().empty() ? "an unknown caller" : stop.who(),
+                     stop.confirmed() ? "confirmed" : "withdrawn, and never confirmed,", clock.text(stop.time()),
+                     duration_text(stop.after()));
+}
+
 std::string loss_text(const v1::LinkLoss& loss, const NightClock& clock) {
   const std::string text = fmt::format("{}: link lost at {}", last_part(loss.device()), clock.text(loss.down_time()));
   return text + (loss.has_up_time() ? " for " + duration_text(loss.down_time(), loss.up_time()) : ", not up again");
@@ -133,6 +140,7 @@ std::vector<std::string> happenings(const v1::SummarizeHistoryResponse& night, c
     timed.emplace_back(TimeUtil::TimestampToMicroseconds(time), std::move(text));
   };
   for (const v1::StopSummary& stop : night.stops()) add(stop.time(), stop_text(stop, clock));
+  for (const v1::LateStop& stop : night.late_stops()) add(stop.time(), late_text(stop, clock));
   for (const v1::LinkLoss& loss : night.link_losses()) add(loss.down_time(), loss_text(loss, clock));
   for (const v1::DaemonStart& start : night.daemon_starts()) add(start.time(), start_text(start, clock));
   std::ranges::stable_sort(timed, {}, &std::pair<std::int64_t, std::string>::first);
@@ -154,6 +162,7 @@ void print_night(const v1::SummarizeHistoryResponse& night, const NightClock& cl
   const std::vector<std::string> others = happenings(night, clock);
   for (const std::string& line : others) print_line(line);
   print_more(night.more_stops(), "stops");
+  print_more(night.more_late_stops(), "stops that were confirmed late");
   print_more(night.more_link_losses(), "losses of a link");
   print_more(night.more_daemon_starts(), "starts of the daemon");
   if (night.persons().empty() && others.empty()) print_line("nothing happened");

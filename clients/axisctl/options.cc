@@ -136,6 +136,11 @@ void add_motion_verbs(CLI::App& app, Options& options) {
   add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop axes, also those that others move"),
            options);
   add_verb(app, options, Verb::estop, "estop", "emergency stop: stop all axes at once; no motion until `clear`");
+  add_verb(app, options, Verb::withdraw, "withdraw",
+           "for administrators: give up an open stop, whose controller will never answer again")
+      ->add_option("STOP", options.number, "its number, as `axisctl status` shows it")
+      ->required()
+      ->type_name("");
   add_verb(app, options, Verb::rearm, "rearm",
            "after a stop by somebody else: allow your motions again; moves nothing");
 }
@@ -287,7 +292,7 @@ void set_groups(CLI::App& app) {
   const Group groups[] = {
       {"Looking", {"devices", "status", "position", "watch", "motions", "history", "audit", "whoami"}},
       {"Moving", {"home", "move", "path", "line", "arc", "scan", "jog", "save", "positions", "go", "forget"}},
-      {"Stopping and sharing", {"stop", "cancel", "estop", "rearm", "clear", "lease", "token"}},
+      {"Stopping and sharing", {"stop", "cancel", "estop", "withdraw", "rearm", "clear", "lease", "token"}},
       {"Settings",
        {"settings", "speed", "motor", "loop", "divisions", "settle", "sleep", "wake", "display", "beep", "mode",
         "dialect", "reset", "zero", "unzero", "preset", "outputs", "inputs", "trigger"}},

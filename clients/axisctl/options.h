@@ -22,6 +22,7 @@ enum class Verb {
   jog,
   stop,
   estop,
+  withdraw,
   clear,
   exec,
   watch,

@@ -62,6 +62,39 @@ std::string describe_stop(const v1::StopRequested& stop) {
                      fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who());
 }
 
+std::string axes_text(const google::protobuf::RepeatedField<std::int32_t>& axes) {
+  return fmt::format("{} {}", axes.size() == 1 ? "axis" : "axes", fmt::join(axes, ", "));
+}
+
+std::string describe_stop_change(const v1::StopChange& stop) {
+  const std::string title =
+      fmt::format("{} {} of {} by {}", stop.emergency() ? "emergency stop" : "stop", last_part(stop.name()),
+                  axes_text(stop.axes()), fmt::join(stop.callers(), ", "));
+  switch (stop.state()) {
+    case v1::StopChange::STATE_OPEN:
+      return title + " stays open: nobody has seen the axes obey it, and it is repeated";
+    case v1::StopChange::STATE_CONFIRMED: {
+      std::string text = fmt::format("{} confirmed after {}", title, duration_text(stop.after()));
+      for (const v1::AxisRest& rest : stop.rests()) {
+        text += fmt::format(", axis {} at {} pulses", rest.axis(), rest.position_pulses());
+      }
+      return text;
+    }
+    case v1::StopChange::STATE_REPLACED:
+      return fmt::format("{} replaced by stop {}", title, last_part(stop.replaced_by()));
+    case v1::StopChange::STATE_WITHDRAWN:
+      return fmt::format("{} withdrawn by {}; nobody has seen the axes obey it", title, stop.withdrawn_by());
+    default:
+      return title;
+  }
+}
+
+std::string describe_latch(const v1::EmergencyLatchChange& change) {
+  return change.latched()
+             ? fmt::format("latched by the emergency stop of {}: nothing moves until `axisctl clear`", change.who())
+             : fmt::format("the emergency stop was cleared by {}", change.who());
+}
+
 std::string describe_foreign(const v1::ForeignMotion& motion) {
   return fmt::format("FOREIGN_MOTION: axes {} move without a request to the gateway", fmt::join(motion.axes(), ", "));
 }
@@ -237,6 +270,10 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_link(event.link()));
     case v1::Event::kStopRequested:
       return on_one_line(describe_stop(event.stop_requested()));
+    case v1::Event::kStop:
+      return on_one_line(describe_stop_change(event.stop()));
+    case v1::Event::kEmergencyLatch:
+      return on_one_line(describe_latch(event.emergency_latch()));
     case v1::Event::kForeignMotion:
       return on_one_line(describe_foreign(event.foreign_motion()));
     case v1::Event::kSwitchesChanged:

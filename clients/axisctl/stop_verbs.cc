@@ -1,4 +1,4 @@
-// stop and estop: one call, also for several devices. Say of every axis what is known, never more.
+// stop, estop and withdraw: one call, also for several devices. Say of every axis what is known, never more.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,9 +30,13 @@ std::string describe_stop(const v1::AxisStop& stop) {
                      describe_reply(stop), state, describe_position(stop));
 }
 
-// What went wrong, and nothing where all axes are stationary.
+// What went wrong; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
 std::optional<Failure> failure_of(const v1::DeviceStop& device) {
-  if (device.has_problem()) return to_failure(device.problem());
+  if (device.has_problem()) {
+    Failure failure = to_failure(device.problem());
+    if (device.stays_open()) failure.exit_code = kFailed;
+    return failure;
+  }
   for (const v1::AxisStop& stop : device.axes()) {
     if (!stop.has_ready() || !stop.ready()) {
       return Failure{kFailed, "OUTCOME_UNKNOWN", fmt::format("axis {} was not confirmed stationary", stop.axis()),
@@ -53,6 +57,11 @@ int report(const Session& session, const Response& response) {
       for (const v1::AxisStop& stop : device.axes()) print_line(whose + describe_stop(stop));
     }
     auto failure = failure_of(device);
+    if (device.stays_open() && !session.options.json) {
+      print_line(fmt::format("{}stop {} stays open and is repeated until the axes are seen stationary: axisctl status",
+                             whose, last_part(device.stop())));
+    }
+    if (!failure && device.stays_open()) exit_code = kFailed;
     if (!failure) continue;
     failure->message = whose + failure->message;
     print_failure(*failure);
@@ -108,9 +117,22 @@ int emergency_stop(const Session& session) {
   const int exit_code = report(
       session,
       session.connection.call(session.connection.stage, &v1::StageService::Stub::EmergencyStop, request, kStopLimit));
-  if (exit_code == kDone && !session.options.json)
-    print_line("emergency stop: nothing moves until `axisctl clear`; the motors may be off then");
+  if (!session.options.json) print_line("nothing moves until `axisctl clear`; the motors may be off then");
   return exit_code;
+}
+
+int withdraw_stop(const Session& session) {
+  v1::WithdrawStopRequest request;
+  *request.mutable_context() = session.connection.new_call_context();
+  request.set_name(fmt::format("{}/stops/{}", chosen_device(session).name(), *session.options.number));
+  const v1::WithdrawStopResponse response = session.connection.call(
+      session.connection.devices, &v1::DeviceService::Stub::WithdrawStop, request, kQuestionLimit);
+  if (session.options.json) {
+    print_json(response);
+  } else {
+    print_line(fmt::format("withdrawn: stop {}; nobody has seen its axes obey it", *session.options.number));
+  }
+  return kDone;
 }
 
 }  // namespace axisgate::axisctl

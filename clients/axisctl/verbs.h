@@ -19,6 +19,7 @@ int scan(const Session& session);
 int jog(const Session& session);
 int stop(const Session& session);
 int emergency_stop(const Session& session);
+int withdraw_stop(const Session& session);
 int execute(const Session& session);
 int watch(const Session& session);
 int record(const Session& session);
