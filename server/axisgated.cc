@@ -5,7 +5,6 @@
 
 #include <CLI/CLI.hpp>
 #include <chrono>
-#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <ctime>
@@ -57,8 +56,10 @@ void describe(CLI::App& program, Arguments& arguments) {
   program.add_flag("--check-config", arguments.check_config, "Check the configuration, say what is wrong, and end");
   program.set_version_flag("--version", "axisgated " AXISGATE_VERSION);
   program.footer(
-      "Exit codes: 0 ended by SIGINT or SIGTERM, or all is well; 1 it could not start; 2 the command line or\n"
-      "the configuration is wrong.");
+      "Ctrl-C, SIGTERM, and all other signals that end a program, first stop or finish what moves, as `at_exit`\n"
+      "says. A second one ends the daemon at once, and what moves may continue to move. Ctrl-Z is ignored.\n\n"
+      "Exit codes: 0 ended by a signal, or all is well; 1 it could not start; 2 the command line or the\n"
+      "configuration is wrong.");
 }
 
 int complain(int exit_code, const std::string& what) {
@@ -180,8 +181,6 @@ int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_si
 int serve(const server::Config& config) {
   using server::journal::EntryKind;
   server::EndSignals end_signals;
-  // A reader that has gone is an error where it is written to, not the end of the daemon.
-  std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
   // Held until all that writes there has ended.
   const auto state = server::StateDirectory::hold(server::default_state_directory());

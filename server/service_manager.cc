@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cstdint>
+#include <cstdlib>
 
 namespace axisgate::server {
 namespace {
@@ -13,6 +14,8 @@ namespace {
 constexpr int kKeepVariables = 0;
 
 }  // namespace
+
+bool is_service() { return std::getenv("NOTIFY_SOCKET") != nullptr || std::getenv("INVOCATION_ID") != nullptr; }
 
 void notify_ready() { ::sd_notify(kKeepVariables, "READY=1"); }
 

@@ -7,6 +7,9 @@
 
 namespace axisgate::server {
 
+// Reports whether systemd, or another service manager that sets its variables, has started the daemon.
+bool is_service();
+
 void notify_ready();
 void notify_alive();
 // From now on the daemon may take `limit` to end, in which it does not say that it is alive.

@@ -32,4 +32,15 @@ void say_on_interrupt(const char* what) {
   sigaction(SIGINT, &action, nullptr);
 }
 
+void on_end_signals(void (*handler)(int), int flags) {
+  struct sigaction action = {};
+  action.sa_handler = handler;
+  action.sa_flags = flags;
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+  struct sigaction at_start = {};
+  sigaction(SIGHUP, nullptr, &at_start);
+  if (at_start.sa_handler != SIG_IGN) sigaction(SIGHUP, &action, nullptr);
+}
+
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// What Ctrl-C means while axisctl follows something that it does not end.
+// What Ctrl-C, and signals like it, mean to a command of axisctl.
 #pragma once
 
 namespace axisgate::axisctl {
@@ -6,5 +6,9 @@ namespace axisgate::axisctl {
 // From now on Ctrl-C prints "axisctl: " and `what` on the standard error, and ends axisctl with exit code 130. `what`
 // must exist for as long as axisctl runs.
 void say_on_interrupt(const char* what);
+
+// Calls `handler` at each signal that asks a command to end: SIGINT, SIGTERM, and SIGHUP unless nohup(1) made axisctl
+// ignore it. `flags` are those of sigaction(2).
+void on_end_signals(void (*handler)(int), int flags);
 
 }  // namespace axisgate::axisctl

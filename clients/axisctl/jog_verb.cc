@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/interrupt.h"
 #include "clients/axisctl/outcome.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
@@ -41,18 +42,14 @@ timespec to_timespec(Clock::time_point time) {
   return result;
 }
 
-// Lets the axes run on, from a thread of its own, since a terminal that takes no output must not stop them. Ctrl-C and
-// SIGTERM close this side of the call, upon which the daemon stops them in order. One at a time.
+// Lets the axes run on, from a thread of its own, since a terminal that takes no output must not stop them. Ctrl-C,
+// SIGTERM and SIGHUP close this side of the call, upon which the daemon stops them in order. One at a time.
 class Renewals {
  public:
   explicit Renewals(JogStream& stream) : stream_(stream) {
     sem_init(&ended, 0, 0);
-    struct sigaction action = {};
-    action.sa_handler = end;
     // The second one ends axisctl, where no answer comes to the first. SA_RESTART: no line is printed by halves.
-    action.sa_flags = static_cast<int>(SA_RESETHAND | SA_RESTART);
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    on_end_signals(end, static_cast<int>(SA_RESETHAND | SA_RESTART));
     renewer_ = std::thread([this] { renew(); });
   }
 

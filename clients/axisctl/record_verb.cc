@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/interrupt.h"
 #include "clients/axisctl/output.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
@@ -24,15 +25,12 @@ void end(int) {
   sem_post(&ended);
 }
 
-// Makes Ctrl-C and SIGTERM the ordinary end of a call. One at a time.
+// Makes Ctrl-C, SIGTERM and SIGHUP the ordinary end of a call. One at a time.
 class EndedBySignal {
  public:
   explicit EndedBySignal(grpc::ClientContext& call) {
     sem_init(&ended, 0, 0);
-    struct sigaction action = {};
-    action.sa_handler = end;
-    sigaction(SIGINT, &action, nullptr);
-    sigaction(SIGTERM, &action, nullptr);
+    on_end_signals(end, 0);
     // gRPC may not be called from a signal handler.
     waiter_ = std::thread([&call] {
       while (sem_wait(&ended) != 0 && errno == EINTR) {

@@ -173,7 +173,7 @@ class Jogs(unittest.TestCase):
 
     def test_an_interrupted_caller_stops_in_order(self):
         self.serve()
-        for number, axes in ((signal.SIGINT, ["1=+"]), (signal.SIGTERM, ["2=-", "x=+"])):
+        for number, axes in ((signal.SIGINT, ["1=+"]), (signal.SIGHUP, ["x=+"]), (signal.SIGTERM, ["2=-", "x=+"])):
             with self.subTest(number.name):
                 jog = self.jog(*axes)
                 jog.process.send_signal(number)
@@ -183,6 +183,13 @@ class Jogs(unittest.TestCase):
                 self.assertEqual(motion["state"], "MOTION_STATE_SUCCEEDED", motion)
         self.assertLess(self.place(2), 0)
         self.assert_stands(motion)
+
+    def test_nohup_keeps_a_jog_running(self):
+        self.serve()
+        jog = self.jog("1=+", command=["nohup", *self.daemon.command()])
+        with open(f"/proc/{jog.process.pid}/status", encoding="ascii") as file:
+            ignored = int(re.search(r"^SigIgn:\s+(\S+)$", file.read(), re.MULTILINE)[1], 16)
+        self.assertTrue(ignored & 1 << (signal.SIGHUP - 1))
 
     def test_so_many_seconds_as_json(self):
         self.serve()

@@ -97,6 +97,12 @@ class Leases(unittest.TestCase):
         self.assertEqual(waiting.end(), 0)
         self.assertRegex(waiting.errors, "has held axis 1 .*; waiting")
 
+    def test_a_closed_terminal_ends_command_and_lease(self):
+        holder = self.hold("--axes", "1")
+        holder.process.send_signal(signal.SIGHUP)
+        self.assertEqual(holder.end(), 128 + signal.SIGHUP)
+        self.assertEqual(self.daemon.run("lease", "list").stdout, "no leases\n")
+
     def test_waiting_while_something_moves_that_nobody_holds(self):
         self.assertEqual(self.daemon.run("move", "1=0.5mm", "--no-wait").returncode, 0)
         moved = self.daemon.run("move", "1=0mm", "--wait", "60")

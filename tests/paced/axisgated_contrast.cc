@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <string_view>
 
@@ -70,7 +69,6 @@ int serve(const char* config_path) {
     return 2;
   }
   server::EndSignals end_signals;
-  std::signal(SIGPIPE, SIG_IGN);
   server::start_logging();
   const auto positions = *server::SavedPositions::open("");
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
