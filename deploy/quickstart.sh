@@ -6,6 +6,8 @@ set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 bin="$root/build/bin"
+# Those that the documentation starts from build/bin/ after this script.
+programs=(axisgated axisctl shrc203-sim rml1-sim)
 config="$root/deploy/demo/axisgate.toml"
 log="$root/build/axisgated.log"
 # Of this demonstration alone: made again each time, so that no job of the one before waits in the queue.
@@ -35,15 +37,17 @@ build() {
   # From the root, because presets are looked up there.
   cd "$root"
   cmake --preset dev || fail "the step 'configure' failed"
-  cmake --build --preset dev --target axisgated axisctl shrc203-sim || fail "the step 'build' failed"
+  cmake --build --preset dev --target "${programs[@]}" || fail "the step 'build' failed"
 }
 
-# The socket inode of whoever listens on the TCP port $1; the kernel's tables have ports in hexadecimal, 0A is LISTEN.
+# Prints the socket inode of the program that listens on the TCP port $1; the kernel's tables have ports in hexadecimal,
+# 0A is LISTEN. awk reads to the end: if it left early, cat would end by SIGPIPE and pipefail would end the script.
 listener_inode() {
   local port_hex
   printf -v port_hex '%04X' "$1"
-  cat /proc/net/tcp /proc/net/tcp6 2>/dev/null |
-    awk -v port=":$port_hex" '$4 == "0A" && substr($2, length($2) - 4) == port { print $10; exit }'
+  # There is no tcp6 where IPv6 is switched off.
+  { cat /proc/net/tcp /proc/net/tcp6 2>/dev/null || true; } |
+    awk -v port=":$port_hex" '$4 == "0A" && substr($2, length($2) - 4) == port && !n++ { print $10 }'
 }
 
 # Other users' processes hide their sockets: then the name stays unknown.
@@ -107,7 +111,9 @@ start_daemon() {
 
 # A position is read from the controller, so its answer says that the handshake is over, too.
 is_ready() {
-  "$bin/axisctl" position >/dev/null 2>"$log.ready" && "$bin/axisctl" mill queue 2>"$log.ready" | grep -q 'line open'
+  local queue
+  "$bin/axisctl" position >/dev/null 2>"$log.ready" && queue="$("$bin/axisctl" mill queue 2>"$log.ready")" &&
+    [[ "$queue" == *'line open'* ]]
 }
 
 wait_until_ready() {

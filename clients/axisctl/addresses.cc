@@ -1,14 +1,39 @@
 #include "clients/axisctl/addresses.h"
 
-#include <string_view>
+#include <fmt/format.h>
+
+#include <algorithm>
 
 #include "server/config/default_socket.h"
 
 namespace axisgate::axisctl {
+namespace {
 
-std::string address(std::string target) {
-  if (target.empty()) target = default_socket_to_connect();
-  return target.front() == '/' ? "unix:" + target : target;
+// Reports whether the target is an address in gRPC's own form, which stays as it is.
+bool has_scheme(std::string_view target) {
+  constexpr std::string_view kSchemes[] = {"unix:", "unix-abstract:", "dns:", "ipv4:", "ipv6:"};
+  return std::ranges::any_of(kSchemes, [&](std::string_view scheme) { return target.starts_with(scheme); });
+}
+
+bool is_path(std::string_view target) {
+  return target.find('/') != std::string_view::npos || target.ends_with(".sock");
+}
+
+// gRPC would take port 443. An IPv6 address needs brackets if a port follows it.
+std::string with_port(std::string_view host, int port) {
+  const bool bracketed = host.starts_with('[');
+  const auto colons = std::ranges::count(host, ':');
+  if (bracketed ? !host.ends_with(']') : colons == 1) return std::string(host);
+  return !bracketed && colons > 1 ? fmt::format("[{}]:{}", host, port) : fmt::format("{}:{}", host, port);
+}
+
+}  // namespace
+
+std::string address(std::string_view target, bool tls) {
+  if (target.empty()) return "unix:" + default_socket_to_connect();
+  if (has_scheme(target)) return std::string(target);
+  if (is_path(target)) return fmt::format("unix:{}", target);
+  return with_port(target, tls ? kNetworkPort : kGrpcPort);
 }
 
 std::string resource(const std::string& device) {

@@ -18,6 +18,8 @@
 #include "clients/axisctl/mill_text.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"
+#include "device/core/escape.h"
+#include "server/spool/job_name.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -43,11 +45,19 @@ std::int64_t add_file(const std::string& name, std::vector<v1::SendJobRequest>& 
   return bytes;
 }
 
+std::string title_from_files(const std::vector<std::string>& files) {
+  const std::string& first = files.front();
+  const std::string title = first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
+  return files.size() == 1 ? title : fmt::format("{} and {} more", title, files.size() - 1);
+}
+
+// Refuses what the daemon would refuse: only here is it known that the title comes from the name of a file.
 std::string title_of(const JobOptions& job) {
   if (!job.title.empty()) return job.title;
-  const std::string& first = job.files.front();
-  const std::string title = first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
-  return job.files.size() == 1 ? title : fmt::format("{} and {} more", title, job.files.size() - 1);
+  const std::string title = title_from_files(job.files);
+  const auto name = server::spool::job_name(title);
+  if (name) return *name;
+  throw usage(fmt::format("\"{}\": {}", escaped(title), name.error().message), "give the job a title: --title TEXT");
 }
 
 void check_tools(const JobOptions& job) {

@@ -1,5 +1,5 @@
-// CLI11 takes eight seconds to compile: only this unit, setting_options.cc, history_options.cc and mill_options.cc
-// include it.
+// CLI11 takes eight seconds to compile: only this unit, option_bytes.cc, setting_options.cc, history_options.cc and
+// mill_options.cc include it.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
@@ -251,7 +251,7 @@ void add_access_verbs(CLI::App& app, Options& options) {
 
 void add_target(CLI::App& app, Target& target) {
   app.add_option("--target", target.address,
-                 "address of the daemon: path of a Unix socket, or HOST:PORT (default: the local daemon)")
+                 "address of the daemon: path of a Unix socket, or HOST[:PORT] (default: the local daemon)")
       ->envname("AXISGATE_TARGET")
       ->type_name("ADDRESS");
   app.add_flag("--tls", target.tls, "use TLS, for a daemon on another machine ([network] in its configuration)");
@@ -384,14 +384,18 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   } catch (const CLI::ParseError& error) {
     return refuse(app, error);
   }
+  if (const auto other = not_utf8(app, options.verb)) {
+    print_failure(*other);
+    return other->exit_code;
+  }
   if (help->parsed()) return examples ? list_examples() : show_help(app, help_topic);
   if (options.json && writes_text_only(options.verb)) {
     print_failure(usage("this command has no JSON output", "leave out --json"));
     return kUsage;
   }
   Target& target = options.target;
-  target.address = address(std::move(target.address));
   target.tls = target.tls || !target.ca.empty() || !target.certificate.empty();
+  target.address = address(target.address, target.tls);
   options.device = resource(options.device);
   return options;
 }

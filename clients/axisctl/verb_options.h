@@ -1,6 +1,9 @@
 // What options.cc and its groups of verbs share: a verb and what may stand behind several of them.
 #pragma once
 
+#include <optional>
+
+#include "clients/axisctl/failure.h"
 #include "clients/axisctl/options.h"
 
 namespace CLI {
@@ -17,6 +20,9 @@ void add_wait(CLI::App& verb, Options& options);
 
 // [AXES]
 void add_axes(CLI::App& verb, Options& options);
+
+// option_bytes.cc: names the first argument, of what was parsed, that is not UTF-8. nullopt if all are.
+std::optional<Failure> not_utf8(const CLI::App& app, Verb verb);
 
 // setting_options.cc
 void add_setting_verbs(CLI::App& app, Options& options);

@@ -12,7 +12,7 @@ source "$here/steps.sh"
 
 # Of the first job that waits: the only one that a new daemon has.
 job_number() {
-  "$axisctl" "${options[@]}" mill queue | awk '/^[0-9]/ { print $1; exit }'
+  "$axisctl" "${options[@]}" mill queue | awk '/^[0-9]/ && !n++ { print $1 }'
 }
 
 step mill send "$here/frame.rml" --origin vice

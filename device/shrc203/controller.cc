@@ -234,6 +234,12 @@ void Controller::end_jog(MotionId id, std::optional<Problem> why, TimePoint now)
   at(now, [&] { rooms_->jogs.end(id, std::move(why)); });
 }
 
+Result<void> Controller::check_up() const {
+  if (rooms_->ending) return tl::unexpected(*rooms_->ending);
+  if (!rooms_->store.line_works()) return tl::unexpected(rooms_->store.not_up());
+  return {};
+}
+
 Result<void> Controller::check(const MoveRequest& request) const {
   const auto plan = rooms_->moves.check(request);
   return plan ? Result<void>() : tl::unexpected(plan.error());

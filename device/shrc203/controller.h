@@ -38,6 +38,7 @@ class Controller : public StageController {
   Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now) override;
   void end_jog(MotionId id, std::optional<Problem> why, TimePoint now) override;
   Result<void> check_use(const RequestContext& context, AxisSet axes) override;
+  Result<void> check_up() const override;
   Result<void> check(const MoveRequest& request) const override;
   Result<void> check(const PathRequest& request) const override;
   Result<void> check(const ScanRequest& request) const override;

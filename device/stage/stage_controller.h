@@ -55,6 +55,10 @@ class StageController : public LineMachine {
   // epoch_passed.
   virtual Result<void> check_use(const RequestContext& context, AxisSet axes) = 0;
 
+  // Whether the device can be commanded now: link_down; wrong_mode if a person must first correct something at its
+  // front panel; not_sent after wind_down().
+  virtual Result<void> check_up() const = 0;
+
   // The same checks as the calls above, and nothing is sent.
   virtual Result<void> check(const MoveRequest& request) const = 0;
   virtual Result<void> check(const PathRequest& request) const = 0;

@@ -115,6 +115,10 @@ class PipelineOf {
   static Result<void> check_right(RequestKind kind, const Turn& turn);
   // Whether it may be done now.
   static Result<void> check_now(RequestKind kind, const Turn& turn);
+  // What `ready` says. Of what starts a motion, first whether the device is up: plans need what only a device that is
+  // up can say, so without this check the plan's reason would hide that the line is down.
+  template <class Ready>
+  static Result<std::string> ready_if_up(RequestKind kind, const Turn& turn, Ready& ready);
 
   const Admission& admission_;
   const Mutations& mutations_;
@@ -163,6 +167,16 @@ Result<void> PipelineOf<Device>::check_now(RequestKind kind, const Turn& turn) {
 }
 
 template <class Device>
+template <class Ready>
+Result<std::string> PipelineOf<Device>::ready_if_up(RequestKind kind, const Turn& turn, Ready& ready) {
+  if constexpr (std::is_same_v<Device, server::Stage>) {
+    const bool moves = rule_of(kind).patience == Patience::motion;
+    if (const auto up = moves ? turn.controller.check_up() : Result<void>(); !up) return tl::unexpected(up.error());
+  }
+  return ready(turn);
+}
+
+template <class Device>
 template <class Ready, class Begin, class Refuse, class Again>
 void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refuse refuse, Again repeat) const {
   const Result<Identified> identified = identify(asked);
@@ -190,15 +204,15 @@ void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refus
   device.post([kind = asked.kind, visit, mutation, refuse_it](Controller& controller, TimePoint now) {
     const Admitted& it = visit->admitted;
     const Turn turn{*it.device, controller, it.caller, it.context, now};
-    const Result<std::string> what = visit->ready(turn);
+    const Result<std::string> what = ready_if_up(kind, turn, visit->ready);
     if (!what) return refuse_it(what.error());
     audit(kind, turn.device, turn.context, *what);
-    const auto then = [visit, mutation, refuse_it](const Result<void>& written) {
+    const auto then = [kind, visit, mutation, refuse_it](const Result<void>& written) {
       if (!written) return refuse_it(written.error());
-      visit->admitted.device->post([visit, mutation, refuse_it](Controller& same, TimePoint later) {
+      visit->admitted.device->post([kind, visit, mutation, refuse_it](Controller& same, TimePoint later) {
         const Admitted& still = visit->admitted;
         const Turn second{*still.device, same, still.caller, still.context, later};
-        const Result<std::string> yet = visit->ready(second);
+        const Result<std::string> yet = ready_if_up(kind, second, visit->ready);
         yet ? visit->begin(second, mutation) : refuse_it(yet.error());
       });
     };

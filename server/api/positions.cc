@@ -8,7 +8,6 @@
 #include "device/link/clock.h"
 #include "server/api/position_changes.h"
 #include "server/api/position_checks.h"
-#include "server/api/setting_lines.h"
 
 namespace axisgate::api {
 namespace {
@@ -60,7 +59,7 @@ void Positions::save(const Call& call, std::string_view name, const Result<Posit
         const std::string& device = turn.device.name();
         auto number = positions.take_number(device, own, wish.place, wish.keep_existing);
         if (!number) return tl::unexpected(number.error());
-        if (const auto up = check_up(turn.controller.state()); !up) return tl::unexpected(up.error());
+        if (const auto up = turn.controller.check_up(); !up) return tl::unexpected(up.error());
         const stage::Kind& kind = turn.device.kind();
         const auto lines = kind.position_lines({wish.place, **number});
         if (!lines) return fail(Reason::invalid_request, "a controller of this kind keeps no positions");
@@ -126,7 +125,7 @@ void Positions::move_to(const Call& call, std::string_view name, Answer<StartedM
                               {position->place, position->number, expected_of(*position, state), turn.context}};
       },
       [](const Turn& turn, const MoveToPosition& move) {
-        const Result<void> up = check_up(turn.controller.state());
+        const Result<void> up = turn.controller.check_up();
         return up ? turn.controller.check(move.request) : up;
       },
       [](const MoveToPosition& move) { return fmt::format("move to the saved position {}", move.position.name); },

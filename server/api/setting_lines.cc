@@ -192,9 +192,4 @@ Result<Lines> lines_of(const NewCoordinates& coordinates, const stage::Kind& kin
   return kind.lines_for(stage::SetCoordinates{all.positions}, state);
 }
 
-Result<void> check_up(const stage::State& state) {
-  if (state.link == stage::LinkState::up || state.link == stage::LinkState::doubtful) return {};
-  return fail(Reason::link_down, "the device is not up: " + state.link_problem, "try again when it is up");
-}
-
 }  // namespace axisgate::api

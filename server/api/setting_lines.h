@@ -54,7 +54,4 @@ Result<Lines> lines_of(const SettingsChange& change, const stage::Kind& kind, co
 // Likewise. All axes in the same way.
 Result<Lines> lines_of(const NewCoordinates& coordinates, const stage::Kind& kind, const stage::State& state);
 
-// link_down where the device cannot be asked.
-Result<void> check_up(const stage::State& state);
-
 }  // namespace axisgate::api

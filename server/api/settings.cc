@@ -89,7 +89,7 @@ void ask_all(const Turn& turn, const std::shared_ptr<Asking>& asking) {
 void Settings::get(const Call& call, std::string_view device, Answer<stage::Settings> answer) const {
   pipeline_.ask({RequestKind::get_settings, call, find_stage(gateway_, device)}, std::move(answer),
                 [](const Turn& turn, const Answer<stage::Settings>& respond) {
-                  if (const auto up = check_up(turn.controller.state()); !up) {
+                  if (const auto up = turn.controller.check_up(); !up) {
                     return respond(tl::unexpected(up.error()));
                   }
                   const stage::Kind& kind = turn.device.kind();

@@ -29,7 +29,6 @@ using stage::AtExit;
 using stage::AtLeaseEnd;
 using stage::Profile;
 
-constexpr std::uint16_t kGrpcPort = 50203;
 constexpr std::uint16_t kMetricsPort = 9203;
 
 class ConfigReader {

@@ -3,12 +3,16 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <system_error>
 
 namespace axisgate {
+
+// `listen` without a configuration, and `listen` of [network] in every example: that one has no default.
+inline constexpr std::uint16_t kGrpcPort = 50203, kNetworkPort = 50204;
 
 inline constexpr const char* kSystemSocket = "/run/axisgate/axisgate.sock";
 

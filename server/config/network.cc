@@ -6,6 +6,7 @@
 #include <charconv>
 #include <string>
 
+#include "server/config/default_socket.h"
 #include "server/connections/certificates.h"
 #include "server/explain.h"
 
@@ -39,11 +40,12 @@ void read_listen(ConfigTable& table, TcpAddress& address) {
   if (parsed && is_address(parsed->host)) {
     address = *parsed;
   } else if (text) {
-    table.error("listen", fmt::format("\"{}\" is not ADDRESS:PORT, e.g. \"0.0.0.0:50204\" for all of this machine's "
-                                      "addresses or \"192.168.0.5:50204\" for one",
-                                      *text));
+    table.error("listen", fmt::format("\"{}\" is not ADDRESS:PORT, e.g. \"0.0.0.0:{}\" for all of this machine's "
+                                      "addresses or \"192.168.0.5:{}\" for one",
+                                      *text, kNetworkPort, kNetworkPort));
   } else if (!table.has("listen")) {
-    table.missing("listen", "ADDRESS:PORT, e.g. \"0.0.0.0:50204\" for all of this machine's addresses");
+    table.missing("listen",
+                  fmt::format("ADDRESS:PORT, e.g. \"0.0.0.0:{}\" for all of this machine's addresses", kNetworkPort));
   }
 }
 

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstdint>
 #include <optional>
+
+#include "device/core/utf8.h"
 
 namespace axisgate::server::spool {
 namespace {
@@ -20,25 +20,6 @@ std::string_view last_part(std::string_view path) {
   path.remove_prefix(path.find_last_of("/\\") + 1);  // npos + 1 is 0
   path.remove_prefix(std::min(path.find_first_not_of(' '), path.size()));
   return path.substr(0, path.find_last_not_of(' ') + 1);
-}
-
-// Takes the first character off `text`, which is not empty. Nothing where that is no UTF-8 (RFC 3629, section 3).
-std::optional<char32_t> take_character(std::string_view& text) {
-  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};  // by length
-  const auto lead = static_cast<unsigned char>(text.front());
-  const int ones = std::countl_one(lead);
-  const auto length = static_cast<std::size_t>(ones == 0 ? 1 : ones);
-  if (ones == 1 || length >= kLeast.size() || length > text.size()) return {};
-  char32_t character = lead & (0xFFU >> ones);
-  for (const char byte : text.substr(1, length - 1)) {
-    const auto value = static_cast<unsigned char>(byte);
-    if ((value & 0xC0) != 0x80) return {};
-    character = character << 6 | (value & 0x3F);
-  }
-  text.remove_prefix(length);
-  const bool surrogate = character >= 0xD800 && character <= 0xDFFF;
-  if (character < kLeast.at(length) || surrogate || character > 0x10FFFF) return {};
-  return character;
 }
 
 bool is_control(char32_t c) {

@@ -78,6 +78,27 @@ TEST(PipelineTest, ValidateOnlyPostsNothing) {
   EXPECT_TRUE(world.positions->find("turn", "saved"));
 }
 
+// Every kind that starts a motion, also where its plan has faults: scans, paths and saved positions a rotor cannot do.
+TEST(PipelineTest, WhileTheDeviceIsNotUpNothingThatMovesIsPlanned) {
+  World world;
+  save_position(world);
+  std::vector<RequestKind> moving;
+  for (std::size_t number = 0; number < kRequestKinds; ++number) {
+    const auto kind = static_cast<RequestKind>(number);
+    if (rule_of(kind).patience == Patience::motion) moving.push_back(kind);
+  }
+  ASSERT_EQ(moving.size(), 7U);
+  Asking<std::string> silent;  // so that it does not come up again
+  world.api->simulators.operate(World::by(kAnna), kDevice, "fault silent", silent.answer());
+  ASSERT_EQ(silent.reason(), Reason::unspecified);
+  world.on_strand([](stage::StageController& controller, TimePoint now) { controller.link_down(now, "unplugged"); });
+  for (const RequestKind kind : moving) {
+    EXPECT_EQ(ask(world, kind, World::by(kAnna)), Reason::link_down) << name(kind);
+  }
+  EXPECT_EQ(reason_of_asked(world, World::by(kAnna), kDevice, move_in_no_unit()), Reason::link_down);
+  EXPECT_TRUE(world.motions().empty());
+}
+
 TEST(PipelineTest, ARevokedTokenStartsNothingButStillStops) {
   World world;
   Call call{.credential = {.token = world.token("scan", server::Role::operator_)}};

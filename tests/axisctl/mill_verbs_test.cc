@@ -78,6 +78,23 @@ TEST_F(MillSend, WhatWasNamedIsSent) {
   EXPECT_EQ(mill_.sent[0].origin(), "vice");
 }
 
+// The daemon would name bytes and lengths, but not the option that helps.
+TEST_F(MillSend, AFileWhoseNameIsNoTitleNeedsOne) {
+  for (const std::string& name : {std::string("lat\xB2in.rml"), std::string(101, 'x'), std::string(".rml")}) {
+    options_.job.files = {folder_ / name};
+    options_.job.title = "";
+    write_job("^IN;");
+    const Ended ended = run(mill_send);
+    EXPECT_EQ(ended.exit_code, kUsage) << name;
+    EXPECT_THAT(ended.message, HasSubstr("--title"));
+    EXPECT_THAT(mill_.sent, IsEmpty());
+    options_.job.title = "lid";
+    EXPECT_EQ(run(mill_send).exit_code, kDone) << name;
+    EXPECT_EQ(mill_.sent[0].title(), "lid");
+    mill_.sent.clear();
+  }
+}
+
 TEST_F(MillSend, SeveralFilesAreThePartsOfOneJob) {
   options_.job.files.push_back(folder_ / "holes.rml");
   std::ofstream(options_.job.files[1], std::ios::binary) << "^IN;";

@@ -46,6 +46,7 @@ class Controller final : public StageController, private Wire::Listener {
   Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now) override;
   void end_jog(MotionId id, std::optional<Problem> why, TimePoint now) override;
   Result<void> check_use(const RequestContext& context, AxisSet axes) override;
+  Result<void> check_up() const override;
   Result<void> check(const MoveRequest& request) const override;
   Result<void> check(const PathRequest& request) const override;
   Result<void> check(const ScanRequest& request) const override;
@@ -100,7 +101,6 @@ class Controller final : public StageController, private Wire::Listener {
   void settle();
   Result<void> allowed(const RequestContext& context, AxisSet axes);
   Result<void> check_epochs(const RequestContext& context) const;
-  Result<void> check_up() const;
   Result<void> check_home(const HomeRequest& request) const;
   Result<std::int64_t> jog_speed(const std::optional<Quantity>& asked, const RequestContext& context) const;
   tl::unexpected<Problem> cannot(std::string_view why, std::string hint) const;

@@ -42,8 +42,8 @@ connection = "simulated"
 
 class WithoutDaemon(unittest.TestCase):
     def run_axisctl(self, *arguments):
-        return subprocess.run([BIN / "axisctl", *arguments], capture_output=True, text=True, timeout=LIMIT_S,
-                              check=False)
+        return subprocess.run([BIN / "axisctl", *arguments], capture_output=True, text=True, errors="surrogateescape",
+                              timeout=LIMIT_S, check=False)
 
     def test_help_lists_every_verb(self):
         answer = self.run_axisctl("help")
@@ -73,6 +73,38 @@ class WithoutDaemon(unittest.TestCase):
                 self.assertEqual(answer.returncode, 2)
                 self.assertRegex(answer.stderr, r"\Aaxisctl: [A-Z_]+: [^\n]+\n\Z")
 
+    def test_bytes_that_are_not_utf8(self):
+        """Refused before anything is sent: no daemon is there."""
+        for option, arguments in [
+            ("--device", ["--device", b"x\xb2", "position"]),
+            ("--request-id", ["--request-id", b"\xb2", "move", "1=1mm"]),
+            ("--target", ["--target", b"x\xb2.sock", "devices"]),
+            ("NAME", ["save", b"lat\xb2in"]),
+            ("NAME", ["token", "create", b"\xff"]),
+            ("--purpose", ["lease", "run", "--purpose", b"\xc3", "--", "true"]),
+            ("--text", ["history", "--text", b"a\x80"]),
+            ("LINE", ["exec", "?:P1", b"?:P\xb2"]),
+            ("AXES", ["home", b"x,\xb2"]),
+            ("AXIS=AMOUNT", ["move", b"\xb2=1mm"]),
+            ("--title", ["mill", "send", "a.rml", "--title", b"\xed\xa0\x80"]),
+            ("TOPIC", ["help", b"\xb2"]),
+        ]:
+            with self.subTest(option, arguments=arguments):
+                answer = self.run_axisctl(*arguments)
+                self.assertEqual(answer.returncode, 2)
+                self.assertRegex(answer.stderr, rf"\Aaxisctl: INVALID_REQUEST: {option} is not UTF-8: \S+ \([^\n]+\)\n\Z")
+
+    def test_a_file_may_have_any_name(self):
+        with tempfile.TemporaryDirectory() as folder:
+            job = os.path.join(os.fsencode(folder), b"lat\xb2in.rml")
+            with open(job, "w", encoding="ascii") as file:
+                file.write("^IN;PU100,100;H;")
+            answer = self.run_axisctl("mill", "check", job, "--profile", "mdx-20")
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+            picture = os.path.join(os.fsencode(folder), b"lat\xb2in.svg")
+            answer = self.run_axisctl("mill", "preview", job, "--profile", "mdx-20", "-o", picture)
+            self.assertEqual(answer.returncode, 0, answer.stderr)
+
 
 class WithDaemon(unittest.TestCase):
     """Every test gets a daemon of its own, whose simulator has just been switched on: all axes at 0."""
@@ -94,6 +126,18 @@ class WithDaemon(unittest.TestCase):
         self.assertRegex(answer.stderr, rf"\Aaxisctl: {reason}: [^\n]+\n\Z", arguments)
         self.assertEqual(answer.returncode, code, answer.stderr)
         return answer
+
+    def test_targets(self):
+        """Also a path that does not begin with a slash, and the forms of an address."""
+        port = self.daemon.address().rsplit(":", 1)[1]
+        folder, socket = os.path.split(self.daemon.socket)
+        for target in (socket, f"./{socket}", f"unix:{socket}", f"{os.path.basename(folder)}/{socket}",
+                       f"localhost:{port}", f"127.0.0.1:{port}"):
+            where = os.path.dirname(folder) if target.startswith(os.path.basename(folder)) else folder
+            with self.subTest(target):
+                answer = subprocess.run([BIN / "axisctl", "--target", target, "devices"], cwd=where, text=True,
+                                        capture_output=True, timeout=LIMIT_S, check=False)
+                self.assertEqual((answer.returncode, answer.stderr), (0, ""))
 
     def test_what_there_is(self):
         self.assertEqual(self.ok("devices"), "stage  shrc203  UP\n")

@@ -16,6 +16,12 @@ using testing::HasSubstr;
 
 constexpr const char* kOther = "2106001002";
 
+// What refuses motions now, and what helps.
+Problem why_not_up(World& world) {
+  const auto up = world.controller().check_up();
+  return up ? Problem{} : up.error();
+}
+
 bool says_idle(World& world, int axis) { return world.controller().state().axis(axis).busy == false; }
 
 // Unplugged at any instant from before the first line of a move to its middle.
@@ -71,6 +77,9 @@ TEST(Hazard, H32_TheConfiguredUnitAndNoOther) {
   }
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr(kOther));
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr(setup.options.serial_number));
+  EXPECT_EQ(why_not_up(world).reason, Reason::link_down);
+  EXPECT_EQ(why_not_up(world).hint,
+            "connect the configured unit again, or correct `serial_number` in the configuration");
   EXPECT_EQ(motion_lines(world, first), 0) << world.replay();
   world.device().set_serial_number(setup.options.serial_number);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -107,8 +116,13 @@ TEST(Hazard, H32_TheFirstUnitStaysTheOne) {
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr(kOther));
   EXPECT_THAT(world.controller().state().link_problem, HasSubstr(first_one));
   EXPECT_EQ(world.controller().state().serial_number, first_one);
+  EXPECT_EQ(why_not_up(world).hint, "connect the former unit again, or restart the daemon to accept this one");
+  world.wire().cut(world.now(), seconds(10));
+  world.run_for(seconds(5));
+  EXPECT_EQ(why_not_up(world).hint, "try again when it is up") << "no unit answers: " << why_not_up(world).message;
   world.device().set_serial_number(first_one);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
+  EXPECT_EQ(why_not_up(world).reason, Reason::unspecified);
   moved(world, {{1, 100}});
 }
 

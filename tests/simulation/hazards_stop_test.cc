@@ -174,6 +174,9 @@ TEST(Hazard, H18_StopOffHostIsRefusedAtOnce) {
   ASSERT_TRUE(world.run_until([&] { return report.has_value(); }, seconds(3))) << world.replay();
   ASSERT_TRUE(report->problem);
   EXPECT_EQ(report->problem->reason, Reason::wrong_mode) << report->problem->message;
+  const auto up = world.controller().check_up();
+  ASSERT_FALSE(up);
+  EXPECT_EQ(up.error().reason, Reason::wrong_mode) << up.error().message;
   world.device().set_mode("HOST", world.now());
   EXPECT_TRUE(world.run_until_up()) << world.replay();
 }

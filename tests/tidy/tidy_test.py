@@ -302,6 +302,24 @@ class Text(Tree):
         self.assert_clean("tests/fuzz/corpus/a.rml", "PA1,2;\r\n")
 
 
+class Shell(Tree):
+    HEAD = "#!/usr/bin/env bash\nset -euo pipefail\n"
+
+    def test_nothing_leaves_a_pipe_early(self):
+        for reader in ("head -n 1", "head", "grep -q b", "grep -Eq b", "grep -m1 b", "grep --quiet b", "sed 1q",
+                       "sed -n '/b/{p;q}'", "awk '{ print $1; exit }'", "read -r line", "\\\n  head"):
+            line = 4 if "\n" in reader else 3
+            for path in ("deploy/a.sh", "deploy/a"):
+                self.assertEqual(self.findings(path, f"{self.HEAD}cat a | {reader}\n"), [f"{line}: early-reader"], reader)
+
+    def test_what_reads_to_the_end_may(self):
+        for command in ("cat a | tail -n 1", "cat a | grep b", "cat a | sed 's/q/b/'", "a || head b", "head -n 1 a",
+                        "grep -q b <<<\"$a\"", "cat a | awk '{ print $1 }'", "while read -r a; do b; done <c"):
+            self.assert_clean("deploy/a.sh", f"{self.HEAD}{command}\n")
+        self.assert_clean("deploy/a.sh", "#!/usr/bin/env bash\ncat a | head\n")
+        self.assert_clean("docs/a.md", "set -o pipefail; cat a | head\n")
+
+
 class Format(Tree):
     def test_the_code_is_formatted(self):
         for path in ("server/a.cc", "server/a.h"):

@@ -10,10 +10,9 @@ namespace axisgate::shrc203 {
 
 Result<void> Homes::check(MotionKind kind, AxisSet axes, const RequestContext& context) const {
   const AxisSet controllable = store_.controllable();
+  if (controllable.empty()) return tl::unexpected(store_.not_up());
   if (axes.empty() || !controllable.contains(axes)) {
-    return fail(controllable.empty() ? Reason::link_down : Reason::unknown_axis,
-                controllable.empty() ? "the device is not up: " + store_.state().link_problem
-                                     : fmt::format("{} cannot all be controlled on this unit", to_string(axes)),
+    return fail(Reason::unknown_axis, fmt::format("{} cannot all be controlled on this unit", to_string(axes)),
                 "see `axisctl status`");
   }
   const Envelope limits = store_.envelope(context);

@@ -74,10 +74,7 @@ Result<void> SavedPositions::check(const GoToPositionRequest& request) const {
 
 void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStarted started) {
   const AxisSet axes = store_.controllable();
-  if (axes.empty()) {
-    return started(
-        fail(Reason::link_down, "the device is not up: " + store_.state().link_problem, "see `axisctl status`"));
-  }
+  if (axes.empty()) return started(tl::unexpected(store_.not_up()));
   if (request.number < 1 || request.number > kNumbers) {
     return started(fail(Reason::out_of_range, fmt::format("positions are numbered 1 to {}", kNumbers)));
   }

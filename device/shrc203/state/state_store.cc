@@ -21,10 +21,20 @@ void StateStore::note_wrong_panel() {
 }
 
 Problem StateStore::not_up() const {
-  const bool panel = panel_is_wrong();
-  return {.reason = panel ? Reason::wrong_mode : Reason::link_down,
+  return {.reason = panel_is_wrong() ? Reason::wrong_mode : Reason::link_down,
           .message = "the device is not up: " + state_.link_problem,
-          .hint = panel ? "put it right at the controller's front panel" : "try again when it is up"};
+          .hint = remedy()};
+}
+
+// Another unit is accepted only if none is configured and none has been up since the daemon started.
+std::string StateStore::remedy() const {
+  if (panel_is_wrong()) return "put it right at the controller's front panel";
+  if (trouble_ != LinkTrouble::other_unit) return "try again when it is up";
+  if (!profile_.serial_number.empty()) {
+    return "connect the configured unit again, or correct `serial_number` in the configuration";
+  }
+  if (unit_.empty()) return fmt::format("connect a controller of the model {}", profile_.model);
+  return "connect the former unit again, or restart the daemon to accept this one";
 }
 
 void StateStore::lost() {

@@ -49,7 +49,7 @@ class StateStore {
   // Whether somebody must correct it at the front panel before the link can be up.
   bool panel_is_wrong() const { return trouble_ == LinkTrouble::mode || trouble_ == LinkTrouble::format; }
   void note_wrong_panel();
-  Problem not_up() const;  // link_down, wrong_mode
+  Problem not_up() const;  // link_down, wrong_mode; the hint fits the trouble
 
   // Counts connects and losses, so that a procedure notices a new one.
   std::uint64_t connection() const { return connection_; }
@@ -113,6 +113,8 @@ class StateStore {
   void unsettle() { settled_ = false; }
 
  private:
+  std::string remedy() const;
+
   const Profile& profile_;
   EventSink& events_;
   const Tasks& tasks_;

@@ -1,0 +1,36 @@
+// Arguments that are not UTF-8 are refused here, before anything is sent: protobuf takes nothing else.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+
+#include "clients/axisctl/verb_options.h"
+#include "device/core/escape.h"
+#include "device/core/utf8.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+// Names of files, and the words of a command that axisctl starts, are for this machine alone: they may be of any bytes.
+bool stays_here(const CLI::Option& option, Verb verb) {
+  const std::string name = option.get_name(), type = option.get_type_name();
+  if (verb == Verb::lease_run && name == "COMMAND") return true;
+  return name == "FILE" || type == "FILE" || type == "PROFILE";
+}
+
+}  // namespace
+
+std::optional<Failure> not_utf8(const CLI::App& app, Verb verb) {
+  for (const CLI::Option* const option : app.get_options()) {
+    if (stays_here(*option, verb)) continue;
+    const auto other = std::ranges::find_if_not(option->results(), is_utf8);
+    if (other == option->results().end()) continue;
+    return usage(option->get_name() + " is not UTF-8: " + escaped(*other),
+                 "type it in a terminal that is set to UTF-8");
+  }
+  for (const CLI::App* const chosen : app.get_subcommands()) {
+    if (const auto other = not_utf8(*chosen, verb)) return other;
+  }
+  return std::nullopt;
+}
+
+}  // namespace axisgate::axisctl
