@@ -123,6 +123,7 @@ server::spool::Bounds bounds_of(const server::JobsConfig& jobs) {
           .bytes_of_identity = bytes(jobs.megabytes_per_person),
           .jobs = static_cast<std::size_t>(jobs.count),
           .jobs_of_identity = static_cast<std::size_t>(jobs.count_per_person),
+          .jobs_reserved = static_cast<std::size_t>(jobs.quarter()),
           .kept = std::chrono::days(jobs.days)};
 }
 

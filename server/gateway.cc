@@ -100,9 +100,9 @@ void Gateway::add_stage(const DeviceConfig& device, const StageConfig& config, c
 void Gateway::add_mill(const DeviceConfig& device, const MillConfig& config, const std::string& state_directory,
                        spool::Spool& spool) {
   auto record = kept(JobRecord::open(fmt::format("{}/job-{}", state_directory, device.name), boot_id()));
-  devices_.push_back(std::make_unique<Mill>(device, config, make_line(device, lines_.new_strand()), lines_, events_,
-                                            metrics_, posting_to(readers_), lease_tokens_, spool, std::move(record),
-                                            journal_));
+  devices_.push_back(std::make_unique<Mill>(device, config, config_.jobs, make_line(device, lines_.new_strand()),
+                                            lines_, events_, metrics_, posting_to(readers_), lease_tokens_, spool,
+                                            std::move(record), journal_));
 }
 
 Gateway::~Gateway() {

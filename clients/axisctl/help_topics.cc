@@ -173,6 +173,11 @@ have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does
 `mill first` moves a job to the front. An administrator may move each; you may move your own before other jobs of yours.
 A job that is confirmed or was begun is never overtaken.
 
+A caller may have a quarter of the queue, and in its last quarter one job; callers without a name count as one. A job that
+nobody confirms within 14 days, or `confirm_days` of the configuration, ends EXPIRED. `mill cancel` takes a job out of the
+queue, yours or, for an administrator, any. `mill clear 'unix anna'` takes out all of a caller's jobs that wait, for
+administrators. A job that runs or was begun stays.
+
 After `mill pause --raise` the tool goes up behind what was sent, the spindle stops, and the job is PAUSED. It continues
 when it is confirmed and started again. A job is PAUSED_UNKNOWN after a broken line or a killed daemon: look at the
 workpiece, and name the line with which it continues: `mill resume JOB --from LINE`. Without --from the answer says where

@@ -89,6 +89,7 @@ constexpr Row kRows[] = {
     {Verb::mill_resume, mill_resume},
     {Verb::mill_abort, mill_abort},
     {Verb::mill_cancel, mill_cancel},
+    {Verb::mill_clear, mill_clear},
     {Verb::mill_first, mill_first},
     {Verb::mill_done, mill_done},
     {Verb::mill_jog, mill_jog},

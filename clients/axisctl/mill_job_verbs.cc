@@ -1,8 +1,9 @@
-// mill queue, start, pause, resume, abort, cancel, first, done: what is requested of a mill in one call.
+// mill queue, start, pause, resume, abort, cancel, clear, first, done: what is requested of a mill in one call.
 #include <fmt/format.h>
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/job_follower.h"
@@ -102,6 +103,19 @@ int mill_cancel(const Session& session) {
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJob, request, kQuestionLimit);
   return report_answer(session, response, fmt::format("job {} is CANCELLED", last_part(request.job())));
+}
+
+int mill_clear(const Session& session) {
+  auto request = mill_request<v1::CancelJobsRequest>(session);
+  request.set_who(session.options.who);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJobs, request, kQuestionLimit);
+  std::vector<std::string> numbers;
+  for (const std::string& job : response.jobs()) numbers.emplace_back(last_part(job));
+  const bool one = numbers.size() == 1;
+  return report_answer(session, response,
+                       fmt::format("{} {} of {} {} CANCELLED", one ? "job" : "jobs", fmt::join(numbers, ", "),
+                                   on_one_line(request.who()), one ? "is" : "are"));
 }
 
 int mill_first(const Session& session) {

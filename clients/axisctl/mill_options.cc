@@ -141,6 +141,11 @@ void add_mill_verbs(CLI::App& app, Options& options) {
   add_number(*add_job_verb(*mill, options, Verb::mill_cancel, "cancel", "take a job out of the queue"), options,
              "its number")
       ->required();
+  add_job_verb(*mill, options, Verb::mill_clear, "clear",
+               "for administrators: take a caller's waiting jobs out of the queue")
+      ->add_option("WHO", options.who, "their owner as `mill queue` shows it, e.g. 'unix anna'")
+      ->required()
+      ->type_name("");
   add_number(*add_job_verb(*mill, options, Verb::mill_first, "first", "move a job to the front of the queue"), options,
              "its number")
       ->required();

@@ -80,6 +80,7 @@ enum class Verb {
   mill_resume,
   mill_abort,
   mill_cancel,
+  mill_clear,
   mill_first,
   mill_done,
   mill_jog,
@@ -174,7 +175,7 @@ struct Options {
   bool keep = false;                           // save: what has the name
   std::string role = "operator";               // token create
   int days = 90;                               // token create: until it expires
-  std::string who;                             // history: of this caller only; audit erase: whose name
+  std::string who;                             // history, audit erase, mill clear: whose
   std::optional<std::uint64_t> motion;         // history: of this motion only
   std::optional<int> hours;                    // history: of the last hours only
   std::string outcome, text;                   // history: of motions that ended so; with this in the details

@@ -73,6 +73,7 @@ int mill_pause(const Session& session);
 int mill_resume(const Session& session);
 int mill_abort(const Session& session);
 int mill_cancel(const Session& session);
+int mill_clear(const Session& session);
 int mill_first(const Session& session);
 int mill_done(const Session& session);
 int mill_jog(const Session& session);

@@ -159,6 +159,10 @@ Result<Quantity> parse_quantity(std::string_view text, Unit fallback) {
                 "Leave out the \"/s\".");
   }
   const std::size_t end = std::min(text.find_first_not_of("+-.0123456789"), text.size());
+  if (end < text.size() && text[end] == ',') {
+    return fail(Reason::invalid_request, in_quotes(text) + " has a comma where a decimal point is needed",
+                "Write a decimal point, and nothing between thousands, e.g. 12.5um or 1000um.");
+  }
   const Result<Decimal> value = parse_decimal(text.substr(0, end));
   if (!value) {
     Problem problem = value.error();

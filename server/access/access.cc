@@ -56,6 +56,7 @@ bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous) || 
 std::string identity_of(std::string_view who) {
   return std::string(who.starts_with(kAnonymous) ? kAnonymous.substr(0, kAnonymous.find(' ')) : who);
 }
+std::string queued_as(std::string_view who) { return is_anonymous(who) ? "callers without a name" : std::string(who); }
 bool is_certainly(std::string_view who, std::string_view other) { return who == other && !is_anonymous(who); }
 
 }  // namespace axisgate::server

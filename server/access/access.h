@@ -66,6 +66,8 @@ std::string anonymous_caller(std::string_view address);
 bool is_anonymous(std::string_view who);
 // Under which name a caller's requests are remembered and take turns: all anonymous callers over loopback are one.
 std::string identity_of(std::string_view who);
+// Whose jobs the queue of a mill counts together: all callers without a name of their own are one.
+std::string queued_as(std::string_view who);
 // Of all users of the Unix socket beyond those that have a name of their own (connections/callers.h): anonymous, too.
 inline constexpr std::string_view kSharedUnixName = "unix";
 // Whether the two are one caller: false, where nobody can tell.

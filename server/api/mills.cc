@@ -199,7 +199,7 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
   }
   auto spooled = mill.spool().begin(mill.name(), {.name = job.title,
                                                   .who = admitted->caller.who,
-                                                  .identity = server::identity_of(admitted->caller.who),
+                                                  .identity = server::queued_as(admitted->caller.who),
                                                   .created = server::calendar_now()});
   if (!spooled) return tl::unexpected(spooled.error());
   return std::make_unique<JobUpload>(call, *admitted, pipeline_, *worker_, std::move(job), options,
@@ -241,7 +241,7 @@ void Mills::act_on_job(RequestKind kind, const Call& call, std::string_view name
           return answer(tl::unexpected(done.error()));
         }
         mutation->acted(server::journal::answer_done());
-        answer(current(turn, *job));
+        turn.device.when_kept([answer, now = current(turn, *job)] { answer(now); });
       },
       [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
       [number, then = outcome_of(kind), answer](Mill& mill, const Result<Known>& known) {

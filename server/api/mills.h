@@ -57,6 +57,12 @@ struct JobToSend {
   std::string profile{};  // that it was made for; empty: any
 };
 
+// In the order of the queue; not empty.
+struct CancelledJobs {
+  const server::Mill* mill = nullptr;  // never null
+  std::vector<rml1::JobNumber> jobs;
+};
+
 // Where a job continues, in its part; both count from 1. Line 0: none is named.
 struct LineToChoose {
   std::uint64_t line = 0, column = 1;
@@ -120,6 +126,8 @@ class Mills {
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   // not_allowed: the job is somebody else's.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  // All of `who` that wait to begin. not_found: there is none.
+  void cancel_all(const Call& call, std::string_view device, std::string who, Answer<CancelledJobs> answer) const;
   // To the front, by an administrator; by its owner, before their other jobs. not_allowed, as cancel().
   void move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
   void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;

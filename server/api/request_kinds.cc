@@ -69,6 +69,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::continue_job,      "continue job",        Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::abort_job,         "abort job",           Role::observer,  Kept::none,         Quota::none,    Patience::stop,     Use::nothing,   true},
     {Kind::cancel_job,        "cancel job",          Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
+    {Kind::cancel_jobs,       "cancel jobs",         Role::admin,     Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::move_job,          "move job",            Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::report_job_done,   "report job done",     Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::operate_mill,      "operate mill",        Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::axes,      true},

@@ -67,6 +67,7 @@ enum class RequestKind {
   continue_job,
   abort_job,
   cancel_job,
+  cancel_jobs,
   move_job,
   report_job_done,
   operate_mill,

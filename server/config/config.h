@@ -1,6 +1,7 @@
 // The daemon's configuration: a TOML file, checked whole before anything is opened.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <cstdint>
 #include <optional>
@@ -115,9 +116,13 @@ struct JobsConfig {
   int megabytes = 256;      // of all jobs
   int megabytes_each = 64;  // of one
   int megabytes_per_person = 128;
-  int count = 200;
-  int count_per_person = 100;
-  int days = 30;  // that a job is kept after its end
+  int count = 200;            // the places of the queue, with those of jobs that have ended
+  int count_per_person = 50;  // a quarter of them or less
+  int days = 30;              // that a job is kept after its end
+  int confirm_days = 14;      // a job that nobody confirms by then ends EXPIRED
+
+  // The most for one caller, and what is left at the end for those who have no job in the queue.
+  int quarter() const { return std::max(1, count / 4); }
 };
 
 struct Config {

@@ -104,6 +104,7 @@ void write(TomlWriter& out, const JobsConfig& jobs) {
   out.number("count", jobs.count);
   out.number("count_per_person", jobs.count_per_person);
   out.number("days", jobs.days);
+  out.number("confirm_days", jobs.confirm_days);
 }
 
 void write(TomlWriter& out, const SerialSettings& serial, int baud) {

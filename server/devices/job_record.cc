@@ -49,7 +49,8 @@ struct JobRecord::Content {
   std::array<char, 16> mark;
   std::array<char, 48> boot;
   std::atomic<std::uint64_t> job, state, through, part, from, abort_waits, leaves;
-  std::array<char, kNameSize> name;  // changes while `job` is 0
+  std::array<char, kNameSize> name;       // changes while `job` is 0
+  std::atomic<std::uint64_t> sent_least;  // 0 in the file of an older daemon: it is not known that anything was sent
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -70,12 +71,13 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
   const bool known = content->mark == kMark;
   const bool same_boot = !boot.empty() && text_in(content->boot) == boot;
   const std::uint64_t state = content->state;
-  if (known && content->job != 0 && state <= static_cast<std::uint64_t>(rml1::JobState::paused)) {
+  if (known && content->job != 0 && state < rml1::kJobStates) {
     before_ = LastJob{.job = content->job,
                       .state = static_cast<rml1::JobState>(state),
                       .through = same_boot ? content->through.load() : kAll,
                       .part = content->part,
                       .from = content->from,
+                      .sent_least = content->sent_least,
                       .name = text_in(content->name),
                       .leaves = leaves_of(content->leaves)};
   }
@@ -93,6 +95,7 @@ void JobRecord::begin(const rml1::Job& job) {
   content_->through = next_byte(job);
   content_->part = job.part;
   content_->from = next_byte(job);
+  content_->sent_least = next_byte(job);
   content_->state = static_cast<std::uint64_t>(rml1::JobState::running);
   content_->leaves = bits_of(job.leaves);
   set_text(content_->name, job.name);
@@ -106,6 +109,7 @@ void JobRecord::set_state(const rml1::Job& job) {
   if (content_->job != job.number) return;
   content_->part = job.part;
   content_->from = next_byte(job);
+  content_->sent_least = job.written ? job.written->least : next_byte(job);
   content_->state = static_cast<std::uint64_t>(job.state);
 }
 

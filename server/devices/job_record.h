@@ -16,10 +16,11 @@ namespace axisgate::server {
 struct LastJob {
   rml1::JobNumber job = 0;
   rml1::JobState state = rml1::JobState::running;
-  std::uint64_t through = 0;  // bytes of the job that may have gone to the line
-  std::size_t part = 0;       // as Job::part
-  std::uint64_t from = 0;     // as next_byte()
-  std::string name{};         // as Job::name; what it leaves is said with it
+  std::uint64_t through = 0;     // bytes of the job that may have gone to the line
+  std::size_t part = 0;          // as Job::part
+  std::uint64_t from = 0;        // as next_byte()
+  std::uint64_t sent_least = 0;  // of Job::written; without it as `from`
+  std::string name{};            // as Job::name; what it leaves is said with it
   rml1::Leaves leaves{};
 };
 

@@ -14,18 +14,19 @@
 namespace axisgate::server {
 namespace {
 
-rml1::MillSettings settings_of(const MillConfig& config) {
+rml1::MillSettings settings_of(const MillConfig& config, const JobsConfig& jobs) {
   return {.sending = config.sending,
           .confirmation_lasts = config.confirmation,
           .busy_limit = config.busy_limit,
-          .at_loss = config.at_loss};
+          .at_loss = config.at_loss,
+          .queued_at_most = std::chrono::days(jobs.confirm_days)};
 }
 
 }  // namespace
 
-Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
-           EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
-           std::unique_ptr<JobRecord> record, journal::Journal* journal)
+Mill::Mill(const DeviceConfig& device, const MillConfig& config, const JobsConfig& jobs, std::unique_ptr<Line> line,
+           LineThread& thread, EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
+           spool::Spool& spool, std::unique_ptr<JobRecord> record, journal::Journal* journal)
     : Device(device.name, beginning_now({.kind = std::string(config.kind), .device = device.name, .baud = device.baud}),
              std::move(line), thread, metrics, readers, lease_tokens, journal),
       config_(config),
@@ -35,7 +36,7 @@ Mill::Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr
       journal_(journal),
       newest_(readers),
       metrics_(*metrics.registry(), device.name),
-      controller_(config.profile, settings_of(config), runner(), *this, leases()) {
+      controller_(config.profile, settings_of(config, jobs), runner(), *this, leases()) {
   restore_jobs();
   runner().attach(controller_, [this] { after_call(); });
 }
@@ -112,6 +113,8 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
 void Mill::keep(const rml1::Job& job) {
   boost::asio::post(spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
 }
+
+void Mill::when_kept(std::function<void()> then) { boost::asio::post(spool_thread_, std::move(then)); }
 
 void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   changed_ = true;

@@ -37,9 +37,9 @@ class Mill final : public Device, private rml1::MillEvents {
   using Controller = rml1::MillController;
 
   // `config`, `bus`, `metrics`, `thread`, `lease_tokens` and `spool` outlive this. `record` and `journal` may be null.
-  Mill(const DeviceConfig& device, const MillConfig& config, std::unique_ptr<Line> line, LineThread& thread,
-       EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens, spool::Spool& spool,
-       std::unique_ptr<JobRecord> record, journal::Journal* journal);
+  Mill(const DeviceConfig& device, const MillConfig& config, const JobsConfig& jobs, std::unique_ptr<Line> line,
+       LineThread& thread, EventBus& bus, Metrics& metrics, const Executor& readers, LeaseTokens& lease_tokens,
+       spool::Spool& spool, std::unique_ptr<JobRecord> record, journal::Journal* journal);
   ~Mill() override;
 
   // From any thread.
@@ -49,6 +49,11 @@ class Mill final : public Device, private rml1::MillEvents {
   spool::Spool& spool() const { return spool_; }
   // A job that came twice: it never was in the queue.
   void drop_spooled(rml1::JobNumber job);
+
+  // Calls `then` once the spool has kept what became of the jobs up to now, so that a kill no longer undoes it; what
+  // the disk refuses is in the log. On the strand; `then` is called on the spool's thread, at the latest while this is
+  // destroyed.
+  void when_kept(std::function<void()> then);
 
   // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
   using Request = std::function<void(rml1::MillController&, TimePoint)>;

@@ -108,7 +108,8 @@ rml1::Job job_of(const spool::Job& spooled) {
                 .most_s = facts.value("most_s", 0.0),
                 .leaves = {leaves.value("surface", false), leaves.value("revolutions", false),
                            leaves.value("rotation", false), leaves.value("tool", false)},
-                .rank = facts.value("rank", std::int64_t{0})};
+                .rank = facts.value("rank", std::int64_t{0}),
+                .queued_since = to_monotonic(spooled.created)};
   for (const Json& part : facts.value("parts", Json::array())) {
     job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0})});
   }
@@ -140,7 +141,7 @@ rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
   if (last.part != job.part && last.part < job.parts.size()) go_to_part(job, last.part);
   job.state = state_as_left(job, last);
   if (job.state == rml1::JobState::paused_unknown) {
-    job.written = rml1::WrittenRange{std::min(last.from, job.bytes), std::min(last.through, job.bytes)};
+    job.written = rml1::WrittenRange{std::min(last.sent_least, job.bytes), std::min(last.through, job.bytes)};
   }
   return job;
 }

@@ -18,7 +18,7 @@ namespace axisgate::server {
 
 // What the spool keeps beside the bytes, as JSON. Without what the spool knows, such as the digest.
 std::string facts_of(const rml1::Job& job);
-// QUEUED, in the TOOL_CHANGE before a later part, or PAUSED in a part.
+// QUEUED since it was sent, in the TOOL_CHANGE before a later part, or PAUSED in a part.
 rml1::Job job_of(const spool::Job& spooled);
 
 // Those that have not ended, in the order of their numbers.

@@ -67,6 +67,8 @@ std::vector<stage::ExecuteEvent> events_of(const Json& json) {
   return events;
 }
 
+std::vector<std::uint64_t> numbers_of(const Json& json) { return json.get<std::vector<std::uint64_t>>(); }
+
 // Of the part of that name: who may write the file could have written anything.
 template <class Value>
 std::optional<Value> part(std::string_view answer, const char* name, Value (*of)(const Json&)) {
@@ -89,6 +91,8 @@ std::string answer_of(const std::vector<stage::ExecuteEvent>& events) {
   for (const stage::ExecuteEvent& event : events) json["events"].push_back(event_json(event));
   return json_text(json);
 }
+
+std::string answer_of(const std::vector<std::uint64_t>& jobs) { return json_text({{"jobs", jobs}}); }
 
 std::string answer_done() { return "{}"; }
 
@@ -117,6 +121,10 @@ std::optional<stage::Motion> motion_in(std::string_view answer) {
 std::vector<stage::ExecuteEvent> events_in(std::string_view answer) {
   return part<std::vector<stage::ExecuteEvent>>(answer, "events", events_of)
       .value_or(std::vector<stage::ExecuteEvent>());
+}
+
+std::vector<std::uint64_t> jobs_in(std::string_view answer) {
+  return part<std::vector<std::uint64_t>>(answer, "jobs", numbers_of).value_or(std::vector<std::uint64_t>());
 }
 
 std::optional<Problem> problem_in(std::string_view answer) { return part<Problem>(answer, "problem", problem_of); }

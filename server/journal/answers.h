@@ -1,6 +1,7 @@
 // What a request was answered, as text that outlives the daemon.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +17,8 @@ namespace axisgate::server::journal {
 std::string answer_of(const stage::Motion& motion);
 std::string answer_of(const Problem& problem);
 std::string answer_of(const std::vector<stage::ExecuteEvent>& events);
+// Of jobs by their numbers.
+std::string answer_of(const std::vector<std::uint64_t>& jobs);
 // Of one that was done, and answered nothing.
 std::string answer_done();
 
@@ -26,6 +29,8 @@ bool is_refusal(Reason reason);
 std::optional<stage::Motion> motion_in(std::string_view answer);
 // None, where the text has none.
 std::vector<stage::ExecuteEvent> events_in(std::string_view answer);
+// None, where the text has none.
+std::vector<std::uint64_t> jobs_in(std::string_view answer);
 // Nothing, where the text is no problem.
 std::optional<Problem> problem_in(std::string_view answer);
 

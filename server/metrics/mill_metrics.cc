@@ -79,8 +79,8 @@ MillMetrics::MillMetrics(const Families& families, const std::string& device)
                                JobState::paused, JobState::fed, JobState::paused_unknown}) {
     queued_.at(index_of(state)) = &families.queued_jobs.Add(of_state(device, "state", state));
   }
-  for (const JobState state :
-       {JobState::fed, JobState::paused_unknown, JobState::done, JobState::aborted, JobState::cancelled}) {
+  for (const JobState state : {JobState::fed, JobState::paused_unknown, JobState::done, JobState::aborted,
+                               JobState::cancelled, JobState::expired}) {
     outcomes_.at(index_of(state)) = &families.jobs.Add(of_state(device, "outcome", state));
   }
 }
@@ -107,7 +107,7 @@ void MillMetrics::count_written(std::uint64_t through) {
 }
 
 void MillMetrics::set_state(const std::vector<rml1::Job>& jobs, const std::optional<rml1::RunningJob>& running) {
-  for (std::size_t state = 0; state < kStateCount; ++state) {
+  for (std::size_t state = 0; state < rml1::kJobStates; ++state) {
     if (queued_.at(state) == nullptr) continue;
     const auto in_state = [state](const rml1::Job& job) { return index_of(job.state) == state; };
     queued_.at(state)->Set(static_cast<double>(std::ranges::count_if(jobs, in_state)));

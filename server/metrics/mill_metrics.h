@@ -35,7 +35,6 @@ class MillMetrics {
   void set_pace(const std::optional<rml1::MeasuredPace>& measured);
 
  private:
-  static constexpr std::size_t kStateCount = static_cast<std::size_t>(rml1::JobState::paused) + 1;
   struct Families;
   // A range: of a duration in seconds, of bytes, or of a ratio.
   template <class Series>
@@ -54,9 +53,9 @@ class MillMetrics {
   Bounds<prometheus::Counter> estimate_;
   Bounds<prometheus::Gauge> buffer_;
   Bounds<prometheus::Gauge> pace_;
-  std::array<prometheus::Gauge*, kStateCount> queued_{};      // by JobState; null: such a job is not in the queue
-  std::array<prometheus::Counter*, kStateCount> outcomes_{};  // by JobState; null: no outcome
-  std::uint64_t written_ = 0;                                 // of the job that runs
+  std::array<prometheus::Gauge*, rml1::kJobStates> queued_{};      // by JobState; null: such a job is not in the queue
+  std::array<prometheus::Counter*, rml1::kJobStates> outcomes_{};  // by JobState; null: no outcome
+  std::uint64_t written_ = 0;                                      // of the job that runs
   TimePoint started_{};
 };
 

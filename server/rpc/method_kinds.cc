@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 59> kKinds = {{
+constexpr std::array<MethodKind, 60> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -48,6 +48,7 @@ constexpr std::array<MethodKind, 59> kKinds = {{
     {"MillService/ContinueJob", Kind::continue_job},
     {"MillService/AbortJob", Kind::abort_job},
     {"MillService/CancelJob", Kind::cancel_job},
+    {"MillService/CancelJobs", Kind::cancel_jobs},
     {"MillService/MoveJob", Kind::move_job},
     {"MillService/ReportJobDone", Kind::report_job_done},
     {"MillService/OperateMill", Kind::operate_mill},

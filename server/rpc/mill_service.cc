@@ -1,5 +1,7 @@
 #include "server/rpc/mill_service.h"
 
+#include "server/api/names.h"
+#include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
 #include "server/rpc/job_upload_run.h"
 #include "server/rpc/mills.h"
@@ -103,6 +105,20 @@ grpc::ServerUnaryReactor* MillService::CancelJob(grpc::CallbackServerContext* co
   const auto call = UnaryCall<v1::CancelJobResponse>::start(response);
   mills_.cancel(to_acting_call(*context, *request), request->job(),
                 answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
+  return call.get();
+}
+
+grpc::ServerUnaryReactor* MillService::CancelJobs(grpc::CallbackServerContext* context,
+                                                  const v1::CancelJobsRequest* request,
+                                                  v1::CancelJobsResponse* response) {
+  const auto call = UnaryCall<v1::CancelJobsResponse>::start(response);
+  mills_.cancel_all(
+      to_acting_call(*context, *request), request->device(), request->who(),
+      answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
+        for (const rml1::JobNumber job : cancelled.jobs) {
+          answer.add_jobs(api::job_name(cancelled.mill->name(), job));
+        }
+      }));
   return call.get();
 }
 

@@ -32,6 +32,8 @@ class MillService final : public v1::MillService::CallbackService {
                                         v1::ContinueJobResponse* response) override;
   grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,
                                       v1::CancelJobResponse* response) override;
+  grpc::ServerUnaryReactor* CancelJobs(grpc::CallbackServerContext* context, const v1::CancelJobsRequest* request,
+                                       v1::CancelJobsResponse* response) override;
   grpc::ServerUnaryReactor* MoveJob(grpc::CallbackServerContext* context, const v1::MoveJobRequest* request,
                                     v1::MoveJobResponse* response) override;
   grpc::ServerUnaryReactor* ReportJobDone(grpc::CallbackServerContext* context, const v1::ReportJobDoneRequest* request,

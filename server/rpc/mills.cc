@@ -25,6 +25,7 @@ v1::JobState to_job_state(JobState state) {
   static_assert(static_cast<int>(JobState::cancelled) + 1 == v1::JOB_STATE_CANCELLED);
   static_assert(static_cast<int>(JobState::tool_change) + 1 == v1::JOB_STATE_TOOL_CHANGE);
   static_assert(static_cast<int>(JobState::paused) + 1 == v1::JOB_STATE_PAUSED);
+  static_assert(static_cast<int>(JobState::expired) + 1 == v1::JOB_STATE_EXPIRED);
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
 }
 

@@ -12,7 +12,7 @@ namespace axisgate::server::spool {
 struct NewJob {
   std::string name{};      // as job_name() takes it
   std::string who{};       // the caller, as people read it
-  std::string identity{};  // whose jobs share Bounds::bytes_of_identity
+  std::string identity{};  // whose jobs share the bounds of one identity
   std::string facts{};     // as in Job
   std::chrono::sys_seconds created{};
 };

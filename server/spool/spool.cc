@@ -51,7 +51,7 @@ Result<void> Spool::read_all() {
     auto jobs = device.folder.read();
     if (!jobs) return tl::unexpected(jobs.error());
     for (Job& job : *jobs) {
-      auto place = room_.hold(job.identity, job.bytes);
+      auto place = room_.hold(job.identity, job.bytes, job.ended.has_value());
       device.jobs.emplace(job.id, Kept{std::move(job), std::move(place)});
     }
   }
@@ -153,7 +153,9 @@ Result<void> Spool::change(const std::string& device, std::uint64_t id, const st
   change(found->job);
   if (Result<void> written = found->folder->keep(found->job); !written) return written;
   const std::lock_guard lock(mutex_);
-  devices_.at(device).jobs.at(id).job = std::move(found->job);
+  Kept& kept = devices_.at(device).jobs.at(id);
+  kept.job = std::move(found->job);
+  if (kept.job.ended) kept.place->end();
   return {};
 }
 

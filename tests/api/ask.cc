@@ -147,6 +147,8 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
       return answer_of<CurrentRun>(with(&Mills::abort), call, kDevice);
     case RequestKind::cancel_job:
       return answer_of<CurrentJob>(with(&Mills::cancel), call, kJob);
+    case RequestKind::cancel_jobs:
+      return answer_of<CancelledJobs>(with(&Mills::cancel_all), call, kDevice, std::string("unix anna"));
     case RequestKind::move_job:
       return answer_of<CurrentJob>(with(&Mills::move_first), call, kJob);
     case RequestKind::report_job_done:

@@ -116,6 +116,8 @@ const std::vector<Row> kRows = {
     {Kind::abort_job, "abort_job", Role::observer, "", Asks::nothing, Reason::invalid_request, Reason::invalid_request},
     {Kind::cancel_job, "cancel_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
+    {Kind::cancel_jobs, "cancel_jobs", Role::admin, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
     {Kind::move_job, "move_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
     {Kind::report_job_done, "report_job_done", Role::operator_, "request", Asks::nothing, Reason::invalid_request,

@@ -287,6 +287,16 @@ TEST_F(MillCalls, PauseResumeCancelDone) {
   EXPECT_THAT(mill_.jobs, ElementsAre("devices/mill/jobs/7", "devices/mill/jobs/7"));
 }
 
+TEST_F(MillCalls, ClearNamesTheJobsThatAreCancelled) {
+  add_job(v1::JOB_STATE_QUEUED);
+  options_.who = "unix anna";
+  EXPECT_EQ(run(mill_clear).output, "job 7 of unix anna is CANCELLED\n");
+  mill_.mill.add_jobs()->set_name("devices/mill/jobs/9");
+  EXPECT_EQ(run(mill_clear).output, "jobs 7, 9 of unix anna are CANCELLED\n");
+  EXPECT_THAT(mill_.cleared, ElementsAre("unix anna", "unix anna"));
+  EXPECT_THAT(mill_.devices, ElementsAre("devices/mill", "devices/mill"));
+}
+
 TEST_F(MillCalls, PauseRaisesWhereThatIsRequested) {
   add_job(v1::JOB_STATE_RUNNING);
   mill_.mill.mutable_running()->set_sending(v1::SENDING_STATE_RAISING);

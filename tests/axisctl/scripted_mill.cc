@@ -114,6 +114,15 @@ grpc::Status ScriptedMill::CancelJob(grpc::ServerContext*, const v1::CancelJobRe
   return next_status();
 }
 
+grpc::Status ScriptedMill::CancelJobs(grpc::ServerContext*, const v1::CancelJobsRequest* request,
+                                      v1::CancelJobsResponse* response) {
+  calls.emplace_back("CancelJobs");
+  devices.push_back(request->device());
+  cleared.push_back(request->who());
+  for (const v1::Job& job : mill.jobs()) response->add_jobs(job.name());
+  return next_status();
+}
+
 grpc::Status ScriptedMill::MoveJob(grpc::ServerContext*, const v1::MoveJobRequest* request,
                                    v1::MoveJobResponse* response) {
   calls.emplace_back("MoveJob");

@@ -31,6 +31,7 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
   std::vector<v1::StartJobRequest> started;
   std::vector<v1::PauseJobRequest> paused;
   std::vector<v1::ContinueJobRequest> continued;
+  std::vector<std::string> cleared;        // whose jobs
   std::vector<std::string> devices, jobs;  // that were named by the other requests
 
   grpc::Status ListDevices(grpc::ServerContext* context, const v1::ListDevicesRequest* request,
@@ -55,6 +56,8 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
                            v1::ContinueJobResponse* response) override;
   grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,
                          v1::CancelJobResponse* response) override;
+  grpc::Status CancelJobs(grpc::ServerContext* context, const v1::CancelJobsRequest* request,
+                          v1::CancelJobsResponse* response) override;
   grpc::Status MoveJob(grpc::ServerContext* context, const v1::MoveJobRequest* request,
                        v1::MoveJobResponse* response) override;
   grpc::Status ReportJobDone(grpc::ServerContext* context, const v1::ReportJobDoneRequest* request,

@@ -176,7 +176,7 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it, up to .* s, "
                                                  r"still run.*; the cutter keeps turning in the cut\n\Z")
         self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) PAUSED \[")
-        self.refused("WRONG_MODE", "pause")
+        self.refused(f"WRONG_MODE: job {number} is paused already", "pause")
         self.assertRegex(self.run_well("resume"), rf"\Ajob {number} is resumed; ")
         self.await_queue(rf"\njob {number} \(frame\) SENDING \[")
         self.refused("WRONG_MODE", "resume")
@@ -287,7 +287,8 @@ class MillJobs(unittest.TestCase):
         self.run_well("done", number, device="quick")
         self.run_well("abort", device="quick")
         self.await_metric(1, "aborts_total")
-        for outcome, jobs in (("FED", 1), ("DONE", 1), ("ABORTED", 0), ("CANCELLED", 0), ("PAUSED_UNKNOWN", 0)):
+        for outcome, jobs in (("FED", 1), ("DONE", 1), ("ABORTED", 0), ("CANCELLED", 0), ("EXPIRED", 0),
+                              ("PAUSED_UNKNOWN", 0)):
             self.await_metric(jobs, "jobs_total", f'outcome="{outcome}"')
         self.await_metric(0, "queued_jobs", 'state="FED"')
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 """A queue among people: an administrator moves any job to the front, an operator only their own before other ones of
-theirs. The order outlives a daemon that ends and one that is killed. Bert is an administrator, anna an operator."""
+theirs. The order outlives a daemon that ends and one that is killed. Nobody fills the queue, an administrator clears the
+jobs of a caller, and what nobody confirms expires. Bert is an administrator, the others are operators."""
 
 import json
 import os
@@ -34,14 +35,16 @@ tools = ["T1"]
 JOB = "^IN;!MC0;!PZ-50,200;" + "PU4000,0;PU0,0;" * 125 + "H;\n"
 
 
-class AQueueAmongPeople(unittest.TestCase):
+class Queue(unittest.TestCase):
+    config = CONFIG
+
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="axisgate-mill-queue-")
         self.addCleanup(folder.cleanup)
         self.folder = pathlib.Path(folder.name)
-        self.daemon = Daemon(folder.name, CONFIG)
+        self.daemon = Daemon(folder.name, self.config)
         self.addCleanup(lambda: self.daemon.stop())
-        self.token = self.daemon.run("token", "create", "anna").stdout.strip()
+        self.tokens = {who: self.daemon.run("token", "create", who).stdout.strip() for who in ("anna", "carl", "dora")}
         self.await_true(lambda: "line open" in self.well("bert", "mill", "queue"), "the line does not open")
 
     def await_true(self, condition, what):
@@ -51,19 +54,20 @@ class AQueueAmongPeople(unittest.TestCase):
             time.sleep(0.02)  # between two looks; the deadline above decides
 
     def run_as(self, who, *words, stdin=""):
+        """"nobody" has no name: over loopback, without a token."""
         if who == "bert":
             return self.daemon.run(*words, stdin=stdin)
         return subprocess.run([BIN / "axisctl", "--target", self.daemon.address(), *words], input=stdin,
-                              env=dict(os.environ, AXISGATE_TOKEN=self.token), capture_output=True, text=True,
-                              timeout=LIMIT_S, check=False)
+                              env=dict(os.environ, AXISGATE_TOKEN=self.tokens.get(who, "")), capture_output=True,
+                              text=True, timeout=LIMIT_S, check=False)
 
     def well(self, who, *words, stdin=""):
         answer = self.run_as(who, *words, stdin=stdin)
         self.assertEqual((answer.returncode, answer.stderr), (0, ""), f"{words}: {answer.stdout}")
         return answer.stdout
 
-    def refused(self, who, pattern, *words):
-        answer = self.run_as(who, *words)
+    def refused(self, who, pattern, *words, stdin=""):
+        answer = self.run_as(who, *words, stdin=stdin)
         self.assertEqual(answer.returncode, 3, answer.stdout + answer.stderr)
         self.assertRegex(answer.stderr, pattern)
 
@@ -75,7 +79,7 @@ class AQueueAmongPeople(unittest.TestCase):
         self.daemon.signal(end)
         self.daemon.wait(LIMIT_S)
         self.daemon.stop()
-        self.daemon = Daemon(str(self.folder), CONFIG)
+        self.daemon = Daemon(str(self.folder), self.config)
 
     def order(self):
         jobs = json.loads(self.well("bert", "--json", "mill", "queue")).get("jobs", [])
@@ -86,6 +90,8 @@ class AQueueAmongPeople(unittest.TestCase):
         jobs = [json.loads(file.read_text(encoding="utf-8")) for file in self.folder.glob("state/spool/mill/*.json")]
         return [number for _, number in sorted((json.loads(job["facts"])["rank"], job["id"]) for job in jobs)]
 
+
+class AQueueAmongPeople(Queue):
     def test_who_may_move_which_job(self):
         self.send("anna", "bert", "anna", "bert")
         self.refused("anna", r"NOT_ALLOWED: job 4 \(for bert, by unix \S+\) is not yours \(its owner or an administrator can "
@@ -121,7 +127,7 @@ class AQueueAmongPeople(unittest.TestCase):
         for end in (signal.SIGTERM, signal.SIGKILL):
             with self.subTest(end):
                 self.assertEqual(self.order(), [4, 5, 2, 1, 3])
-                self.await_true(lambda: self.kept_order() == [4, 5, 2, 1, 3], "the order is not kept")
+                self.assertEqual(self.kept_order(), [4, 5, 2, 1, 3], "it is kept before it is answered")
                 self.restart(end)
         self.assertEqual(self.order(), [4, 5, 2, 1, 3])
         self.send("anna")
@@ -133,6 +139,47 @@ class AQueueAmongPeople(unittest.TestCase):
             self.well("bert", "mill", "first", number)
         self.restart(signal.SIGTERM)
         self.assertEqual(self.order(), [3, 2, 1])
+
+    def test_an_administrator_clears_the_jobs_of_a_caller(self):
+        self.send("anna", "anna", "bert", "anna")
+        self.well("bert", "mill", "confirm", "1", "--yes", "--start")
+        self.refused("anna", "NOT_ALLOWED: ", "mill", "clear", "token anna")
+        self.assertEqual(self.well("bert", "mill", "clear", "token anna"), "jobs 2, 4 of token anna are CANCELLED\n")
+        self.assertEqual(self.order(), [1, 3], "job 1 runs")
+        self.refused("bert", "NOT_FOUND: no job of token anna waits for mill", "mill", "clear", "token anna")
+        self.assertRegex(self.well("bert", "history"), r"job 4 is CANCELLED, by unix \S+")
+
+    def test_a_job_that_nobody_confirms_expires(self):
+        self.send("anna", "bert")
+        self.daemon.signal(signal.SIGTERM)
+        self.daemon.wait(LIMIT_S)
+        record = self.folder / "state/spool/mill/1.json"
+        job = json.loads(record.read_text(encoding="utf-8"))
+        record.write_text(json.dumps(dict(job, created=job["created"] - 15 * 86400)), encoding="utf-8")
+        self.daemon.stop()
+        self.daemon = Daemon(str(self.folder), self.config)
+        self.await_true(lambda: self.order() == [2], "it does not expire")
+        self.assertRegex(self.well("bert", "history"), r"job 1 is EXPIRED: nobody confirmed it within 14 days")
+
+
+class AQueueOfEightPlaces(Queue):
+    config = CONFIG.replace("[access]", "[jobs]\ncount = 8\n\n[access]")
+
+    def refused_to_send(self, who, pattern):
+        self.refused(who, "QUEUE_FULL: " + pattern, "mill", "send", "-", stdin=JOB)
+
+    def test_nobody_is_shut_out(self):
+        for who, name in (("nobody", "callers without a name"), ("anna", "token anna")):
+            self.send(who, who)
+            self.refused_to_send(who, rf"2 jobs of {name} are in the queue, the most for one caller .*mill cancel JOB")
+        self.send("bert", "carl")
+        self.well("bert", "mill", "clear", "token anna")
+        self.send("bert", "anna")
+        for who in ("anna", "carl"):
+            self.refused_to_send(who, f"6 of the 8 places of the queue are taken, 1 of them by jobs of token {who}; "
+                                      "the last 2 are for callers without a job in it ")
+        self.send("dora")
+        self.assertEqual(len(self.order()), 7)
 
 
 if __name__ == "__main__":

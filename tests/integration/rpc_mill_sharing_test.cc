@@ -74,6 +74,50 @@ TEST_F(RpcMill, ARequestThatComesAgainIsAnsweredAsTheFirst) {
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJob, request)), v1::REASON_NOT_FOUND);
 }
 
+TEST_F(RpcMill, AnAdministratorTakesTheWaitingJobsOfACallerOutOfTheQueue) {
+  const v1::Job running = sent(vectors(2000)), second = sent(vectors(4)), third = sent(vectors(4));
+  ASSERT_TRUE(confirm(running).ok());
+  ASSERT_TRUE(start(running).ok());
+  v1::CancelJobsRequest request;
+  request.mutable_context()->set_request_id("clear-1");
+  request.set_device(kMill);
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_INVALID_REQUEST) << "of nobody";
+  request.mutable_context()->set_request_id("clear-2");
+  request.set_who("unix nobody of that name");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_NOT_FOUND);
+  request.mutable_context()->set_request_id("clear-3");
+  request.set_who(running.owner());
+  for (const char* time : {"first", "again"}) {
+    v1::CancelJobsResponse response;
+    ASSERT_TRUE(ask(&v1::MillService::Stub::CancelJobs, request, &response).ok()) << time;
+    EXPECT_THAT(response.jobs(), testing::ElementsAre(second.name(), third.name())) << time;
+  }
+  const v1::Mill mill = now();
+  ASSERT_THAT(mill.jobs(), SizeIs(1));
+  EXPECT_EQ(mill.jobs(0).name(), running.name());
+  EXPECT_TRUE(mill.has_running());
+  request.mutable_context()->set_request_id("clear-4");
+  EXPECT_EQ(reason(ask(&v1::MillService::Stub::CancelJobs, request)), v1::REASON_NOT_FOUND) << "it runs";
+}
+
+// So that neither a kill nor the next job that is sent finds it there.
+TEST_F(RpcMill, TheSpoolHasWhatBecameOfAJobBeforeTheAnswer) {
+  const v1::Job first = sent(vectors(4)), second = sent(vectors(4));
+  v1::MoveJobRequest move;
+  move.set_job(second.name());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::MoveJob, move).ok());
+  EXPECT_THAT(spool_->list("mill").at(1).facts, HasSubstr("\"rank\":-1"));
+  v1::CancelJobRequest cancel;
+  cancel.set_job(first.name());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::CancelJob, cancel).ok());
+  EXPECT_TRUE(spool_->list("mill").at(0).ended);
+  v1::CancelJobsRequest clear;
+  clear.set_device(kMill);
+  clear.set_who(second.owner());
+  ASSERT_TRUE(ask(&v1::MillService::Stub::CancelJobs, clear).ok());
+  EXPECT_TRUE(spool_->list("mill").at(1).ended);
+}
+
 TEST_F(RpcMill, AJobIsMovedToTheFrontOnce) {
   const v1::Job first = sent(vectors(4)), second = sent(vectors(4)), third = sent(vectors(4));
   const auto order = [this] {

@@ -138,6 +138,20 @@ TEST_F(MillContinuedTest, APausedJobCanBeRaised) {
   EXPECT_EQ(state(1), paused);
 }
 
+TEST_F(MillContinuedTest, APauseOfAPausedJobSaysThatItIsPaused) {
+  const auto refusal = [this](bool raise) { return mill_.pause(raise, now_).error().message; };
+  EXPECT_EQ(refusal(false), "no job is being sent");
+  begin();
+  run_for(3s);
+  ASSERT_TRUE(mill_.pause(false, now_));
+  EXPECT_EQ(refusal(false), "job 1 is paused already");
+  ASSERT_TRUE(mill_.pause(true, now_));
+  for (const bool raise : {false, true}) EXPECT_EQ(refusal(raise), "job 1 is being paused already");
+  run_for(60s);
+  ASSERT_EQ(state(1), paused);
+  for (const bool raise : {false, true}) EXPECT_EQ(refusal(raise), "job 1 is paused already");
+}
+
 TEST_F(MillContinuedTest, AnAbortWhileTheToolRisesEndsTheJob) {
   raise();
   mill_.abort({.who = "unix bert"}, now_);

@@ -16,6 +16,7 @@
 namespace axisgate::rml1 {
 namespace {
 
+using namespace std::chrono_literals;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -138,6 +139,61 @@ TEST_F(MillQueueOrder, WhatIsSentLaterIsBehindAllThatWereMoved) {
   add(4);
   EXPECT_THAT(order(), ElementsAre(3, 1, 2, 4));
   EXPECT_THAT(order_after_restart(), ElementsAre(3, 1, 2, 4));
+}
+
+TEST_F(MillQueueOrder, AJobThatNobodyConfirmsEnds) {
+  add(1);
+  now_ += 24h;
+  add(2);
+  const TimePoint due = now_ + 13 * 24h;
+  EXPECT_EQ(mill_.next_deadline(), due);
+  now_ = due - 1ns;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), queued);
+  now_ = due;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), expired);
+  EXPECT_EQ(said_.back(), "EXPIRED: nobody confirmed it within 14 days");
+  EXPECT_EQ(by_[expired], "");
+  EXPECT_EQ(order(), Numbers{2}) << "sent a day later";
+  EXPECT_EQ(mill_.next_deadline(), due + 24h);
+}
+
+TEST_F(MillQueueOrder, AConfirmedJobDoesNotExpireAndAVoidConfirmationCountsAnew) {
+  add(1);
+  now_ += 14 * 24h - 1min;
+  ASSERT_TRUE(confirm(1));
+  now_ += 5min;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), confirmed);
+  mill_.setup_changed("the line was lost", now_);
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), queued);
+  now_ += 14 * 24h;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), expired);
+}
+
+// Its workpiece may be in the mill.
+TEST_F(MillQueueOrder, AJobThatWasBegunDoesNotExpire) {
+  add(1);
+  run_job(1, 200);
+  add(2);
+  mill_.link_down(now_, "unplugged");
+  now_ += 15 * 24h;
+  mill_.advance(now_);
+  EXPECT_EQ(state(1), paused_unknown);
+  EXPECT_EQ(state(2), expired);
+}
+
+TEST_F(MillQueueOrder, AJobOfARunBeforeExpiresByTheTimeItWasSent) {
+  MillController after(profile_, settings_, line_, *this, permission_);
+  after.inherit({.number = 1, .queued_since = now_ - 14 * 24h});
+  after.inherit({.number = 2, .queued_since = now_ - 13 * 24h});
+  after.advance(now_);
+  EXPECT_EQ(state(1), expired);
+  ASSERT_EQ(after.jobs().size(), 1u);
+  EXPECT_EQ(after.jobs().front().number, 2u);
 }
 
 // Who moves, who sends, who confirms and who cancels is drawn. After each: of those moved for its owner the others have

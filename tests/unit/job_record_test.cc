@@ -8,6 +8,7 @@
 #include <string>
 
 #include "server/devices/spooled_jobs.h"
+#include "server/events/wall_time.h"
 #include "tests/unit/link_fixtures.h"
 
 namespace axisgate::server {
@@ -151,7 +152,7 @@ TEST(JobAsItWasLeft, WhatMayHaveGoneIsWithinTheJob) {
 }
 
 TEST(JobAsItWasLeft, ALaterPartThatMayHaveBegun) {
-  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 352, 1, 300});
+  rml1::Job left = as_it_was_left(job(), {7, JobState::running, 352, 1, 300, 300});
   EXPECT_EQ(left.state, JobState::paused_unknown);
   EXPECT_EQ(left.written, (rml1::WrittenRange{300, 352})) << "the part before was executed";
   EXPECT_EQ(left.setup.tool, "T3");
@@ -177,7 +178,7 @@ TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
     EXPECT_EQ(left.setup.from, before.setup.from);
     EXPECT_FALSE(left.written);
   }
-  const rml1::Job lost = as_it_was_left(before, {7, JobState::running, 352, 1, 320});
+  const rml1::Job lost = as_it_was_left(before, {7, JobState::running, 352, 1, 320, 320});
   EXPECT_EQ(lost.state, JobState::paused_unknown);
   EXPECT_EQ(lost.written, (rml1::WrittenRange{320, 352})) << "what comes before it was executed";
   EXPECT_EQ(as_it_was_left(before, {7, JobState::tool_change, 400, 0}).setup.from, std::nullopt) << "of another part";
@@ -185,9 +186,26 @@ TEST(JobAsItWasLeft, WhatWasPausedGoesOnAtItsPlace) {
 
 // The daemon was killed before it was in the spool.
 TEST(JobAsItWasLeft, WhatWasPausedAtAPlaceThatIsNotKnown) {
-  const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52, 0, 52});
+  const rml1::Job left = as_it_was_left(job(), {7, JobState::paused, 52, 0, 52, 52});
   EXPECT_EQ(left.state, JobState::paused_unknown);
   EXPECT_EQ(left.written, (rml1::WrittenRange{52, 52}));
+}
+
+// The mill was not surely sent what comes before the place that somebody has chosen.
+TEST_F(JobRecordTest, AChosenPlaceThatIsNotInTheSpoolSaysNothingOfWhatWasSent) {
+  rml1::Job lost = job();
+  {
+    const auto record = open();
+    record->begin(lost);
+    record->going_to(52);
+    lost.state = JobState::paused;
+    lost.written = rml1::WrittenRange{10, 52};
+    lost.setup.from = rml1::Place{40, 4, 1};
+    record->set_state(lost);
+  }
+  const rml1::Job left = as_it_was_left(job(), *open()->before());
+  EXPECT_EQ(left.state, JobState::paused_unknown);
+  EXPECT_EQ(left.written, (rml1::WrittenRange{10, 52}));
 }
 
 // That in the spool is of an earlier pause.
@@ -195,7 +213,7 @@ TEST(JobAsItWasLeft, WhatWasPausedAtAnotherPlaceThanTheOneThatIsKnown) {
   rml1::Job before = job();
   before.setup.from = rml1::Place{20, 2, 5};
   for (const JobState state : {JobState::paused, JobState::confirmed}) {
-    const rml1::Job left = as_it_was_left(before, {7, state, 52, 0, 52});
+    const rml1::Job left = as_it_was_left(before, {7, state, 52, 0, 52, 52});
     EXPECT_EQ(left.state, JobState::paused_unknown);
     EXPECT_EQ(left.written, (rml1::WrittenRange{52, 52}));
   }
@@ -208,7 +226,13 @@ TEST(JobAsItWasLeft, WhatWasFedIsFed) {
 }
 
 spool::Job spooled(const rml1::Job& job) {
-  return {.id = 3, .name = "part.rml", .who = "unix anna", .bytes = 500, .sha256 = "d", .facts = facts_of(job)};
+  return {.id = 3,
+          .name = "part.rml",
+          .who = "unix anna",
+          .bytes = 500,
+          .sha256 = "d",
+          .created = calendar_now() - std::chrono::days(2),
+          .facts = facts_of(job)};
 }
 
 TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
@@ -225,6 +249,7 @@ TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   EXPECT_EQ(made.most_s, 2.5);
   EXPECT_EQ(made.state, JobState::queued);
   EXPECT_EQ(made.leaves, (rml1::Leaves{.surface = true, .tool = true}));
+  EXPECT_EQ(std::chrono::round<std::chrono::hours>(monotonic_now() - made.queued_since), std::chrono::hours(48));
   EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
 }
 

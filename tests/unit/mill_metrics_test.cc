@@ -50,8 +50,9 @@ TEST_F(MillMetricsTest, JobsAreCountedByWhatBecameOfThem) {
   change(JobState::done, 2s);
   change(JobState::paused_unknown, 3s);
   change(JobState::cancelled, 4s);
+  change(JobState::expired, 5s);
   const std::string text = page();
-  for (const char* outcome : {"ABORTED", "FED", "DONE", "PAUSED_UNKNOWN", "CANCELLED"}) {
+  for (const char* outcome : {"ABORTED", "FED", "DONE", "PAUSED_UNKNOWN", "CANCELLED", "EXPIRED"}) {
     EXPECT_THAT(text,
                 HasSubstr(std::string("axisgate_mill_jobs_total{device=\"mill\",outcome=\"") + outcome + "\"} 1\n"));
   }

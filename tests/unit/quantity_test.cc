@@ -107,6 +107,17 @@ TEST(Quantity, HasANumberAndAUnit) {
   EXPECT_EQ(quantity->unit, Unit::micrometers);
 }
 
+TEST(Quantity, NeedsADecimalPoint) {
+  for (const char* text : {"12,5um", "12,5", "-1,000.5mm", ",5um"}) {
+    const auto quantity = parse_quantity(text, Unit::millimeters);
+    ASSERT_FALSE(quantity) << text;
+    EXPECT_EQ(quantity.error().reason, Reason::invalid_request);
+    EXPECT_EQ(quantity.error().message, '"' + std::string(text) + "\" has a comma where a decimal point is needed");
+  }
+  EXPECT_EQ(parse_speed("2,5mm/s", Unit::millimeters).error().message,
+            "\"2,5mm\" has a comma where a decimal point is needed");
+}
+
 TEST(Quantity, TakesTheFallbackWhenItHasNoUnit) {
   const auto quantity = parse_quantity("+1.5", Unit::millimeters);
   ASSERT_TRUE(quantity);

@@ -5,6 +5,7 @@
 #include <thread>
 #include <vector>
 
+#include "server/access/access.h"
 #include "tests/unit/spool_bed.h"
 
 namespace axisgate::server::spool_test {
@@ -16,7 +17,9 @@ using testing::ElementsAre;
 class SpoolBounds : public SpoolBed {
  protected:
   SpoolBounds() { open(bounds()); }
-  static spool::Bounds bounds() { return {.bytes = 25, .bytes_of_one = 10, .bytes_of_identity = 16, .jobs = 4}; }
+  static spool::Bounds bounds() {
+    return {.bytes = 25, .bytes_of_one = 10, .bytes_of_identity = 16, .jobs = 4, .jobs_reserved = 0};
+  }
 };
 
 TEST_F(SpoolBounds, OfOneJob) {
@@ -46,7 +49,7 @@ TEST_F(SpoolBounds, OfTheNumberOfJobs) {
   for (int job = 1; job <= 3; ++job) ASSERT_TRUE(upload("0"));
   auto fourth = begin();
   ASSERT_TRUE(fourth);
-  EXPECT_EQ(why(begin("unix bert", "lathe")), "QUEUE_FULL: 4 jobs are kept already, as many as may be");
+  EXPECT_EQ(why(begin("unix bert", "lathe")), "QUEUE_FULL: all 4 places of the queue are taken");
   fourth->reset();
   EXPECT_TRUE(begin("unix bert", "lathe"));
 }
@@ -58,13 +61,41 @@ TEST_F(SpoolBounds, OfTheNumberOfOneCallersJobs) {
   ASSERT_TRUE(upload("0"));
   auto second = begin();
   ASSERT_TRUE(second);
-  EXPECT_EQ(why(begin()), "QUEUE_FULL: 2 jobs of unix anna are kept already, as many as may be of one caller");
+  EXPECT_EQ(why(begin()), "QUEUE_FULL: 2 jobs of unix anna are in the queue, the most for one caller");
   EXPECT_TRUE(upload("0", "unix bert"));
   second->reset();
   EXPECT_TRUE(upload("0"));
   ASSERT_TRUE(spool_->end("mill", 1, kNow));
   EXPECT_TRUE(upload("0")) << "what has ended gives way";
   EXPECT_EQ(begin().error().reason, Reason::queue_full);
+}
+
+TEST_F(SpoolBounds, TheLastPlacesAreForThoseWhoHaveNoJobWaiting) {
+  open({.jobs = 8, .jobs_of_identity = 4, .jobs_reserved = 2});
+  for (int job = 1; job <= 4; ++job) ASSERT_TRUE(upload("0"));
+  ASSERT_TRUE(upload("0", "unix bert"));
+  auto sixth = begin("unix bert");
+  ASSERT_TRUE(sixth);
+  EXPECT_EQ(why(begin("unix bert")),
+            "QUEUE_FULL: 6 of the 8 places of the queue are taken, 2 of them by jobs of unix bert; the last 2 are for "
+            "callers without a job in it");
+  EXPECT_TRUE(upload("0", "unix root"));
+  EXPECT_EQ(begin("unix root").error().reason, Reason::queue_full);
+  sixth->reset();
+  ASSERT_TRUE(spool_->end("mill", 1, kNow));
+  ASSERT_TRUE(spool_->end("mill", 1, kNow)) << "counted once";
+  EXPECT_TRUE(upload("0", "unix bert")) << "one that has ended takes no place of the queue";
+  EXPECT_EQ(begin("unix bert").error().reason, Reason::queue_full);
+  open({.jobs = 8, .jobs_of_identity = 4, .jobs_reserved = 2});
+  EXPECT_EQ(begin("unix bert").error().reason, Reason::queue_full) << "also after a restart";
+  EXPECT_TRUE(begin("unix carla"));
+}
+
+TEST(QueuedAs, CallersWithoutANameAreOne) {
+  EXPECT_EQ(queued_as("unix anna"), "unix anna");
+  EXPECT_EQ(queued_as(anonymous_caller("127.0.0.1:39482")), "callers without a name");
+  EXPECT_EQ(queued_as(kSharedUnixName), "callers without a name");
+  EXPECT_EQ(queued_as("callers without a name"), "callers without a name") << "so a clear takes the name of a refusal";
 }
 
 TEST_F(SpoolBounds, CountUploadsUnderWay) {
@@ -94,7 +125,7 @@ TEST_F(SpoolBounds, JobsThatHaveEndedGiveWayTheOldestFirst) {
   EXPECT_THAT(ids(), ElementsAre(1, 2, 4, 5));
   EXPECT_TRUE(upload("0"));
   EXPECT_THAT(ids(), ElementsAre(1, 4, 5, 6));
-  EXPECT_EQ(why(upload("0")), "QUEUE_FULL: 4 jobs are kept already, as many as may be");
+  EXPECT_EQ(why(upload("0")), "QUEUE_FULL: all 4 places of the queue are taken");
 }
 
 TEST_F(SpoolBounds, OnlyOnesOwnGiveWayWhereOnesOwnAreTooMany) {

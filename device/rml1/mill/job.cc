@@ -10,15 +10,17 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, 10> kNames = {"QUEUED",  "CONFIRMED",      "RUNNING",   "FED",         "DONE",
-                                                     "ABORTED", "PAUSED_UNKNOWN", "CANCELLED", "TOOL_CHANGE", "PAUSED"};
+constexpr std::array<std::string_view, kJobStates> kNames = {"QUEUED",      "CONFIRMED", "RUNNING",        "FED",
+                                                             "DONE",        "ABORTED",   "PAUSED_UNKNOWN", "CANCELLED",
+                                                             "TOOL_CHANGE", "PAUSED",    "EXPIRED"};
 
 }  // namespace
 
 std::string_view name(JobState state) { return kNames.at(static_cast<std::size_t>(state)); }
 
 bool is_end(JobState state) {
-  return state == JobState::done || state == JobState::aborted || state == JobState::cancelled;
+  return state == JobState::done || state == JobState::aborted || state == JobState::cancelled ||
+         state == JobState::expired;
 }
 
 std::optional<JobState> next(JobState state, JobEvent event) {
@@ -27,6 +29,7 @@ std::optional<JobState> next(JobState state, JobEvent event) {
   static constexpr std::array kTable = {
       Change{queued, JobEvent::confirm, confirmed},
       Change{queued, JobEvent::cancel, cancelled},
+      Change{queued, JobEvent::expire, expired},
       Change{confirmed, JobEvent::confirm, confirmed},
       Change{confirmed, JobEvent::make_void, queued},
       Change{confirmed, JobEvent::make_void_later, tool_change},
@@ -68,6 +71,10 @@ void go_to_part(Job& job, std::size_t part) {
   job.setup.tool = job.parts[part].tool;
   job.setup.from.reset();
   job.written.reset();
+}
+
+bool waits_to_begin(const Job& job) {
+  return job.state == JobState::queued || (job.state == JobState::confirmed && void_event(job) == JobEvent::make_void);
 }
 
 JobEvent void_event(const Job& job) {

@@ -43,7 +43,20 @@ struct JobPart {
 inline constexpr std::size_t kPartsAtMost = 16;
 
 // README.md has the table of what leads from one to another.
-enum class JobState { queued, confirmed, running, fed, done, aborted, paused_unknown, cancelled, tool_change, paused };
+enum class JobState {
+  queued,
+  confirmed,
+  running,
+  fed,
+  done,
+  aborted,
+  paused_unknown,
+  cancelled,
+  tool_change,
+  paused,
+  expired  // last: kJobStates
+};
+inline constexpr std::size_t kJobStates = static_cast<std::size_t>(JobState::expired) + 1;
 std::string_view name(JobState state);  // "QUEUED" ...
 bool is_end(JobState state);
 
@@ -60,7 +73,8 @@ enum class JobEvent {
   aborted,
   lost,
   done,
-  cancel
+  cancel,
+  expire
 };
 // The state after the event; nothing where the table has none.
 std::optional<JobState> next(JobState state, JobEvent event);
@@ -95,6 +109,7 @@ struct Job {
   std::optional<Streaming> streaming{};        // none: as the mill has it
   std::optional<Stock> stock{};                // none: nobody has said it
   std::string checked_for{};                   // a digest of the profile and the origin with which it was checked
+  TimePoint queued_since{};                    // when it was sent, or when its last confirmation became void
 };
 
 // Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower
@@ -109,6 +124,8 @@ bool is_last_part(const Job& job);
 std::uint64_t next_byte(const Job& job);
 // Another part is the next, with its tool, from its beginning.
 void go_to_part(Job& job, std::size_t part);
+// Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
+bool waits_to_begin(const Job& job);
 // What a void confirmation of it is.
 JobEvent void_event(const Job& job);
 

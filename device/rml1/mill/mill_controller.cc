@@ -65,6 +65,7 @@ MillController::MillController(const Profile& profile, const MillSettings& setti
 
 void MillController::add(Job job, TimePoint now) {
   job.state = JobState::queued;
+  job.queued_since = now;
   jobs_.push_back(std::move(job));
   show_left();
   events_.job_changed(jobs_.back(), jobs_.back().owner, "", now);
@@ -80,6 +81,7 @@ Result<Job*> MillController::find(JobNumber number) {
 void MillController::change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   job.state = *next(job.state, event);
   if (job.state != JobState::confirmed) job.confirmation.reset();
+  if (job.state == JobState::queued) job.queued_since = now;
   show_left();
   events_.job_changed(job, by, why, now);
 }
@@ -357,6 +359,7 @@ void MillController::advance(TimePoint now) {
   now_ = now;
   follow_leases(now);
   if (const auto until = confirmed_until(); until && *until <= now) setup_changed(kExpired, now);
+  expire_jobs(now);
   look_after_abort(now);
   if (!running_) return;
   running_->sender.advance(now);
@@ -371,7 +374,7 @@ std::optional<TimePoint> MillController::confirmed_until() const {
 std::optional<TimePoint> MillController::next_deadline() const {
   if (abort_since_) return now_ + Sender::kLook;
   const auto lease = permission_.next_deadline();
-  if (!running_) return sooner(confirmed_until(), lease);
+  if (!running_) return sooner(sooner(confirmed_until(), next_expiry()), lease);
   const TimePoint look = now_ + kLook;
   return std::min({running_->sender.next_deadline(now_).value_or(look), look, lease.value_or(look)});
 }

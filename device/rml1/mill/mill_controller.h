@@ -27,6 +27,7 @@ struct MillSettings {
   Duration confirmation_lasts = std::chrono::minutes(10);
   Duration busy_limit = std::chrono::minutes(10);  // so long without a byte taken, and the mill is said to be busy
   AtLoss at_loss = AtLoss::abort;
+  Duration queued_at_most = std::chrono::days(14);  // a job that nobody has confirmed by then ends EXPIRED
 };
 
 enum class MillLink { closed, open };
@@ -72,7 +73,7 @@ class MillController : public LineMachine {
                  stage::Permission& permission);
 
   // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, PAUSED, FED, or PAUSED_UNKNOWN with what is
-  // known to be `written`. It has the place that is_before() gives it. Before link_up().
+  // known to be `written`; with its queued_since. It has the place that is_before() gives it. Before link_up().
   void inherit(Job job);
   // The job that was begun last in the runs before, whatever has become of it. Before link_up().
   void inherit_left(const Job& last);
@@ -186,6 +187,7 @@ class MillController : public LineMachine {
   void rank_as_ordered();
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
+  Result<void> check_sending(bool raise) const;
   Result<void> check_pausable(bool raise, TimePoint now);
   Result<void> check_startable(const Job& job, TimePoint now) const;
   bool send_abort(TimePoint now);
@@ -201,6 +203,8 @@ class MillController : public LineMachine {
   void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   RunningJob view(TimePoint now);
   std::optional<TimePoint> confirmed_until() const;
+  void expire_jobs(TimePoint now);
+  std::optional<TimePoint> next_expiry() const;
 
   const Profile& profile_;
   const MillSettings settings_;

@@ -1,6 +1,7 @@
-// MillController: the order of those that wait.
+// MillController: those that wait: their order, and the end of those that nobody confirms.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <tuple>
 #include <utility>
@@ -52,6 +53,27 @@ void MillController::rank_as_ordered() {
     job.rank = job.number < next.number ? next.rank : next.rank - 1;
     events_.rank_changed(job);
   }
+}
+
+void MillController::expire_jobs(TimePoint now) {
+  const auto days = std::chrono::floor<std::chrono::days>(settings_.queued_at_most).count();
+  const std::string why = fmt::format("nobody confirmed it within {} day{}", days, days == 1 ? "" : "s");
+  for (Job& job : jobs_) {
+    const bool is_due = job.state == JobState::queued && now - job.queued_since >= settings_.queued_at_most;
+    if (is_due) change(job, JobEvent::expire, "", why, now);
+  }
+  std::erase_if(jobs_, [](const Job& job) { return job.state == JobState::expired; });
+  show_left();
+}
+
+std::optional<TimePoint> MillController::next_expiry() const {
+  std::optional<TimePoint> next;
+  for (const Job& job : jobs_) {
+    if (job.state != JobState::queued) continue;
+    const TimePoint expiry = job.queued_since + settings_.queued_at_most;
+    next = std::min(next.value_or(expiry), expiry);
+  }
+  return next;
 }
 
 }  // namespace axisgate::rml1

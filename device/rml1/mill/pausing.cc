@@ -1,18 +1,44 @@
 // MillController: a job that is paused, and continued.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <string>
+#include <string_view>
+
 #include "device/rml1/mill/mill_controller.h"
 
 namespace axisgate::rml1 {
 
-Result<void> MillController::check_pausable(bool raise, TimePoint now) {
-  const SenderState state = running_ ? running_->sender.state() : SenderState::ready;
-  if (state != SenderState::sending && state != SenderState::finishing && !(raise && state == SenderState::paused)) {
-    return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
+// A job that was raised no longer runs: it is PAUSED in the queue.
+Result<void> MillController::check_sending(bool raise) const {
+  const auto already = [](JobNumber job, std::string_view is, std::string_view hint) {
+    return fail(Reason::wrong_mode, fmt::format("job {} is {} already", job, is), std::string(hint));
+  };
+  switch (running_ ? running_->sender.state() : SenderState::ready) {
+    case SenderState::sending:
+    case SenderState::finishing:
+      return {};
+    case SenderState::paused:
+      if (raise) return {};
+      return already(running_->number, "paused",
+                     "`axisctl mill resume` continues it; `axisctl mill pause --raise` raises its tool");
+    case SenderState::raising:
+      return already(running_->number, "being paused", "its tool goes up after what was sent");
+    default:
+      break;
   }
+  const auto paused = std::ranges::find(jobs_, JobState::paused, &Job::state);
+  if (!running_ && paused != jobs_.end()) {
+    return already(paused->number, "paused", "it continues once it is confirmed and started");
+  }
+  return fail(Reason::wrong_mode, "no job is being sent", "`axisctl mill watch` shows what the mill does");
+}
+
+Result<void> MillController::check_pausable(bool raise, TimePoint now) {
+  if (const Result<void> sending = check_sending(raise); !sending) return sending;
   const std::uint64_t written = running_->prepared->of_body(running_->sender.progress(now).written);
   const bool has_rest = written < part_end(**find(running_->number));
-  if (state != SenderState::finishing && (has_rest || !raise)) return {};
+  if (running_->sender.state() != SenderState::finishing && (has_rest || !raise)) return {};
   return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
 }
 
