@@ -34,9 +34,8 @@ class DeviceEventsTest : public ::testing::Test {
   DeviceRecorder recorder_{{}, [](std::function<void()>) {}, metrics_.recorder_drops("stage")};
   Newest<stage::State> state_{[](std::function<void()>) {}};
   std::vector<DeviceEvents::Due> due_;
-  DeviceEvents events_{"stage",   bus_,   stage_metrics_,
-                       recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); },
-                       {}};
+  DeviceEvents events_{
+      "stage", bus_, stage_metrics_, recorder_, state_, [this](DeviceEvents::Due due) { due_.push_back(due); }, {}};
 };
 
 TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {

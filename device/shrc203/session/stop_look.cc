@@ -55,6 +55,7 @@ void StopLook::confirm(const StopJobPtr& job) {
 // Whether the axes, and a program, are seen to be stationary.
 Task<bool> StopLook::read(StopJobPtr job) {
   const auto read = co_await reader_.read_positions(Lane::motion, job->context.who);
+  if (!guarded(Guard::stop_confirmed_stationary)) co_return true;
   if (!read) co_return false;
   bool ready = true;
   for (auto& axis : job->report.axes) {
