@@ -22,6 +22,7 @@
 #include "server/access/state_directory.h"
 #include "server/config/config.h"
 #include "server/connections/callers.h"
+#include "server/connections/certificate_watch.h"
 #include "server/connections/descriptor_limit.h"
 #include "server/devices/motion_record.h"
 #include "server/devices/saved_positions.h"
@@ -127,14 +128,16 @@ server::spool::Bounds bounds_of(const server::JobsConfig& jobs) {
           .kept = std::chrono::days(jobs.days)};
 }
 
-// Without it the daemon serves, and says so.
+// Never null: without the file, the daemon refuses or does what moves as it would on a disk that refuses.
 std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirectory& state,
                                                        const server::JournalConfig& config) {
   const server::journal::StoreBounds bounds{std::chrono::hours(24 * config.days), std::int64_t{config.megabytes} << 20};
-  auto opened = server::journal::Journal::open(state.file("journal.sqlite"), server::boot_id(), bounds);
+  const std::string path = state.file("journal.sqlite");
+  auto opened = server::journal::Journal::open(path, server::boot_id(), bounds);
   if (opened) return *std::move(opened);
-  spdlog::error("no journal is kept: {}", server::explain(opened.error()));
-  return nullptr;
+  spdlog::error("the journal could not be opened, so motions and changes are {}: {}; then restart the daemon",
+                config.act_without ? "not recorded" : "refused", server::explain(opened.error()));
+  return server::journal::Journal::unopened(path, opened.error());
 }
 
 void log_what_is_served(const server::Gateway& gateway, const rpc::Server& server, int metrics_port) {
@@ -154,7 +157,7 @@ struct Kept {
   std::unique_ptr<server::Access> access;
   std::unique_ptr<server::SavedPositions> positions;
   std::unique_ptr<server::spool::Spool> spool;
-  std::unique_ptr<server::journal::Journal> journal;  // null: none is kept
+  std::unique_ptr<server::journal::Journal> journal;  // null with `kept = false`
 };
 
 // Until a signal.
@@ -168,8 +171,9 @@ int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_si
   if (!server) return complain(kExitFailed, server::explain(server.error()));
   if (config.network) {
     gateway.metrics().add(std::make_shared<server::CertificateMetrics>(config.network->certificate));
+    server::watch_certificate(config.network->certificate, gateway.timeouts());
   }
-  if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(kept.journal.get()));
+  if (config.journal.kept) gateway.metrics().add(std::make_shared<server::JournalMetrics>(*kept.journal));
   log_what_is_served(gateway, **server, *metrics_port);
   gateway.start();
   server::keep_little_spare_memory(gateway.timeouts());

@@ -40,7 +40,7 @@ std::unique_ptr<Record> kept(Result<std::unique_ptr<Record>> record) {
 journal::RequestMemory memory_of(const JournalConfig& config, journal::Journal* journal, const std::string& run) {
   const journal::MemoryBounds bounds{std::chrono::hours(config.remember_hours),
                                      static_cast<std::size_t>(config.remember_requests)};
-  if (journal == nullptr) return {bounds, run, Duration::zero()};
+  if (journal == nullptr || !journal->is_open()) return {bounds, run, Duration::zero()};
   return {bounds, journal->epoch(), journal->boot_offset(), journal->take_requests()};
 }
 

@@ -32,7 +32,7 @@ class Gateway {
  public:
   // `generation` is greater for every start of the daemon (access/generation.h). What moves is kept in
   // `state_directory` for a run after this one; without it nothing is. `journal` and `spool` outlive this. A null
-  // journal: none is kept. A null spool: mills of the configuration are left out.
+  // journal: `kept = false`. A null spool: mills of the configuration are left out.
   Gateway(const Config& config, std::uint32_t generation, const std::string& state_directory = {},
           journal::Journal* journal = nullptr, spool::Spool* spool = nullptr);
   // Ends the threads. Requests that are still unanswered stay unanswered: those who posted them must be gone by then.
@@ -53,7 +53,7 @@ class Gateway {
   const Config& config() const { return config_; }
   const LeaseTokens& lease_tokens() const { return lease_tokens_; }
   EventBus& events() { return events_; }
-  journal::Journal* journal() const { return journal_; }  // null: none is kept
+  journal::Journal* journal() const { return journal_; }  // null with `kept = false`
   journal::RequestMemory& requests() { return requests_; }
   Metrics& metrics() { return metrics_; }
   const std::vector<std::unique_ptr<Device>>& devices() const { return devices_; }

@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <chrono>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <optional>
 #include <random>
 #include <string_view>
+#include <thread>
 #include <utility>
 
 #include "clients/axisctl/bearer.h"
@@ -17,6 +19,9 @@
 
 namespace axisgate::axisctl {
 namespace {
+
+// A daemon has closed its connections within this time after it refused a request because it ends.
+constexpr std::chrono::milliseconds kEndOfDaemon{500};
 
 std::string content(const std::string& path) {
   if (path.empty()) return "";
@@ -105,14 +110,17 @@ void Connection::repeat_by(const v1::ListDevicesResponse& there) const {
   if (there.requests_kept()) request_memory_ = there.request_memory();
 }
 
-// A daemon that ends says so, with a problem; of one that was killed nothing comes.
+// A daemon that ends refuses what it is asked, with a problem; of one that was killed nothing comes.
 bool Connection::asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const {
   const bool lost = status.error_code() == grpc::StatusCode::UNAVAILABLE ||
                     status.error_code() == grpc::StatusCode::CANCELLED ||
                     status.error_code() == grpc::StatusCode::INTERNAL;
-  if (!lost || request_memory_.empty() || problem_of(status).reason() != v1::REASON_UNSPECIFIED) return false;
+  const v1::Reason reason = problem_of(status).reason();
+  const bool ending = reason == v1::REASON_DAEMON_ENDING;  // the next daemon may answer
+  if (!lost || request_memory_.empty() || (reason != v1::REASON_UNSPECIFIED && !ending)) return false;
   if (std::chrono::system_clock::now() >= deadline) return false;
   print_note("the connection broke; requesting again, with the same request id");
+  if (ending) std::this_thread::sleep_for(kEndOfDaemon);
   return true;
 }
 

@@ -12,6 +12,7 @@ int exit_code(v1::Reason reason) {
     case v1::REASON_NOT_SENT:
     case v1::REASON_REPLY_TIMED_OUT:
     case v1::REASON_LINE_FAULT:
+    case v1::REASON_DAEMON_ENDING:
     case v1::REASON_COMPLETION_OUTSTANDING:
       return kUnavailable;
     case v1::REASON_DEADLINE_PASSED:

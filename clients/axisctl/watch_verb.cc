@@ -62,15 +62,21 @@ class Watcher {
     const v1::Problem problem = problem_of(status);
     if (problem.reason() == v1::REASON_COMPACTED) return skip_what_is_gone(problem);
     if (status.error_code() != grpc::StatusCode::UNAVAILABLE) session_.connection.check(status);
-    if (backoff_ == kBackoffFirst) tell_of_break();
+    if (backoff_ == kBackoffFirst) tell_of_break(problem);
     std::this_thread::sleep_for(backoff_);
     backoff_ = std::min(backoff_ * 2, kBackoffMost);
   }
 
-  void tell_of_break() const {
-    print_failure({kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost",
-                   request_.has_from_revision() ? fmt::format("trying again from revision {}", request_.from_revision())
-                                                : "trying again"});
+  // A daemon that ends says so; of one that was killed there is no problem.
+  void tell_of_break(const v1::Problem& problem) const {
+    Failure failure{kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost", "trying again"};
+    if (problem.reason() != v1::REASON_UNSPECIFIED) {
+      failure.reason = short_name(problem.reason());
+      failure.message = problem.message();
+    }
+    if (request_.has_from_revision())
+      failure.hint = fmt::format("trying again from revision {}", request_.from_revision());
+    print_failure(failure);
   }
 
   void skip_what_is_gone(const v1::Problem& problem) {

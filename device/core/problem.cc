@@ -56,6 +56,7 @@ constexpr auto kNames = std::to_array<std::string_view>({
     "REQUEST_ID_REUSED",
     "REQUEST_MEMORY_LOST",
     "STOP_UNCONFIRMED",
+    "DAEMON_ENDING",
 });
 static_assert(kNames.size() == static_cast<std::size_t>(kLastReason) + 1, "a name for each Reason");
 

@@ -66,8 +66,10 @@ enum class Reason {
   request_memory_lost,
   // stops
   stop_unconfirmed,
+  // the daemon
+  daemon_ending,
 };
-inline constexpr Reason kLastReason = Reason::stop_unconfirmed;
+inline constexpr Reason kLastReason = Reason::daemon_ending;
 
 // "STALE_SETPOINT" and the like, as they stand in the API and in log lines.
 std::string_view name(Reason reason);

@@ -8,6 +8,7 @@
 
 #include <cerrno>
 #include <cstdlib>
+#include <filesystem>
 #include <system_error>
 
 #include "server/access/synced_file.h"
@@ -15,6 +16,8 @@
 
 namespace axisgate::server {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kOtherDirectory = "give this one a directory of its own with STATE_DIRECTORY";
 
@@ -36,6 +39,44 @@ void name_holder(const std::string& lock) {
   if (file && file->valid()) ::dprintf(file->get(), "%d\n", ::getpid());
 }
 
+tl::unexpected<Problem> refuse(const std::string& what, const Problem& why) {
+  return fail(Reason::internal, fmt::format("{} {}", what, why.message), why.hint);
+}
+
+// Checks the folders above a directory: who may rename one of them decides what lies at its path. In a sticky folder,
+// such as /tmp, others may rename only what is theirs.
+Result<void> check_folders_above(const fs::path& directory, const std::string& link) {
+  for (fs::path folder = directory.parent_path();; folder = folder.parent_path()) {
+    struct stat status {};
+    if (::stat(folder.c_str(), &status) == 0) {
+      if ((status.st_mode & S_ISVTX) != 0) status.st_mode &= ~static_cast<mode_t>(S_IWOTH | S_IWGRP);
+      if (const Result<void> checked = check_writers(folder, status); !checked) {
+        return refuse(fmt::format("the state directory {} is a link to {}, and the folder {}", link, directory.string(),
+                                  folder.string()),
+                      checked.error());
+      }
+    }
+    if (folder == folder.root_path()) return {};
+  }
+}
+
+// Resolves links once, so that nobody can turn them while the daemon runs, and since SQLite follows none. A path that
+// does not exist, or has no link, stays as it is.
+Result<std::string> without_links(const std::string& path) {
+  std::error_code error;
+  if (fs::symlink_status(path, error).type() == fs::file_type::symlink && !fs::exists(path, error)) {
+    return fail(Reason::internal,
+                fmt::format("the state directory {} is a link to {}, which does not exist", path,
+                            fs::read_symlink(path, error).string()),
+                "make that directory or mount its disk, or set STATE_DIRECTORY to another path");
+  }
+  const fs::path real = fs::canonical(path, error);
+  const fs::path named = (fs::absolute(path) / "").lexically_normal().parent_path();  // with or without a last slash
+  if (error || real == named) return path;
+  if (const Result<void> checked = check_folders_above(real, path); !checked) return tl::unexpected(checked.error());
+  return real.string();
+}
+
 }  // namespace
 
 std::string default_state_directory() {
@@ -45,9 +86,11 @@ std::string default_state_directory() {
   return variable("HOME") + "/.local/state/axisgate";
 }
 
-Result<StateDirectory> StateDirectory::hold(std::string path) {
-  StateDirectory directory(std::move(path));
-  make_state_directory(directory.path_);
+Result<StateDirectory> StateDirectory::hold(const std::string& path) {
+  make_state_directory(path);
+  const Result<std::string> resolved = without_links(path);
+  if (!resolved) return tl::unexpected(resolved.error());
+  StateDirectory directory(*resolved);
   struct stat status {};
   if (::stat(directory.path_.c_str(), &status) != 0) return directory;
   if (!S_ISDIR(status.st_mode)) {
@@ -55,8 +98,7 @@ Result<StateDirectory> StateDirectory::hold(std::string path) {
                 "move it away, or set STATE_DIRECTORY to another path");
   }
   if (const Result<void> checked = check_writers(directory.path_, status); !checked) {
-    return fail(Reason::internal, fmt::format("the state directory {} {}", directory.path_, checked.error().message),
-                checked.error().hint);
+    return refuse(fmt::format("the state directory {}", directory.path_), checked.error());
   }
   if (const Result<void> locked = directory.lock(); !locked) return tl::unexpected(locked.error());
   return directory;

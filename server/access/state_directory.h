@@ -17,9 +17,11 @@ std::string default_state_directory();
 // hold with the process, so a daemon that was killed leaves nothing that is in the way.
 class StateDirectory {
  public:
-  // Makes the directory, if it is missing. internal, where another daemon holds it, or others may write there; the
-  // message says who. A directory in which no lock can be made is held by nobody: nothing can be kept there either.
-  static Result<StateDirectory> hold(std::string path);
+  // Makes the directory, if it is missing. A symbolic link in `path` is followed once: path() has none. Fails with
+  // internal if another daemon holds the directory, or others may write there, or if `path` has a link and others may
+  // write a folder above the directory, or a link to nothing; the message says who and where. A directory in which no
+  // lock can be made is held by nobody: nothing can be kept there either.
+  static Result<StateDirectory> hold(const std::string& path);
 
   std::string file(std::string_view name) const { return path_ + "/" + std::string(name); }
   const std::string& path() const { return path_; }

@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <boost/asio/post.hpp>
+#include <future>
+#include <memory>
 #include <utility>
 
 #include "device/core/escape.h"
@@ -78,10 +79,12 @@ Result<History::Reader> History::let_read(RequestKind kind, const Call& call) co
   if (!caller) return tl::unexpected(caller.error());
   Journal* const journal = gateway_.journal();
   if (journal == nullptr) {
-    return fail(Reason::journal_unavailable, "this daemon keeps no journal", "its log says why, where it started");
+    return fail(Reason::journal_unavailable, "this daemon keeps no journal",
+                "its configuration says so: `kept` in [journal]");
   }
   const bool sees_others = caller->role >= gateway_.config().journal.others_seen_by;
-  return Reader{journal, *caller, sees_others ? "" : server::identity_of(caller->who)};
+  const std::string identity = server::identity_of(caller->who);
+  return Reader{journal, *caller, identity, sees_others ? "" : identity};
 }
 
 Result<void> History::check_who(const Reader& reader, const std::string& wanted) const {
@@ -99,8 +102,8 @@ void History::list(const Call& call, Result<Filter> filter, int page_size, Answe
   if (const auto good = check(*filter, page_size); !good) return answer(tl::unexpected(good.error()));
   if (const auto own = check_who(*reader, filter->who); !own) return answer(tl::unexpected(own.error()));
   filter->identity = reader->only;
-  boost::asio::post(
-      reader_, [&journal = *reader->journal, filter = *std::move(filter), size = static_cast<std::size_t>(page_size),
+  reader_.post(reader->identity,
+               [&journal = *reader->journal, filter = *std::move(filter), size = static_cast<std::size_t>(page_size),
                 answer = std::move(answer)] { answer(page_of(journal, filter, size)); });
 }
 
@@ -112,7 +115,7 @@ void History::summarize(const Call& call, Result<Span> span, Answer<HistorySumma
     return answer(fail(Reason::invalid_request, "end_time is before start_time", "exchange them"));
   }
   span->identity = reader->only;
-  boost::asio::post(reader_, [&journal = *reader->journal, span = *std::move(span), answer = std::move(answer)] {
+  reader_.post(reader->identity, [&journal = *reader->journal, span = *std::move(span), answer = std::move(answer)] {
     answer(summary_of(journal, span));
   });
 }
@@ -121,17 +124,22 @@ void History::verify(const Call& call, Result<std::optional<Head>> noted, Answer
   const auto reader = let_read(RequestKind::verify_journal, call);
   if (!reader) return answer(tl::unexpected(reader.error()));
   if (!noted) return answer(tl::unexpected(noted.error()));
-  boost::asio::post(reader_, [&journal = *reader->journal, noted = *std::move(noted), answer = std::move(answer)] {
-    answer(verdict_of(journal, noted));
-  });
+  verifier_.post(reader->identity, [&journal = *reader->journal, noted = *std::move(noted),
+                                    answer = std::move(answer)] { answer(verdict_of(journal, noted)); });
 }
 
-// Among the readers, so that none of them keeps the log from being emptied.
+// Occupies both threads, since somebody who reads meanwhile would keep the log from being emptied.
 void History::erase(const Call& call, std::string who, Answer<NamedPerson> answer) const {
   const auto reader = let_read(RequestKind::erase_person, call);
   if (!reader) return answer(tl::unexpected(reader.error()));
-  boost::asio::post(reader_, [&journal = *reader->journal, by = reader->caller.who, who = std::move(who),
-                              answer = std::move(answer)] { answer(erased_in(journal, who, by)); });
+  verifier_.post(reader->identity, [this, reader = *reader, who = std::move(who), answer = std::move(answer)] {
+    const auto erased = std::make_shared<std::promise<void>>();
+    reader_.post(reader.identity, [&, erased] {
+      answer(erased_in(*reader.journal, who, reader.caller.who));
+      erased->set_value();
+    });
+    erased->get_future().wait();
+  });
 }
 
 }  // namespace axisgate::api

@@ -1,7 +1,6 @@
 // What has happened, by the journal.
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -10,6 +9,7 @@
 
 #include "server/api/admission.h"
 #include "server/api/call.h"
+#include "server/api/fair_worker.h"
 #include "server/gateway.h"
 #include "server/journal/journal.h"
 
@@ -32,16 +32,21 @@ struct JournalVerdict {
   server::journal::Head head;
 };
 
-// Thread safe. A caller whose role is lower than `others_seen_by` reads the entries of their own identity
-// (access/access.h), and those of nobody. Each answers with unauthenticated, not_allowed, or journal_unavailable: none
-// is kept, or the disk refuses.
+// Thread safe. Reading takes place on a thread of its own, and verifying, which takes as long as the journal is large,
+// on another; on both, callers take turns. A caller whose role is lower than `others_seen_by` reads the entries of
+// their own identity (access/access.h), and those of nobody. Each answers with unauthenticated, not_allowed, or
+// journal_unavailable: none is kept, or the disk refuses.
 class History {
  public:
   static constexpr int kPageMax = 1000;
 
   // Both outlive this.
   History(server::Gateway& gateway, const Admission& admission) : gateway_(gateway), admission_(admission) {}
-  ~History() { reader_.join(); }
+  // What waits is answered. The verifier ends first, because a name that is erased there also waits for the reader.
+  ~History() {
+    verifier_.join();
+    reader_.join();
+  }
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
@@ -58,7 +63,8 @@ class History {
   struct Reader {
     server::journal::Journal* journal;
     server::Caller caller;
-    std::string only;  // the identity whose entries alone this caller reads, beside nobody's; empty: all
+    std::string identity;  // of the caller, whose turn it is
+    std::string only;      // the identity whose entries alone this caller reads, beside nobody's; empty: all
   };
 
   Result<Reader> let_read(RequestKind kind, const Call& call) const;
@@ -67,7 +73,7 @@ class History {
   server::Gateway& gateway_;
   const Admission& admission_;
   // Reading waits for the disk.
-  mutable boost::asio::thread_pool reader_{1};
+  mutable FairWorker reader_, verifier_;
 };
 
 }  // namespace axisgate::api

@@ -111,6 +111,7 @@ void Jog::break_off() {
   {
     const std::lock_guard lock(mutex_);
     broken_off_ = true;
+    if (jogged_ == nullptr) return;  // nothing was requested yet
   }
   stop(kBrokenOff);
 }

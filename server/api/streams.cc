@@ -6,11 +6,17 @@
 #include <vector>
 
 namespace axisgate::api {
+namespace {
+
+const Problem kDaemonEnding{
+    .reason = Reason::daemon_ending, .message = "the daemon is ending", .hint = "connect again when it runs again"};
+
+}  // namespace
 
 void OpenStream::on_cut_off(std::function<void()> then) {
   {
     const std::lock_guard lock(mutex_);
-    if (!why_) {
+    if (!cut_) {
       then_ = std::move(then);
       return;
     }
@@ -18,17 +24,17 @@ void OpenStream::on_cut_off(std::function<void()> then) {
   then();
 }
 
-std::optional<Problem> OpenStream::cut_off() const {
+std::optional<StreamCut> OpenStream::cut_off() const {
   const std::lock_guard lock(mutex_);
-  return why_;
+  return cut_;
 }
 
-void OpenStream::cut_off(Problem why) {
+void OpenStream::cut_off(StreamCut cut) {
   std::function<void()> then;
   {
     const std::lock_guard lock(mutex_);
-    if (why_) return;
-    why_ = std::move(why);
+    if (cut_) return;
+    cut_ = std::move(cut);
     then = std::exchange(then_, nullptr);
   }
   if (then) then();
@@ -72,6 +78,7 @@ void Streams::count(Open& open, Quota quota, const std::string& who, int one) {
 Result<Streams::Place> Streams::take(RequestKind kind, const std::string& who) {
   const Quota quota = rule_of(kind).quota;
   const std::lock_guard lock(open_->mutex);
+  if (open_->ended) return tl::unexpected(kDaemonEnding);
   if (auto problem = full(quota, who)) return tl::unexpected(*std::move(problem));
   count(*open_, quota, who, 1);
   const Entry entry = open_->by_caller.emplace(who, std::weak_ptr<OpenStream>());
@@ -93,11 +100,32 @@ void Streams::cut_off(const std::string& who, const Problem& why) {
   {
     const std::lock_guard lock(open_->mutex);
     const auto [begin, end] = open_->by_caller.equal_range(who);
-    for (auto one = begin; one != end; ++one) {
-      if (Place place = one->second.lock()) theirs.push_back(std::move(place));
-    }
+    theirs = places(begin, end);
   }
-  for (const Place& place : theirs) place->cut_off(why);
+  for (const Place& place : theirs) place->cut_off({why});
+}
+
+void Streams::end_all() {
+  std::vector<Place> all;
+  {
+    const std::lock_guard lock(open_->mutex);
+    open_->ended = true;
+    all = places(open_->by_caller.begin(), open_->by_caller.end());
+  }
+  for (const Place& place : all) place->cut_off({kDaemonEnding, true});
+}
+
+std::optional<Problem> Streams::ending() const {
+  const std::lock_guard lock(open_->mutex);
+  return open_->ended ? std::optional(kDaemonEnding) : std::nullopt;
+}
+
+std::vector<Streams::Place> Streams::places(Entry begin, Entry end) {
+  std::vector<Place> places;
+  for (auto one = begin; one != end; ++one) {
+    if (Place place = one->second.lock()) places.push_back(std::move(place));
+  }
+  return places;
 }
 
 }  // namespace axisgate::api

@@ -8,25 +8,32 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/core/problem.h"
 #include "server/api/request_kinds.h"
 
 namespace axisgate::api {
 
+// How the daemon ends a stream.
+struct StreamCut {
+  Problem why;
+  bool after_what_is_due = false;  // the reader still receives what the stream has to say at that time
+};
+
 // One open stream. Thread safe.
 class OpenStream {
  public:
   // `then` is called once, by the thread that ends the stream, or at once where it has been ended already.
   void on_cut_off(std::function<void()> then);
-  // Why the daemon ended it; nothing as long as it may continue.
-  std::optional<Problem> cut_off() const;
+  // How the daemon ended it; nullopt as long as it may continue.
+  std::optional<StreamCut> cut_off() const;
   // Ends it. The first time counts.
-  void cut_off(Problem why);
+  void cut_off(StreamCut cut);
 
  private:
   mutable std::mutex mutex_;
-  std::optional<Problem> why_;
+  std::optional<StreamCut> cut_;
   std::function<void()> then_;
 };
 
@@ -53,11 +60,17 @@ class Streams {
   // Gives its place back when the last copy is gone. May outlive the limit.
   using Place = std::shared_ptr<OpenStream>;
 
-  // One more of this caller, as the quota of the kind has it. queue_full where no place is left.
+  // One more of this caller, as the quota of the kind has it. queue_full where no place is left;
+  // daemon_ending after end_all().
   Result<Place> take(RequestKind kind, const std::string& who);
 
   // Ends all that this caller has open, from now on.
   void cut_off(const std::string& who, const Problem& why);
+
+  // Ends all streams with daemon_ending, after what is due on them. Later ones are refused.
+  void end_all();
+  // daemon_ending after end_all(); nullopt before.
+  std::optional<Problem> ending() const;
 
  private:
   struct Counts {
@@ -65,6 +78,7 @@ class Streams {
   };
   struct Open {
     std::mutex mutex;
+    bool ended = false;
     Counts all;
     std::map<std::string, int> paths_by_caller;
     std::multimap<std::string, std::weak_ptr<OpenStream>> by_caller;
@@ -72,6 +86,7 @@ class Streams {
   using Entry = std::multimap<std::string, std::weak_ptr<OpenStream>>::iterator;
 
   std::optional<Problem> full(Quota quota, const std::string& who) const;
+  static std::vector<Place> places(Entry begin, Entry end);
   static void count(Open& open, Quota quota, const std::string& who, int one);
 
   const Limits limits_;

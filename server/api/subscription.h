@@ -50,8 +50,11 @@ class Subscription : public std::enable_shared_from_this<Subscription<Item>> {
   // The next item, the end, or nothing before `wake` is called. Nothing follows the end.
   Reading next() {
     const std::lock_guard lock(mutex_);
-    if (auto why = place_ ? place_->cut_off() : std::nullopt) return StreamEnd{std::move(why)};
-    return read();
+    const auto cut = place_ ? place_->cut_off() : std::nullopt;
+    if (cut && !cut->after_what_is_due) return StreamEnd{cut->why};
+    Reading reading = read();
+    if (cut && std::holds_alternative<Nothing>(reading)) return StreamEnd{cut->why};
+    return reading;
   }
 
   // Its caller has gone without a word, or may not continue: what must not continue without its caller ends.

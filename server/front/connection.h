@@ -43,6 +43,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void check(TimePoint now);
   void close(const std::optional<Closing>& why = {});
 
+  bool uses_grpc() const { return grpc_.is_open(); }
   const Peer& peer() const { return peer_; }
 
  private:

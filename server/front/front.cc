@@ -3,6 +3,7 @@
 #include <netinet/in.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 #include <vector>
@@ -93,6 +94,18 @@ void Front::begin_tls(const std::shared_ptr<Connection>& connection, Socket sock
 void Front::ended(const Connection& connection, const std::optional<Closing>& why) {
   if (why) on_closing_(connection.peer(), *why);
   connections_.erase(&connection);
+  look_whether_grpc_has_left();
+}
+
+void Front::when_grpc_has_left(std::function<void()> then) {
+  when_grpc_has_left_ = std::move(then);
+  look_whether_grpc_has_left();
+}
+
+void Front::look_whether_grpc_has_left() {
+  const auto uses_grpc = [](const auto& held) { return held.second->uses_grpc(); };
+  if (!when_grpc_has_left_ || std::ranges::any_of(connections_, uses_grpc)) return;
+  std::exchange(when_grpc_has_left_, nullptr)();
 }
 
 void Front::check_later() {

@@ -35,12 +35,16 @@ class Front {
 
   void enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin);
 
+  // Calls `then` on the strand once gRPC has closed all of its connections, and clients were sent what it said before.
+  void when_grpc_has_left(std::function<void()> then);
+
  private:
   using Held = std::map<const Connection*, std::shared_ptr<Connection>>;
 
   Peer peer_of(int connection, server::Acceptor::Origin origin);
   void begin_tls(const std::shared_ptr<Connection>& connection, Socket socket);
   void ended(const Connection& connection, const std::optional<Closing>& why);
+  void look_whether_grpc_has_left();
   void check_later();
   void check();
 
@@ -51,6 +55,7 @@ class Front {
   std::map<uid_t, std::string> users_;  // their names, each looked up once
   Connection::Surroundings around_;
   Held connections_;
+  std::function<void()> when_grpc_has_left_;  // empty: nobody waits for it
   boost::asio::steady_timer timer_;
   bool timer_runs_ = false;
 };

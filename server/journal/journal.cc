@@ -85,7 +85,16 @@ Result<std::unique_ptr<Journal>> Journal::start(std::string path, Store store, s
   return journal;
 }
 
-Journal::Journal(std::string path, Store store) : path_(std::move(path)), store_(std::move(store)) {}
+std::unique_ptr<Journal> Journal::unopened(const std::string& path, const Problem& why) {
+  std::unique_ptr<Journal> journal(new Journal(path, std::nullopt));
+  const std::string_view first_step = why.hint.empty() ? "look at the file and its disk" : std::string_view(why.hint);
+  journal->failure_ = Problem{.reason = Reason::journal_unavailable,
+                              .message = fmt::format("the journal could not be opened: {}", why.message),
+                              .hint = fmt::format("{}; then restart the daemon", first_step)};
+  return journal;
+}
+
+Journal::Journal(std::string path, std::optional<Store> store) : path_(std::move(path)), store_(std::move(store)) {}
 
 Journal::~Journal() {
   {
@@ -93,10 +102,11 @@ Journal::~Journal() {
     ending_ = true;
   }
   changed_.notify_all();
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
 void Journal::append(Record record) {
+  if (!store_) return;
   {
     const std::lock_guard lock(mutex_);
     put(std::move(record));
@@ -105,6 +115,7 @@ void Journal::append(Record record) {
 }
 
 void Journal::append_refusal(Entry refusal) {
+  if (!store_) return;
   {
     const std::lock_guard lock(mutex_);
     for (Entry& entry : refusals_.add(std::move(refusal), monotonic_now())) put({std::move(entry)});
@@ -132,6 +143,7 @@ void Journal::commit(Record record, OnCommitted done) {
 }
 
 void Journal::keep(FactPointer fact, std::uint64_t oldest) {
+  if (!store_) return;
   {
     const std::lock_guard lock(mutex_);
     FactChange& waiting = facts_waiting_;
@@ -147,7 +159,8 @@ std::optional<Problem> Journal::unavailable() const {
   if (!failure_ && !hangs && waiting_.size() < kWaitingMax) return std::nullopt;
   return Problem{.reason = Reason::journal_unavailable,
                  .message = failure_ ? failure_->message : fmt::format("the disk of {} does not answer", path_),
-                 .hint = "nothing was sent; stops work; look at the disk, the daemon recovers by itself"};
+                 .hint = fmt::format("nothing was sent; stops work; {}",
+                                     store_ ? "look at the disk, the daemon recovers by itself" : failure_->hint)};
 }
 
 void Journal::answer_nobody() {
@@ -207,7 +220,7 @@ void Journal::wait_or_sum_up_refusals(std::unique_lock<std::mutex>& lock) {
 void Journal::drop_old() {
   const TimePoint now = monotonic_now();
   if (now < next_drop_) return;
-  const Result<bool> dropped = store_.drop_old(bounds_, own_entry(EntryKind::entries_dropped, ""));
+  const Result<bool> dropped = store_->drop_old(bounds_, own_entry(EntryKind::entries_dropped, ""));
   if (!dropped.value_or(false)) next_drop_ = now + kDropPause;
 }
 
@@ -215,7 +228,7 @@ bool Journal::write(Batch batch) {
   while (true) {
     std::vector<Record> records;
     for (const Waiting& one : batch.records) records.push_back(one.record);
-    const Result<void> written = store_.append(records, batch.facts);
+    const Result<void> written = store_->append(records, batch.facts);
     if (!written) note_failure(batch, written.error());
     std::unique_lock lock(mutex_);
     if (written) {
@@ -264,7 +277,7 @@ Result<void> Journal::empty_log(const Batch& written) {
   const auto erases = [](const Waiting& one) { return one.record.erased_person != 0; };
   log_has_names_ = log_has_names_ || std::ranges::any_of(written.records, erases);
   if (!log_has_names_) return {};
-  const Result<void> emptied = store_.empty_log();
+  const Result<void> emptied = store_->empty_log();
   log_has_names_ = !emptied;
   if (emptied) return {};
   return fail(Reason::journal_unavailable,
@@ -288,14 +301,15 @@ Result<std::optional<NamedPerson>> Journal::erase(const std::string& name, const
   return person;
 }
 
-void Journal::catch_up() const {
+Result<void> Journal::catch_up() const {
   std::unique_lock lock(mutex_);
   changed_.wait_for(lock, kCatchingUp, [this] { return failure_ || (waiting_.empty() && !writing_since_); });
+  if (!store_) return tl::unexpected(*failure_);
+  return {};
 }
 
 Result<Store> Journal::reader() const {
-  catch_up();
-  return Store::open_to_read(path_);
+  return catch_up().and_then([this] { return Store::open_to_read(path_); });
 }
 
 Result<std::vector<StoredEntry>> Journal::read(const Filter& filter, std::size_t limit) const {
@@ -319,7 +333,7 @@ Result<Head> Journal::head() const {
 }
 
 Result<Summary> Journal::summarize(const Span& span) const {
-  catch_up();
+  if (const auto there = catch_up(); !there) return tl::unexpected(there.error());
   auto database = Database::open(path_, Database::Access::read);
   if (!database) return tl::unexpected(database.error().problem);
   return journal::summarize(*database, span);

@@ -32,6 +32,9 @@ class Journal {
   // this boot of the machine; empty: not known.
   static Result<std::unique_ptr<Journal>> open(const std::string& path, std::string_view boot = {},
                                                const StoreBounds& bounds = {});
+  // A journal whose file could not be opened, for as long as the daemon runs: a later opening would give the numbers of
+  // its motions and revisions a second time. It fails as on a disk that refuses, with `why`, and keeps nothing.
+  static std::unique_ptr<Journal> unopened(const std::string& path, const Problem& why);
   // Writes what waits, if the disk takes it.
   ~Journal();
   Journal(const Journal&) = delete;
@@ -62,7 +65,9 @@ class Journal {
   // How long the last commit took; while one takes longer than kHangs, how long it has taken.
   Duration last_commit() const;
 
-  // As the file had it when it was opened.
+  bool is_open() const { return store_.has_value(); }
+
+  // As the file had it when it was opened; empty if it was not.
   const std::string& epoch() const { return epoch_; }
   Duration boot_offset() const { return boot_offset_; }
   RequestsOnFile take_requests() { return std::exchange(requests_, {}); }
@@ -89,11 +94,12 @@ class Journal {
     bool empty() const { return records.empty() && facts.added.empty(); }
   };
 
-  Journal(std::string path, Store store);
+  Journal(std::string path, std::optional<Store> store);
 
   static Result<std::unique_ptr<Journal>> start(std::string path, Store store, std::string_view boot,
                                                 const StoreBounds& bounds);
-  void catch_up() const;
+  // Waits until what was appended is written. Fails with journal_unavailable if the file could not be opened.
+  Result<void> catch_up() const;
   Result<Store> reader() const;
   void run();
   Batch wait_for_records();
@@ -108,7 +114,7 @@ class Journal {
   std::optional<Problem> unavailable() const;  // under mutex_
 
   const std::string path_;
-  Store store_;  // of the thread, as are the next three
+  std::optional<Store> store_;  // nullopt if the file could not be opened; of the thread, as are the next three
   StoreBounds bounds_;
   TimePoint next_drop_{};
   bool log_has_names_ = false;  // that were erased

@@ -17,13 +17,12 @@ prometheus::MetricFamily gauge(std::string name, std::string help, double value)
 }  // namespace
 
 std::vector<prometheus::MetricFamily> JournalMetrics::Collect() const {
-  const bool available = journal_ != nullptr && !journal_->failure();
-  const std::chrono::duration<double> commit = journal_ == nullptr ? Duration::zero() : journal_->last_commit();
+  const std::chrono::duration<double> commit = journal_.last_commit();
   return {
       gauge("axisgate_journal_available",
-            "1 if the disk takes the journal; 0 if none is kept, or the disk refuses it or hangs, so that motions and "
-            "changes are refused.",
-            available ? 1 : 0),
+            "1 if the disk takes the journal; 0 if it refuses it or hangs, or the journal could not be opened, so that "
+            "motions and changes are refused.",
+            journal_.failure() ? 0 : 1),
       gauge("axisgate_journal_commit_seconds",
             "How long the newest commit to the journal took, which each motion waits for; of one that hangs, so far.",
             commit.count())};

@@ -11,13 +11,13 @@ namespace axisgate::server {
 
 class JournalMetrics final : public prometheus::Collectable {
  public:
-  // Null: none is kept. It outlives this.
-  explicit JournalMetrics(const journal::Journal* journal) : journal_(journal) {}
+  // It outlives this.
+  explicit JournalMetrics(const journal::Journal& journal) : journal_(journal) {}
 
   std::vector<prometheus::MetricFamily> Collect() const override;
 
  private:
-  const journal::Journal* const journal_;
+  const journal::Journal& journal_;
 };
 
 }  // namespace axisgate::server

@@ -80,6 +80,11 @@ Verdict Desk::judge(const Headers& headers, const Peer& peer, bool stops_only) {
   if (!caller) return refused(headers, peer, caller.error());
   const std::string named = caller->who == kAnonymous ? "" : caller->who;
   if (api::rule_of(kind).quota == api::Quota::none) return {.what = Verdict::What::answer, .caller = named};
+  // gRPC would answer CANCELLED.
+  if (const auto ending = api_.streams.ending()) {
+    metrics_.count(method, grpc::UNAVAILABLE);
+    return {.what = Verdict::What::refuse, .refusal = to_reply(to_status(*ending))};
+  }
   if (stops_only) {
     metrics_.count(method, grpc::RESOURCE_EXHAUSTED);
     return refused(headers, peer, nothing_left());

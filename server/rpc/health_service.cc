@@ -41,7 +41,7 @@ class HealthWatch final : public PullStream<grpc::ServerWriteReactor<HealthCheck
       : status_(status), place_(std::move(place)) {}
 
   Next next() override {
-    if (const auto why = place_->cut_off()) return to_status(*why);
+    if (const auto cut = place_->cut_off()) return to_status(cut->why);
     if (std::exchange(reported_, true)) return Wait{};
     HealthCheckResponse response;
     response.set_status(status_);

@@ -10,6 +10,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <future>
 #include <initializer_list>
 #include <utility>
 #include <vector>
@@ -61,6 +62,7 @@ class Server::Services {
  private:
   void build();
   void enter(Descriptor connection);
+  void pass_on_what_grpc_said();
 
   api::Api api_;
   const HalfClose half_close_;
@@ -187,12 +189,21 @@ Server::Services::~Services() {
   connection_metrics_.reset();
   ending_ = true;
   listener_->stop_accepting();
-  // The front still carries what gRPC has to say.
+  api_.streams.end_all();
   if (grpc_ != nullptr) {
     grpc_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
     grpc_->Wait();
+    pass_on_what_grpc_said();
   }
   listener_->stop();
+}
+
+// How a stream ended may still be on its way through the front. A client that does not read is not waited for.
+void Server::Services::pass_on_what_grpc_said() {
+  const auto passed_on = std::make_shared<std::promise<void>>();
+  boost::asio::post(listener_->strand(),
+                    [this, passed_on] { front_.when_grpc_has_left([passed_on] { passed_on->set_value(); }); });
+  passed_on->get_future().wait_for(kShutdownWait);
 }
 
 Server::Server(std::unique_ptr<Services> services) : services_(std::move(services)) {}

@@ -15,7 +15,7 @@ static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
 static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
 static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
 static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
-static_assert(static_cast<int>(kLastReason) == v1::REASON_STOP_UNCONFIRMED);
+static_assert(static_cast<int>(kLastReason) == v1::REASON_DAEMON_ENDING);
 
 void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -82,6 +82,7 @@ grpc::StatusCode code_of(Reason reason) {
     case Reason::line_fault:
     case Reason::completion_outstanding:
     case Reason::journal_unavailable:
+    case Reason::daemon_ending:
       return grpc::StatusCode::UNAVAILABLE;
     case Reason::deadline_passed:
       return grpc::StatusCode::DEADLINE_EXCEEDED;

@@ -1,6 +1,8 @@
 // Who reads whose entries, and who erases a name. The journal is the gateway's own.
 #include <gmock/gmock.h>
 
+#include <future>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -114,6 +116,59 @@ TEST_F(HistoryOfApi, EverybodyVerifiesTheWholeJournal) {
   Asking<JournalVerdict> verdict;
   world_->api->history.verify(World::by(kOlaf), std::nullopt, verdict.answer());
   EXPECT_EQ(verdict.get()->verdict.rows, list(kAdmin)->newest);
+}
+
+// A verification that is under way until the test ends it.
+class SlowVerification {
+ public:
+  explicit SlowVerification(const World& world) {
+    world.api->history.verify(World::by(kOlaf), std::nullopt, [this](const Result<JournalVerdict>&) {
+      begun_.set_value();
+      may_end_.get_future().wait();
+    });
+    begun_.get_future().wait();
+  }
+  void end() { may_end_.set_value(); }
+
+ private:
+  std::promise<void> begun_, may_end_;
+};
+
+TEST_F(HistoryOfApi, IsReadWhileAnotherCallerVerifiesIt) {
+  start(Role::observer);
+  SlowVerification slow(*world_);
+  EXPECT_TRUE(list(kAnna));
+  EXPECT_TRUE(summary(kAnna));
+  slow.end();
+}
+
+TEST_F(HistoryOfApi, CallersTakeTurnsToVerifyIt) {
+  start(Role::observer);
+  SlowVerification slow(*world_);
+  std::mutex mutex;
+  std::vector<std::string> order;
+  std::promise<void> all_done;
+  for (const char* who : {kOlaf, kOlaf, kOlaf, kAnna}) {
+    world_->api->history.verify(World::by(who), std::nullopt, [&, who](const Result<JournalVerdict>&) {
+      const std::lock_guard lock(mutex);
+      order.emplace_back(who);
+      if (order.size() == 4) all_done.set_value();
+    });
+  }
+  slow.end();
+  ASSERT_EQ(all_done.get_future().wait_for(kTestPatience), std::future_status::ready);
+  EXPECT_THAT(order, ElementsAre(kOlaf, kAnna, kOlaf, kOlaf));
+}
+
+TEST_F(HistoryOfApi, ANameIsErasedWhenNobodyReadsOrVerifies) {
+  start(Role::observer);
+  SlowVerification slow(*world_);
+  Asking<server::journal::NamedPerson> asking;
+  world_->api->history.erase(World::by(kAdmin), kAnna, asking.answer());
+  EXPECT_TRUE(list(kOlaf));
+  EXPECT_FALSE(asking.answered());
+  slow.end();
+  EXPECT_TRUE(asking.get());
 }
 
 TEST_F(HistoryOfApi, AnAdministratorErasesAName) {

@@ -67,8 +67,21 @@ TEST(StreamsTest, CuttingACallerOffEndsTheirStreamsAndNobodyElses) {
   late->on_cut_off([&] { ended.push_back("ben's that was not open yet"); });
   EXPECT_EQ(ended, (std::vector<std::string>{"ben's", "ben's that was not open yet"}));
   EXPECT_FALSE(annas->cut_off());
-  EXPECT_EQ(bens->cut_off()->message, "revoked");
+  EXPECT_EQ(bens->cut_off()->why.message, "revoked");
   EXPECT_FALSE((*streams.take(RequestKind::jog, kBen))->cut_off());
+}
+
+TEST(StreamsTest, AtTheEndOfTheDaemonAllEndAndNoMoreBegin) {
+  Streams streams;
+  int ended = 0;
+  const auto annas = *streams.take(RequestKind::watch_device, kAnna), bens = *streams.take(RequestKind::jog, kBen);
+  for (const auto& stream : {annas, bens}) stream->on_cut_off([&] { ++ended; });
+  EXPECT_FALSE(streams.ending());
+  streams.end_all();
+  EXPECT_EQ(streams.ending()->reason, Reason::daemon_ending);
+  EXPECT_EQ(ended, 2);
+  EXPECT_EQ(annas->cut_off()->why.reason, Reason::daemon_ending);
+  EXPECT_EQ(streams.take(RequestKind::watch_motion, kAnna).error().reason, Reason::daemon_ending);
 }
 
 }  // namespace

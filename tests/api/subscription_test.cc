@@ -169,6 +169,40 @@ TEST(ReportStream, SaysAllAndEnds) {
   EXPECT_EQ(text.find("turn " + serial), std::string::npos) << "its serial number is no secret";
 }
 
+TEST(AtTheEndOfTheDaemon, AReaderReceivesWhatIsDueAndThenWhy) {
+  World world;
+  Reader<Event> events(*world.api->events.watch(World::by(kAnna), {.device = kDevice, .from = 0}));
+  const StartedMotion motion = world.move(World::by(kAnna), 10);
+  ASSERT_TRUE(motion);
+  Reader<CurrentMotion> outcome(*world.api->motions.watch(World::by(kAnna), motion_name("turn", motion->motion.id)));
+  ASSERT_TRUE(world.all_ended());
+  const std::uint64_t newest = world.gateway->events().newest_revision();
+  world.api->streams.end_all();
+  std::uint64_t last = 0;
+  while (const auto event = events.next()) last = (*event)->revision;
+  EXPECT_EQ(last, newest);
+  EXPECT_EQ(events.end().problem->reason, Reason::daemon_ending);
+  EXPECT_EQ(outcome.reason(), Reason::unspecified) << "it ends with the outcome of its motion";
+}
+
+TEST(AtTheEndOfTheDaemon, EveryKindOfStreamSaysSo) {
+  World world;
+  const StartedMotion motion = world.move(World::by(kAnna), 1'000'000);
+  ASSERT_TRUE(motion);
+  const Credential anna{.who = kAnna};
+  Reader<DeviceState> device(*world.api->devices.watch(World::by(kAnna), kDevice, Duration()));
+  Reader<CurrentMotion> running(*world.api->motions.watch(World::by(kAnna), motion_name("turn", motion->motion.id)));
+  Reader<Board> leases(*world.api->leases.watch(World::by(kAnna), kDevice));
+  Reader<std::string> recording(*world.api->diagnostics.record(World::by(kAnna), kDevice, true, true));
+  Reader<CurrentMotion> jog(*world.api->jogs.open(anna));
+  Reader<PathStep> path(*world.api->paths.open(anna));
+  world.api->streams.end_all();
+  for (const Reason reason :
+       {device.reason(), running.reason(), leases.reason(), recording.reason(), jog.reason(), path.reason()}) {
+    EXPECT_EQ(reason, Reason::daemon_ending);
+  }
+}
+
 // Each stream takes one place, and gives it back.
 TEST(StreamPlaces, AreTakenAndGivenBack) {
   World world;

@@ -2,11 +2,13 @@
 """How the daemon ends: SIGTERM in mid-move, with shrc203-sim at the other end of a pseudo-terminal."""
 
 import os
+import re
 import signal
 import tempfile
+import time
 import unittest
 
-from programs import BIN, Daemon, Lines
+from programs import BIN, LIMIT_S, Daemon, Lines
 from serial_line import ask
 
 CONFIG = """
@@ -59,6 +61,23 @@ class End(unittest.TestCase):
         self.assertIn("ending: SIGTERM", log)
         self.assertRegex(log, r"motion 1 .* is STOPPED")
         self.assertIn("the line is closed; motions that were running: 1 STOPPED", log)
+
+    def test_streams_are_told_that_the_daemon_ends(self):
+        self.start("stop")
+        recorder = self.daemon.start("record")
+        watcher = self.daemon.start("watch", "--from", "1")
+        recorder.next()
+        watcher.until("daemon started")
+        self.daemon.signal(signal.SIGTERM)
+        self.assertEqual(self.daemon.exit_code(), 0)
+        self.assertEqual(recorder.end(), 4)
+        self.assertEqual(recorder.errors,
+                         "axisctl: DAEMON_ENDING: the daemon is ending (connect again when it runs again)\n")
+        deadline = time.monotonic() + LIMIT_S
+        while not re.search(r"DAEMON_ENDING: the daemon is ending \(trying again from revision \d+\)", watcher.errors):
+            self.assertLess(time.monotonic(), deadline, watcher.errors)
+            time.sleep(0.02)  # between two looks; the deadline above decides
+        watcher.kill()  # it waits for the next daemon
 
     def test_finish_waits_for_what_moves_and_takes_nothing_new(self):
         self.start("finish")

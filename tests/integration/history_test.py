@@ -34,8 +34,8 @@ class History(unittest.TestCase):
         self.journal = os.path.join(self.folder, "state", "journal.sqlite")
         self.start()
 
-    def start(self):
-        self.daemon = Daemon(self.folder, CONFIG)
+    def start(self, extra=""):
+        self.daemon = Daemon(self.folder, CONFIG + extra)
         self.addCleanup(self.daemon.stop)
 
     def run_well(self, *words):
@@ -337,17 +337,29 @@ class History(unittest.TestCase):
             self.assertEqual(refused.returncode, 2, text + refused.stdout)
             self.assertIn("is no head of a journal", refused.stderr)
 
-    def test_a_daemon_without_a_journal_serves_and_says_so(self):
+    def spoil_the_journal(self):
         self.daemon.stop()
         with sqlite3.connect(self.journal) as database:
             database.execute("PRAGMA user_version = 99")
         database.close()
+
+    def test_a_journal_that_cannot_be_opened_refuses_what_moves_and_no_stop(self):
+        self.spoil_the_journal()
         self.start()
+        for words in (["move", "1=+100pulse", "--relative"], ["history"], ["audit", "verify"]):
+            refused = self.daemon.run(*words)
+            self.assertEqual(refused.returncode, 4, refused.stdout)
+            self.assertRegex(refused.stderr, rf"JOURNAL_UNAVAILABLE.*{re.escape(self.journal)}: a newer version of "
+                                             r"axisgated has written it .*then restart the daemon")
+        self.run_well("stop")
+        self.assertRegex(self.daemon.metrics_page(), r"(?m)^axisgate_journal_available 0$")
+        self.assertRegex(self.daemon.log(), "could not be opened, so motions and changes are refused: .*newer version")
+
+    def test_a_journal_that_cannot_be_opened_holds_nothing_up_where_the_configuration_says_so(self):
+        self.spoil_the_journal()
+        self.start(extra='[journal]\nunavailable = "act"\n')
         self.run_well("move", "1=+100pulse", "--relative")
-        refused = self.daemon.run("history")
-        self.assertEqual(refused.returncode, 4, refused.stdout)
-        self.assertIn("JOURNAL_UNAVAILABLE", refused.stderr)
-        self.assertRegex(self.daemon.log(), "no journal is kept: .*a newer version of axisgated has written it")
+        self.assertRegex(self.daemon.metrics_page(), r"(?m)^axisgate_journal_available 0$")
 
 
 if __name__ == "__main__":

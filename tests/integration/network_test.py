@@ -114,6 +114,15 @@ class Network(unittest.TestCase):
         while "cert bert" not in held.stdout.readline():
             self.assertIsNone(held.poll())
 
+    def test_the_log_says_at_the_start_that_the_certificate_expires(self):
+        self.assertNotIn("expires at", self.daemon.log(), "that of the gateway is good for 90 days")
+        self.daemon.stop()
+        soon = CONFIG.replace("FOLDER/gateway", "FOLDER/lab").replace("FOLDER", self.folder)  # good for a day
+        self.daemon = Daemon(self.folder, soon)
+        self.addCleanup(self.daemon.stop)
+        said = re.findall(rf"the certificate {re.escape(self.path('lab.crt'))} expires at .* UTC; ", self.daemon.log())
+        self.assertEqual(len(said), 1, self.daemon.log())
+
     def test_a_daemon_open_to_the_network_without_tls_does_not_start(self):
         path = self.path("open.toml")
         with open(path, "w", encoding="utf-8") as file:

@@ -57,6 +57,7 @@ TEST(Status, EveryReasonHasTheCodeThatTheApiNames) {
       {Reason::request_id_reused, grpc::ALREADY_EXISTS},
       {Reason::request_memory_lost, grpc::FAILED_PRECONDITION},
       {Reason::stop_unconfirmed, grpc::FAILED_PRECONDITION},
+      {Reason::daemon_ending, grpc::UNAVAILABLE},
   };
   for (const auto& [reason, code] : expected) EXPECT_EQ(code_of(reason), code) << name(reason);
   EXPECT_EQ(std::size(expected), static_cast<std::size_t>(v1::Reason_ARRAYSIZE));

@@ -76,6 +76,20 @@ class State(unittest.TestCase):
         os.chmod(self.config, 0o646)
         self.refused(2, rf"axisgate\.toml: .* by everybody on this machine, .*; chmod go-w {re.escape(self.config)}\n\Z")
 
+    def test_a_directory_behind_a_link_is_used(self):
+        disk = os.path.join(self.folder, "disk")
+        os.mkdir(disk, 0o700)
+        os.symlink(disk, self.state)
+        daemon = self.start()
+        moved = daemon.run("move", "1=+100pulse", "--relative")
+        self.assertEqual(moved.returncode, 0, moved.stderr)
+        self.assertIn("motion", daemon.run("history").stdout)
+        self.assertTrue(os.path.exists(os.path.join(disk, "journal.sqlite")))
+        daemon.stop()
+        os.chmod(disk, 0o777)
+        self.refused(1, rf"state directory {re.escape(disk)} may be written by everybody on this machine, .*; "
+                        rf"chmod go-w {re.escape(disk)}\n\Z")
+
     def test_a_revocation_that_cannot_be_written_is_written_later(self):
         daemon = self.start()
         self.assertEqual(daemon.run("token", "create", "scan").returncode, 0)

@@ -7,6 +7,7 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <string>
 #include <utility>
@@ -63,6 +64,28 @@ TEST_F(FrontTest, ASourceThatConnectsTooOftenIsServedStopsOnly) {
   clients.push_back(client_with_a_call());
   run_until_judged(3);
   EXPECT_THAT(to_grpc_, SizeIs(2));
+}
+
+TEST_F(FrontTest, WhatGrpcSaidLastReachesTheClient) {
+  const Descriptor client = client_with_a_call();
+  run_until_judged(1);
+  bool has_left = false;
+  front_.when_grpc_has_left([&] { has_left = true; });
+  const auto run_until_it_has_left = [&](std::chrono::milliseconds wait) {
+    const TimePoint limit = monotonic_now() + wait;
+    while (!has_left && monotonic_now() < limit) io_.run_for(std::chrono::milliseconds(1));
+    return has_left;
+  };
+  ASSERT_THAT(to_grpc_, SizeIs(1));
+  EXPECT_FALSE(run_until_it_has_left(std::chrono::milliseconds(20)));
+  const std::string bytes = settings_frame({}) + frame(FrameType::data, 0, 1, "farewell");
+  ASSERT_EQ(::write(to_grpc_[0].get(), bytes.data(), bytes.size()), static_cast<ssize_t>(bytes.size()));
+  to_grpc_.clear();
+  ASSERT_TRUE(run_until_it_has_left(std::chrono::seconds(20)));
+  std::array<char, 4096> received{};
+  const auto size = ::read(client.get(), received.data(), received.size());
+  ASSERT_GT(size, 0);
+  EXPECT_NE(std::string(received.data(), static_cast<std::size_t>(size)).find("farewell"), std::string::npos);
 }
 
 }  // namespace

@@ -112,6 +112,28 @@ TEST_F(JournalTest, RefusalsBeyondTheirBudgetAreCountedAtTheEndAtTheLatest) {
   EXPECT_EQ(kept()[0].entry.who, "unix anna");
 }
 
+TEST_F(JournalTest, OneThatCouldNotBeOpenedRefusesAsADiskDoes) {
+  std::filesystem::create_symlink(directory_ / "elsewhere", path_);
+  const auto opened = Journal::open(path_);
+  ASSERT_FALSE(opened);
+  const auto journal = Journal::unopened(path_, opened.error());
+  EXPECT_FALSE(journal->is_open());
+  Result<void> committed;
+  journal->commit({{.kind = EntryKind::request_made}}, [&](const Result<void>& done) { committed = done; });
+  ASSERT_FALSE(committed);
+  EXPECT_EQ(committed.error().reason, Reason::journal_unavailable);
+  EXPECT_EQ(committed.error().message,
+            "the journal could not be opened: " + path_ + " is a symbolic link, not a regular file");
+  EXPECT_EQ(committed.error().hint,
+            "nothing was sent; stops work; move it away: the daemon makes this file itself; then restart the daemon");
+  for (std::size_t i = 0; i < Journal::kWaitingMax + 7; ++i) journal->append({{.kind = EntryKind::stop_requested}});
+  journal->append_refusal({.kind = EntryKind::request_refused, .who = "unix anna", .body = "{}"});
+  EXPECT_EQ(journal->failure()->message, committed.error().message);
+  EXPECT_EQ(journal->read({}, 1).error().reason, Reason::journal_unavailable);
+  EXPECT_EQ(journal->summarize({}).error().reason, Reason::journal_unavailable);
+  EXPECT_FALSE(std::filesystem::exists(directory_ / "elsewhere"));
+}
+
 TEST_F(JournalTest, ADamagedFileIsMovedAsideAndANewOneBegins) {
   std::ofstream(path_) << std::string(8192, 'x');
   const auto journal = Journal::open(path_);

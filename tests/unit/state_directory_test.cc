@@ -84,13 +84,38 @@ TEST_F(StateDirectoryTest, TheLockIsARegularFile) {
   EXPECT_FALSE(fs::exists(folder_ + "/victim"));
 }
 
-TEST_F(StateDirectoryTest, ItMayBeALink) {
+TEST_F(StateDirectoryTest, ALinkIsResolvedOnce) {
+  fs::create_directories(folder_ + "/disk/state");
+  fs::create_directory_symlink("disk", folder_ + "/link");
+  for (const char* path : {"/link/state", "/link/state/"}) {
+    const auto held = StateDirectory::hold(folder_ + path);
+    ASSERT_TRUE(held) << held.error().message;
+    EXPECT_EQ(held->path(), fs::canonical(folder_ + "/disk/state"));
+  }
+}
+
+TEST_F(StateDirectoryTest, BehindALinkNobodyElseMayWriteAnyFolderOfTheRealPath) {
+  fs::create_directories(folder_ + "/disk/deep/state");
+  const std::string link = folder_ + "/link", real = folder_ + "/disk/deep/state";
+  fs::create_directory_symlink(real, link);
+  ASSERT_EQ(::chmod((folder_ + "/disk").c_str(), 0777), 0);
+  EXPECT_EQ(why(link), "the state directory " + link + " is a link to " + real + ", and the folder " + folder_ +
+                           "/disk may be written by everybody on this machine, who could change what the daemon "
+                           "does; chmod go-w " +
+                           folder_ + "/disk");
+  ASSERT_EQ(::chmod((folder_ + "/disk").c_str(), 01777), 0);
+  EXPECT_EQ(why(link), "held") << "in a sticky folder nobody else may rename what is there";
+  ASSERT_EQ(::chmod(real.c_str(), 01777), 0);
+  EXPECT_NE(why(link), "held") << "in the state directory itself everybody could make files first";
+}
+
+TEST_F(StateDirectoryTest, ALinkToNothingIsRefused) {
   fs::create_directory(folder_);
-  const std::string link = folder_ + "-link";
-  fs::remove(link);
-  fs::create_directory_symlink(folder_, link);
-  EXPECT_EQ(why(link), "held");
-  fs::remove(link);
+  fs::create_directory_symlink("gone", folder_ + "/link");
+  EXPECT_EQ(why(folder_ + "/link"),
+            "the state directory " + folder_ +
+                "/link is a link to gone, which does not exist; "
+                "make that directory or mount its disk, or set STATE_DIRECTORY to another path");
 }
 
 TEST_F(StateDirectoryTest, AFileIsNone) {
