@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "clients/axisctl/condition_text.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/print.h"
@@ -39,9 +40,9 @@ std::string speed_text(const v1::Axis& axis) {
 std::string axis_text(const v1::Axis& axis) {
   const std::string name = axis.name().empty() ? "" : axis.name() + "  ";
   if (!axis.controllable()) return fmt::format("axis {}  {}not controllable", axis.number(), name);
-  return fmt::format("axis {}  {}{}  busy {}  excited {}  homed {}  status 0x{:07X}  speed {}{}", axis.number(), name,
+  return fmt::format("axis {}  {}{}  busy {}  excited {}  homed {}  status {}  speed {}{}", axis.number(), name,
                      position_text(axis), known(axis.has_busy(), axis.busy()),
-                     known(axis.has_excited(), axis.excited()), known(true, axis.homed()), axis.status_bits(),
+                     known(axis.has_excited(), axis.excited()), known(true, axis.homed()), status_text(axis),
                      speed_text(axis), axis.stage().empty() ? "" : "  stage " + axis.stage());
 }
 

@@ -1,12 +1,15 @@
 #include "clients/axisctl/history_text.h"
 
 #include <fmt/format.h>
+#include <google/protobuf/util/time_util.h>
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "clients/axisctl/condition_text.h"
 #include "clients/axisctl/print.h"
 #include "device/core/escape.h"
+#include "device/stage/condition.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -104,6 +107,21 @@ std::string stop_end_text(const Json& details) {
                      results_text(details));
 }
 
+google::protobuf::Timestamp time_in(const Json& details, const char* key) {
+  return google::protobuf::util::TimeUtil::MicrosecondsToTimestamp(details.value(key, std::int64_t{}));
+}
+
+std::string change_text(const Json& details) {
+  stage::AxisSet axes;
+  for (const int axis : details.value("axes", std::vector<int>())) axes.add(axis);
+  const std::string text = stage::words(stage::condition_named(details.value("condition", "")), axes,
+                                        details.value("begun", true), details.value("value", ""));
+  const std::string seen = time_text(time_in(details, "seen_us"));
+  return fmt::format(
+      "{}, {}", text,
+      details.contains("before_us") ? between_text(time_text(time_in(details, "before_us")), seen) : found_text(seen));
+}
+
 std::string text_of(const v1::HistoryEntry& entry) {
   const Json details = Json::parse(entry.details(), nullptr, false);
   if (!details.is_object()) return entry.details();
@@ -146,6 +164,8 @@ std::string text_of(const v1::HistoryEntry& entry) {
       return "replies could not be trusted" + because;
     case v1::HISTORY_KIND_FOREIGN_MOTION:
       return axes_text(details) + " moved, and nobody here requested it";
+    case v1::HISTORY_KIND_CONDITION_CHANGED:
+      return change_text(details);
     case v1::HISTORY_KIND_SWITCHES_CHANGED:
       return "memory switches changed";
     case v1::HISTORY_KIND_LINES_EXCHANGED:

@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "clients/axisctl/condition_text.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/history_reader.h"
 #include "clients/axisctl/print.h"
@@ -128,6 +129,33 @@ std::string loss_text(const v1::LinkLoss& loss, const NightClock& clock) {
   return text + (loss.has_up_time() ? " for " + duration_text(loss.down_time(), loss.up_time()) : ", not up again");
 }
 
+// "stage axes 1, 2 and 3: emergency stop at 23:41, ended at 23:44". While a link was lost, hours may lie between two
+// readings.
+std::string condition_line(const v1::ConditionSummary& one, const v1::ConditionSummary* end, const NightClock& clock) {
+  const std::string seen = clock.text(one.seen_time());
+  const std::string before = one.has_before_time() ? clock.text(one.before_time()) : seen;
+  const bool gap = one.has_before_time() && one.seen_time() - one.before_time() > TimeUtil::SecondsToDuration(60);
+  return fmt::format("{} {} {}{}", last_part(one.device()),
+                     condition_text(one.condition(), one.axes(), one.begun(), one.value()),
+                     gap ? between_text(before, seen) : "at " + seen,
+                     end == nullptr ? "" : ", ended at " + clock.text(end->seen_time()));
+}
+
+// A change is on the line of the one that it ends, if the night has that. Another mode ends the one before.
+template <class Add>
+void add_conditions(const v1::SummarizeHistoryResponse& night, const NightClock& clock, const Add& add) {
+  const auto& all = night.conditions();
+  for (auto one = all.begin(); one != all.end(); ++one) {
+    const auto same = [&](const v1::ConditionSummary& other) {
+      return other.condition() == one->condition() && other.device() == one->device() &&
+             std::ranges::equal(other.axes(), one->axes());
+    };
+    if (!one->begun() && std::any_of(all.begin(), one, same)) continue;
+    const auto end = one->begun() ? std::find_if(one + 1, all.end(), same) : all.end();
+    add(one->seen_time(), condition_line(*one, end == all.end() ? nullptr : &*end, clock));
+  }
+}
+
 std::string start_text(const v1::DaemonStart& start, const NightClock& clock) {
   return fmt::format("the daemon {} {}", start.after_unclean_end() ? "was killed; it started again at" : "started at",
                      clock.text(start.time()));
@@ -141,6 +169,7 @@ std::vector<std::string> happenings(const v1::SummarizeHistoryResponse& night, c
   };
   for (const v1::StopSummary& stop : night.stops()) add(stop.time(), stop_text(stop, clock));
   for (const v1::LateStop& stop : night.late_stops()) add(stop.time(), late_text(stop, clock));
+  add_conditions(night, clock, add);
   for (const v1::LinkLoss& loss : night.link_losses()) add(loss.down_time(), loss_text(loss, clock));
   for (const v1::DaemonStart& start : night.daemon_starts()) add(start.time(), start_text(start, clock));
   std::ranges::stable_sort(timed, {}, &std::pair<std::int64_t, std::string>::first);
@@ -163,6 +192,7 @@ void print_night(const v1::SummarizeHistoryResponse& night, const NightClock& cl
   for (const std::string& line : others) print_line(line);
   print_more(night.more_stops(), "stops");
   print_more(night.more_late_stops(), "stops that were confirmed late");
+  print_more(night.more_conditions(), "changes at a stage");
   print_more(night.more_link_losses(), "losses of a link");
   print_more(night.more_daemon_starts(), "starts of the daemon");
   if (night.persons().empty() && others.empty()) print_line("nothing happened");

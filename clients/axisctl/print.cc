@@ -9,6 +9,7 @@
 #include <ctime>
 #include <vector>
 
+#include "clients/axisctl/condition_text.h"
 #include "clients/axisctl/mill_text.h"
 
 namespace axisgate::axisctl {
@@ -97,6 +98,14 @@ std::string describe_latch(const v1::EmergencyLatchChange& change) {
 
 std::string describe_foreign(const v1::ForeignMotion& motion) {
   return fmt::format("FOREIGN_MOTION: axes {} move without a request to the gateway", fmt::join(motion.axes(), ", "));
+}
+
+std::string describe_condition(const v1::ConditionChange& change) {
+  using google::protobuf::util::TimeUtil;
+  const std::string seen = TimeUtil::ToString(change.seen_time());
+  return fmt::format(
+      "{}, {}", condition_text(change.condition(), change.axes(), change.begun(), change.value()),
+      change.has_before_time() ? between_text(TimeUtil::ToString(change.before_time()), seen) : found_text(seen));
 }
 
 std::string describe_switches(const v1::SwitchesChanged& change) {
@@ -276,6 +285,8 @@ std::string describe(const v1::Event& event) {
       return on_one_line(describe_latch(event.emergency_latch()));
     case v1::Event::kForeignMotion:
       return on_one_line(describe_foreign(event.foreign_motion()));
+    case v1::Event::kCondition:
+      return on_one_line(describe_condition(event.condition()));
     case v1::Event::kSwitchesChanged:
       return on_one_line(describe_switches(event.switches_changed()));
     case v1::Event::kProgramNotice:

@@ -81,6 +81,7 @@ enum class Guard {
   possible_speeds,
   moving_unknown,
   foreign_motion_reported,
+  conditions_seen_twice,
   one_home_an_axis,
 
   // Stop goes first

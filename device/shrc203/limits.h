@@ -64,6 +64,8 @@ inline constexpr Duration kTurnLimit = std::chrono::seconds(4);
 
 // What must not be misread is asked until two answers in a row agree, so often at most.
 inline constexpr int kAgreeingAnswerTries = 4;
+// What has changed at the stage is read again at once: two readings must agree.
+inline constexpr int kReadingsOfAChange = 2;
 // A question whose answer may be a completion is asked until two answers agree, so often at most.
 inline constexpr int kClosedQuestionTries = 8;
 // A setting that is not known yet, or was misread, is read so often at most.
@@ -82,7 +84,7 @@ inline constexpr Duration kStartVisibleWithin = std::chrono::milliseconds(300);
 // is watched.
 inline constexpr Duration kReadyPoll = std::chrono::milliseconds(60);
 // A move whose state nobody follows is looked at so often before its time, for what no axis number reports: a stop at
-// the front panel, a motor that was switched off.
+// the front panel, a motor that was switched off. Or after the configuration's idle_poll, where that is shorter.
 inline constexpr Duration kUnfollowedPoll = std::chrono::seconds(1);
 // Where all axis numbers have come and the controller is still busy, it is asked again so soon. Then after twice as
 // long each time, at most kReadyPoll: settling takes some milliseconds (manual 56) W:).

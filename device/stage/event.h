@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "device/core/lane.h"
+#include "device/stage/condition.h"
 #include "device/stage/motion.h"
 #include "device/stage/state.h"
 #include "device/stage/stop.h"
@@ -62,6 +63,17 @@ struct EmergencyLatchChanged {
 // Axes move that the gateway did not start: the front panel did, or a gateway before this one.
 struct ForeignMotion {
   AxisSet axes;
+};
+
+// A condition of the stage has begun or ended. Nobody here need have caused that: a person at the front panel may have,
+// a sensor, an error, or a request of before.
+struct ConditionChanged {
+  Condition condition{};
+  AxisSet axes{};  // empty: of the whole controller
+  bool begun = true;
+  std::string value{};  // the mode or the command format
+  TimePoint before{};   // the last reading that did not show it; TimePoint{}: there was none
+  TimePoint seen{};     // the first reading that did
 };
 
 // What became of the motions of a run that was killed (unfinished.h). For the log; not a fact with a revision.
@@ -168,9 +180,9 @@ struct IllegalTransition {
 struct StateChanged {};
 
 using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, StopChanged,
-                           EmergencyLatchChanged, ForeignMotion, SwitchesChanged, ProgramNotice, BytesWritten,
-                           BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned, UnexpectedLine,
-                           IllegalTransition, UnfinishedJudged, StateChanged>;
+                           EmergencyLatchChanged, ForeignMotion, ConditionChanged, SwitchesChanged, ProgramNotice,
+                           BytesWritten, BytesReceived, TimeLimitPassed, ExchangeEnded, BarrierEntered, LineLearned,
+                           UnexpectedLine, IllegalTransition, UnfinishedJudged, StateChanged>;
 
 class EventSink {
  public:

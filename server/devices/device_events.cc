@@ -132,6 +132,12 @@ void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {
       device_, to_string(motion.axes));
 }
 
+void DeviceEvents::tell(const stage::ConditionChanged& change, TimePoint now) {
+  bus_.publish(device_, change, to_wall(now), moment_of(now));
+  spdlog::log(change.begun ? spdlog::level::warn : spdlog::level::info, "{}: {}", device_,
+              stage::words(change.condition, change.axes, change.begun, escaped(change.value)));
+}
+
 void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
   using What = stage::UnfinishedJudged::What;
   const std::string whose = fmt::format("{}: the daemon was killed during {}", device_, judged.motions);

@@ -59,6 +59,7 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::StopChanged& change, TimePoint now);
   void tell(const stage::EmergencyLatchChanged& change, TimePoint now);
   void tell(const stage::ForeignMotion& motion, TimePoint now);
+  void tell(const stage::ConditionChanged& change, TimePoint now);
   void tell(const stage::UnfinishedJudged& judged, TimePoint now);
   void tell(const stage::SwitchesChanged& change, TimePoint now);
   void tell(const stage::ProgramNotice& notice, TimePoint now);

@@ -37,16 +37,17 @@ struct JobChanged {
 };
 
 // What every watcher receives, each exactly once and in order. Telemetry is not part of it: newest.h.
-using Fact = std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
-                          stage::StopRequested, stage::StopChanged, stage::EmergencyLatchChanged, stage::ForeignMotion,
-                          stage::SwitchesChanged, stage::ProgramNotice, DaemonStarted, JobChanged>;
+using Fact =
+    std::variant<stage::MotionChanged, stage::CompletionSeen, stage::PathProgress, stage::LinkChanged,
+                 stage::StopRequested, stage::StopChanged, stage::EmergencyLatchChanged, stage::ForeignMotion,
+                 stage::ConditionChanged, stage::SwitchesChanged, stage::ProgramNotice, DaemonStarted, JobChanged>;
 
 struct FactRecord {
   std::uint64_t revision = 0;  // ascends over all devices, and over the runs of the daemon that are kept
   std::string device;          // empty: a fact of the daemon itself
   WallTime time{};             // in whole microseconds
   Fact fact;
-  Moment clock{};     // of a motion's fact: that of all facts of the motion, by which its times are shown
+  Moment clock{};     // by which the times in the fact are shown; of a motion, that of all of its facts
   std::string run{};  // of the daemon, in which it was published
 };
 using FactPointer = std::shared_ptr<const FactRecord>;
@@ -70,7 +71,7 @@ class EventBus {
   explicit EventBus(Executor executor, std::string run = {}, FactsBefore before = {}, Keep keep = {},
                     std::size_t facts_kept = kFactsKept);
 
-  // `clock`: of a motion's fact, as in FactRecord.
+  // `clock`: of a fact with times in it, as in FactRecord.
   std::uint64_t publish(std::string device, Fact fact, WallTime time, Moment clock = {});
 
   // The one before the first of this run, as long as nothing was published.

@@ -106,6 +106,21 @@ std::optional<Noted> said(const stage::ForeignMotion& motion) {
   return Noted{EntryKind::foreign_motion, {{"axes", axes_of(motion.axes)}}};
 }
 
+std::int64_t micros(TimePoint time) {
+  return std::chrono::floor<std::chrono::microseconds>(to_wall(time).time_since_epoch()).count();
+}
+
+// A condition of the whole controller has a value and no axes.
+std::optional<Noted> said(const stage::ConditionChanged& change) {
+  Json body{{"condition", name(change.condition)},
+            {"axes", axes_of(change.axes)},
+            {"begun", change.begun},
+            {"seen_us", micros(change.seen)}};
+  if (!change.value.empty()) body["value"] = change.value;
+  if (change.before != TimePoint{}) body["before_us"] = micros(change.before);
+  return Noted{EntryKind::condition_changed, std::move(body)};
+}
+
 std::optional<Noted> said(const stage::SwitchesChanged& change) {
   Json changes = Json::array();
   for (const auto& one : change.changes) {

@@ -36,6 +36,8 @@ std::string name(EntryKind kind) {
       return "barrier entered";
     case EntryKind::foreign_motion:
       return "foreign motion";
+    case EntryKind::condition_changed:
+      return "condition changed";
     case EntryKind::switches_changed:
       return "switches changed";
     case EntryKind::request_made:

@@ -28,6 +28,7 @@ enum class EntryKind {
   link_changed = 30,
   barrier_entered = 31,
   foreign_motion = 32,
+  condition_changed = 33,  // an emergency stop, a limit sensor, a motor, the mode: at the stage itself
   switches_changed = 40,
   request_made = 50,     // what somebody wants to change or move; on the disk before it is done
   request_refused = 51,  // nothing was sent

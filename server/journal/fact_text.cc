@@ -18,7 +18,7 @@ namespace {
 using Json = nlohmann::json;
 using std::chrono::nanoseconds;
 
-// A motion's times count by its fact's clock, so they are written as they are.
+// Times in a fact count by its clock, so they are written as they are.
 std::int64_t nanos_of(TimePoint time) { return time.time_since_epoch().count(); }
 TimePoint time_of(const Json& json) { return TimePoint(nanoseconds(json.get<std::int64_t>())); }
 
@@ -165,6 +165,27 @@ struct Form<stage::ForeignMotion> {
   static constexpr const char* key = "foreign_motion";
   static Json write(const stage::ForeignMotion& motion) { return motion.axes.list(); }
   static stage::ForeignMotion read(const Json& json) { return {axes_in(json)}; }
+};
+
+template <>
+struct Form<stage::ConditionChanged> {
+  static constexpr const char* key = "condition";
+  static Json write(const stage::ConditionChanged& change) {
+    return {{"condition", static_cast<int>(change.condition)},
+            {"axes", change.axes.list()},
+            {"begun", change.begun},
+            {"value", change.value},
+            {"before", nanos_of(change.before)},
+            {"seen", nanos_of(change.seen)}};
+  }
+  static stage::ConditionChanged read(const Json& json) {
+    return {.condition = static_cast<stage::Condition>(json.at("condition").get<int>()),
+            .axes = axes_in(json.at("axes")),
+            .begun = json.at("begun"),
+            .value = json.at("value"),
+            .before = time_of(json.at("before")),
+            .seen = time_of(json.at("seen"))};
+  }
 };
 
 template <>

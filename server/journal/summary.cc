@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <map>
+#include <nlohmann/json.hpp>
 #include <string_view>
 
 #include "server/journal/conditions.h"
@@ -12,6 +14,8 @@
 
 namespace axisgate::server::journal {
 namespace {
+
+using Json = nlohmann::json;
 
 std::string fact(std::string_view name) { return fmt::format("json_extract({}, '$.{}')", kJsonBody, name); }
 
@@ -50,6 +54,7 @@ class Pass {
   std::map<std::int64_t, Person> persons;  // by their numbers
   Listed<StopSummary> stops;
   Listed<LateStop> late_stops;
+  Listed<ConditionSummary> conditions;
   std::vector<LinkEntry> links;
   std::vector<DaemonEntry> daemon;
 
@@ -68,19 +73,22 @@ class Pass {
     link,
     who,
     late,
-    after_ms
+    after_ms,
+    condition
   };
 
   static std::string sql();
   void take(const Statement& row);
+  void add_condition(const Statement& row);
   void count(EntryKind kind, const Statement& row);
 };
 
-// Lines, leases and latches are not summed up. The name is needed of stops alone, which are few.
+// Lines, leases and latches are not summed up. The name is needed of stops alone, and the body of conditions alone:
+// both are few.
 std::string Pass::sql() {
   return fmt::format(
       "SELECT number, time_us, kind, device, person, {}, {}, {}, {}, {}, {}, "
-      "iif({} OR {}, (SELECT name FROM person WHERE id = person), NULL), {}, {} FROM entry "
+      "iif({} OR {}, (SELECT name FROM person WHERE id = person), NULL), {}, {}, iif({}, body, NULL) FROM entry "
       "WHERE time_us >= ? AND time_us < ? AND kind < {} AND (? = '' OR device = ? OR {} OR {}) AND (? = '' OR {}) "
       "ORDER BY time_us",
       fact_of(EntryKind::motion_ended, "kind"),
@@ -90,8 +98,8 @@ std::string Pass::sql() {
                   fact("emergency")),
       fact_of(EntryKind::link_changed, "link"), is(EntryKind::stop_requested), is(EntryKind::stop_ended),
       fact_of(EntryKind::stop_ended, "late"), fact_of(EntryKind::stop_ended, "after_ms"),
-      static_cast<int>(EntryKind::lines_exchanged), is(EntryKind::daemon_started), is(EntryKind::daemon_ended),
-      kOfIdentity);
+      is(EntryKind::condition_changed), static_cast<int>(EntryKind::lines_exchanged), is(EntryKind::daemon_started),
+      is(EntryKind::daemon_ended), kOfIdentity);
 }
 
 Result<void> Pass::run(Database& database, const Span& span) {
@@ -122,6 +130,8 @@ void Pass::take(const Statement& row) {
                              .emergency = row.integer(emergency) != 0,
                              .after = std::chrono::milliseconds(row.integer(after_ms)),
                              .confirmed = row.bytes(outcome) == "confirmed"});
+    case EntryKind::condition_changed:
+      return add_condition(row);
     case EntryKind::link_changed:
       return links.push_back(
           {row.integer(number), row.time(time), std::string(row.bytes(device)), std::string(row.bytes(link))});
@@ -131,6 +141,22 @@ void Pass::take(const Statement& row) {
     default:
       return;
   }
+}
+
+void Pass::add_condition(const Statement& row) {
+  const Json body = Json::parse(row.bytes(condition), nullptr, false);
+  if (!body.is_object()) return;
+  const auto time_of = [&](const char* key) {
+    return WallTime(std::chrono::microseconds(body.value(key, std::int64_t{0})));
+  };
+  ConditionSummary summary{.seen = time_of("seen_us"),
+                           .device = std::string(row.bytes(device)),
+                           .condition = body.value("condition", ""),
+                           .axes = body.value("axes", std::vector<int>()),
+                           .begun = body.value("begun", false),
+                           .value = body.value("value", "")};
+  if (body.contains("before_us")) summary.before = time_of("before_us");
+  conditions.add(std::move(summary));
 }
 
 void Pass::count(EntryKind what, const Statement& row) {
@@ -271,8 +297,8 @@ Result<Summary> summarize(Database& database, const Span& span) {
   if (!lost) return tl::unexpected(lost.error());
   auto started = starts(database, std::move(pass.daemon));
   if (!started) return tl::unexpected(started.error());
-  return Summary{*std::move(persons), std::move(pass.stops), std::move(pass.late_stops), *std::move(lost),
-                 *std::move(started)};
+  return Summary{*std::move(persons),        std::move(pass.stops), std::move(pass.late_stops),
+                 std::move(pass.conditions), *std::move(lost),      *std::move(started)};
 }
 
 }  // namespace axisgate::server::journal

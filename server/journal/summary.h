@@ -47,6 +47,17 @@ struct LateStop {
   bool confirmed = false;  // false: withdrawn
 };
 
+// A condition of a stage that began or ended (device/stage/condition.h).
+struct ConditionSummary {
+  WallTime seen;                     // by the first reading that showed it
+  std::optional<WallTime> before{};  // the reading before; nothing: there was none
+  std::string device;
+  std::string condition;  // its name
+  std::vector<int> axes;  // empty: of the whole controller
+  bool begun = false;
+  std::string value;  // the mode or the command format
+};
+
 struct LinkLoss {
   std::string device;
   WallTime down;               // may be before the span
@@ -77,6 +88,7 @@ struct Summary {
   Listed<PersonSummary> persons;
   Listed<StopSummary> stops;
   Listed<LateStop> late_stops;
+  Listed<ConditionSummary> conditions;
   Listed<LinkLoss> losses;
   Listed<DaemonStart> starts;  // in the order of their entries, whatever the span's device
 };

@@ -74,6 +74,9 @@ struct StageMetrics::Families {
                          .Register(registry)),
         emergency_latched(gauge_family(registry, "axisgate_emergency_latched",
                                        "1 from an emergency stop until it is cleared for all axes, else 0.")),
+        conditions(counter_family(registry, "axisgate_conditions_total",
+                                  "How often a condition of the stage began by itself: an emergency stop, a limit "
+                                  "sensor, an error, a motor that is off, another mode.")),
         positions(gauge_family(registry, "axisgate_position_pulses",
                                "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
         link_up(gauge_family(registry, "axisgate_link_up", "1 when the configured controller answers, else 0.")),
@@ -99,6 +102,7 @@ struct StageMetrics::Families {
   Family<Gauge>& open_stops;
   Family<Histogram>& stop_seconds;
   Family<Gauge>& emergency_latched;
+  Family<Counter>& conditions;
   Family<Gauge>& positions;
   Family<Gauge>& link_up;
   Family<Counter>& barriers;
@@ -141,6 +145,9 @@ StageMetrics::StageMetrics(const Families& families, std::string device)
   }
   for (std::size_t axis = 0; axis < completions_.size(); ++axis) {
     completions_[axis] = &families.completions.Add({{"device", device_}, {"axis", std::to_string(axis + 1)}});
+  }
+  for (const stage::Condition condition : stage::reported_conditions()) {
+    conditions_[condition] = &families.conditions.Add({{"device", device_}, {"condition", stage::name(condition)}});
   }
   // Made now, so that the first of a kind is an increase, too.
   using stage::MotionKind, stage::MotionState;
@@ -221,6 +228,10 @@ void StageMetrics::count(const stage::StopRequested& stop) {
 void StageMetrics::count(const stage::StopChanged& change) {
   const stage::Stop& stop = change.stop;
   if (stop.state == stage::StopState::confirmed) stop_seconds_.Observe(seconds(stop.ended - stop.asked));
+}
+
+void StageMetrics::count(const stage::ConditionChanged& change) {
+  if (change.begun) conditions_.at(change.condition)->Increment();
 }
 
 void StageMetrics::count(const stage::LinkChanged& change) {

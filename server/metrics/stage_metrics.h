@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -51,6 +52,7 @@ class StageMetrics {
   void count(const stage::StopChanged& change);
   void count(const stage::EmergencyLatchChanged&) {}
   void count(const stage::ForeignMotion&) {}
+  void count(const stage::ConditionChanged& change);
   void count(const stage::SwitchesChanged&) {}
   void count(const stage::ProgramNotice&) {}
   void count(const stage::LinkChanged& change);
@@ -73,6 +75,7 @@ class StageMetrics {
   std::array<prometheus::Histogram*, kLaneCount> waits_{};
   std::array<prometheus::Counter*, 3> time_limits_{};  // by TimeLimitPassed::Kind
   std::array<prometheus::Counter*, stage::kAxisCount> completions_{};
+  std::map<stage::Condition, prometheus::Counter*> conditions_;    // the reported ones
   std::array<prometheus::Gauge*, stage::kAxisCount> positions_{};  // null until a position is known
   prometheus::Counter& normal_stops_;
   prometheus::Counter& emergency_stops_;

@@ -11,7 +11,9 @@
 #include <string_view>
 
 #include "server/api/names.h"
+#include "server/rpc/amounts.h"
 #include "server/rpc/call.h"
+#include "server/rpc/to_proto.h"
 #include "server/rpc/unary_call.h"
 
 namespace axisgate::rpc {
@@ -30,6 +32,7 @@ static_assert(static_cast<int>(EntryKind::motion_ended) == v1::HISTORY_KIND_MOTI
 static_assert(static_cast<int>(EntryKind::stop_requested) == v1::HISTORY_KIND_STOP_REQUESTED);
 static_assert(static_cast<int>(EntryKind::emergency_cleared) == v1::HISTORY_KIND_EMERGENCY_CLEARED);
 static_assert(static_cast<int>(EntryKind::foreign_motion) == v1::HISTORY_KIND_FOREIGN_MOTION);
+static_assert(static_cast<int>(EntryKind::condition_changed) == v1::HISTORY_KIND_CONDITION_CHANGED);
 static_assert(static_cast<int>(EntryKind::switches_changed) == v1::HISTORY_KIND_SWITCHES_CHANGED);
 static_assert(static_cast<int>(EntryKind::request_ended) == v1::HISTORY_KIND_REQUEST_ENDED);
 static_assert(static_cast<int>(EntryKind::lines_exchanged) == v1::HISTORY_KIND_LINES_EXCHANGED);
@@ -123,6 +126,18 @@ v1::StopSummary message_of(const server::journal::StopSummary& stop) {
   return proto;
 }
 
+v1::ConditionSummary message_of(const server::journal::ConditionSummary& condition) {
+  v1::ConditionSummary proto;
+  proto.set_device(api::device_name(condition.device));
+  proto.set_condition(to_condition(stage::condition_named(condition.condition)));
+  for (const int axis : condition.axes) proto.add_axes(axis);
+  proto.set_begun(condition.begun);
+  proto.set_value(condition.value);
+  if (condition.before) *proto.mutable_before_time() = message_of(*condition.before);
+  *proto.mutable_seen_time() = message_of(condition.seen);
+  return proto;
+}
+
 v1::LinkLoss message_of(const server::journal::LinkLoss& loss) {
   v1::LinkLoss proto;
   proto.set_device(api::device_name(loss.device));
@@ -147,6 +162,8 @@ void fill(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer
   proto.set_more_stops(summary.stops.more);
   for (const auto& stop : summary.late_stops.items) *proto.add_late_stops() = message_of(stop);
   proto.set_more_late_stops(summary.late_stops.more);
+  for (const auto& condition : summary.conditions.items) *proto.add_conditions() = message_of(condition);
+  proto.set_more_conditions(summary.conditions.more);
   for (const auto& loss : summary.losses.items) *proto.add_link_losses() = message_of(loss);
   proto.set_more_link_losses(summary.losses.more);
   for (const auto& start : summary.starts.items) *proto.add_daemon_starts() = message_of(start);

@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 60> kKinds = {{
+constexpr std::array<MethodKind, 61> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},

@@ -81,6 +81,11 @@ void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisS
   if (state.excited) axis.set_excited(*state.excited);
   axis.set_homed(state.homed);
   axis.set_status_bits(state.status.raw);
+  if (state.controllable) {
+    for (const auto condition : stage::listed(stage::conditions_in(state.status.raw))) {
+      axis.add_conditions(to_condition(condition));
+    }
+  }
   fill_limits(profile, axis);
   if (state.scale) {
     axis.set_per_pulse(to_string(state.scale->per_pulse));
@@ -152,6 +157,15 @@ struct EventFiller {
   void operator()(const stage::ForeignMotion& motion) const {
     for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
   }
+  void operator()(const stage::ConditionChanged& change) const {
+    v1::ConditionChange& proto = *event.mutable_condition();
+    proto.set_condition(to_condition(change.condition));
+    for (const int axis : change.axes.list()) proto.add_axes(axis);
+    proto.set_begun(change.begun);
+    proto.set_value(escaped(change.value));
+    if (change.before != TimePoint{}) *proto.mutable_before_time() = to_proto(record.clock.at(change.before));
+    *proto.mutable_seen_time() = to_proto(record.clock.at(change.seen));
+  }
   void operator()(const stage::SwitchesChanged& change) const {
     v1::SwitchesChanged& switches = *event.mutable_switches_changed();
     switches.set_who(change.who);
@@ -216,6 +230,12 @@ void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto) {
   proto.set_target(static_cast<v1::Trigger::Target>(static_cast<int>(trigger.target) + 1));
   proto.set_axis(trigger.axis);
   proto.set_interval(trigger.interval);
+}
+
+v1::Condition to_condition(stage::Condition condition) {
+  static_assert(static_cast<int>(stage::Condition::unnamed_error) == v1::CONDITION_UNNAMED_ERROR);
+  static_assert(static_cast<int>(stage::Condition::format) == v1::CONDITION_FORMAT);
+  return static_cast<v1::Condition>(static_cast<int>(condition));
 }
 
 google::protobuf::Timestamp to_proto(server::WallTime time) {

@@ -34,6 +34,8 @@ v1::Motion to_proto(const api::CurrentMotion& motion);
 
 v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
 
+v1::Condition to_condition(stage::Condition condition);
+
 v1::Event to_proto(const server::FactRecord& record);
 
 v1::DeviceStop to_proto(const api::DeviceStop& stop);

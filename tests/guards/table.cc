@@ -133,6 +133,8 @@ constexpr Row kTable[] = {
              "Hazard.H31_UnpluggedInMidMove"),
     by_tests(Guard::foreign_motion_reported, "foreign-motion-reported", "what moves unasked is said to",
              "Hazard.H30_AGatewayThatStartsUnderAMotion"),
+    by_tests(Guard::conditions_seen_twice, "conditions-seen-twice", "one flipped bit of a status is no event",
+             "Hazard.H61_AFlippedBitIsNoEvent"),
     by_tests(Guard::one_home_an_axis, "one-home-an-axis", "an origin return under way is not begun again",
              "Hazard.H06_HomeTwice"),
     by_tests(Guard::stop_lane, "stop-lane", "a stop goes before all that waits",

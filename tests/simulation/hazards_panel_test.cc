@@ -107,9 +107,11 @@ TEST(Hazard, H17_AnUnreadablePositionAsksForNoReason) {
   ASSERT_TRUE(world.run_until_up()) << world.replay();
   move_by(world, {{1, 500000}});
   world.run_for(seconds(1));
-  const auto asked = [&world] { return written(world, "?:C") - written(world, "?:CMD"); };
-  const int before = asked();
-  int stationary = 0;
+  int asked = 0, stationary = 0;
+  world.on_news = [&asked](const Event& event) {
+    const auto* ended = std::get_if<ExchangeEnded>(&event);
+    if (ended != nullptr && ended->line == "?:C" && ended->who == "tester") ++asked;  // the gateway polls it, too
+  };
   world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
     if (kind != LineKind::reply || line.find(",R,R,R") == line.npos) return {};
     return {.drop = ++stationary == 2, .delay = {}, .instead = {}};
@@ -117,7 +119,7 @@ TEST(Hazard, H17_AnUnreadablePositionAsksForNoReason) {
   world.device().set_excitation(1, false, world.now());
   EXPECT_EQ(outcome_of(world, 1).state, MotionState::failed) << world.replay();
   EXPECT_GT(stationary, 2);
-  EXPECT_EQ(asked() - before, 1) << world.replay();
+  EXPECT_EQ(asked, 1) << world.replay();
 }
 
 struct Panel {

@@ -10,6 +10,23 @@ namespace {
 using namespace shrc203;
 using std::chrono::seconds;
 
+// The poll of the motors: ?:C itself, not ?:CMD.
+int motor_questions(World& world, std::size_t first) {
+  return written(world, "?:C", first) - written(world, "?:CMD", first);
+}
+
+// An idle poll is ?:CMD, since a pause has come before it, then the positions and the motors, and no more.
+TEST(QuietLine, ExchangesOfAnIdlePoll) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.run_for(seconds(5));
+  const std::size_t first = world.wire().commands().size();
+  world.run_for(seconds(60));
+  EXPECT_GE(written(world, "Q:SPC", first), 57) << world.replay();
+  EXPECT_GE(motor_questions(world, first), 57) << world.replay();
+  EXPECT_LE(world.wire().commands().size() - first, 180u) << world.replay();
+}
+
 TEST(QuietLine, HandshakeComesUp) {
   World world(quiet());
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -42,9 +59,11 @@ TEST(QuietLine, ManyMovesTakeHardlyMoreThanThreeExchangesEach) {
   const TimePoint begun = world.now();
   for (int i = 0; i < kMoves; ++i) moved(world, {{1, i % 2 ? 1000 : -1000}});
   const double questions = written(world, "Q:SPC", first);
-  const double all = static_cast<double>(world.wire().commands().size() - first);
+  const double motors = motor_questions(world, first);
+  const double all = static_cast<double>(world.wire().commands().size() - first) - motors;
   EXPECT_LE(questions / kMoves, 1.1) << world.replay();
   EXPECT_LE(all / kMoves, 3.1) << world.replay();
+  EXPECT_LE(motors, (world.now() - begun) / seconds(1) + 1) << world.replay();
   // 94 ms of ramps, settling, and three exchanges at 38400 baud.
   EXPECT_LE((world.now() - begun) / kMoves, std::chrono::milliseconds(160)) << world.replay();
 }

@@ -166,6 +166,22 @@ TEST(FactText, AJobOfAMill) {
   EXPECT_FALSE(plain.sending);
 }
 
+TEST(FactText, ConditionsOfAStage) {
+  const auto change = read_again(stage::ConditionChanged{.condition = stage::Condition::mode,
+                                                         .axes = stage::AxisSet::of(2),
+                                                         .begun = false,
+                                                         .value = "HOST",
+                                                         .before = TimePoint(nanoseconds(1'000'000'001)),
+                                                         .seen = TimePoint(nanoseconds(2'000'000'002))});
+  EXPECT_EQ(change.condition, stage::Condition::mode);
+  EXPECT_EQ(change.axes, stage::AxisSet::of(2));
+  EXPECT_FALSE(change.begun);
+  EXPECT_EQ(change.value, "HOST");
+  EXPECT_EQ(change.before, TimePoint(nanoseconds(1'000'000'001)));
+  EXPECT_EQ(change.seen, TimePoint(nanoseconds(2'000'000'002)));
+  EXPECT_EQ(read_again(stage::ConditionChanged{}).before, TimePoint{});
+}
+
 TEST(FactText, SwitchesAndPrograms) {
   const auto change = read_again(stage::SwitchesChanged{"unix anna", {{3, 1, "0", "1"}, {8, 0, "a\"b", ""}}, true});
   EXPECT_EQ(change.who, "unix anna");

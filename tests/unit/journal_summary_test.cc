@@ -97,6 +97,26 @@ TEST_F(SummaryTest, NothingHappenedInAnEmptyJournal) {
   EXPECT_THAT(summary.starts.items, IsEmpty());
 }
 
+TEST_F(SummaryTest, WhatChangedAtAStageIsListed) {
+  const auto body = [](std::string text) {
+    return Entry{.kind = EntryKind::condition_changed, .time = kEvening + hours(1), .device = "stage", .body = text};
+  };
+  write({body(R"({"axes":[1,3],"before_us":1000000,"begun":true,"condition":"emergency_stop","seen_us":2000000})"),
+         body(R"({"axes":[],"begun":false,"condition":"mode","seen_us":3000000,"value":"HOST"})"), body("damaged")});
+  const Summary summary = night();
+  ASSERT_EQ(summary.conditions.items.size(), 2u);
+  const ConditionSummary &emergency = summary.conditions.items[0], &mode = summary.conditions.items[1];
+  EXPECT_EQ(emergency.device, "stage");
+  EXPECT_EQ(emergency.condition, "emergency_stop");
+  EXPECT_THAT(emergency.axes, ElementsAre(1, 3));
+  EXPECT_TRUE(emergency.begun);
+  EXPECT_EQ(emergency.before, WallTime(seconds(1)));
+  EXPECT_EQ(emergency.seen, WallTime(seconds(2)));
+  EXPECT_FALSE(mode.begun || mode.before);
+  EXPECT_EQ(mode.value, "HOST");
+  EXPECT_THAT(summary.persons.items, IsEmpty());
+}
+
 TEST_F(SummaryTest, OneIdentityIsSummedUpWithWhatIsNobodys) {
   write({daemon(kEvening, EntryKind::daemon_started), ended(kEvening + hours(1), "unix anna", "move", "SUCCEEDED"),
          ended(kEvening + hours(2), "unix bert", "move", "SUCCEEDED"), stop(kEvening + hours(3), "unix bert"),

@@ -259,6 +259,20 @@ TEST_F(DeviceEntriesTest, StopsTheLinkAndWhatNobodyAskedFor) {
                                    R"("number":2}],"unknown":false})"));
 }
 
+TEST_F(DeviceEntriesTest, ConditionsHaveTheTimesOfTheirReadings) {
+  const TimePoint seen = monotonic_now(), before = seen - std::chrono::seconds(1);
+  const auto entries = left_by(
+      {stage::ConditionChanged{
+           .condition = stage::Condition::cw_limit, .axes = stage::AxisSet::of(2), .before = before, .seen = seen},
+       stage::ConditionChanged{.condition = stage::Condition::mode, .begun = false, .value = "HOST", .seen = seen}});
+  EXPECT_THAT(entries,
+              testing::ElementsAre(
+                  testing::MatchesRegex(R"(condition changed\|\|\{"axes":\[2\],"before_us":[0-9]+,"begun":true,)"
+                                        R"("condition":"cw_limit","seen_us":[0-9]+\})"),
+                  testing::MatchesRegex(R"(condition changed\|\|\{"axes":\[\],"begun":false,)"
+                                        R"("condition":"mode","seen_us":[0-9]+,"value":"HOST"\})")));
+}
+
 TEST_F(DeviceEntriesTest, WhatPassesEachMomentIsLeftToTheRecording) {
   EXPECT_THAT(left_by({stage::StateChanged{}, stage::ProgramNotice{}, stage::CompletionSeen{1, 1}}),
               testing::IsEmpty());

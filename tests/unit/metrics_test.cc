@@ -93,6 +93,18 @@ TEST_F(MetricsTest, CompletionsUnderrunsBarriersStopsAndStrangeLinesAreCounted) 
   EXPECT_THAT(text, HasSubstr("axisgate_stops_total{device=\"stage\",kind=\"normal\"} 0\n"));
 }
 
+TEST_F(MetricsTest, ConditionsCountAsTheyBegin) {
+  stage::ConditionChanged change{.condition = stage::Condition::emergency_stop, .axes = stage::AxisSet::all()};
+  EXPECT_THAT(page(), HasSubstr("axisgate_conditions_total{condition=\"emergency_stop\",device=\"stage\"} 0\n"));
+  device_.on_event(change);
+  change.begun = false;
+  device_.on_event(change);
+  const std::string text = page();
+  EXPECT_THAT(text, HasSubstr("axisgate_conditions_total{condition=\"emergency_stop\",device=\"stage\"} 1\n"));
+  EXPECT_THAT(text, HasSubstr("axisgate_conditions_total{condition=\"motor_off\",device=\"stage\"} 0\n"));
+  EXPECT_THAT(text, Not(HasSubstr("origin_sensor")));
+}
+
 TEST_F(MetricsTest, StateShowsPositionsTheLinkAndTheQueues) {
   EXPECT_THAT(page(), Not(HasSubstr("axisgate_position_pulses{")));
   stage::State state;
@@ -133,6 +145,7 @@ TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
       {"axisgate_barriers_total", {"device"}},
       {"axisgate_build_info", {"compiler", "version"}},
       {"axisgate_completions_total", {"axis", "device"}},
+      {"axisgate_conditions_total", {"condition", "device"}},
       {"axisgate_line_busy_seconds_total", {"device"}},
       {"axisgate_line_bytes_total", {"device", "direction"}},
       {"axisgate_link_up", {"device"}},

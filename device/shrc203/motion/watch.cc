@@ -115,7 +115,7 @@ Duration Watch::pause_after(const LiveMotion& live, Seen& seen, bool hinted) con
 Duration Watch::pause_on_the_way(const LiveMotion& live) const {
   const Duration moving_poll = store_.profile().moving_poll;
   if (store_.followed() || !live.motion.due || live.life.stop_asked()) return moving_poll;
-  const Duration longest = std::max(moving_poll, kUnfollowedPoll);
+  const Duration longest = std::max(moving_poll, std::min(kUnfollowedPoll, store_.profile().idle_poll));
   return std::clamp(*live.motion.due + moving_poll - tasks_.now(), moving_poll, longest);
 }
 

@@ -31,11 +31,31 @@ Task<void> Polling::poll() {
   while (true) {
     auto wait = motions_.pace_changed().wait_until(tasks_.now() + interval());
     co_await wait;
-    if (store_.state().link != LinkState::up || non_host_.away() || watched_()) continue;
-    if (tasks_.now() - store_.state().read < interval()) continue;  // somebody has just asked
-    const auto read = co_await reader_.read_positions(Lane::poll, kGateway);
+    if (store_.state().link != LinkState::up || non_host_.away()) continue;
+    bool read = true;
+    for (int attempt = 0; read && attempt < kReadingsOfAChange && positions_due(); ++attempt) {
+      const auto positions = co_await reader_.read_positions(Lane::poll, kGateway);
+      read = positions.has_value();
+    }
+    for (int attempt = 0; read && attempt < kReadingsOfAChange && excitation_due(); ++attempt) {
+      const auto excitation = co_await reader_.read_excitation(kGateway, Lane::poll);
+      read = excitation.has_value();
+    }
     if (!read) store_.publish();
   }
+}
+
+// False if somebody has just asked, unless that reading showed a change that a second one must confirm.
+bool Polling::positions_due() const {
+  if (store_.conditions().status_doubtful()) return true;
+  return !watched_() && tasks_.now() - store_.state().read >= interval();
+}
+
+// No position shows that a motor was switched off at the front panel while its axis was stationary.
+bool Polling::excitation_due() const {
+  if (!reader_.may_poll_excitation()) return false;
+  const Duration age = tasks_.now() - store_.conditions().motors_last_read();
+  return store_.conditions().motors_doubtful() || age >= store_.profile().idle_poll;
 }
 
 Task<void> Polling::read_for(Duration max_age, RequestContext context, StageController::OnState done) {

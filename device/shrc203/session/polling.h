@@ -25,6 +25,8 @@ class Polling {
  private:
   Duration interval() const;
   Task<void> poll();
+  bool positions_due() const;
+  bool excitation_due() const;
   Task<void> read_for(Duration max_age, RequestContext context, StageController::OnState done);
   bool is_fresh(Duration max_age) const;
   Task<void> join(Duration max_age);

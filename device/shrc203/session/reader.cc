@@ -132,16 +132,18 @@ Task<Result<void>> Reader::read_origin_speeds(std::string caller) {
 }
 
 // The front panel and an emergency stop switch motors too, so what is known is asked again where it matters.
-Task<Result<void>> Reader::read_excitation(std::string caller) {
-  const auto result = co_await dialogue_.ask(Dialogue::Question::excitation, Lane::motion, std::move(caller));
+Task<Result<void>> Reader::read_excitation(std::string caller, Lane lane) {
+  const auto result = co_await dialogue_.ask(Dialogue::Question::excitation, lane, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
   if (result.reply->kind != Reply::Kind::data)
     co_return tl::unexpected(unreadable(Dialogue::Question::excitation, result));
-  for (const auto& [axis, field] : by_axis(*result.reply, store_.controllable())) {
-    store_.note_excited(axis, field == "1");
-  }
+  store_.note_excitation(by_axis(*result.reply, store_.controllable()));
   store_.publish();
   co_return Result<void>();
+}
+
+bool Reader::may_poll_excitation() const {
+  return store_.controllable().count() > 1 || line_.completions().possible().empty();
 }
 
 Task<Result<void>> Reader::read_outputs(std::string caller) {

@@ -36,7 +36,10 @@ class Reader {
   // After S: (manual 55)). Twice, since everything hangs on it.
   Task<Result<void>> read_scales(std::string caller);
   // The front panel and an emergency stop switch motors, too.
-  Task<Result<void>> read_excitation(std::string caller);
+  Task<Result<void>> read_excitation(std::string caller, Lane lane = Lane::motion);
+  // False while the answer of a controller with one axis could be a completion, so that the question would keep
+  // motions out.
+  bool may_poll_excitation() const;
   Task<Result<void>> read_outputs(std::string caller);
   Task<Result<void>> read_trigger(std::string caller);
   // The speeds of those axes, read where they are not known. Also line_fault.

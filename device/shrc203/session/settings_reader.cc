@@ -71,6 +71,7 @@ bool SettingsReader::take_of_axes(const Answers& answers, AxisSet controllable) 
   }
   const auto origins = is_data(answers.origin_speeds) ? by_axis(*answers.origin_speeds.reply, controllable)
                                                       : std::map<int, std::string>();
+  store_.note_excitation(excited);
   for (const int axis : controllable.list()) {
     const auto per_pulse = parse_decimal(scales.at(axis));
     const auto speed = parse_speed_setting(speeds.at(axis));
@@ -79,7 +80,6 @@ bool SettingsReader::take_of_axes(const Answers& answers, AxisSet controllable) 
     store_.note_scale(axis, Scale{*per_pulse, rotary});
     store_.note_speeds({{axis, *speed}});
     store_.note_origin_speeds(axis, origins.contains(axis) ? parse_speed_setting(origins.at(axis)) : std::nullopt);
-    store_.note_excited(axis, excited.at(axis) == "1");
     store_.note_armed(AxisSet::of(axis), false);
   }
   return true;

@@ -62,6 +62,30 @@ void StateStore::identified(const Identity& identity) {
   state_.firmware = identity.firmware;
 }
 
+void StateStore::emit_all(const Conditions::Changes& changes) {
+  for (const ConditionChanged& change : changes) emit(change);
+}
+
+void StateStore::note_mode(std::string mode) {
+  state_.mode = std::move(mode);
+  emit_all(conditions_.mode_read(state_.mode, tasks_.now()));
+}
+
+void StateStore::note_format(std::string format) {
+  state_.format = std::move(format);
+  if (!state_.format.empty()) emit_all(conditions_.format_read(state_.format, tasks_.now()));
+}
+
+void StateStore::note_excitation(const std::map<int, std::string>& fields) {
+  Conditions::ByAxis off;
+  for (const auto& [axis, field] : fields) {
+    const bool excited = field == "1";
+    state_.axis(axis).excited = excited;
+    off[axis] = excited ? 0 : bit_of(stage::Condition::motor_off);
+  }
+  if (!off.empty()) emit_all(conditions_.motors_read(off, tasks_.now()));
+}
+
 void StateStore::note_controllable(AxisSet axes) {
   for (const int number : AxisSet::all().list()) state_.axis(number).controllable = axes.has(number);
 }
@@ -89,6 +113,7 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
   const auto readings = parse_positions(reply, controllable());
   if (!readings) return std::nullopt;
   Read read;
+  Conditions::ByAxis shown;
   for (const int number : AxisSet::all().list()) {
     const auto& reading = (*readings)[static_cast<std::size_t>(number - 1)];
     auto& axis = state_.axis(number);
@@ -96,9 +121,12 @@ std::optional<StateStore::Read> StateStore::note_positions(const Reply& reply) {
     axis.position_pulses = reading.pulses;
     axis.status = reading.status;
     axis.busy = reading.busy;
+    shown[number] = stage::conditions_in(reading.status.raw);
     (reading.busy ? read.busy : read.ready).add(number);
   }
   state_.read = tasks_.now();
+  emit_all(conditions_.status_read(shown, tasks_.now()));
+  emit_all(conditions_.mode_read("HOST", tasks_.now()));
   if (read.busy.empty()) state_.moving_unknown = false;
   return read;
 }

@@ -17,6 +17,7 @@
 #include "device/shrc203/planning/plan.h"
 #include "device/shrc203/profile.h"
 #include "device/shrc203/stage.h"
+#include "device/shrc203/state/conditions.h"
 #include "device/stage/envelope.h"
 
 namespace axisgate::shrc203 {
@@ -65,8 +66,8 @@ class StateStore {
   // The serial number that must answer: the configured one, or that of the unit before; empty: any.
   const std::string& expected_unit() const { return profile_.serial_number.empty() ? unit_ : profile_.serial_number; }
   bool is_expected(const Identity& identity) const;
-  void note_mode(std::string mode) { state_.mode = std::move(mode); }
-  void note_format(std::string format) { state_.format = std::move(format); }
+  void note_mode(std::string mode);
+  void note_format(std::string format);
   void note_controllable(AxisSet axes);
   // The handshake has passed. What this answers is the device epoch.
   std::uint64_t begin_epoch();
@@ -84,7 +85,8 @@ class StateStore {
   // Started by the run before this one, and not seen to be stationary yet: nothing foreign.
   void note_left_moving(AxisSet axes) { left_moving_ = axes; }
   AxisSet left_moving() const { return left_moving_; }
-  void note_excited(int axis, bool excited) { state_.axis(axis).excited = excited; }
+  // By axis, as ?:C is answered (manual 33)).
+  void note_excitation(const std::map<int, std::string>& fields);
   void note_outputs(std::optional<int> outputs) { state_.outputs = outputs; }
   void note_trigger(std::optional<Trigger> trigger) { state_.trigger = std::move(trigger); }
   void note_armed(AxisSet axes, bool armed);
@@ -107,6 +109,9 @@ class StateStore {
     return origin_speeds(axes).size() == static_cast<std::size_t>(axes.count());
   }
 
+  // What has changed at the stage; its changes are emitted with the reading that shows them.
+  const Conditions& conditions() const { return conditions_; }
+
   // The last reading was READY, and nothing has happened since.
   bool settled() const { return settled_; }
   void settle() { settled_ = true; }
@@ -114,11 +119,13 @@ class StateStore {
 
  private:
   std::string remedy() const;
+  void emit_all(const Conditions::Changes& changes);
 
   const Profile& profile_;
   EventSink& events_;
   const Tasks& tasks_;
   State state_;
+  Conditions conditions_;
   std::string unit_;
   std::string reported_scales_;
   LinkTrouble trouble_ = LinkTrouble::none;
