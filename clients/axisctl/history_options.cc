@@ -43,6 +43,11 @@ void add_motions(CLI::App& app, Options& options) {
   motions->add_flag("--all", options.all, "all motions that the daemon has: the 1,000 newest");
   CLI::App* cancel = add_verb(app, options, Verb::cancel, "cancel", "stop one motion, or drop it if it waits");
   cancel->add_option("MOTION", options.name, "its number, as `axisctl motions` shows it")->required()->type_name("");
+  add_verb(app, options, Verb::withdraw, "withdraw",
+           "for administrators: abandon an open stop, whose controller will never answer again")
+      ->add_option("STOP", options.open_stop, "its number, as `axisctl status` shows it")
+      ->required()
+      ->type_name("");
 }
 
 }  // namespace

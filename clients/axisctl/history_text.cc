@@ -98,6 +98,12 @@ std::string job_entry_text(const Json& details, const std::string& because) {
                      because);
 }
 
+std::string stop_text(const Json& details) {
+  const std::int64_t count = details.value("count", std::int64_t{1});
+  return fmt::format("{} of {}{}", details.value("emergency", false) ? "emergency stop" : "stop", axes_text(details),
+                     count > 1 ? fmt::format(", {} times while nothing moved", count) : "");
+}
+
 std::string stop_end_text(const Json& details) {
   const std::string title = fmt::format("{} {} of {}", details.value("emergency", false) ? "emergency stop" : "stop",
                                         details.value("stop", std::uint64_t{}), axes_text(details));
@@ -151,7 +157,7 @@ std::string text_of(const v1::HistoryEntry& entry) {
     case v1::HISTORY_KIND_MOTION_ENDED:
       return motion_text(entry, details);
     case v1::HISTORY_KIND_STOP_REQUESTED:
-      return fmt::format("{} of {}", details.value("emergency", false) ? "emergency stop" : "stop", axes_text(details));
+      return stop_text(details);
     case v1::HISTORY_KIND_STOP_ENDED:
       return stop_end_text(details);
     case v1::HISTORY_KIND_EMERGENCY_LATCHED:

@@ -118,7 +118,7 @@ std::string stop_text(const v1::StopSummary& stop, const NightClock& clock) {
 }
 
 std::string late_text(const v1::LateStop& stop, const NightClock& clock) {
-  return fmt::format("{} of {} by {} {} at {}, {} after it was asked for", stop.emergency() ? "emergency stop" : "stop",
+  return fmt::format("{} of {} by {} {} at {}, {} after it was requested", stop.emergency() ? "emergency stop" : "stop",
                      last_part(stop.device()), stop.who().empty() ? "an unknown caller" : stop.who(),
                      stop.confirmed() ? "confirmed" : "withdrawn, and never confirmed,", clock.text(stop.time()),
                      duration_text(stop.after()));

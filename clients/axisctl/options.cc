@@ -136,11 +136,6 @@ void add_motion_verbs(CLI::App& app, Options& options) {
   add_axes(*add_verb(app, options, Verb::stop, "stop", "slow down and stop axes, also those that others move"),
            options);
   add_verb(app, options, Verb::estop, "estop", "emergency stop: stop all axes at once; no motion until `clear`");
-  add_verb(app, options, Verb::withdraw, "withdraw",
-           "for administrators: give up an open stop, whose controller will never answer again")
-      ->add_option("STOP", options.number, "its number, as `axisctl status` shows it")
-      ->required()
-      ->type_name("");
   add_verb(app, options, Verb::rearm, "rearm",
            "after a stop by somebody else: allow your motions again; moves nothing");
 }

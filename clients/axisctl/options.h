@@ -177,6 +177,7 @@ struct Options {
   int days = 90;                               // token create: until it expires
   std::string who;                             // history, audit erase, mill clear: whose
   std::optional<std::uint64_t> motion;         // history: of this motion only
+  std::uint64_t open_stop = 0;                 // withdraw: its number
   std::optional<int> hours;                    // history: of the last hours only
   std::string outcome, text;                   // history: of motions that ended so; with this in the details
   int limit = 100;                             // history: lines at most

@@ -59,8 +59,9 @@ std::string describe_stop(const v1::StopRequested& stop) {
   if (stop.axes().empty()) {
     return fmt::format("abort requested by {}", stop.who().empty() ? "an unknown caller" : stop.who());
   }
-  return fmt::format("{} of axes {} requested by {}", stop.emergency() ? "emergency stop" : "stop",
-                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who());
+  return fmt::format("{} of axes {} requested by {}{}", stop.emergency() ? "emergency stop" : "stop",
+                     fmt::join(stop.axes(), ", "), stop.who().empty() ? "an unknown caller" : stop.who(),
+                     stop.count() > 1 ? fmt::format(", {} times while nothing moved", stop.count()) : "");
 }
 
 std::string axes_text(const google::protobuf::RepeatedField<std::int32_t>& axes) {

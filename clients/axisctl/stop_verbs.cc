@@ -124,13 +124,13 @@ int emergency_stop(const Session& session) {
 int withdraw_stop(const Session& session) {
   v1::WithdrawStopRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_name(fmt::format("{}/stops/{}", chosen_device(session).name(), *session.options.number));
+  request.set_name(fmt::format("{}/stops/{}", chosen_device(session).name(), session.options.open_stop));
   const v1::WithdrawStopResponse response = session.connection.call(
       session.connection.devices, &v1::DeviceService::Stub::WithdrawStop, request, kQuestionLimit);
   if (session.options.json) {
     print_json(response);
   } else {
-    print_line(fmt::format("withdrawn: stop {}; nobody has seen its axes obey it", *session.options.number));
+    print_line(fmt::format("withdrawn: stop {}; nobody has seen its axes obey it", session.options.open_stop));
   }
   return kDone;
 }

@@ -47,6 +47,8 @@ struct StopRequested {
   AxisSet axes;
   bool emergency = false;
   std::string who;
+  bool moved = false;      // something moved, or waited to
+  std::int64_t count = 1;  // identical stops by the same caller since the last of these events
 };
 
 // A stop is in another state, or has another caller. A fact once it is not open any more; before that for its record.

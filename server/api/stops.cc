@@ -57,7 +57,6 @@ void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shar
   mill.post([&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
     const bool job_ran = controller.running_job() != 0;
     const bool sent = controller.abort(context, now);
-    spdlog::warn("{}: stop by {}", mill.name(), escaped(context.who));
     gathering->add(index, report_of_abort(mill, job_ran, sent), {});
   });
 }

@@ -50,8 +50,30 @@ void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
   recorder_.on_event(event, now);
   if (keepers_.motions != nullptr) keepers_.motions->on_event(event);
   if (keepers_.stops != nullptr) keepers_.stops->on_event(event);
+  if (const auto* stop = std::get_if<stage::StopRequested>(&event)) {
+    for (const stage::StopRequested& reported : repeated_stops_.add(*stop, now)) keep_and_tell(reported, now);
+    return;
+  }
+  for (const stage::StopRequested& count : repeated_stops_.ended(now)) keep_and_tell(count, now);
+  if (!is_folded(event)) keep_and_tell(event, now);
+}
+
+void DeviceEvents::keep_and_tell(const stage::Event& event, TimePoint now) {
   if (keepers_.entries != nullptr) keepers_.entries->on_event(event, now);
   std::visit([&](const auto& what) { tell(what, now); }, event);
+}
+
+// The lines of a folded stop, and its end.
+bool DeviceEvents::is_folded(const stage::Event& event) const {
+  if (const auto* written = std::get_if<stage::BytesWritten>(&event)) {
+    return written->lane == Lane::stop && repeated_stops_.folds(written->who);
+  }
+  if (const auto* ended = std::get_if<stage::ExchangeEnded>(&event)) {
+    return ended->lane == Lane::stop && repeated_stops_.folds(ended->who);
+  }
+  const auto* change = std::get_if<stage::StopChanged>(&event);
+  if (change == nullptr || change->stop.late || change->stop.callers.size() != 1) return false;
+  return repeated_stops_.folds(change->stop.callers.front());
 }
 
 std::uint64_t DeviceEvents::motion_revision(stage::MotionId motion) const {
@@ -87,11 +109,11 @@ void DeviceEvents::tell(const stage::LinkChanged& change, TimePoint now) {
 
 void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
   publish(stop, now);
-  spdlog::warn("{}: {} of {} asked by {}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
-               escaped(stop.who));
+  spdlog::warn("{}: {} of {} asked by {}{}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
+               escaped(stop.who), stop.count > 1 ? fmt::format(", {} times while nothing moved", stop.count) : "");
 }
 
-// A stop that everybody expects to be obeyed is no news before it is; one that stays open is.
+// An open stop is reported only if it is late: everybody expects the others to be obeyed.
 void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
   const stage::Stop& stop = change.stop;
   const bool open = is_open(stop.state);

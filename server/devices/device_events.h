@@ -9,6 +9,7 @@
 
 #include "device/stage/event.h"
 #include "server/devices/motion_record.h"
+#include "server/devices/repeated_stops.h"
 #include "server/devices/stop_record.h"
 #include "server/events/event_bus.h"
 #include "server/events/newest.h"
@@ -75,6 +76,8 @@ class DeviceEvents : public stage::EventSink {
   void tell(const stage::ExchangeEnded&, TimePoint) { due_(Due::queues); }
   void tell(const stage::StateChanged&, TimePoint) { due_(Due::state); }
 
+  void keep_and_tell(const stage::Event& event, TimePoint now);
+  bool is_folded(const stage::Event& event) const;
   void publish(Fact fact, TimePoint now);
 
   const std::string device_;
@@ -85,6 +88,7 @@ class DeviceEvents : public stage::EventSink {
   const OnDue due_;
   const Keepers keepers_;
   std::map<stage::MotionId, Known> motions_;
+  RepeatedStops repeated_stops_;
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.

@@ -140,10 +140,13 @@ void Mill::written(std::string_view bytes, rml1::JobNumber job) {
 }
 
 void Mill::abort_requested(std::string_view by, TimePoint now) {
-  const stage::StopRequested stop{.axes = {}, .who = std::string(by)};
-  spdlog::warn("{}: abort requested by {}", name(), by);
   metrics_.count_abort();
-  publish_fact(stop, now);
+  const bool runs = controller_.running_job() != 0;
+  for (const auto& stop : repeated_stops_.add({.axes = {}, .who = std::string(by), .moved = runs}, now)) {
+    spdlog::warn("{}: abort requested by {}{}", name(), stop.who,
+                 stop.count > 1 ? fmt::format(", {} times while no job ran", stop.count) : "");
+    publish_fact(stop, now);
+  }
 }
 
 void Mill::after_call() {

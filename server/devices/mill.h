@@ -13,6 +13,7 @@
 #include "server/config/config.h"
 #include "server/devices/device.h"
 #include "server/devices/job_record.h"
+#include "server/devices/repeated_stops.h"
 #include "server/events/event_bus.h"
 #include "server/events/newest.h"
 #include "server/events/wall_time.h"
@@ -98,6 +99,7 @@ class Mill final : public Device, private rml1::MillEvents {
   Newest<MillNow> newest_;
   MillMetrics metrics_;
   rml1::MillController controller_;
+  RepeatedStops repeated_stops_;
   bool changed_ = true;                     // since publish()
   std::optional<stage::LinkChanged> link_;  // a line that stays closed is tried again and again
   std::optional<rml1::Job> ended_;          // as MillNow::ended

@@ -134,7 +134,7 @@ void MotionRecord::note(const stage::MotionChanged& change) {
   }
   if (stage::is_outcome(motion.state)) {
     motions_.erase(motion.id);
-    // Nobody has seen its axes come to rest.
+    // Nobody has seen its axes stop.
     if (motion.state == stage::MotionState::unknown && motion.written) left_moving_[motion.id] = motion;
   } else {
     motions_.insert_or_assign(motion.id, motion);

@@ -17,7 +17,7 @@ using std::chrono::microseconds;
 constexpr std::size_t kNameMax = 160;
 constexpr int kFormat = 1;
 
-// Times are of the calendar: a boot of the machine begins the other clock anew.
+// Times are of the calendar: a boot of the machine begins the other clock again.
 std::int64_t to_file(TimePoint time) {
   return std::chrono::duration_cast<microseconds>(to_wall(time).time_since_epoch()).count();
 }
@@ -46,7 +46,7 @@ Stop stop_in(const Json& json) {
   stop.callers = json.at("callers").get<std::vector<std::string>>();
   stop.serial_number = json.at("serial_number");
   stop.asked = from_file(json.at("asked"));
-  stop.late = true;  // whoever asked has heard nothing better
+  stop.late = true;  // the caller who asked has heard nothing better
   return stop;
 }
 

@@ -67,7 +67,9 @@ std::optional<Noted> said(const stage::MotionChanged& change) {
 }
 
 std::optional<Noted> said(const stage::StopRequested& stop) {
-  return Noted{EntryKind::stop_requested, {{"axes", axes_of(stop.axes)}, {"emergency", stop.emergency}}, stop.who};
+  Json body{{"axes", axes_of(stop.axes)}, {"emergency", stop.emergency}};
+  if (stop.count > 1) body["count"] = stop.count;
+  return Noted{EntryKind::stop_requested, std::move(body), stop.who};
 }
 
 // A replaced stop ends with the one that replaced it.

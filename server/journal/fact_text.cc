@@ -103,10 +103,13 @@ template <>
 struct Form<stage::StopRequested> {
   static constexpr const char* key = "stop";
   static Json write(const stage::StopRequested& stop) {
-    return {{"axes", stop.axes.list()}, {"emergency", stop.emergency}, {"who", stop.who}};
+    return {{"axes", stop.axes.list()}, {"emergency", stop.emergency}, {"who", stop.who}, {"count", stop.count}};
   }
   static stage::StopRequested read(const Json& json) {
-    return {.axes = axes_in(json.at("axes")), .emergency = json.at("emergency"), .who = json.at("who")};
+    return {.axes = axes_in(json.at("axes")),
+            .emergency = json.at("emergency"),
+            .who = json.at("who"),
+            .count = json.value("count", std::int64_t{1})};
   }
 };
 
@@ -129,7 +132,7 @@ struct Form<stage::StopChanged> {
             {"withdrawn_by", stop.withdrawn_by},
             {"came_to", std::move(places)}};
   }
-  // Its times are those since it was asked for.
+  // Its times are those since it was requested.
   static stage::StopChanged read(const Json& json) {
     stage::Stop stop;
     stop.id = json.at("id");

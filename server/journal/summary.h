@@ -38,12 +38,12 @@ struct StopSummary {
   bool emergency = false;
 };
 
-// A stop of which a caller was told that it stays open.
+// A stop of which a caller was reported that it stays open.
 struct LateStop {
   WallTime time;  // when it ended
   std::string who, device;
   bool emergency = false;
-  Duration after{};        // since it was asked for
+  Duration after{};        // since it was requested
   bool confirmed = false;  // false: withdrawn
 };
 

@@ -67,7 +67,7 @@ struct StageMetrics::Families {
         stops(counter_family(registry, "axisgate_stops_total",
                              "Stops requested: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
         open_stops(gauge_family(registry, "axisgate_open_stops",
-                                "Stops that nobody has seen the axes obey; late: and somebody was told so.")),
+                                "Stops that nobody has seen the axes obey; late: and somebody was reported so.")),
         stop_seconds(prometheus::BuildHistogram()
                          .Name("axisgate_stop_confirmed_seconds")
                          .Help("Time from asking for a stop until its axes were seen stationary.")

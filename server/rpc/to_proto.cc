@@ -187,6 +187,7 @@ struct EventFiller {
     for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
     event.mutable_stop_requested()->set_emergency(stop.emergency);
     event.mutable_stop_requested()->set_who(stop.who);
+    event.mutable_stop_requested()->set_count(stop.count);
   }
   void operator()(const stage::StopChanged& change) const {
     const stage::Stop& stop = change.stop;

@@ -238,7 +238,7 @@ void Callers::become_stationary() {
   world_.set_faults(Faults::none());
   mishaps_.undo_all();
   world_.run_for(seconds(2));  // the last mishap may have been a restart, during which nothing is answered
-  const auto at_rest = [this] {
+  const auto stationary = [this] {
     for (const Motion& motion : world_.controller().motions()) {
       if (!is_outcome(motion.state)) return false;
     }
@@ -246,8 +246,8 @@ void Callers::become_stationary() {
   };
   // A wrong bit may have made of a speed another that is as good, only slower: what really moves is no fault.
   const auto moves = [this] { return world_.device().busy(1) || world_.device().busy(2) || world_.device().busy(3); };
-  bool rests = world_.run_until(at_rest, seconds(120));
-  for (int minute = 0; minute < 60 && !rests && moves(); ++minute) rests = world_.run_until(at_rest, seconds(60));
+  bool rests = world_.run_until(stationary, seconds(120));
+  for (int minute = 0; minute < 60 && !rests && moves(); ++minute) rests = world_.run_until(stationary, seconds(60));
   if (!rests && !moves() && world_.violations().empty()) {
     world_.violation("two quiet minutes after the last fault something is still unfinished");
   }
@@ -255,7 +255,7 @@ void Callers::become_stationary() {
     allow_starts(AxisSet::of(1));
     MoveRequest last{{{1, pulses(10), {}}}, true, world_.context("last")};
     world_.controller().move(last, world_.now(), [](Result<Motion>) {});
-    world_.run_until(at_rest, seconds(30));
+    world_.run_until(stationary, seconds(30));
     const bool intact = world_.wire().commands_damaged() == 0;
     if (intact && world_.device().trigger() != "NS") world_.violation("a scan has left its trigger armed");
   }

@@ -63,12 +63,12 @@ TEST_P(HazardH14, StoppedWithASegmentInThePrebuffer) {
     if (!report.problem) {
       moved(world, {{1, 100}});
     } else {
-      move_by(world, {{1, 100}});
-      EXPECT_EQ(reason_of(outcome_of(world, 2)), Reason::stale_setpoint) << world.replay();
+      EXPECT_EQ(refusal_of(world, {{1, 100}}), Reason::stale_setpoint) << world.replay();
       EXPECT_EQ(starts(world), before);
       world.power_cycle();
       ASSERT_TRUE(world.run_until([&] { return world.controller().state().link != LinkState::up; }, seconds(12)));
       ASSERT_TRUE(world.run_until_up()) << world.replay();
+      ASSERT_TRUE(world.run_until([&] { return world.controller().state().open_stops.empty(); }, seconds(5)));
       moved(world, {{1, 100}});
     }
   }

@@ -196,10 +196,7 @@ TEST(Hazard, H20_EmergencyStopLatchesUntilCleared) {
   EXPECT_FALSE(world.device().busy(1));
   EXPECT_NE(outcome_of(world, 1).state, MotionState::succeeded);
 
-  move_by(world, {{2, 1000}});
-  const Motion refused = outcome_of(world, 2);
-  EXPECT_EQ(refused.state, MotionState::failed);
-  EXPECT_EQ(refused.problem->reason, Reason::emergency_stopped) << world.replay();
+  EXPECT_EQ(refusal_of(world, {{2, 1000}}), Reason::emergency_stopped) << world.replay();
   EXPECT_EQ(world.device().starts(2), 0);
 
   EXPECT_EQ(world.controller().state().axis(2).excited, false) << "L:E has switched the motors off, and nobody is told";

@@ -153,9 +153,9 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
       const bool stop = kind == LineKind::reply && world_.wire().commands().back().starts_with("L:");
       if (!stop || done) return {};
       done = true;
+      back_ = world_.now();
       return change;
     });
-    back_ = world_.now();
   }
 
   void fail_and_ask() {
@@ -200,10 +200,9 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
     }
     const bool killed = fault() == Fault::killed || way() == Way::crash;
     if (killed) kill(milliseconds(500));
-    if (way() == Way::at_exit && fault() != Fault::another_unit) {
-      world_.run_until([this] { return ended_; }, seconds(12));
-      kill(milliseconds(500));
-    }
+    if (way() != Way::at_exit) return;
+    world_.run_until([this] { return ended_; }, seconds(12));
+    kill(milliseconds(500));
   }
 
   StateFolder folder_;
@@ -238,9 +237,10 @@ TEST_P(OpenStops, IsTheNextLineWrittenAndIsObeyed) {
     EXPECT_TRUE(next || asked_late) << lines[heard_->lines] << "\n" << world_.replay();
     EXPECT_LE(rest, kDeceleration + 2 * kExchange) << world_.replay();
   }
-  ASSERT_TRUE(world_.run_until([this] { return confirmed_ > 0 && world_.controller().state().open_stops.empty(); },
-                               seconds(60)))
+  ASSERT_TRUE(world_.run_until([this] { return world_.controller().state().open_stops.empty(); }, seconds(60)))
       << world_.replay();
+  const bool asked = way() != Way::crash || moved;  // a unit that was replaced meanwhile has forgotten the motion
+  EXPECT_TRUE(confirmed_ > 0 || !asked) << world_.replay();
   EXPECT_FALSE(moves()) << world_.replay();
   EXPECT_TRUE(world_.violations().empty()) << world_.violations().front() << "\n" << world_.replay();
   fmt::print("| {} | {} | {} | {} | {:.0f} ms |\n", kWays[static_cast<int>(way())], kFaults[static_cast<int>(fault())],

@@ -56,14 +56,14 @@ void Retries::act_for(Duration duration) {
 void Retries::become_stationary() {
   world_.set_faults(Faults::none());
   while (daemon_->disk_hangs()) kill();
-  const auto at_rest = [this] {
+  const auto stationary = [this] {
     const auto motions = world_.controller().motions();
     return world_.controller().state().link == LinkState::up &&
            std::ranges::all_of(motions, [](const Motion& motion) { return is_outcome(motion.state); });
   };
   lines_to_hang_ = lines_to_kill_ = 0;
   world_.run_for(seconds(8));  // what is under way to the daemon comes, and its time passes
-  if (!world_.run_until(at_rest, seconds(120))) {
+  if (!world_.run_until(stationary, seconds(120))) {
     // A wrong bit may have made of a speed another that is as good, only slower: what really moves is no fault.
     if (!anything_moves()) world_.violation("two quiet minutes after the last request a motion is still unfinished");
     return;

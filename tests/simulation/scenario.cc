@@ -32,6 +32,14 @@ void move_for(World& world, const std::string& who, const Ways& ways) {
   world.controller().move(std::move(request), world.now(), [](Result<Motion>) {});
 }
 
+Reason refusal_of(World& world, const Ways& ways) {
+  std::optional<Reason> refusal;
+  world.controller().move(move_of(world, ways, true), world.now(), [&](const Result<Motion>& motion) {
+    refusal = motion ? Reason::unspecified : motion.error().reason;
+  });
+  return refusal.value_or(Reason::unspecified);
+}
+
 PathRequest line_of(const World& world, int segments) {
   PathRequest path;
   path.context = world.context("tester");

@@ -17,6 +17,9 @@ stage::MoveRequest move_of(const World& world, const Ways& ways, bool relative);
 void move_by(World& world, const Ways& ways);
 void move_for(World& world, const std::string& who, const Ways& ways);
 
+// Why a move by `ways` is refused at once; unspecified if it is not.
+Reason refusal_of(World& world, const Ways& ways);
+
 // A straight line of axes 1 and 2: -1000 and 2000 by turns of axis 1, 2000 each of axis 2, a tenth of a second each.
 stage::PathRequest line_of(const World& world, int segments);
 void home(World& world, stage::AxisSet axes);

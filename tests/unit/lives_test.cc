@@ -57,7 +57,7 @@ TEST(StopTable, EachPairLeadsWhereThePageSays) {
       {"withdrawn", {"-", "-", "-", "-", "-"}},
   };
   const int illegal = illegal_pairs<StopState, StopEvent>(
-      table, stage::kStopStates, {"wrote", "seen_at_rest", "returned_at_rest", "widened", "given_up"},
+      table, stage::kStopStates, {"wrote", "seen_stationary", "returned_stationary", "widened", "abandoned"},
       [](StopState state, StopEvent event) { return next(state, event); });
   EXPECT_EQ(illegal, 17);
 }

@@ -35,7 +35,7 @@ class Barrier {
   };
 
   // `line_in_doubt` is empty after a connect, and ?:CMD is then not asked; kAnyLine after a connect that begins with
-  // it: a controller that does not answer it is asked for its identity all the same. `is_known`: that of the controller
+  // it: a controller that does not answer it is requested its identity all the same. `is_known`: that of the controller
   // that is expected. `write` sends one line.
   static constexpr std::string_view kAnyLine = "?";
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,

@@ -68,8 +68,8 @@ class LineListener {
  public:
   virtual ~LineListener() = default;
   virtual void line_opened(TimePoint now) = 0;
-  // Returns the stops to write now, before any probe: the port was opened (`heard` is empty), or a line that is no axis
-  // number came in during a barrier. Their answers are not waited for.
+  // Returns the stops to write now, before any probe: the port was opened (`heard` is empty), or a line other than an
+  // axis number was received during a barrier. Their answers are not waited for.
   virtual std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) = 0;
   // Whether a stop waits to be obeyed, so that a closed port is opened again soon.
   virtual bool stop_is_open() const = 0;

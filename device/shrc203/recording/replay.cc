@@ -213,10 +213,11 @@ void Replay::let_stops_wait(std::size_t index) {
   }
 }
 
-// The recording says which stops were open: those that it has directly after what the line is fed now.
+// The recording says which stops were open: those that it has directly after what the line has done with what it is
+// fed.
 std::vector<ExchangeRequest> Replay::stops_to_write(std::string_view, TimePoint) {
   std::vector<ExchangeRequest> stops;
-  for (std::size_t next = fed_ + 1; is_stop_at_once(next, moments_[fed_].at); ++next) {
+  for (std::size_t next = fed_ + 1 + operations_.size(); is_stop_at_once(next, moments_[fed_].at); ++next) {
     if (!asked_.insert(next).second) continue;
     if (auto stop = request_of(moments_[next])) stops.push_back(*std::move(stop));
   }

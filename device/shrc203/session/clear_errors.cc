@@ -23,7 +23,8 @@ Result<AxisSet> ErrorClearing::check(AxisSet axes, const RequestContext& context
     return fail(Reason::stop_unconfirmed, "the emergency stop is not confirmed: nobody has seen the axes obey it",
                 "clear it once it is confirmed; `axisctl status` shows the open stops");
   }
-  if (const auto allowed = rights_.authorize(context, named); !allowed) return tl::unexpected(allowed.error());
+  const auto allowed = lifts_latch(named) ? rights_.check_epochs(context) : rights_.authorize(context, named);
+  if (!allowed) return tl::unexpected(allowed.error());
   return named;
 }
 
@@ -36,7 +37,7 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   ExchangeRequest request;
   request.command = commands::clear_errors(*named);
   request.lease = context.lease;
-  request.uses = *named;
+  if (!lifts_latch(*named)) request.uses = *named;
   request.lane = Lane::motion;
   request.caller = context.who;
   request.identity = context.takes_turns_as();
@@ -59,11 +60,15 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   }
 }
 
+// While the latch holds, nobody can move: the caller who has a lease over some axes loses nothing by it.
+bool ErrorClearing::lifts_latch(AxisSet axes) const {
+  const bool all = axes.contains(store_.controllable()) || !guarded(Guard::emergency_cleared_for_all);
+  return store_.state().emergency && all;
+}
+
 // Where a new emergency stop has come meanwhile, its latch stays.
 Result<void> ErrorClearing::lift_latch(AxisSet axes, const std::string& who) {
-  if (!store_.state().emergency) return {};
-  const bool all = axes.contains(store_.controllable()) || !guarded(Guard::emergency_cleared_for_all);
-  if (!all || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
+  if (!lifts_latch(axes) || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
   for (const int axis : store_.controllable().list()) {
     if (!store_.state().axis(axis).status.emergency()) continue;
     return fail_on(axis, Reason::emergency_stopped,

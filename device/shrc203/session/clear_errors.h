@@ -34,6 +34,7 @@ class ErrorClearing {
  private:
   Task<void> run(AxisSet axes, RequestContext context, StageController::OnDone done);
   Result<AxisSet> check(AxisSet axes, const RequestContext& context);
+  bool lifts_latch(AxisSet axes) const;
   Result<void> lift_latch(AxisSet axes, const std::string& who);
 
   Dialogue& dialogue_;

@@ -13,7 +13,11 @@ bool PreviousRun::is_ours(std::string_view line_before) const {
 }
 
 void PreviousRun::heard(std::string_view text) {
-  if (unfinished_ && store_.left_moving().empty() && is_ours(text)) take_over();
+  if (!unfinished_ || !store_.left_moving().empty()) return;
+  const auto identity = parse_identity(text);
+  const bool same_unit = identity && identity->serial_number == unfinished_->serial_number;
+  if (is_ours(text) || (same_unit && !names_another_)) return take_over();
+  names_another_ = names_another_ || text.find(':') != std::string_view::npos;
 }
 
 void PreviousRun::identified(const Identity& identity, const std::optional<std::string>& line_before) {

@@ -20,8 +20,9 @@ class PreviousRun {
 
   // Before the line is opened.
   void inherit(std::optional<stage::Unfinished> unfinished) { unfinished_ = std::move(unfinished); }
-  // A line has come in on the first connect. If it is the answer to ?:CMD (manual 40)) and names a line of that run,
-  // the stop is asked for now, before any other question.
+  // A line has come in on the first connect. If it answers ?:CMD (manual 40)) with a line of that run, or is the
+  // identity of the same unit and no answer named another program's line, the stop is requested now, before any other
+  // question.
   void heard(std::string_view text);
   // A controller has answered: what was inherited is judged, once. It is left alone if another unit answers, or
   // `line_before` is another program's; nullopt if the controller did not say.
@@ -36,6 +37,7 @@ class PreviousRun {
   Stops& stops_;
   StateStore& store_;
   std::optional<stage::Unfinished> unfinished_;  // until everything is stationary
+  bool names_another_ = false;                   // ?:CMD was answered by another program's line
 };
 
 }  // namespace axisgate::shrc203

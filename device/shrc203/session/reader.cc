@@ -70,7 +70,7 @@ bool Reader::apply_positions(const Reply& reply) {
   line_.ready(read->ready | (AxisSet::all() - store_.controllable()), tasks_.now());
   line_.busy(read->busy - moving_silently(), tasks_.now());
   store_.note_foreign_motion(read->busy, motions_.inside());
-  motions_.seen_at_rest(read->ready);
+  motions_.seen_stationary(read->ready);
   store_.publish();
   return true;
 }

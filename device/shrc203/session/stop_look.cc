@@ -21,35 +21,35 @@ Task<void> StopLook::look(StopJobPtr job) {
   const bool ready = co_await read(job);
   if (!job->open() || !counts(*job)) co_return;
   if (!ready) {
-    job->looks_at_rest = job->kept_looks = 0;
-    job->at_rest = false;
+    job->stationary_looks = job->kept_looks = 0;
+    job->stationary = false;
     if (std::exchange(job->kept_waiting, false)) job->write_at = tasks_.now();
     co_return;
   }
-  if (job->looks_at_rest++ == 0) job->rest_since = tasks_.now();
-  job->at_rest = true;
+  if (job->stationary_looks++ == 0) job->rest_since = tasks_.now();
+  job->stationary = true;
   if (!is_certain(*job)) co_return;
   const Prebuffers prebuffers = co_await read_prebuffers(job);
-  if (!job->open() || !job->at_rest || prebuffers != Prebuffers::empty || !counts(*job)) co_return;
+  if (!job->open() || !job->stationary || prebuffers != Prebuffers::empty || !counts(*job)) co_return;
   if (job->stop.kind == StopKind::emergency) {
     // Whether the motors stay excited depends on a memory switch (manual 66)).
     const auto excitation = co_await reader_.read_excitation(job->context.who);
     if (!excitation) store_.unsettle();
   }
-  if (job->open() && job->at_rest) confirm(job);
+  if (job->open() && job->stationary) confirm(job);
 }
 
 // One flipped bit makes an R of a B, and a start may show late: one READY is enough only behind a stop that was
 // received.
 bool StopLook::is_certain(const StopJob& job) const {
-  return job.taken || job.looks_at_rest > 1 || !guarded(Guard::stop_seen_twice);
+  return job.taken || job.stationary_looks > 1 || !guarded(Guard::stop_seen_twice);
 }
 
 void StopLook::confirm(const StopJobPtr& job) {
   for (const int axis : job->stop.axes.list()) {
     if (const auto position = store_.state().axis(axis).position_pulses) job->stop.came_to[axis] = *position;
   }
-  open_.change(job, job->stop.state == StopState::asked ? StopEvent::returned_at_rest : StopEvent::seen_at_rest);
+  open_.change(job, job->stop.state == StopState::asked ? StopEvent::returned_stationary : StopEvent::seen_stationary);
 }
 
 // Whether the axes, and a program, are seen to be stationary.

@@ -25,7 +25,9 @@ std::vector<ExchangeRequest> StopWriter::lines_due(std::string_view heard) {
   const bool written = opened ? guarded(Guard::stop_written_at_open) : first && guarded(Guard::stop_written_when_heard);
   const bool refused = !opened && !first && heard == "NG" && guarded(Guard::stop_one_axis_at_a_time);
   for (const StopJobPtr& job : open_.all()) {
-    if (written) write_blindly(job, false, lines);
+    // ?:CMD answers with the stop itself: the controller has received it.
+    if (heard == command_for(*job, excited(*job)).line) continue;
+    if (written && !job->taken) write_blindly(job, false, lines);
     if (refused && job->named_several) write_blindly(job, true, lines);
   }
   return lines;
@@ -47,6 +49,7 @@ void StopWriter::write_blindly(const StopJobPtr& job, bool alone, std::vector<Ex
 
 void StopWriter::line_answers() {
   for (const StopJobPtr& job : open_.all()) {
+    job->named_several = false;
     if (job->write_at == TimePoint::max()) job->write_at = tasks_.now();
   }
 }
@@ -54,8 +57,8 @@ void StopWriter::line_answers() {
 void StopWriter::line_lost() {
   for (const StopJobPtr& job : open_.all()) {
     job->write_at = TimePoint::max();
-    job->taken = job->at_rest = false;
-    job->looks_at_rest = 0;
+    job->taken = job->stationary = job->stop.stale = false;
+    job->stationary_looks = job->kept_looks = 0;
   }
 }
 

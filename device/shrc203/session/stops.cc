@@ -16,14 +16,15 @@ void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnS
   const AxisSet possible = axes & known;
   const AxisSet named = axes.empty() ? known : possible.empty() ? axes : possible;
   const bool emergency = kind == StopKind::emergency;
-  store_.emit(StopRequested{named, emergency, context.who});
+  const bool moved = motions_.anything_moves() || !motions_.live().empty() || store_.state().moving_unknown;
+  store_.emit(StopRequested{named, emergency, context.who, moved});
   if (emergency) open_.latch(context.who);
   withdraw_motions(emergency ? AxisSet::all() : named, context);
   StopJobPtr job = guarded(Guard::stops_join) ? open_.including(named, kind) : nullptr;
   if (!job) {
     job = begin(named, kind, context);
   } else if (job->taken) {
-    job->write_at = tasks_.now();  // whoever asks again has a reason
+    job->write_at = tasks_.now();  // the caller who asks again has a reason
   }
   add_caller(job, named, context, std::move(done));
   line_.open_at_once(tasks_.now());
@@ -47,8 +48,7 @@ void Stops::replace_narrower(const StopJobPtr& wider) {
     for (const std::string& who : job->stop.callers) open_.note_caller(*wider, who);
     for (StopJob::Caller& caller : job->callers) {
       if (!caller.done) continue;
-      wider->callers.push_back({caller.axes, caller.asked, caller.answer_by, std::exchange(caller.done, {})});
-      tasks_.spawn(answer_in_time(wider, wider->callers.size() - 1));
+      wait_with(wider, {caller.axes, caller.asked, caller.answer_by, std::exchange(caller.done, {})});
     }
     wider->stop.late = wider->stop.late || job->stop.late;
     job->stop.replaced_by = wider->stop.id;
@@ -57,8 +57,13 @@ void Stops::replace_narrower(const StopJobPtr& wider) {
 }
 
 void Stops::add_caller(const StopJobPtr& job, AxisSet axes, const RequestContext& context, OnStopped done) {
-  job->callers.push_back({axes, tasks_.now(), context.answer_by, std::move(done)});
+  wait_with(job, {axes, tasks_.now(), context.answer_by, std::move(done)});
   open_.note_caller(*job, context.who);
+}
+
+void Stops::wait_with(const StopJobPtr& job, StopJob::Caller caller) {
+  job->callers.push_back(std::move(caller));
+  ++answering_;
   tasks_.spawn(answer_in_time(job, job->callers.size() - 1));
 }
 
@@ -136,11 +141,10 @@ void Stops::axes_move() {
 // Stationary axes whose motion has an outcome, and whose user has left them: what GetMotion and AcquireLease then say
 // agrees with the answer.
 bool Stops::is_over(const StopJob& job) const {
-  return !job.open() && (!motions_.inside().touches(job.excluded()) || !guarded(Guard::stop_awaits_outcomes));
+  return !job.open() && (!motions_.occupied().touches(job.excluded()) || !guarded(Guard::stop_awaits_outcomes));
 }
 
 Task<void> Stops::answer_in_time(StopJobPtr job, std::size_t caller) {
-  ++answering_;
   while (job->callers[caller].done && !is_over(*job)) {
     const TimePoint limit = limit_of(*job, job->callers[caller]);
     if (tasks_.now() >= limit) break;
@@ -156,7 +160,7 @@ TimePoint Stops::limit_of(const StopJob& job, const StopJob::Caller& caller) con
   if (job.open()) {
     if (writer_.takes_none() || job.stop.stale) limit = caller.asked;
     // What is asked once the axes are stationary must not hold an answer up on a line that garbles it.
-    if (job.at_rest) limit = std::min(limit, job.rest_since + kStopAnswerLimit);
+    if (job.stationary) limit = std::min(limit, job.rest_since + kStopAnswerLimit);
     if (!store_.line_works()) limit = std::min(limit, caller.asked + kStopReopenLimit);
   }
   return caller.answer_by ? std::min(limit, *caller.answer_by) : limit;
@@ -175,14 +179,14 @@ StopReport Stops::report_for(const StopJob& job, const StopJob::Caller& caller) 
   StopReport report = job.report;
   report.stays_open = job.open();
   std::erase_if(report.axes, [&](const StopReport::Axis& axis) { return !caller.axes.has(axis.axis); });
-  const AxisSet inside = motions_.inside();
-  bool at_rest = job.at_rest || job.stop.state == StopState::confirmed;
+  const AxisSet occupied = motions_.occupied();
+  bool stationary = job.stationary || job.stop.state == StopState::confirmed;
   for (auto& axis : report.axes) {
-    const bool moves = inside.has(axis.axis) && guarded(Guard::stop_awaits_outcomes);
-    if (moves || !at_rest) at_rest = false;
-    if (moves) axis.ready.reset();
+    const bool moves = occupied.has(axis.axis) && guarded(Guard::stop_awaits_outcomes);
+    if (moves || !stationary) stationary = false;
+    if (moves && axis.ready.value_or(false)) axis.ready.reset();
   }
-  if (!at_rest && !report.problem) report.problem = unseen(job);
+  if (!stationary && !report.problem) report.problem = unseen(job);
   return report;
 }
 
@@ -221,7 +225,7 @@ void Stops::withdraw(StopId id, const RequestContext& context, const OnDone& don
   const StopJobPtr job = open_.find(id);
   if (!job) return done(fail(Reason::not_found, fmt::format("stop {} is not open", id), "see `axisctl status`"));
   job->stop.withdrawn_by = context.who;
-  open_.change(job, StopEvent::given_up);
+  open_.change(job, StopEvent::abandoned);
   wake();
   done({});
 }

@@ -1,4 +1,4 @@
-// Stop goes first: L: and L:E, who asked for them, and when each caller is answered. A stop stays open until it was
+// Stop goes first: L: and L:E, who requested them, and when each caller is answered. A stop stays open until it was
 // seen to be obeyed, over barriers, reconnects and restarts of the gateway. Not a safety function.
 #pragma once
 
@@ -65,6 +65,7 @@ class Stops {
   StopJobPtr begin(AxisSet axes, StopKind kind, const RequestContext& context);
   void replace_narrower(const StopJobPtr& wider);
   void add_caller(const StopJobPtr& job, AxisSet axes, const RequestContext& context, OnStopped done);
+  void wait_with(const StopJobPtr& job, StopJob::Caller caller);
   Task<void> carry_out(StopJobPtr job);
   TimePoint next_step(const StopJob& job) const;
   Task<void> answer_in_time(StopJobPtr job, std::size_t caller);

@@ -31,7 +31,6 @@ class MotionGate {
   void leave(MotionId id);
   // What no other motion may set meanwhile: the axes of one inside, or all where one at a time goes through.
   AxisSet axes_of(MotionId id) const;
-  bool is_inside(MotionId id) const { return inside_.contains(id); }
   bool others_inside(MotionId id) const { return inside_.size() > inside_.count(id); }
 
   // Until a stop of these axes is over nothing new is set on them: it would be taken for what the stop left behind, and

@@ -138,17 +138,22 @@ void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> 
   const bool unseen = outcome == MotionState::unknown && wrote && guarded(Guard::unseen_motion_keeps_its_axes);
   if (unseen) left_moving_[id] = live.motion.axes;
   live_.erase(id);  // `live` may be gone
-  if (leaves) has_left(id);
+  if (leaves) {
+    has_left(id);
+  } else if (had_turn) {
+    restoring_[id] = ended_.back().axes;
+  }
   ended_or_left_.notify();
 }
 
 // Nobody else has the right to axes that may still be moving.
 void Motions::has_left(MotionId id) {
+  restoring_.erase(id);
   gate_.leave(id);
   if (!left_moving_.contains(id)) rights_.end(id);
 }
 
-void Motions::seen_at_rest(AxisSet axes) {
+void Motions::seen_stationary(AxisSet axes) {
   for (auto left = left_moving_.begin(); left != left_moving_.end();) {
     left->second = left->second - axes;
     if (!left->second.empty()) {
@@ -157,7 +162,7 @@ void Motions::seen_at_rest(AxisSet axes) {
     }
     const MotionId id = left->first;
     left = left_moving_.erase(left);
-    if (!gate_.is_inside(id)) rights_.end(id);
+    if (!restoring_.contains(id)) rights_.end(id);
   }
 }
 
@@ -283,6 +288,12 @@ AxisSet Motions::inside() const {
   for (const auto& [id, live] : live_) {
     if (live->life.has_turn()) axes = axes | live->motion.axes;
   }
+  return axes;
+}
+
+AxisSet Motions::occupied() const {
+  AxisSet axes = inside();
+  for (const auto& [id, its] : restoring_) axes = axes | its;
   return axes;
 }
 

@@ -64,8 +64,8 @@ class Motions {
   void line_lost(const std::string& why);
   void completion_seen(int axis, bool doubtful, bool deduced);
 
-  // A reading showed these axes stationary: whoever left one of them UNKNOWN there has left it now.
-  void seen_at_rest(AxisSet axes);
+  // A reading showed these axes stationary: the caller who left one of them UNKNOWN there has left it now.
+  void seen_stationary(AxisSet axes);
   // The axes of a motion that ended UNKNOWN and were not seen stationary since.
   AxisSet left_moving(MotionId id) const;
 
@@ -78,6 +78,8 @@ class Motions {
   // The axes of motions that are shown as running, and of those that have their turn.
   AxisSet running() const;
   AxisSet inside() const;
+  // Also of motions that have their outcome, and restore what they changed.
+  AxisSet occupied() const;
   bool anything_moves() const;  // also somebody else's
   bool others_inside(const LiveMotion& live) const { return gate_.others_inside(live.motion.id); }
   AxisSet axes_to_itself(const LiveMotion& live) const { return gate_.axes_of(live.motion.id); }
@@ -107,7 +109,8 @@ class Motions {
   Signal pace_changed_, ended_or_left_;
   Live live_;
   std::deque<Motion> ended_;
-  std::map<MotionId, AxisSet> left_moving_;
+  std::map<MotionId, AxisSet> left_moving_;  // ended UNKNOWN, and were not seen stationary since
+  std::map<MotionId, AxisSet> restoring_;
   MotionId last_ = 0;
 };
 

@@ -24,9 +24,9 @@ class OpenStops {
   std::vector<StopJobPtr> inherit(const std::vector<Stop>& stops, StopId last);
 
   StopJobPtr open(AxisSet axes, StopKind kind, const RequestContext& context);
-  // Notes who asked for it.
+  // Notes who requested it.
   void note_caller(StopJob& job, const std::string& who);
-  // Notes that a caller was told that it stays open.
+  // Notes that a caller was reported that it stays open.
   void note_late(StopJob& job);
   void change(const StopJobPtr& job, StopEvent event);
 

@@ -62,7 +62,7 @@ std::optional<Problem> Rights::motion_forbidden(AxisSet axes) const {
   if (state.emergency) {
     return Problem{
         .reason = Reason::emergency_stopped,
-        .message = fmt::format("{} asked for an emergency stop {} ago, and nothing moves until it is cleared",
+        .message = fmt::format("{} requested an emergency stop {} ago, and nothing moves until it is cleared",
                                state.emergency->who, for_people(tasks_.now() - state.emergency->at)),
         .hint = "see that it is safe, then clear it for all axes: axisctl clear"};
   }

@@ -7,8 +7,8 @@
 namespace axisgate::shrc203 {
 
 std::string_view name(StopEvent event) {
-  static constexpr std::array<std::string_view, kStopEvents> kNames = {"wrote", "seen_at_rest", "returned_at_rest",
-                                                                       "widened", "given_up"};
+  static constexpr std::array<std::string_view, kStopEvents> kNames = {"wrote", "seen_stationary",
+                                                                       "returned_stationary", "widened", "abandoned"};
   return kNames.at(static_cast<std::size_t>(event));
 }
 
@@ -18,13 +18,13 @@ std::optional<StopState> next(StopState state, StopEvent event) {
   using Event = StopEvent;
   static constexpr auto kTable = std::to_array<Transition<State, Event>>({
       {State::asked, Event::wrote, State::written},
-      {State::asked, Event::returned_at_rest, State::confirmed},
+      {State::asked, Event::returned_stationary, State::confirmed},
       {State::asked, Event::widened, State::replaced},
-      {State::asked, Event::given_up, State::withdrawn},
+      {State::asked, Event::abandoned, State::withdrawn},
       {State::written, Event::wrote, State::written},
-      {State::written, Event::seen_at_rest, State::confirmed},
+      {State::written, Event::seen_stationary, State::confirmed},
       {State::written, Event::widened, State::replaced},
-      {State::written, Event::given_up, State::withdrawn},
+      {State::written, Event::abandoned, State::withdrawn},
   });
   return next_in(kTable, state, event);
 }

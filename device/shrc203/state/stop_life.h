@@ -13,11 +13,12 @@
 namespace axisgate::shrc203 {
 
 enum class StopEvent {
-  wrote,             // its line is about to go out, for the first time or again
-  seen_at_rest,      // a reading that began after the write showed its axes stationary and their prebuffers empty
-  returned_at_rest,  // the controller took no stop in its mode, and its axes were stationary when it was back in HOST
-  widened,           // a wider stop includes it
-  given_up,          // an administrator withdraws it
+  wrote,                // its line is about to go out, for the first time or again
+  seen_stationary,      // a reading that began after the write showed its axes stationary and their prebuffers empty
+  returned_stationary,  // the controller took no stop in its mode, and its axes were stationary when it was back in
+                        // HOST
+  widened,              // a wider stop includes it
+  abandoned,            // an administrator withdraws it
 };
 inline constexpr std::size_t kStopEvents = 5;
 
@@ -45,8 +46,8 @@ struct StopJob {
   bool taken = false;          // the newest write was received, so that one READY is enough
   bool named_several = false;  // the newest write was not answered yet, and NG may be due to one of its axes
   bool kept_waiting = false;   // the mode took no stop: it is written only if an axis is busy on the return to HOST
-  bool at_rest = false;        // the newest reading showed it
-  int looks_at_rest = 0;       // readings in a row that showed it
+  bool stationary = false;     // the newest reading showed it
+  int stationary_looks = 0;    // readings in a row that showed it
   TimePoint rest_since{};      // of the first of them
   int kept_looks = 0;          // readings that showed a segment in a prebuffer although the axes rest
 };

@@ -1,0 +1,45 @@
+// Folds the stops of a caller who asks again and again although nothing moves, so that a loop of stops pushes nobody's
+// history, log or events out. Each of them is carried out all the same.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <tuple>
+#include <vector>
+
+#include "device/stage/event.h"
+
+namespace axisgate::server {
+
+// Not thread safe: on the device's strand.
+class RepeatedStops {
+ public:
+  // A stop that comes later than this after the one before it is reported by itself.
+  static constexpr Duration kSeries = std::chrono::seconds(10);
+  // A series that lasts is reported so often.
+  static constexpr Duration kReport = std::chrono::minutes(10);
+
+  // Returns what is to be reported: the stop itself, the count of a series, or nothing if the stop is folded.
+  std::vector<stage::StopRequested> add(const stage::StopRequested& stop, TimePoint now);
+  // Returns the counts of series that are over.
+  std::vector<stage::StopRequested> ended(TimePoint now);
+  // Reports whether stops of this caller are being folded now, so that their lines and their ends are, too.
+  bool folds(std::string_view who) const;
+
+ private:
+  using Key = std::tuple<std::string, std::vector<int>, bool>;  // identity, axes, emergency
+  struct Series {
+    stage::StopRequested stop;
+    TimePoint reported{}, last{};
+    std::int64_t folded = 0;
+  };
+  static constexpr std::size_t kSeriesMax = 64;  // beyond these, stops are reported one by one
+
+  static stage::StopRequested count_of(Series& series, TimePoint now);
+
+  std::map<Key, Series> series_;
+};
+
+}  // namespace axisgate::server
