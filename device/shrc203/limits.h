@@ -114,7 +114,7 @@ inline constexpr Duration kStopStationaryLimit = std::chrono::seconds(10);
 inline constexpr Duration kStopRepeatAfterSlowing = std::chrono::milliseconds(200);
 // What is asked once the axes are stationary (prebuffers, excitation) holds up the answer to a stop no longer than
 // this.
-inline constexpr Duration kStopAnswerLimit = std::chrono::milliseconds(500);
+inline constexpr Duration kStopAnswerLimit = std::chrono::milliseconds(500);  // twice while a motion has no outcome
 // Between two looks at axes that are to be stationary soon, and at those that only a person can help.
 inline constexpr Duration kStopStationaryPoll = std::chrono::milliseconds(50);
 inline constexpr Duration kStopLastingPoll = std::chrono::seconds(5);

@@ -16,7 +16,7 @@ using namespace shrc203;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr int kSeedsOfAll = 1000, kSeedsACase = 10, kDeeds = 60;
+constexpr int kEmergencySeeds = 1000, kEmergencySeedsACase = 10, kDeedsOfFour = 60;
 
 class FourUsers {
  public:
@@ -28,7 +28,7 @@ class FourUsers {
 
   void act() {
     world_.run_until_up();
-    for (int i = 0; i < kDeeds && world_.violations().empty(); ++i) {
+    for (int i = 0; i < kDeedsOfFour && world_.violations().empty(); ++i) {
       deed();
       world_.run_for(milliseconds(random_.between(1, 700)));
     }
@@ -121,7 +121,7 @@ class FourUsers {
 };
 
 // How many emergency stops were requested.
-int hold(std::uint64_t seed) {
+int hold_with_four(std::uint64_t seed) {
   FourUsers users(seed);
   users.act();
   EXPECT_TRUE(users.world().violations().empty()) << users.world().violations().front() << "\n"
@@ -133,20 +133,20 @@ class EmergencySeeds : public testing::TestWithParam<int> {};
 
 TEST_P(EmergencySeeds, NobodyMovesBeforeItIsCleared) {
   if (const char* only = std::getenv("AXISGATE_SEED")) {
-    if (GetParam() == 0) (void)hold(std::strtoull(only, nullptr, 10));
+    if (GetParam() == 0) (void)hold_with_four(std::strtoull(only, nullptr, 10));
     return;
   }
   const char* limit = std::getenv("AXISGATE_SEEDS");
-  const int last = limit != nullptr ? std::atoi(limit) : kSeedsOfAll;
-  const int first = GetParam() * kSeedsACase;
+  const int last = limit != nullptr ? std::atoi(limit) : kEmergencySeeds;
+  const int first = GetParam() * kEmergencySeedsACase;
   int emergencies = 0;
-  for (int seed = first; seed < std::min(first + kSeedsACase, last) && !HasFailure(); ++seed) {
-    emergencies += hold(static_cast<std::uint64_t>(seed));
+  for (int seed = first; seed < std::min(first + kEmergencySeedsACase, last) && !HasFailure(); ++seed) {
+    emergencies += hold_with_four(static_cast<std::uint64_t>(seed));
   }
   EXPECT_TRUE(emergencies > 0 || first >= last) << "these seeds show nothing";
 }
 
-INSTANTIATE_TEST_SUITE_P(Ordinary, EmergencySeeds, testing::Range(0, kSeedsOfAll / kSeedsACase));
+INSTANTIATE_TEST_SUITE_P(Ordinary, EmergencySeeds, testing::Range(0, kEmergencySeeds / kEmergencySeedsACase));
 
 }  // namespace
 }  // namespace axisgate::simulation

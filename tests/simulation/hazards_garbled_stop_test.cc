@@ -47,7 +47,7 @@ TEST_F(HazardOfGarbledStops, H54_AValidStatusIsTheAnswer) {
   stop({});
   ASSERT_TRUE(read) << world.replay();
   EXPECT_LE(world.now() - *read, seconds(1)) << world.replay();
-  EXPECT_FALSE(report->problem) << report->problem->message;
+  EXPECT_FALSE(report->problem) << report->problem->message << "\n" << world.replay();
   EXPECT_EQ(written(world, "L:"), 1) << "?:CMD had shown that it was received\n" << world.replay();
   EXPECT_TRUE(report->axes[0].reply_unreadable);
   EXPECT_EQ(report->axes[0].wire_reply, "");

@@ -36,8 +36,17 @@ class RecordingListener : public LineListener {
     news.push_back("connected " + identity.serial_number);
   }
   void line_opened(TimePoint) override {}
-  std::vector<ExchangeRequest> stops_to_write(std::string_view, TimePoint) override { return {}; }
-  bool stop_is_open() const override { return false; }
+  std::vector<ExchangeRequest> stops_to_write(std::string_view, TimePoint) override {
+    std::vector<ExchangeRequest> stops;
+    for (const std::string& text : open_stops) {
+      ExchangeRequest request;
+      request.command = parse_command(text).value();
+      request.lane = Lane::stop;
+      stops.push_back(std::move(request));
+    }
+    return stops;
+  }
+  bool stop_is_open() const override { return stop_open; }
   void line_trusted(TimePoint) override {}
   void same_controller(TimePoint) override {}
   void line_lost(const std::string& why, TimePoint) override { news.push_back("lost: " + why); }
@@ -65,6 +74,8 @@ class RecordingListener : public LineListener {
     return refuses && refuses(request) ? std::optional(refusal) : std::nullopt;
   }
 
+  std::vector<std::string> open_stops;  // that stops_to_write() returns
+  bool stop_open = false;
   std::vector<std::string> news, limits, asked_for;
   std::vector<ExchangeEnded> exchanges;
   std::vector<LineLearned::What> learnt;

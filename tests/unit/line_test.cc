@@ -273,37 +273,44 @@ TEST_F(LineTest, ALineLostInFlightLeavesItsOutcomeUnknown) {
   EXPECT_EQ(listener.exchanges[0].line, "G:1");
   EXPECT_THAT(news(), ElementsAre("lost: unplugged"));
   EXPECT_FALSE(line.exchanging());
-  EXPECT_FALSE(stop->ended()) << "which goes out with the next connect";
+  EXPECT_FALSE(stop->written()) << "who wants it, asks again at the next connect";
 }
 
-TEST_F(LineTest, NothingButAStopWaitsForALineThatIsDown) {
+TEST_F(LineTest, NothingWaitsForALineThatIsDown) {
   open_and_rest();
   link_down("unplugged");
-  const auto question = ask("?:V");
-  EXPECT_FALSE(question->written());
-  EXPECT_EQ(question->reason(), Reason::link_down);
-  const auto stop = ask("L:1"), other = ask("L:2");
-  EXPECT_FALSE(stop->ended());
+  for (const char* text : {"?:V", "L:1"}) {
+    const auto refused = ask(text);
+    EXPECT_FALSE(refused->written()) << text;
+    EXPECT_EQ(refused->reason(), Reason::link_down) << text;
+  }
+}
+
+TEST_F(LineTest, OpenStopsGoBeforeTheFirstProbe) {
+  open_and_rest();
+  link_down("unplugged");
+  line.open_at_once(now);
+  line.open_at_once(now);
   EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250), Duration::zero())) << "at once, and once";
+  listener.open_stops = {"L:1", "L:2"};
   link_up();
   EXPECT_EQ(sent(), "L:1\r\nL:2\r\n*IDN?\r\n");
-  EXPECT_TRUE(stop->result->in_doubt());
-  EXPECT_EQ(stop->reason(), Reason::outcome_unknown);
-  EXPECT_TRUE(other->result->in_doubt());
+  listener.open_stops = {"L:W"};
+  receive("OK\r\n");
+  EXPECT_EQ(sent(), "L:W\r\n*IDN?\r\n") << "before anything else, and the barrier begins again";
+  listener.open_stops = {};
+  receive("OK\r\n");
+  EXPECT_EQ(sent(), "");
 }
 
-// ... and for no longer than it may.
-TEST_F(LineTest, AStopThatWaitsForTheLineExpires) {
+TEST_F(LineTest, APortIsReopenedWithoutGrowingPausesWhileAStopIsOpen) {
   open_and_rest();
-  link_down("unplugged");
-  const auto stop = ask("L:1");
-  pass(seconds(10));
-  EXPECT_FALSE(stop->ended());
-  pass(1);
-  EXPECT_FALSE(stop->written());
-  EXPECT_EQ(stop->reason(), Reason::link_down);
-  link_up();
-  EXPECT_EQ(sent(), "*IDN?\r\n");
+  listener.stop_open = true;
+  for (int loss = 0; loss < 3; ++loss) link_down("unplugged");
+  listener.stop_open = false;
+  for (int loss = 0; loss < 3; ++loss) link_down("unplugged");
+  EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250), milliseconds(250), milliseconds(250), milliseconds(250),
+                                         milliseconds(500), milliseconds(1000)));
 }
 
 TEST_F(LineTest, ThreeProbesWithoutAnswerCloseTheLine) {

@@ -74,7 +74,51 @@ TEST_F(MotionRecordTest, WhatRanIsLeftWithTheLastLines) {
   EXPECT_EQ(unfinished()->moving, AxisSet::of(1) | AxisSet::of(3));
   EXPECT_EQ(unfinished()->jogged, AxisSet::of(3));
   EXPECT_EQ(unfinished()->motions, "motion 7 (move, asked by unix anna), motion 8 (jog, asked by unix anna)");
-  EXPECT_THAT(unfinished()->last_lines, ElementsAre("Q:SP", "J:3+"));
+  EXPECT_THAT(unfinished()->last_lines, ElementsAre("Q:SP", "J:3+", "G:1"));
+}
+
+// What the controller received last is the newest line that was answered, or one written since: probes into a dead line
+// may have been lost. It may not remember a line that it refused.
+TEST_F(MotionRecordTest, TheLastLinesAreThoseSinceTheLastAnswer) {
+  using Outcome = stage::ExchangeEnded::Outcome;
+  start();
+  connect();
+  motion(MotionKind::move, AxisSet::of(1), MotionState::running);
+  const auto exchange = [this](const char* line, Outcome outcome) {
+    write(line);
+    stage::ExchangeEnded ended;
+    ended.line = line;
+    ended.outcome = outcome;
+    record_->on_event(ended);
+  };
+  exchange("MP:1+P1000", Outcome::ok);
+  exchange("G:1", Outcome::ok);
+  exchange("L:1", Outcome::ng);
+  for (int probe = 0; probe < 40; ++probe) write(probe % 2 == 0 ? "?:CMD" : "*IDN?");
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_THAT(unfinished()->last_lines, ElementsAre("*IDN?", "?:CMD", "L:1", "G:1"));
+}
+
+// Nobody has seen the axis stop, until a handshake has found everything stationary.
+TEST_F(MotionRecordTest, AMotionThatEndedUnknownMayMove) {
+  start();
+  connect();
+  stage::Motion unknown;
+  unknown.id = 7;
+  unknown.axes = AxisSet::of(2);
+  unknown.written = true;
+  unknown.state = MotionState::unknown;
+  unknown.who = "unix anna";
+  record_->on_event(stage::MotionChanged{unknown});
+  start();
+  ASSERT_TRUE(unfinished());
+  EXPECT_EQ(unfinished()->moving, AxisSet::of(2));
+  record_->on_event(UnfinishedJudged{UnfinishedJudged::What::stationary, AxisSet::of(2), ""});
+  record_->on_event(stage::MotionChanged{unknown});
+  connect();
+  start();
+  EXPECT_FALSE(unfinished());
 }
 
 TEST_F(MotionRecordTest, WhatWasStartedAndNotAnsweredMayMove) {
