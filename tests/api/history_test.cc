@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 
 #include <future>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <vector>
@@ -27,7 +28,7 @@ class HistoryOfApi : public ::testing::Test {
   void start(Role others_seen_by) {
     world_ = std::make_unique<World>(
         [&](World& configured) { configured.journal_config = {.kept = true, .others_seen_by = others_seen_by}; });
-    for (const char* who : {kAdmin, kAnna, kOlaf, "tcp 127.0.0.1:39482", "tcp 127.0.0.1:39483"}) {
+    for (const char* who : {kAdmin, kAnna, kOlaf, "tcp 127.0.0.1:39482"}) {
       ASSERT_EQ(ask(*world_, RequestKind::stop, World::by(who)), Reason::unspecified);
     }
   }
@@ -63,10 +64,10 @@ class HistoryOfApi : public ::testing::Test {
 
 TEST_F(HistoryOfApi, ByDefaultEverybodyReadsAll) {
   start(server::JournalConfig().others_seen_by);
-  EXPECT_EQ(stops(kOlaf).size(), 5u);
+  EXPECT_EQ(stops(kOlaf).size(), 4u);
   EXPECT_FALSE(list(kOlaf)->own_only);
   EXPECT_THAT(stops(kOlaf, {.who = kAnna}), ElementsAre(kAnna));
-  EXPECT_EQ(summary(kOlaf)->summary.stops.items.size(), 5u);
+  EXPECT_EQ(summary(kOlaf)->summary.stops.items.size(), 4u);
   EXPECT_FALSE(summary(kOlaf)->own_only);
 }
 
@@ -74,7 +75,7 @@ TEST_F(HistoryOfApi, ALowerRoleReadsItsOwnEntriesAndThoseOfNobody) {
   start(Role::operator_);
   EXPECT_THAT(stops(kOlaf), ElementsAre(kOlaf));
   EXPECT_TRUE(list(kOlaf)->own_only);
-  EXPECT_EQ(stops(kAnna).size(), 5u) << "an operator";
+  EXPECT_EQ(stops(kAnna).size(), 4u) << "an operator";
   EXPECT_FALSE(list(kAnna)->own_only);
   const auto link = list(kOlaf, {.kinds = {EntryKind::link_changed}});
   EXPECT_FALSE(link->entries.empty()) << "what nobody requested";
@@ -87,8 +88,8 @@ TEST_F(HistoryOfApi, ALowerRoleReadsItsOwnEntriesAndThoseOfNobody) {
 
 TEST_F(HistoryOfApi, AnonymousCallersAreOne) {
   start(Role::admin);
-  EXPECT_THAT(stops("tcp 127.0.0.1:50000"), ElementsAre("tcp 127.0.0.1:39482", "tcp 127.0.0.1:39483"));
-  EXPECT_THAT(stops("tcp 127.0.0.1:50000", {.who = "tcp 127.0.0.1:39483"}), ElementsAre("tcp 127.0.0.1:39483"));
+  EXPECT_THAT(stops("tcp 127.0.0.1:50000"), ElementsAre("tcp 127.0.0.1:39482"));
+  EXPECT_THAT(stops("tcp 127.0.0.1:50000", {.who = "tcp 127.0.0.1:39482"}), ElementsAre("tcp 127.0.0.1:39482"));
 }
 
 TEST_F(HistoryOfApi, PagesAreFullAndTheNewestNumberStays) {
@@ -145,19 +146,22 @@ TEST_F(HistoryOfApi, IsReadWhileAnotherCallerVerifiesIt) {
 TEST_F(HistoryOfApi, CallersTakeTurnsToVerifyIt) {
   start(Role::observer);
   SlowVerification slow(*world_);
-  std::mutex mutex;
-  std::vector<std::string> order;
-  std::promise<void> all_done;
+  struct Order {
+    std::mutex mutex;
+    std::vector<std::string> callers;
+    std::promise<void> all_done;
+  };
+  const auto order = std::make_shared<Order>();  // the worker may be in the last answer when the test goes on
   for (const char* who : {kOlaf, kOlaf, kOlaf, kAnna}) {
-    world_->api->history.verify(World::by(who), std::nullopt, [&, who](const Result<JournalVerdict>&) {
-      const std::lock_guard lock(mutex);
-      order.emplace_back(who);
-      if (order.size() == 4) all_done.set_value();
+    world_->api->history.verify(World::by(who), std::nullopt, [order, who](const Result<JournalVerdict>&) {
+      const std::lock_guard lock(order->mutex);
+      order->callers.emplace_back(who);
+      if (order->callers.size() == 4) order->all_done.set_value();
     });
   }
   slow.end();
-  ASSERT_EQ(all_done.get_future().wait_for(kTestPatience), std::future_status::ready);
-  EXPECT_THAT(order, ElementsAre(kOlaf, kAnna, kOlaf, kOlaf));
+  ASSERT_EQ(order->all_done.get_future().wait_for(kTestPatience), std::future_status::ready);
+  EXPECT_THAT(order->callers, ElementsAre(kOlaf, kAnna, kOlaf, kOlaf));
 }
 
 TEST_F(HistoryOfApi, ANameIsErasedWhenNobodyReadsOrVerifies) {

@@ -55,7 +55,7 @@ const std::vector<Row> kRows = {
     {Kind::get_device, "get_device", Role::observer, "request", Asks::nothing},
     {Kind::watch_device, "watch_device", Role::observer, "stream", Asks::nothing},
     {Kind::clear_errors, "clear_errors", Role::operator_, "request", Asks::nothing, Reason::not_allowed},
-    {Kind::withdraw_stop, "withdraw_stop", Role::admin, "request", Asks::nothing, Reason::not_found},
+    {Kind::withdraw_stop, "withdraw_stop", Role::admin, "request", Asks::nothing, Reason::not_found, Reason::not_found},
     {Kind::record, "record", Role::observer, "stream", Asks::nothing},
     {Kind::get_support_report, "get_support_report", Role::observer, "stream", Asks::nothing},
     {Kind::watch_events, "watch_events", Role::observer, "stream", Asks::nothing},

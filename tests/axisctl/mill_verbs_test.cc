@@ -86,7 +86,7 @@ TEST_F(MillSend, AFileWhoseNameIsNoTitleNeedsOne) {
     write_job("^IN;");
     const Ended ended = run(mill_send);
     EXPECT_EQ(ended.exit_code, kUsage) << name;
-    EXPECT_THAT(ended.message, HasSubstr("--title"));
+    EXPECT_THAT(ended.hint, HasSubstr("--title"));
     EXPECT_THAT(mill_.sent, IsEmpty());
     options_.job.title = "lid";
     EXPECT_EQ(run(mill_send).exit_code, kDone) << name;

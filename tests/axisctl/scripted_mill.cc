@@ -173,6 +173,7 @@ Ended MillVerbs::run(int (*verb)(const Session&)) {
     ended.exit_code = failure.exit_code;
     ended.reason = failure.reason;
     ended.message = failure.message;
+    ended.hint = failure.hint;
   }
   ended.output = ::testing::internal::GetCapturedStdout();
   return ended;

@@ -70,7 +70,7 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
 // How a verb ended: as main() has it.
 struct Ended {
   int exit_code = 0;
-  std::string output, reason, message;  // without a Failure the last two are empty
+  std::string output, reason, message, hint;  // without a Failure the last three are empty
 };
 
 class MillVerbs : public ::testing::Test {

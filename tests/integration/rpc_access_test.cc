@@ -70,10 +70,10 @@ const std::set<std::string> kOperator = {"CommandService/Execute",
                                          "MillService/MoveJob",
                                          "MillService/ReportJobDone",
                                          "MillService/OperateMill"};
-const std::set<std::string> kAdmin = {"AccessService/CreateToken",  "AccessService/ListTokens",
-                                      "AccessService/RevokeToken",  "ControlService/TakeOverLease",
-                                      "DeviceService/ClearErrors",  "SettingService/ResetDevice",
-                                      "HistoryService/ErasePerson", "MillService/CancelJobs"};
+const std::set<std::string> kAdmin = {
+    "AccessService/CreateToken",    "AccessService/ListTokens",   "AccessService/RevokeToken",
+    "ControlService/TakeOverLease", "DeviceService/ClearErrors",  "DeviceService/WithdrawStop",
+    "SettingService/ResetDevice",   "HistoryService/ErasePerson", "MillService/CancelJobs"};
 
 Role needed(const std::string& method) {
   return kObserver.contains(method) ? Role::observer : kOperator.contains(method) ? Role::operator_ : Role::admin;

@@ -168,8 +168,8 @@ std::vector<Condition> modes() {
   const Sentence &stop = sentence("L:"), &emergency = sentence("L:E");
   all.push_back(
       {.name = "A stop in MANUAL mode",
-       .manual = "4., the last note. It was written, and nobody can tell what became of the axes",
-       .reason = Reason::outcome_unknown,
+       .manual = "4., the last note. The stop stays open, and is sent again in HOST mode",
+       .reason = Reason::wrong_mode,
        .cases = {{&stop, stop.line, {stop.line}, {}, {}}, {&emergency, emergency.line, {emergency.line}, {}, {}}},
        .strikes = [](Device& device, TimePoint now) { device.set_mode("MANUAL", now); },
        .strikes_early = false});
