@@ -12,8 +12,8 @@
 namespace axisgate::axisctl {
 namespace {
 
-std::string describe_reply(const v1::AxisStop& stop) {
-  if (!stop.named()) return "no stop sent, its motor is off";
+std::string describe_reply(const v1::AxisStop& stop, bool stays_open) {
+  if (!stop.named()) return stays_open ? "no stop sent yet" : "no stop sent, its motor is off";
   if (stop.reply_unreadable()) return "unreadable reply to the stop";
   return stop.wire_reply().empty() ? "no reply to the stop" : "replied " + stop.wire_reply();
 }
@@ -24,10 +24,10 @@ std::string describe_position(const v1::AxisStop& stop) {
   return fmt::format(" at {} {}", stop.position(), symbol(core_unit(stop.unit())));
 }
 
-std::string describe_stop(const v1::AxisStop& stop) {
+std::string describe_stop(const v1::AxisStop& stop, bool stays_open) {
   const char* state = !stop.has_ready() ? "state unknown" : stop.ready() ? "stationary" : "STILL MOVING";
   return fmt::format("axis {}: {}, {}{}", stop.name().empty() ? std::to_string(stop.axis()) : stop.name(),
-                     describe_reply(stop), state, describe_position(stop));
+                     describe_reply(stop, stays_open), state, describe_position(stop));
 }
 
 // What went wrong; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
@@ -54,7 +54,7 @@ int report(const Session& session, const Response& response) {
   for (const v1::DeviceStop& device : response.devices()) {
     const std::string whose = response.devices_size() > 1 ? fmt::format("{}: ", last_part(device.device())) : "";
     if (!session.options.json) {
-      for (const v1::AxisStop& stop : device.axes()) print_line(whose + describe_stop(stop));
+      for (const v1::AxisStop& stop : device.axes()) print_line(whose + describe_stop(stop, device.stays_open()));
     }
     auto failure = failure_of(device);
     if (device.stays_open() && !session.options.json) {

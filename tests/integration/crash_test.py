@@ -88,6 +88,7 @@ class Crash(unittest.TestCase):
                                           r"\S+\); stopping (axis 1|axes 1 and 2)\n")
                     self.assertRegex(log, r"killed during motion [^\n]* stationary now, outcome unknown")
                     self.assertNotIn("FOREIGN_MOTION", log)
+                    self.wait_until(lambda: "OPEN STOP" not in self.status(), "the stop is confirmed")
                     stands_at = self.status()
                     self.assertNotIn("busy yes", stands_at)
                     self.assertEqual(self.status(), stands_at)

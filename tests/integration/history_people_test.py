@@ -72,7 +72,7 @@ class HistoryOfPeople(unittest.TestCase):
         head = self.run_well("audit", "verify").split("head ")[1].strip()
         self.assertIn(b"token guest", self.bytes_of_journal())
         self.assertEqual(self.run_well("audit", "erase", "token guest", "--yes"),
-                         'token guest is now "erased 2"; entries: 2\n'  # the stop and its line
+                         'token guest is now "erased 2"; entries: 3\n'  # the stop, its line and its end
                          "other files may have the name: `axisctl help audit` lists them\n")
         self.assertNotIn(b"token guest", self.bytes_of_journal())
         self.assertRegex(self.run_well("history"), r"(?m)^\S+ \S+  the name of caller 2 was erased, by unix \S+$")

@@ -136,7 +136,7 @@ class History(unittest.TestCase):
         entries = [(entry["kind"].removeprefix("HISTORY_KIND_"), json.loads(entry["details"]))
                    for entry in reversed(self.history()) if "DAEMON" not in entry["kind"] and "LINK" not in entry["kind"]]
         self.assertEqual([kind for kind, _ in entries], ["LEASE_GRANTED", "LATCHED", "STOP_REQUESTED", "LINES_EXCHANGED",
-                                                         "REQUEST_REFUSED", "REARMED", "REQUEST_ENDED", "LEASE_ENDED"],
+                                                         "STOP_ENDED", "REQUEST_REFUSED", "REARMED", "REQUEST_ENDED", "LEASE_ENDED"],
                          "what is refused at first is not written as if it were to be done")
         details = dict(entries)
         self.assertEqual(details["LEASE_GRANTED"]["axes"], [1])

@@ -88,10 +88,10 @@ class Stops(unittest.TestCase):
     def test_one_that_cannot_be_stopped_hides_no_other(self):
         self.with_daemon(DEAD + STAGE.format("stage"))
         answer = self.daemon.run("stop")
-        self.assertEqual(answer.returncode, 4, answer.stderr)
-        self.assertRegex(answer.stderr, r"\Aaxisctl: LINK_DOWN: dead: the stop could not be written: [^\n]*\n\Z")
+        self.assertEqual(answer.returncode, 1, answer.stderr)
+        self.assertRegex(answer.stderr, r"\Aaxisctl: OUTCOME_UNKNOWN: dead: the stop was not written yet and stays open: [^\n]*\n\Z")
         self.assertRegex(answer.stdout, rf"(?m)^stage: axis 1: {STOPPED}")
-        self.assertRegex(answer.stdout, r"(?m)^dead: axis 1: no reply to the stop, state unknown, position unknown$")
+        self.assertRegex(answer.stdout, r"(?m)^dead: axis 1: no stop sent yet, state unknown, position unknown$")
 
     # The display of the motion takes the only stream.
     def test_an_outcome_without_a_stream(self):

@@ -5,6 +5,14 @@
 #include "device/core/guard.h"
 
 namespace axisgate::shrc203 {
+namespace {
+
+// No answer does (manual 4. and 6.); `?:CMD` answers with one (manual 40)).
+bool names_a_command(std::string_view text) {
+  return text.find(':') != std::string_view::npos || text.starts_with('*') || text == "G";
+}
+
+}  // namespace
 
 // A stop that this run has written at the opening of the port is no other program's.
 bool PreviousRun::is_ours(std::string_view line_before) const {
@@ -17,7 +25,7 @@ void PreviousRun::heard(std::string_view text) {
   const auto identity = parse_identity(text);
   const bool same_unit = identity && identity->serial_number == unfinished_->serial_number;
   if (is_ours(text) || (same_unit && !names_another_)) return take_over();
-  names_another_ = names_another_ || text.find(':') != std::string_view::npos;
+  names_another_ = names_another_ || names_a_command(text);
 }
 
 void PreviousRun::identified(const Identity& identity, const std::optional<std::string>& line_before) {

@@ -211,10 +211,10 @@ Problem Stops::unseen(const StopJob& job) const {
   const bool written = job.stop.state == StopState::written;
   if (!store_.line_works()) {
     return {.reason = Reason::outcome_unknown,
-            .message =
-                fmt::format("the stop was {}, and its outcome is not known: {}; it stays open, and is sent {} as "
-                            "soon as the controller answers",
-                            written ? "written" : "not written yet", state.link_problem, written ? "again" : "first"),
+            .message = fmt::format(
+                "the stop was {} and stays open: it is sent {} as soon as the controller answers; its outcome "
+                "is not known: {}",
+                written ? "written" : "not written yet", written ? "again" : "first", state.link_problem),
             .hint = kHint};
   }
   return {.reason = Reason::outcome_unknown,
