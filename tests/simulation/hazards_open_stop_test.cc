@@ -98,15 +98,6 @@ TEST_F(HazardOfOpenStops, H54_ItFollowsTheFirstLineThatIsHeard) {
   EXPECT_EQ(world.wire().commands()[*heard], "L:D") << world.replay();
 }
 
-TEST_F(HazardOfOpenStops, H54_APortIsOpenedAgainSoonWhileAStopIsOpen) {
-  (void)stop();
-  const TimePoint back = world.now() + seconds(30);
-  world.wire().cut(world.now(), seconds(30));
-  const std::size_t before = world.wire().commands().size();
-  ASSERT_TRUE(world.run_until([&] { return world.wire().commands().size() > before; }, seconds(40)));
-  EXPECT_LE(world.now() - back, milliseconds(251)) << world.replay();
-}
-
 // The unit of before may have received nothing; the other one has received at most what was written before it said who
 // it is.
 TEST_F(HazardOfOpenStops, H32_AnotherUnitReceivesNoStop) {
@@ -127,14 +118,15 @@ TEST_F(HazardOfOpenStops, H32_AnotherUnitReceivesNoStop) {
 
 // The answer to L: and the one to ?:CMD are lost, so the stop may be, too, and the first reading shows a B as an R.
 TEST_F(HazardOfOpenStops, H54_OneReadyAfterAStopInDoubtIsNotEnough) {
-  bool lied = false, asked = false;
+  bool lied = false, asked = false, dropped = false;
   world.wire().set_script([&](LineKind kind, const std::string& line) -> Scripted {
     if (kind == LineKind::command) {
       const bool drop = asked && line.starts_with("L:") && !lied;
+      dropped = dropped || drop;
       return {.drop = drop, .delay = {}, .instead = {}};
     }
     const std::string& command = world.wire().commands().back();
-    if (kind != LineKind::reply || lied || !asked || !command.starts_with("Q:")) return {};
+    if (kind != LineKind::reply || lied || !dropped || !command.starts_with("Q:")) return {};
     lied = true;
     std::string other = line;
     for (const char* busy : {",B", "B,"}) {
@@ -273,6 +265,7 @@ TEST_F(EmergencyLatch, H20_ItHoldsWhateverBecameOfTheStop) {
     return Scripted{.drop = kind == LineKind::command && line == "L:E", .delay = {}, .instead = {}};
   });
   (void)stop({}, true);
+  ASSERT_TRUE(world.controller().state().emergency);
   EXPECT_EQ(refusal_of_a_move(), Reason::emergency_stopped);
   EXPECT_THAT(execute(world, {"M:2+P100", "G:2"}), ElementsAre("EMERGENCY_STOPPED"));
   EXPECT_EQ(clear(AxisSet::all()), Reason::stop_unconfirmed) << world.replay();

@@ -189,6 +189,18 @@ TEST_F(BarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   EXPECT_EQ(it.state(), Barrier::State::passed);
 }
 
+TEST_F(BarrierTest, HalfALineBeginsTheSilenceAnew) {
+  auto it = barrier("G:1");
+  it.start(at(0));
+  EXPECT_TRUE(it.on_line("G:1", at(10)));
+  EXPECT_TRUE(it.on_line(kIdentity, at(20)));
+  it.on_half_line(at(50));
+  it.advance(at(99));
+  EXPECT_EQ(it.state(), Barrier::State::probing);
+  it.advance(at(100));
+  EXPECT_EQ(it.state(), Barrier::State::passed);
+}
+
 TEST_F(BarrierTest, AStopInBetweenBeginsItAnewWithoutTheEcho) {
   auto it = barrier("G:1");
   it.start(at(0));

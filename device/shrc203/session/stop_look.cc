@@ -41,9 +41,7 @@ Task<void> StopLook::look(StopJobPtr job) {
 
 // One flipped bit makes an R of a B, and a start may show late: one READY is enough only behind a stop that was
 // received.
-bool StopLook::is_certain(const StopJob& job) const {
-  return job.taken || job.stationary_looks > 1 || !guarded(Guard::stop_seen_twice);
-}
+bool StopLook::is_certain(const StopJob& job) const { return job.taken || job.stationary_looks > 1; }
 
 void StopLook::confirm(const StopJobPtr& job) {
   for (const int axis : job->stop.axes.list()) {
