@@ -82,6 +82,10 @@ class Examples(unittest.TestCase):
     def run_one(self, line):
         answer = subprocess.run(["sh", "-c", line], cwd=self.folder, env=self.environment, capture_output=True,
                                 text=True, timeout=2 * LIMIT_S, check=False)
+        if line.startswith("axisctl withdraw"):  # every stop was obeyed
+            self.assertIn("is not open", answer.stderr)
+            self.assertEqual(answer.returncode, 3)
+            return
         self.assertEqual(answer.returncode, 0, f"{line}: {answer.stdout}{answer.stderr}")
 
     def interrupt_one(self, line):
