@@ -151,7 +151,7 @@ TEST_F(HistoryOfApi, CallersTakeTurnsToVerifyIt) {
     std::vector<std::string> callers;
     std::promise<void> all_done;
   };
-  const auto order = std::make_shared<Order>();  // the worker may be in the last answer when the test goes on
+  const auto order = std::make_shared<Order>();  // the worker may be in the last answer when the test continues
   for (const char* who : {kOlaf, kOlaf, kOlaf, kAnna}) {
     world_->api->history.verify(World::by(who), std::nullopt, [order, who](const Result<JournalVerdict>&) {
       const std::lock_guard lock(order->mutex);
