@@ -6,7 +6,7 @@ set -euo pipefail
 
 root="$(dirname "$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")")"
 bin="$root/build/bin"
-# Those that the documentation starts from build/bin/ after this script.
+# The documentation starts these programs from build/bin/ after this script.
 programs=(axisgated axisctl shrc203-sim rml1-sim)
 config="$root/deploy/demo/axisgate.toml"
 log="$root/build/axisgated.log"

@@ -110,7 +110,7 @@ void Connection::repeat_by(const v1::ListDevicesResponse& there) const {
   if (there.requests_kept()) request_memory_ = there.request_memory();
 }
 
-// A daemon that ends refuses what it is asked, with a problem; of one that was killed nothing comes.
+// A daemon that is ending refuses requests with a problem; a daemon that was killed sends nothing.
 bool Connection::asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const {
   const bool lost = status.error_code() == grpc::StatusCode::UNAVAILABLE ||
                     status.error_code() == grpc::StatusCode::CANCELLED ||

@@ -1,4 +1,4 @@
-// What Ctrl-C, and signals like it, mean to a command of axisctl.
+// This file says how a command of axisctl ends at Ctrl-C and at similar signals.
 #pragma once
 
 namespace axisgate::axisctl {

@@ -30,7 +30,7 @@ std::string describe_stop(const v1::AxisStop& stop, bool stays_open) {
                      describe_reply(stop, stays_open), state, describe_position(stop));
 }
 
-// What went wrong; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
+// Returns what went wrong; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
 std::optional<Failure> failure_of(const v1::DeviceStop& device) {
   if (device.has_problem()) {
     Failure failure = to_failure(device.problem());

@@ -67,7 +67,7 @@ class Watcher {
     backoff_ = std::min(backoff_ * 2, kBackoffMost);
   }
 
-  // A daemon that ends says so; of one that was killed there is no problem.
+  // A daemon that is ending says so; a daemon that was killed sends no problem.
   void tell_of_break(const v1::Problem& problem) const {
     Failure failure{kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost", "trying again"};
     if (problem.reason() != v1::REASON_UNSPECIFIED) {

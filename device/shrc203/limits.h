@@ -64,7 +64,7 @@ inline constexpr Duration kTurnLimit = std::chrono::seconds(4);
 
 // What must not be misread is asked until two answers in a row agree, so often at most.
 inline constexpr int kAgreeingAnswerTries = 4;
-// What has changed at the stage is read again at once: two readings must agree.
+// A change at the stage is read again at once: two readings must agree.
 inline constexpr int kReadingsOfAChange = 2;
 // A question whose answer may be a completion is asked until two answers agree, so often at most.
 inline constexpr int kClosedQuestionTries = 8;

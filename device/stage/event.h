@@ -51,7 +51,8 @@ struct StopRequested {
   std::int64_t count = 1;  // identical stops by the same caller since the last of these events
 };
 
-// A stop is in another state, or has another caller. A fact once it is not open any more; before that for its record.
+// A stop has another state, or another caller. It is a fact once the stop is no longer open; until then the event only
+// keeps the record of open stops current.
 struct StopChanged {
   Stop stop;
 };

@@ -152,8 +152,8 @@ void MotionRecord::note(const stage::BytesWritten& bytes) {
   if (something_may_move()) write();
 }
 
-// The controller has received this line, and none before it counts any more; a refused one it may not remember
-// (manual 40) ?:CMD).
+// The controller has received this line, so the lines before it no longer count. It may not remember a line that it
+// refused (manual 40) ?:CMD).
 void MotionRecord::note(const stage::ExchangeEnded& ended) {
   using Outcome = stage::ExchangeEnded::Outcome;
   const bool taken = ended.outcome == Outcome::ok || ended.outcome == Outcome::ok_d || ended.outcome == Outcome::data;

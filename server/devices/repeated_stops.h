@@ -1,5 +1,5 @@
-// Folds the stops of a caller who asks again and again although nothing moves, so that a loop of stops pushes nobody's
-// history, log or events out. Each of them is carried out all the same.
+// Folds the stops of a caller who asks again and again although nothing moves, so that a loop of stops does not
+// push the entries of others out of the history, the log or the events. Each of them is carried out all the same.
 #pragma once
 
 #include <cstdint>

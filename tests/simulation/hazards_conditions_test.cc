@@ -133,7 +133,7 @@ TEST_P(Hazard61, AnErrorWithoutABit) {
          {"axis 2: error without a name ended", "axis 2: scale error (S1)"});
 }
 
-// Moves and a homing change the status, and are nobody's doing at the stage.
+// Moves and a homing change the status, but nobody at the panel caused that.
 TEST_P(Hazard61, WhatIsAskedHereIsNone) {
   home(*world_, AxisSet::all());
   EXPECT_EQ(outcome_of(*world_, 1).state, MotionState::succeeded) << world_->replay();

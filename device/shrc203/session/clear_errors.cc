@@ -66,7 +66,7 @@ bool ErrorClearing::lifts_latch(AxisSet axes) const {
   return store_.state().emergency && all;
 }
 
-// Where a new emergency stop has come meanwhile, its latch stays.
+// The latch stays if another emergency stop was requested in the meantime.
 Result<void> ErrorClearing::lift_latch(AxisSet axes, const std::string& who) {
   if (!lifts_latch(axes) || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
   for (const int axis : store_.controllable().list()) {

@@ -1,5 +1,5 @@
-// What a run of the gateway that was killed had started, and nobody had stopped: it is stopped as soon as the
-// controller says that nobody else has used the line since, or finishes.
+// This file handles the motions of an earlier run of the gateway that was killed. They are stopped, or may finish, as
+// soon as the controller says that nobody else has used the line since.
 #pragma once
 
 #include <optional>

@@ -76,7 +76,8 @@ ExchangeRequest StopWriter::request_for(const StopJob& job, Command command) con
   return request;
 }
 
-// What is known of the excitation may be old: where no motor seems to be on, the controller is to say.
+// The excitation that was read last may be out of date: if no motor seems to be on, the stop names every axis, and the
+// controller decides.
 AxisSet StopWriter::excited(const StopJob& job) const {
   AxisSet named = job.stop.axes;
   for (const int axis : job.stop.axes.list()) {
@@ -105,7 +106,7 @@ Task<void> StopWriter::write(StopJobPtr job) {
   if (result.refused() && job->stop.kind == StopKind::stop && named.count() > 1) co_await write_one_at_a_time(job);
 }
 
-// What an answer says counts for the report; what is repeated, and when, depends on whether the stop was received.
+// The answer goes into the report. When the stop is repeated depends only on whether the controller received it.
 void StopWriter::note_result(StopJob& job, AxisSet named, const ExchangeResult& result) const {
   const bool received = (result.reply && !result.problem) || result.received.value_or(false);
   const bool in_barrier = result.in_doubt() && result.problem->reason == Reason::outcome_unknown;

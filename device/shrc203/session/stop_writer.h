@@ -28,7 +28,7 @@ class StopWriter {
   void barrier_entered() { heard_ = false; }
   // Another unit is at the line, and must not receive any stop.
   void other_unit_answered() { other_unit_ = true; }
-  // What was written without an answer is due again: the line answers now, or was closed.
+  // A stop that was written without an answer is due again: the line answers now, or was closed.
   void line_answers();
   void line_lost();
 

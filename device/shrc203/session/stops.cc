@@ -159,7 +159,7 @@ TimePoint Stops::limit_of(const StopJob& job, const StopJob::Caller& caller) con
   TimePoint limit = caller.asked + kStopStationaryLimit;
   if (job.open()) {
     if (writer_.takes_none() || job.stop.stale) limit = caller.asked;
-    // What is asked once the axes are stationary must not hold an answer up on a line that garbles it.
+    // Questions that follow once the axes are stationary must not delay the answer on a line that garbles them.
     const bool occupied = motions_.occupied().touches(job.excluded());
     if (job.stationary) limit = std::min(limit, job.rest_since + (occupied ? 2 : 1) * kStopAnswerLimit);
     if (!store_.line_works()) limit = std::min(limit, caller.asked + kStopReopenLimit);

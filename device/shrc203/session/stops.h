@@ -51,7 +51,7 @@ class Stops {
   // Whether a caller waits for an answer.
   bool pending() const { return answering_ > 0; }
 
-  // What the line reports.
+  // The line reports these.
   void line_opened() { wake(); }
   void barrier_entered();
   void line_answers();
