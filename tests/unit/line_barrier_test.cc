@@ -215,12 +215,14 @@ TEST_F(LineBarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   asked_and_late("G:1");
   script({{"?:CMD\r\n", "G:1\r\n"}});
   ask("L:1");
-  EXPECT_EQ(sent(), "*IDN?\r\nL:1\r\n*IDN?\r\n");
+  EXPECT_EQ(sent(), "*IDN?\r\nL:1\r\n?:CMD\r\n");
   news();
   receive(kIdentityLine);
   pass(2 * kSilence);
   EXPECT_THAT(news(), IsEmpty());
-  receive("OK\r\n" + kIdentityLine);
+  receive("OK\r\nL:1\r\n");
+  EXPECT_EQ(sent(), "*IDN?\r\n");
+  receive(kIdentityLine);
   pass(4 * kSilence);
   EXPECT_THAT(news(), testing::Contains("passed"));
   EXPECT_EQ(line.outstanding(), 0);

@@ -36,7 +36,8 @@ void Barrier::start(TimePoint now) {
 void Barrier::restart(TimePoint now) {
   expect_answer();
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
-  begin(Step::identity, now);
+  const bool older = outstanding_.identities > 0 && guarded(Guard::older_identities);
+  begin(older ? Step::behind_stop : Step::identity, now);
 }
 
 void Barrier::begin(Step step, TimePoint now) {
@@ -55,14 +56,13 @@ void Barrier::begin(Step step, TimePoint now) {
 void Barrier::probe(TimePoint now) {
   ++probes_;
   probed_ = now;
-  write_(commands::text(step_ == Step::echo ? Question::previous_command : Question::identity));
+  write_(commands::text(step_ == Step::identity ? Question::identity : Question::previous_command));
   deadline_ = now + limits_.reply;
 }
 
 void Barrier::expect_answer() {
-  if (!guarded(Guard::outstanding_answers)) return;
-  if (step_ == Step::echo) ++outstanding_.echoes;
-  if (step_ == Step::identity) ++outstanding_.identities;
+  if (step_ == Step::silence || !guarded(Guard::outstanding_answers)) return;
+  ++(step_ == Step::identity ? outstanding_.identities : outstanding_.echoes);
 }
 
 bool Barrier::is_echo(std::string_view line) const { return line == line_in_doubt_ || is_known_command(line); }
@@ -73,6 +73,10 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     if (line == line_in_doubt_) received_ = true;
     if (line != line_in_doubt_ && line != commands::text(Question::previous_command)) received_ = false;
     echo_ = line;
+    begin(Step::identity, now);
+    return true;
+  }
+  if (step_ == Step::behind_stop && is_known_command(line)) {
     begin(Step::identity, now);
     return true;
   }
@@ -126,7 +130,8 @@ void Barrier::advance(TimePoint now) {
 
 void Barrier::probe_again(TimePoint now) {
   if (probes_ >= kBarrierProbesMax && guarded(Guard::three_probes)) {
-    if (step_ == Step::echo && line_in_doubt_ == kAnyLine) return begin(Step::identity, now);
+    const bool any_line = step_ == Step::echo && line_in_doubt_ == kAnyLine;
+    if (any_line || step_ == Step::behind_stop) return begin(Step::identity, now);
     state_ = State::failed;
   } else {
     probe(now);

@@ -65,7 +65,9 @@ class Barrier {
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
-  enum class Step { echo, identity, silence };
+  // behind_stop: a ?:CMD whose answer shows only that all answers before it have come, where an older identity that is
+  // answered twice could otherwise pass for the one requested after the Stop.
+  enum class Step { echo, behind_stop, identity, silence };
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
   void expect_answer();
