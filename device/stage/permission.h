@@ -20,6 +20,9 @@ struct Use {
   std::uint64_t lease = 0;  // the fencing token; 0: none, the axes are borrowed for the motion's own duration
   AxisSet axes;
   MotionId motion = 0;  // of a mill, its job; 0: not yet one
+  // The program that asks, over whatever connections: its stop does not hold its own motions back. Empty: unknown. It
+  // gives no rights.
+  std::string session{};
 };
 
 // Axes that are to be stopped, since their user may not move them any longer.

@@ -32,6 +32,7 @@ struct RequestContext {
   std::string role{};                    // a word of the configuration, "operator": for the travel envelope
   std::optional<TimePoint> answer_by{};  // of a stop: its report is made by then, of what is known
   std::string identity{};                // as whom `who` takes turns with others; empty: as `who`
+  std::string session{};                 // Use::session
 
   const std::string& takes_turns_as() const { return identity.empty() ? who : identity; }
 };

@@ -52,9 +52,10 @@ bool Access::only_for_admins(std::string_view line) const {
 std::string token_caller(std::string_view name) { return fmt::format("token {}", name); }
 std::string certificate_caller(std::string_view name) { return fmt::format("{}{}", kCertificate, name); }
 std::string anonymous_caller(std::string_view address) { return fmt::format("{}{}", kAnonymous, address); }
-bool is_anonymous(std::string_view who) { return who.starts_with(kAnonymous) || who == kSharedUnixName; }
+bool names_connection(std::string_view who) { return who.starts_with(kAnonymous); }
+bool is_anonymous(std::string_view who) { return names_connection(who) || who == kSharedUnixName; }
 std::string identity_of(std::string_view who) {
-  return std::string(who.starts_with(kAnonymous) ? kAnonymous.substr(0, kAnonymous.find(' ')) : who);
+  return std::string(names_connection(who) ? kAnonymous.substr(0, kAnonymous.find(' ')) : who);
 }
 std::string queued_as(std::string_view who) { return is_anonymous(who) ? "callers without a name" : std::string(who); }
 bool is_certainly(std::string_view who, std::string_view other) { return who == other && !is_anonymous(who); }

@@ -64,6 +64,8 @@ std::string certificate_caller(std::string_view name);
 // people, and calls by two names from one.
 std::string anonymous_caller(std::string_view address);
 bool is_anonymous(std::string_view who);
+// Of the anonymous, whether the name is that of one connection.
+bool names_connection(std::string_view who);
 // Under which name a caller's requests are remembered and take turns: all anonymous callers over loopback are one.
 std::string identity_of(std::string_view who);
 // Whose jobs the queue of a mill counts together: all callers without a name of their own are one.

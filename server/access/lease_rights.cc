@@ -26,6 +26,10 @@ bool is_same_caller(const std::string& one, const std::string& other) {
   return one == other || (is_anonymous(one) && is_anonymous(other));
 }
 
+bool is_same_program(const std::string& one, const std::string& other) {
+  return !one.empty() && one == other && guarded(Guard::own_stop_holds_nobody_back);
+}
+
 // The holder's own stop does not hide that of another.
 void latch(Lease& lease, const Latch& stop) {
   const AxisSet axes = stop.axes | (lease.latch ? lease.latch->axes : AxisSet());
@@ -82,13 +86,15 @@ void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePo
   std::map<std::string, AxisSet> latched, moved;
   for (Held& held : held_) {
     const AxisSet hit = held.lease.terms.axes & stop.axes;
-    if (hit.empty() || held.lease.token == stop.lease) continue;
+    const bool own = held.lease.token == stop.lease || is_same_program(held.lease.terms.session, stop.session);
+    if (hit.empty() || own) continue;
     latch(held.lease, {hit, stop.who, now});
     latched[held.lease.holder] = latched[held.lease.holder] | hit;
   }
   const auto add = [&](const Use& use) {
     const bool by_holder = use.lease != 0 && use.lease == stop.lease;
-    if (!by_holder && !is_certainly(use.who, stop.who)) moved[use.who] = moved[use.who] | (use.axes & stop.axes);
+    const bool own = by_holder || is_certainly(use.who, stop.who) || is_same_program(use.session, stop.session);
+    if (!own) moved[use.who] = moved[use.who] | (use.axes & stop.axes);
   };
   for (const auto& [id, running] : running_) add(running.use);
   for (const Use& use : waiting) add(use);

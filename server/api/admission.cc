@@ -106,7 +106,8 @@ Result<RequestContext> Admission::context_of(RequestKind kind, const Call& call,
   RequestContext context{.who = caller.who,
                          .not_after = until(rule.patience, call),
                          .role = std::string(name(caller.role)),
-                         .identity = server::identity_of(caller.who)};
+                         .identity = server::identity_of(caller.who),
+                         .session = call.credential.session};
   if (rule.use != Use::nothing) {
     const auto lease = lease_tokens_.open(call.lease_token);
     // A line of Execute may be a stop, which nothing refuses; other lines are refused where the right is asked.
@@ -127,7 +128,8 @@ RequestContext Admission::context_of_stop(const Call& call) const {
           .request_id = escaped(call.request_id, kRequestIdMax),
           .not_after = until(Patience::stop, call),
           .lease = lease_tokens_.open(call.lease_token).value_or(0),
-          .answer_by = call.deadline};
+          .answer_by = call.deadline,
+          .session = call.credential.session};
 }
 
 Result<void> check_line(const server::Access& access, const std::string& line, const Caller& caller) {

@@ -16,6 +16,7 @@ struct Credential {
   std::string who{};                   // by the connection: "unix alice", "cert alice", "tcp 127.0.0.1:39482"
   std::optional<std::string> token{};  // goes before `who`; empty text: something that is no token
   bool needs_token = false;            // without a token nobody may call so
+  std::string session{};               // stage::Use::session
 };
 
 // As in Motion.who, without a check: "unix alice", "token night-scan".

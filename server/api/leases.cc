@@ -111,8 +111,11 @@ void Leases::acquire(const Call& call, std::string_view device, const Result<Lea
                     const LeaseTurn& turn, const Answer<std::optional<Lease>>& respond) {
                   if (validate_only) return respond(std::nullopt);
                   server::Device& here = turn.device;
-                  const std::uint64_t id = turn.controller.acquire(*terms, turn.context.who, wait > Duration::zero(),
-                                                                   turn.now + wait, turn.now, handing_to(seeker, here));
+                  LeaseTerms theirs = *terms;
+                  theirs.session = turn.context.session;
+                  const std::uint64_t id =
+                      turn.controller.acquire(std::move(theirs), turn.context.who, wait > Duration::zero(),
+                                              turn.now + wait, turn.now, handing_to(seeker, here));
                   if (id == 0) return;
                   seeker->when_gone([&here, id] {
                     here.post([id](server::Leases& leases, TimePoint later) { leases.withdraw(id, later); });
@@ -127,7 +130,10 @@ void Leases::take_over(const Call& call, std::string_view device, const Result<L
                 [seeker, terms, validate_only = call.validate_only](const LeaseTurn& turn,
                                                                     const Answer<std::optional<Lease>>& respond) {
                   if (validate_only) return respond(std::nullopt);
-                  turn.controller.take_over(*terms, turn.context.who, turn.now, handing_to(seeker, turn.device));
+                  LeaseTerms theirs = *terms;
+                  theirs.session = turn.context.session;
+                  turn.controller.take_over(std::move(theirs), turn.context.who, turn.now,
+                                            handing_to(seeker, turn.device));
                 });
 }
 

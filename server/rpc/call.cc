@@ -6,6 +6,7 @@
 
 #include "server/events/wall_time.h"
 #include "server/rpc/bearer.h"
+#include "server/rpc/session.h"
 
 namespace axisgate::rpc {
 namespace {
@@ -37,8 +38,12 @@ std::optional<TimePoint> not_after(const v1::CallContext& context) {
 }  // namespace
 
 api::Credential credential_of(const grpc::ServerContextBase& call) {
-  if (auto token = token_in(find(call, kAuthorization))) return {.token = std::move(token)};
-  return {.who = peer_of(call).who};
+  std::string who = peer_of(call).who;
+  std::string session = session_in(find(call, kSessionHeader), who);
+  if (auto token = token_in(find(call, kAuthorization))) {
+    return {.token = std::move(token), .session = std::move(session)};
+  }
+  return {.who = std::move(who), .session = std::move(session)};
 }
 
 front::Peer peer_of(const grpc::ServerContextBase& call) {

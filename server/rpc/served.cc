@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "server/rpc/bearer.h"
+#include "server/rpc/session.h"
 #include "server/rpc/status.h"
 
 namespace axisgate::rpc {
@@ -10,8 +11,11 @@ namespace axisgate::rpc {
 std::string_view method_of(const front::Headers& headers) { return find(headers, ":path").value_or(""); }
 
 api::Credential credential_of(const front::Headers& headers, const front::Peer& peer) {
-  if (auto token = token_in(find(headers, "authorization"))) return {.token = std::move(token)};
-  return {.who = peer.who, .needs_token = peer.needs_token};
+  std::string session = session_in(find(headers, kSessionHeader), peer.who);
+  if (auto token = token_in(find(headers, "authorization"))) {
+    return {.token = std::move(token), .session = std::move(session)};
+  }
+  return {.who = peer.who, .needs_token = peer.needs_token, .session = std::move(session)};
 }
 
 front::Reply to_reply(const grpc::Status& status) {

@@ -105,6 +105,22 @@ TEST_F(HazardOfSharing, H35_AMotionWhoseLeaseEndedWhileItWaited) {
   EXPECT_EQ(lines_of_anna, 0) << "it was begun without the right to\n" << world.replay();
 }
 
+TEST_F(HazardOfSharing, H54_ATakeOverWaitsUntilTheAxesAreSeenStationary) {
+  const LeaseToken token = lease("anna", kOne);
+  EXPECT_EQ(move("anna", token, 1, 1'500'000), Reason::unspecified);
+  world.run_for(seconds(1));
+  const TimePoint back = world.now() + seconds(15);
+  world.wire().set_script([this, back](LineKind, const std::string&) {
+    return Scripted{.drop = world.now() < back, .delay = {}, .instead = {}};
+  });
+  std::optional<bool> busy;
+  leases.take_over({.axes = kOne}, "chief", world.now(), [&](const Result<Lease>&) { busy = world.device().busy(1); });
+  world.run_for(seconds(14));
+  EXPECT_FALSE(busy) << "granted while nobody knows what moves\n" << world.replay();
+  EXPECT_TRUE(world.run_until([&] { return busy.has_value(); }, seconds(15))) << world.replay();
+  EXPECT_FALSE(busy.value_or(true)) << world.replay();
+}
+
 TEST_F(HazardOfSharing, H35_AMotionThatMayFinishFinishes) {
   const LeaseToken token = lease("anna", kOne, AtLoss::finish);
   EXPECT_EQ(move("anna", token, 1, 700'000), Reason::unspecified);

@@ -36,6 +36,27 @@ TEST_F(LatchesTest, TheHoldersOwnStopHoldsNobodyBack) {
   EXPECT_EQ(may("anna", token, kOne), kAllowed);
 }
 
+// Over another connection, or without its bearer token.
+TEST_F(LatchesTest, AProgramsOwnStopHoldsItNotBack) {
+  const std::string one = "tcp 127.0.0.1:40000", other = "tcp 127.0.0.1:40001", session = "0f9d2c71";
+  leases_.begin({one, 0, kOne, 1, session}, {}, now_);
+  leases_.stop_asked({other, 0, kOne, 0, session}, {{one, 0, kOne, 2, session}}, now_);
+  EXPECT_EQ(may(one, 0, kOne), kAllowed);
+  EXPECT_EQ(may(other, 0, kOne), kAllowed);
+  leases_.end(1, now_);
+  leases_.stop_asked({other, 0, kOne, 0, "another1"}, {}, now_);
+  EXPECT_EQ(may(one, 0, kOne), Reason::stopped_by);
+  rearm(one);
+
+  LeaseToken token = 0;
+  leases_.acquire({.axes = kOne, .session = session}, one, false, now_, now_,
+                  [&](const Result<Lease>& lease) { token = lease->token; });
+  leases_.stop_asked({other, 0, kOne, 0, session}, {}, now_);
+  EXPECT_EQ(may(one, token, kOne), kAllowed);
+  leases_.stop_asked({other, 0, kOne, 0}, {}, now_);
+  EXPECT_EQ(may(one, token, kOne), Reason::stopped_by);
+}
+
 TEST_F(LatchesTest, ALatchOutlivesItsLease) {
   const LeaseToken token = held_by("anna", kOne);
   stop_by("bert", kOne);

@@ -20,7 +20,7 @@ bool waits(const Job& job) {
 
 // A mill is used as a whole.
 stage::Use use_of(const stage::RequestContext& by, JobNumber job) {
-  return {by.who, by.lease, stage::AxisSet::all(), job};
+  return {by.who, by.lease, stage::AxisSet::all(), job, by.session};
 }
 
 stage::Occupation occupation_by(const Job& job, const std::string& who, TimePoint now) {

@@ -41,7 +41,9 @@ Task<void> StopLook::look(StopJobPtr job) {
 
 // One flipped bit makes an R of a B, and a start may show late: one READY is enough only behind a stop that was
 // received.
-bool StopLook::is_certain(const StopJob& job) const { return job.taken || job.stationary_looks > 1; }
+bool StopLook::is_certain(const StopJob& job) const {
+  return job.taken || job.stationary_looks > 1 || !guarded(Guard::stop_seen_twice);
+}
 
 void StopLook::confirm(const StopJobPtr& job) {
   for (const int axis : job->stop.axes.list()) {

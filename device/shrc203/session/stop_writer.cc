@@ -22,7 +22,7 @@ std::vector<ExchangeRequest> StopWriter::lines_due(std::string_view heard) {
   std::vector<ExchangeRequest> lines;
   if (takes_none() || other_unit_) return lines;
   const bool first = !opened && !std::exchange(heard_, true);
-  const bool written = opened ? guarded(Guard::stop_written_at_open) : first;
+  const bool written = opened ? guarded(Guard::stop_written_at_open) : first && guarded(Guard::stop_written_when_heard);
   const bool refused = !opened && !first && heard == "NG" && guarded(Guard::stop_one_axis_at_a_time);
   for (const StopJobPtr& job : open_.all()) {
     // ?:CMD answers with the stop itself: the controller has received it.

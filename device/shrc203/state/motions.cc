@@ -74,7 +74,8 @@ Task<Result<void>> Motions::enter(LiveMotionPtr live, bool prebuffer) {
   const auto entered = co_await entry;
   if (!entered) co_return entered;
   change(*live, MotionEvent::entered);
-  const Use use{live->context.who, live->context.lease, live->uses, live->motion.id};
+  const RequestContext& by = live->context;
+  const Use use{by.who, by.lease, live->uses, live->motion.id, by.session};
   const auto allowed = rights_.still_authorized(use);
   if (!allowed && guarded(Guard::lease_asked_at_turn)) co_return allowed;
   if (auto forbidden = rights_.motion_forbidden(live->motion.axes)) co_return tl::unexpected(*std::move(forbidden));
@@ -190,9 +191,10 @@ void Motions::stop_requested(const RequestContext& by, AxisSet axes) {
   std::vector<Use> waiting;
   for (const auto& [id, live] : live_) {
     if (live->life.has_turn() || live->life.has_outcome() || !live->motion.axes.touches(axes)) continue;
-    waiting.push_back({live->context.who, live->context.lease, live->uses, id});
+    const RequestContext& waits = live->context;
+    waiting.push_back({waits.who, waits.lease, live->uses, id, waits.session});
   }
-  rights_.stop_asked({by.who, by.lease, axes, 0}, waiting);
+  rights_.stop_asked({by.who, by.lease, axes, 0, by.session}, waiting);
 }
 
 void Motions::stop_asked(LiveMotion& live, const std::string& who) {

@@ -48,7 +48,7 @@ Result<void> Rights::check_epochs(const RequestContext& context) const {
 
 Result<void> Rights::authorize(const RequestContext& context, AxisSet axes) {
   if (const auto good = check_epochs(context); !good) return good;
-  return still_authorized({context.who, context.lease, axes, 0});
+  return still_authorized({context.who, context.lease, axes, 0, context.session});
 }
 
 Result<void> Rights::authorize_motion(const RequestContext& context, AxisSet axes) {
