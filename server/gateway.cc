@@ -121,8 +121,10 @@ void Gateway::start() {
   lines_.start();
   readers_thread_ = std::thread([this] { readers_.run(); });
   for (const auto& device : devices_) {
-    const std::string& path = std::ranges::find(config_.devices, device->name(), &DeviceConfig::name)->record;
-    if (!path.empty()) recording_files_.push_back(std::make_unique<RecordingFile>(path, device->recorder()));
+    const DeviceConfig& config = *std::ranges::find(config_.devices, device->name(), &DeviceConfig::name);
+    if (config.record.empty()) continue;
+    const std::uint64_t bytes = static_cast<std::uint64_t>(config.record_megabytes) << 20;
+    recording_files_.push_back(std::make_unique<RecordingFile>(config.record, device->recorder(), bytes));
   }
   for (const auto& device : devices_) device->start();
 }

@@ -78,6 +78,10 @@ class ConfigReader {
       device.family = std::move(mill);
     }
     device.record = read_record(table);
+    constexpr int kLeast = 32;  // each of two files begins with the 4 MiB that are kept in memory
+    if (const auto given = table.integer("record_megabytes", kLeast, 1'000'000)) {
+      device.record_megabytes = static_cast<int>(*given);
+    }
     table.refuse_unknown();
     return device;
   }
@@ -149,7 +153,7 @@ class ConfigReader {
     if (path.empty() && !table.has("record")) return path;
     if (path.empty() || path.front() != '/') {
       table.error("record", fmt::format("\"{}\" is not an absolute path, e.g. \"/var/tmp/stage.recording\"", path));
-    } else if (!recordings_.insert(path).second) {
+    } else if (!recordings_.insert(path).second || !recordings_.insert(path + ".1").second) {
       table.error("record", fmt::format("\"{}\" is the file of another device, too; each has its own", path));
     }
     return path;

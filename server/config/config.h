@@ -88,7 +88,8 @@ struct DeviceConfig {
   std::string name;
   int baud = stage::Profile{}.baud;
   std::variant<SimulatedConnection, SerialSettings, TcpSettings, PrinterSettings> connection;
-  std::string record;  // the file that the daemon records the line to; empty: none
+  std::string record;           // the file that the daemon records the line to; empty: none
+  int record_megabytes = 1024;  // of that file and the one before it, together
   std::variant<StageConfig, MillConfig> family;
 };
 

@@ -224,6 +224,7 @@ void write(TomlWriter& out, const DeviceConfig& device) {
   if (!kind.empty()) out.text("kind", kind);
   std::visit([&](const auto& connection) { write(out, connection, device.baud); }, device.connection);
   if (!device.record.empty()) out.text("record", device.record);
+  if (!device.record.empty()) out.number("record_megabytes", device.record_megabytes);
   std::visit([&](const auto& family) { write(out, family, device); }, device.family);
 }
 

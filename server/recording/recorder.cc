@@ -44,10 +44,10 @@ RecordingRing::Beginning DeviceRecorder::begin() {
 }
 
 std::string DeviceRecorder::Reader::next() {
-  RecordingRing::Reading reading = recorder_.ring_.read(position_, kPortionBytes);
+  RecordingRing::Reading reading = recorder_->ring_.read(position_, kPortionBytes);
   position_ = reading.next;
   if (reading.lost == 0) return std::move(reading.text);
-  recorder_.drops_.Increment(static_cast<double>(reading.lost));
+  recorder_->drops_.Increment(static_cast<double>(reading.lost));
   return fmt::format("# {} lines lost: the reader was too slow\n", reading.lost) + reading.text;
 }
 

@@ -40,7 +40,7 @@ class DeviceRecorder {
   // One reader's way through the recording. Not thread safe by itself; the recorder outlives it.
   class Reader {
    public:
-    Reader(DeviceRecorder& recorder, RecordingRing::Position from) : recorder_(recorder), position_(from) {}
+    Reader(DeviceRecorder& recorder, RecordingRing::Position from) : recorder_(&recorder), position_(from) {}
 
     // The next lines, each with its \n; empty: there are none yet. In the place of those that are no longer kept, as
     // the reader was too slow, stands a remark that says so, and a new header; they are counted.
@@ -49,7 +49,7 @@ class DeviceRecorder {
     const RecordingRing::Position& position() const { return position_; }
 
    private:
-    DeviceRecorder& recorder_;
+    DeviceRecorder* recorder_;
     RecordingRing::Position position_;
   };
 

@@ -5,21 +5,26 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <chrono>
+#include <cstdio>
 #include <cstring>
 #include <utility>
 
 namespace axisgate::server {
 namespace {
 
+constexpr const char* kBeforeSuffix = ".1";
 constexpr mode_t kMode = 0640;  // it shows who requested what
 
 }  // namespace
 
-RecordingFile::RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause,
+RecordingFile::RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max, Duration retry_pause,
                              RecordingRing::Beginning beginning)
-    : path_(std::move(path)),
+    : recorder_(recorder),
+      path_(std::move(path)),
+      bytes_max_(bytes_max),
       retry_pause_(retry_pause),
       reader_(recorder, beginning.position),
       due_(std::move(beginning.header)),
@@ -47,8 +52,9 @@ void RecordingFile::run() {
     more = wait();
     if (!file_.valid() && !open()) continue;
     do {
+      if (due_.empty() && size_ >= bytes_max_ / 2) begin_another();
       if (due_.empty()) due_ = reader_.next();
-    } while (!due_.empty() && write_due());
+    } while (!due_.empty() && file_.valid() && write_due());
   }
 }
 
@@ -71,8 +77,19 @@ bool RecordingFile::open() {
     return false;
   }
   // A daemon that was killed may have left half a line, which the head must not go on.
-  if (::lseek(file_.get(), 0, SEEK_END) > 0) due_.insert(0, "\n");
+  size_ = static_cast<std::uint64_t>(std::max<off_t>(0, ::lseek(file_.get(), 0, SEEK_END)));
+  if (size_ > 0) due_.insert(0, "\n");
   return true;
+}
+
+// What the ring keeps stands in both files, so that each of them is a recording by itself.
+void RecordingFile::begin_another() {
+  const std::string before = path_ + kBeforeSuffix;
+  if (::rename(path_.c_str(), before.c_str()) != 0) return complain("renamed");
+  RecordingRing::Beginning beginning = recorder_.ring().oldest();
+  reader_ = {recorder_, beginning.position};
+  due_ = std::move(beginning.header);
+  open();
 }
 
 bool RecordingFile::write_due() {
@@ -84,6 +101,7 @@ bool RecordingFile::write_due() {
       return false;
     }
     due_.erase(0, static_cast<std::size_t>(written));
+    size_ += static_cast<std::uint64_t>(written);
   }
   if (!complaint_.empty()) spdlog::info("the recording {} is written again", path_);
   complaint_.clear();

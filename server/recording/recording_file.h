@@ -3,6 +3,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <cstdint>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -17,29 +18,35 @@ namespace axisgate::server {
 
 // Appends on a thread of its own, which reads the recording as any reader does. A slow or full disk delays nothing
 // else. What was lost is noted in the file and counted. A file that cannot be written is tried again every few seconds;
-// the log says why.
+// the log says why. At half of `bytes_max` the file is renamed to PATH.1, in the place of the one before, and a new one
+// begins with what the ring keeps.
 class RecordingFile {
  public:
   static constexpr Duration kRetryPause = std::chrono::seconds(5);
 
   // Of all that is kept. `recorder` outlives this.
-  RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause = kRetryPause)
-      : RecordingFile(std::move(path), recorder, retry_pause, recorder.ring().oldest()) {}
+  RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max, Duration retry_pause = kRetryPause)
+      : RecordingFile(std::move(path), recorder, bytes_max, retry_pause, recorder.ring().oldest()) {}
   // Writes what has been recorded until now, if it can be written.
   ~RecordingFile();
 
  private:
-  RecordingFile(std::string path, DeviceRecorder& recorder, Duration retry_pause, RecordingRing::Beginning beginning);
+  RecordingFile(std::string path, DeviceRecorder& recorder, std::uint64_t bytes_max, Duration retry_pause,
+                RecordingRing::Beginning beginning);
   void run();
   bool wait();
   bool open();
+  void begin_another();
   bool write_due();
   void complain(const char* what);
 
+  DeviceRecorder& recorder_;
   const std::string path_;
+  const std::uint64_t bytes_max_;  // of both files
   const Duration retry_pause_;
   DeviceRecorder::Reader reader_;
   Descriptor file_;
+  std::uint64_t size_ = 0;
   std::string due_;        // read, and not written yet
   std::string complaint_;  // what was logged last; empty: all is well
   std::mutex mutex_;

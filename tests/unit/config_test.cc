@@ -215,6 +215,12 @@ TEST(Config, RecordingsAreAbsolutePathsEachItsOwn) {
   const auto config = parse_config(recorded, "lab.toml", device_kinds());
   ASSERT_TRUE(config) << to_string(config.error().front());
   EXPECT_EQ(config->devices.at(0).record, "/var/tmp/stage.recording");
+  EXPECT_EQ(config->devices.at(0).record_megabytes, 1024);
+  EXPECT_THAT(errors_of(recorded + "record_megabytes = 31\n"),
+              ElementsAre(StartsWith("lab.toml:5: device.record_megabytes: ")));
+  EXPECT_THAT(errors_of(recorded + "[[device]]\nname = \"b\"\nconnection = \"simulated\"\n"
+                                   "record = \"/var/tmp/stage.recording.1\"\n"),
+              ElementsAre(HasSubstr("is the file of another")));
   EXPECT_THAT(errors_of(std::string(kStage) + "record = \"stage.recording\"\n"),
               ElementsAre(StartsWith("lab.toml:4: device.record: \"stage.recording\" is not an absolute path")));
   EXPECT_THAT(errors_of(std::string(kStage) + "record = \"\"\n"), ElementsAre(HasSubstr("is not an absolute path")));

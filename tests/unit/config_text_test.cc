@@ -30,6 +30,7 @@ busy_scope = "axis"
 at_exit = "finish"
 reply_limit_ms = 750
 record = "/var/tmp/stage.recording"
+record_megabytes = 64
 
 [[device.axis]]
 number = 2

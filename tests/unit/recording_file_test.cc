@@ -1,5 +1,6 @@
 #include "server/recording/recording_file.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <chrono>
@@ -22,6 +23,7 @@ using ::testing::HasSubstr;
 using ::testing::StartsWith;
 
 constexpr auto kRetryPause = std::chrono::milliseconds(1);
+constexpr std::uint64_t kBytesMax = 64 << 20;
 
 class RecordingFileTest : public ::testing::Test {
  protected:
@@ -53,7 +55,7 @@ class RecordingFileTest : public ::testing::Test {
 
 TEST_F(RecordingFileTest, IsWrittenAsTheLineGoesAndTakenUpAgain) {
   {
-    const RecordingFile file(path_, recorder_, kRetryPause);
+    const RecordingFile file(path_, recorder_, kBytesMax, kRetryPause);
     record("Q:S\r\n");
     wait_for(path_, "Q:S");
     record("!:\r\n");
@@ -61,20 +63,39 @@ TEST_F(RecordingFileTest, IsWrittenAsTheLineGoesAndTakenUpAgain) {
   EXPECT_THAT(content(path_),
               AllOf(StartsWith("# axisgate recording 1\n"), HasSubstr("Q:S"), EndsWith(" > \"!:\\r\\n\"\n")));
   const std::string first = content(path_);
-  { const RecordingFile file(path_, recorder_, kRetryPause); }
+  { const RecordingFile file(path_, recorder_, kBytesMax, kRetryPause); }
   EXPECT_THAT(content(path_), StartsWith(first + "\n# axisgate recording 1\n"));
 }
 
 TEST_F(RecordingFileTest, IsTriedAgainUntilItCanBeWritten) {
   const std::filesystem::path later = path_.parent_path() / "made-later" / "stage.recording";
-  const RecordingFile file(later, recorder_, kRetryPause);
+  const RecordingFile file(later, recorder_, kBytesMax, kRetryPause);
   record("Q:S\r\n");
   std::filesystem::create_directory(later.parent_path());
   wait_for(later, "Q:S");
 }
 
+TEST_F(RecordingFileTest, TwoFilesHaveNoMoreThanTheirBytes) {
+  DeviceRecorder recorder(
+      recording_header({}), [](const std::function<void()>& task) { task(); }, metrics_.recorder_drops("stage"), 4096);
+  constexpr std::uint64_t kSmall = 64 << 10;
+  {
+    const RecordingFile file(path_, recorder, kSmall, kRetryPause);
+    for (std::uint64_t i = 1; i <= 5000; ++i) {
+      recorder.on_event(stage::BytesWritten{fmt::format("?:P{}\r\n", i), i, "", Lane::question, {}}, monotonic_now());
+      recorder.flush();
+      if (i % 20 == 0) wait_for(path_, fmt::format("?:P{}\\r", i));
+    }
+  }
+  const std::string before = content(path_.string() + ".1"), now = content(path_);
+  EXPECT_THAT(before, StartsWith("# axisgate recording 1\n"));
+  EXPECT_THAT(now, AllOf(StartsWith("# axisgate recording 1\n"), HasSubstr("?:P5000\\r")));
+  EXPECT_GT(before.size(), kSmall / 2);
+  EXPECT_LT(before.size() + now.size(), kSmall + (8 << 10));
+}
+
 TEST_F(RecordingFileTest, AFullDiskHoldsUpNobody) {
-  const RecordingFile file("/dev/full", recorder_, kRetryPause);
+  const RecordingFile file("/dev/full", recorder_, kBytesMax, kRetryPause);
   for (int i = 0; i < 1000; ++i) record("Q:S\r\n");
   EXPECT_EQ(recorder_.ring().newest().line, 1000u);
 }
