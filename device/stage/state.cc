@@ -12,6 +12,8 @@ std::string_view name(LinkState state) {
       return "UP";
     case LinkState::doubtful:
       return "DOUBTFUL";
+    case LinkState::babbling:
+      return "BABBLING";
   }
   return "DOWN";
 }

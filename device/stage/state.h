@@ -20,6 +20,7 @@ enum class LinkState {
   connecting,  // open; the handshake runs
   up,          // the configured controller answers
   doubtful,    // the barrier runs after a time limit or garbage
+  babbling,    // the device sends without end; the line is shut, and opened again from time to time
 };
 std::string_view name(LinkState state);  // "DOWN", "CONNECTING", ...
 

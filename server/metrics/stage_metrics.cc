@@ -80,6 +80,8 @@ struct StageMetrics::Families {
         positions(gauge_family(registry, "axisgate_position_pulses",
                                "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
         link_up(gauge_family(registry, "axisgate_link_up", "1 when the configured controller answers, else 0.")),
+        line_babbles(gauge_family(registry, "axisgate_line_babbles",
+                                  "1 while the device sends without end, so that its line is closed, else 0.")),
         barriers(
             counter_family(registry, "axisgate_barriers_total",
                            "How often the gateway matched replies and commands again after a timeout or garbage.")),
@@ -105,6 +107,7 @@ struct StageMetrics::Families {
   Family<Counter>& conditions;
   Family<Gauge>& positions;
   Family<Gauge>& link_up;
+  Family<Gauge>& line_babbles;
   Family<Counter>& barriers;
   Family<Counter>& underruns;
   Family<Counter>& unexpected_lines;
@@ -126,6 +129,7 @@ StageMetrics::StageMetrics(const Families& families, std::string device)
       stop_seconds_(families.stop_seconds.Add({{"device", device_}}, kStopSeconds)),
       emergency_latched_(families.emergency_latched.Add({{"device", device_}})),
       link_up_(families.link_up.Add({{"device", device_}})),
+      line_babbles_(families.line_babbles.Add({{"device", device_}})),
       barriers_(families.barriers.Add({{"device", device_}})),
       underruns_(families.underruns.Add({{"device", device_}})),
       unexpected_lines_(families.unexpected_lines.Add({{"device", device_}})),
@@ -170,7 +174,7 @@ void StageMetrics::on_event(const stage::Event& event) {
 }
 
 void StageMetrics::set_state(const stage::State& state) {
-  link_up_.Set(state.link == stage::LinkState::up ? 1 : 0);
+  set_link(state.link);
   const auto late = std::ranges::count_if(state.open_stops, [](const stage::Stop& stop) { return stop.late; });
   late_stops_.Set(static_cast<double>(late));
   open_stops_.Set(static_cast<double>(state.open_stops.size()) - static_cast<double>(late));
@@ -234,8 +238,11 @@ void StageMetrics::count(const stage::ConditionChanged& change) {
   if (change.begun) conditions_.at(change.condition)->Increment();
 }
 
-void StageMetrics::count(const stage::LinkChanged& change) {
-  link_up_.Set(change.link == stage::LinkState::up ? 1 : 0);
+void StageMetrics::count(const stage::LinkChanged& change) { set_link(change.link); }
+
+void StageMetrics::set_link(stage::LinkState link) {
+  link_up_.Set(link == stage::LinkState::up ? 1 : 0);
+  line_babbles_.Set(link == stage::LinkState::babbling ? 1 : 0);
 }
 
 }  // namespace axisgate::server

@@ -56,6 +56,7 @@ class StageMetrics {
   void count(const stage::SwitchesChanged&) {}
   void count(const stage::ProgramNotice&) {}
   void count(const stage::LinkChanged& change);
+  void set_link(stage::LinkState link);
   void count(const stage::BarrierEntered&) { barriers_.Increment(); }
   void count(const stage::LineLearned&) {}
   void count(const stage::UnexpectedLine&) { unexpected_lines_.Increment(); }
@@ -84,6 +85,7 @@ class StageMetrics {
   prometheus::Histogram& stop_seconds_;
   prometheus::Gauge& emergency_latched_;
   prometheus::Gauge& link_up_;
+  prometheus::Gauge& line_babbles_;
   prometheus::Counter& barriers_;
   prometheus::Counter& underruns_;
   prometheus::Counter& unexpected_lines_;

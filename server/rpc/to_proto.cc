@@ -26,6 +26,7 @@ v1::LinkState to_link_state(LinkState state) {
   static_assert(static_cast<int>(LinkState::connecting) + 1 == v1::LINK_STATE_CONNECTING);
   static_assert(static_cast<int>(LinkState::up) + 1 == v1::LINK_STATE_UP);
   static_assert(static_cast<int>(LinkState::doubtful) + 1 == v1::LINK_STATE_DOUBTFUL);
+  static_assert(static_cast<int>(LinkState::babbling) + 1 == v1::LINK_STATE_BABBLING);
   return static_cast<v1::LinkState>(static_cast<int>(state) + 1);
 }
 

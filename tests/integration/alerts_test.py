@@ -17,6 +17,7 @@ RULES = ROOT / "deploy" / "prometheus" / "alerts.yml"
 FIRING = {
     "AxisgateDown": ({"__name__": "up", "job": "axisgate"}, "1x4 0x40", "2m", "2m15s"),
     "AxisgateDeviceDown": ({"__name__": "axisgate_link_up", "device": "stage"}, "1x4 0x40", "2m", "2m15s"),
+    "AxisgateLineBabbles": ({"__name__": "axisgate_line_babbles", "device": "stage"}, "0x4 1x40", "1m", "1m30s"),
     "AxisgateStopOpen": ({"__name__": "axisgate_open_stops", "device": "stage", "late": "yes"}, "0x4 1x40", "1m",
                          "1m30s"),
     "AxisgateUnderruns": ({"__name__": "axisgate_underruns_total", "device": "stage"}, "0x8 1x40", "2m", "2m15s"),
@@ -39,6 +40,7 @@ FIRING = {
 QUIET = {
     "AxisgateDown": ({"__name__": "up", "job": "another"}, "0x40"),
     "AxisgateDeviceDown": ({"__name__": "axisgate_link_up", "device": "stage"}, "1x4 0x3 1x40"),
+    "AxisgateLineBabbles": ({"__name__": "axisgate_line_babbles", "device": "stage"}, "0x4 1x0 0x40"),
     "AxisgateStopOpen": ({"__name__": "axisgate_open_stops", "device": "stage", "late": "no"}, "0x4 1x40"),
     "AxisgateUnderruns": ({"__name__": "axisgate_underruns_total", "device": "stage"}, "7x40"),
     "AxisgateLineInDoubt": ({"__name__": "axisgate_barriers_total", "device": "stage"}, "0x8 1x8 2x8 3x8 4x8"),

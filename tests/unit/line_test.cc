@@ -297,7 +297,7 @@ TEST_F(LineTest, OpenStopsGoBeforeTheFirstProbe) {
   EXPECT_EQ(sent(), "L:1\r\nL:2\r\n*IDN?\r\n");
   listener.open_stops = {"L:W"};
   receive("OK\r\n");
-  EXPECT_EQ(sent(), "L:W\r\n*IDN?\r\n") << "before anything else, and the barrier begins again";
+  EXPECT_EQ(sent(), "L:W\r\n?:CMD\r\n") << "before anything else, and the barrier begins again";
   listener.open_stops = {};
   receive("OK\r\n");
   EXPECT_EQ(sent(), "");
@@ -311,6 +311,35 @@ TEST_F(LineTest, APortIsReopenedWithoutGrowingPausesWhileAStopIsOpen) {
   for (int loss = 0; loss < 3; ++loss) link_down("unplugged");
   EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250), milliseconds(250), milliseconds(250), milliseconds(250),
                                          milliseconds(500), milliseconds(1000)));
+}
+
+// Half of what the line carries in a second is 500 bytes.
+TEST_F(LineTest, H62_ADeviceThatSendsWithoutEndIsShutOut) {
+  open_and_rest();
+  const std::string noise(100, 'x');
+  for (int i = 0; i < 4; ++i) receive(noise + "\r\n");
+  EXPECT_EQ(line.state().phase(), LinkPhase::up);
+  pass(seconds(1));
+  for (int i = 0; i < 4; ++i) receive(noise + "\r\n");
+  EXPECT_EQ(line.state().phase(), LinkPhase::up) << "the second before does not count";
+  receive(noise + "\r\n");
+  EXPECT_EQ(line.state().phase(), LinkPhase::babbling);
+  EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250)));
+  link_up();
+  forget();
+  EXPECT_EQ(line.state().phase(), LinkPhase::listening);
+  receive(std::string(2000, 'x'));
+  EXPECT_EQ(line.state().phase(), LinkPhase::babbling);
+  EXPECT_THAT(link.reopened, ElementsAre(milliseconds(250), milliseconds(500)));
+}
+
+TEST_F(LineTest, AnswersAreNoFlood) {
+  open_and_rest();
+  for (int i = 0; i < 200; ++i) {
+    ask("?:V");
+    script({{"?:V\r\n", "V2.00.000\r\n"}});
+  }
+  EXPECT_EQ(line.state().phase(), LinkPhase::up);
 }
 
 TEST_F(LineTest, ThreeProbesWithoutAnswerCloseTheLine) {

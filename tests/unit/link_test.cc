@@ -11,18 +11,20 @@
 namespace axisgate::shrc203::link_test {
 namespace {
 
-// The columns: port_opened, lost, stop_waits, identified, answer_doubted, barrier_passed, handshake_passed,
+// The columns: port_opened, lost, flooded, stop_waits, identified, answer_doubted, barrier_passed, handshake_passed,
 // restart_suspected, same_controller. "-" cannot be.
-const std::map<std::string, std::array<std::string, 9>> kTable = {
-    {"closed", {"identifying", "closed", "reopening", "-", "-", "-", "-", "-", "-"}},
-    {"reopening", {"identifying", "closed", "-", "-", "-", "-", "-", "-", "-"}},
-    {"identifying", {"-", "closed", "-", "handshaking", "-", "-", "-", "-", "-"}},
-    {"handshaking", {"-", "closed", "-", "-", "handshake_doubtful", "-", "up", "-", "-"}},
-    {"handshake_doubtful", {"-", "closed", "-", "-", "-", "handshaking", "doubtful", "-", "-"}},
-    {"up", {"-", "closed", "-", "-", "doubtful", "-", "-", "restart_suspected", "-"}},
-    {"doubtful", {"-", "closed", "-", "-", "-", "up", "-", "restart_doubtful", "-"}},
-    {"restart_suspected", {"-", "closed", "-", "-", "restart_doubtful", "-", "-", "-", "up"}},
-    {"restart_doubtful", {"-", "closed", "-", "-", "-", "restart_suspected", "-", "-", "doubtful"}},
+const std::map<std::string, std::array<std::string, 10>> kTable = {
+    {"closed", {"identifying", "closed", "-", "reopening", "-", "-", "-", "-", "-", "-"}},
+    {"reopening", {"identifying", "closed", "-", "-", "-", "-", "-", "-", "-", "-"}},
+    {"babbling", {"listening", "closed", "-", "reopening", "-", "-", "-", "-", "-", "-"}},
+    {"identifying", {"-", "closed", "babbling", "-", "handshaking", "-", "-", "-", "-", "-"}},
+    {"listening", {"-", "closed", "babbling", "-", "handshaking", "-", "-", "-", "-", "-"}},
+    {"handshaking", {"-", "closed", "babbling", "-", "-", "handshake_doubtful", "-", "up", "-", "-"}},
+    {"handshake_doubtful", {"-", "closed", "babbling", "-", "-", "-", "handshaking", "doubtful", "-", "-"}},
+    {"up", {"-", "closed", "babbling", "-", "-", "doubtful", "-", "-", "restart_suspected", "-"}},
+    {"doubtful", {"-", "closed", "babbling", "-", "-", "-", "up", "-", "restart_doubtful", "-"}},
+    {"restart_suspected", {"-", "closed", "babbling", "-", "-", "restart_doubtful", "-", "-", "-", "up"}},
+    {"restart_doubtful", {"-", "closed", "babbling", "-", "-", "-", "restart_suspected", "-", "-", "doubtful"}},
 };
 
 TEST(LinkTable, EachPairLeadsWhereThePageSays) {
@@ -36,14 +38,13 @@ TEST(LinkTable, EachPairLeadsWhereThePageSays) {
       illegal += to ? 0 : 1;
     }
   }
-  EXPECT_EQ(illegal, 56);
+  EXPECT_EQ(illegal, 72);
 }
 
 TEST(LinkTable, EachEventHasTheNameOfItsColumn) {
-  constexpr std::array<std::string_view, 9> columns = {
-      "port_opened",    "lost",           "stop_waits",       "identified",
-      "answer_doubted", "barrier_passed", "handshake_passed", "restart_suspected",
-      "same_controller"};
+  constexpr std::array<std::string_view, 10> columns = {
+      "port_opened",    "lost",           "flooded",          "stop_waits",        "identified",
+      "answer_doubted", "barrier_passed", "handshake_passed", "restart_suspected", "same_controller"};
   for (std::size_t event = 0; event < columns.size(); ++event) {
     EXPECT_EQ(name(static_cast<LinkEvent>(event)), columns[event]);
   }
@@ -59,6 +60,8 @@ TEST(Link, WhatCallersAreShown) {
   const std::map<LinkPhase, LinkState> all = {
       {LinkPhase::closed, LinkState::down},
       {LinkPhase::reopening, LinkState::down},
+      {LinkPhase::babbling, LinkState::babbling},
+      {LinkPhase::listening, LinkState::babbling},
       {LinkPhase::identifying, LinkState::connecting},
       {LinkPhase::handshaking, LinkState::connecting},
       {LinkPhase::handshake_doubtful, LinkState::connecting},

@@ -147,6 +147,7 @@ TEST_F(MetricsTest, EveryFamilyHasItsLabelsAndNoOthers) {
       {"axisgate_completions_total", {"axis", "device"}},
       {"axisgate_conditions_total", {"condition", "device"}},
       {"axisgate_emergency_latched", {"device"}},
+      {"axisgate_line_babbles", {"device"}},
       {"axisgate_open_stops", {"device", "late"}},
       {"axisgate_line_busy_seconds_total", {"device"}},
       {"axisgate_line_bytes_total", {"device", "direction"}},

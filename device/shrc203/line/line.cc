@@ -23,7 +23,8 @@ Line::Line(const Profile& profile, ByteLink& link, Executor& executor, LineListe
       executor_(executor),
       listener_(listener),
       backoff_(kReopenBackoffMin),
-      timing_(profile.baud) {}
+      timing_(profile.baud),
+      flood_(profile.baud) {}
 
 bool Line::change(LinkEvent event, TimePoint now) {
   const LinkPhase before = state_.phase();
@@ -42,6 +43,7 @@ void Line::link_up(TimePoint now) {
   maybe_in_two_ = false;
   after_refused_stop_.reset();
   timing_.connected();
+  flood_.connected();
   completions_.connected();
   continuity_.connected();
   // Whatever ?:CMD answers is new here.
@@ -68,7 +70,7 @@ Duration Line::pause_before_reopening() {
 }
 
 void Line::open_at_once(TimePoint now) {
-  if (state_.phase() != LinkPhase::closed) return;
+  if (state_.phase() != LinkPhase::closed && state_.phase() != LinkPhase::babbling) return;
   now_ = now;
   change(LinkEvent::stop_waits, now);
   link_.reopen(Duration::zero());
@@ -76,6 +78,10 @@ void Line::open_at_once(TimePoint now) {
 
 void Line::disconnect(const std::string& why, TimePoint now) {
   change(LinkEvent::lost, now);
+  shut(why, now);
+}
+
+void Line::shut(const std::string& why, TimePoint now) {
   barrier_.reset();
   reservations_.clear();
   framer_.clear();

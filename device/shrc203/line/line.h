@@ -19,6 +19,7 @@
 #include "device/shrc203/line/barrier.h"
 #include "device/shrc203/line/completions.h"
 #include "device/shrc203/line/continuity.h"
+#include "device/shrc203/line/flood.h"
 #include "device/shrc203/line/line_timing.h"
 #include "device/shrc203/line/link.h"
 #include "device/shrc203/line/reservations.h"
@@ -167,6 +168,8 @@ class Line {
   bool change(LinkEvent event, TimePoint now);
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
+  void shut(const std::string& why, TimePoint now);
+  bool shut_if_flooded(TimePoint now);
   void send_stops_now(TimePoint now);
   bool write_waiting_stops();  // whether there were any
   bool write_open_stops(std::string_view heard);
@@ -217,6 +220,7 @@ class Line {
   Duration backoff_;
   LineFramer framer_;
   LineTiming timing_;
+  Flood flood_;
   Reservations reservations_;
   Completions completions_;
   Continuity continuity_;

@@ -49,15 +49,26 @@ void Line::receive(std::string_view bytes, TimePoint now) {
   now_ = now;
   listener_.line_event(BytesReceived{std::string(bytes)}, now);
   if (!framer_.mid_line()) partial_since_.reset();
+  flood_.received(bytes.size(), now);
   framer_.push(bytes);
   while (auto line = framer_.next()) {
     partial_since_.reset();
     on_line(*line, now);
   }
+  if (shut_if_flooded(now)) return;
   if (framer_.mid_line() && !partial_since_) partial_since_ = now;
   if (framer_.mid_line() && barrier_) barrier_->on_half_line(now);
   look_at_continuity(now);
   pump(now);
+}
+
+// A device that sends without end is heard at each reopening only: reading on would take a core, and fill the
+// recording.
+bool Line::shut_if_flooded(TimePoint now) {
+  if (!state_.port_open() || !flood_.too_much() || !guarded(Guard::flooded_line_shut)) return false;
+  change(LinkEvent::flooded, now);
+  shut("it sends without end: more than half of what the line can carry, and nothing was asked", now);
+  return true;
 }
 
 void Line::on_line(const LineFramer::Line& line, TimePoint now) {
@@ -101,7 +112,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
 void Line::in_barrier(std::string_view text, TimePoint now) {
   const bool echoed = barrier_->echo().has_value(), identified = barrier_->identity().has_value();
   if (!barrier_->on_line(text, now)) unexpected(text, now);
-  const bool connecting = state_.phase() == LinkPhase::identifying;
+  const bool connecting = state_.identifying();
   if (!echoed && barrier_->echo() && !connecting) on_last_command(*barrier_->echo(), now);
   if (!barrier_) return;  // disconnected
   if (!identified && barrier_->identity()) continuity_.answered(true, now);
@@ -145,6 +156,7 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
   const int axis = text[0] - '0';
   const bool possible = completions_.possible(axis);
+  if (possible) flood_.belonged(text.size() + LineTiming::kTerminator);
   const bool closed = in_flight_ && in_flight_->waiting->request.closed && guarded(Guard::closed_questions);
   if (closed && (possible || !in_flight_->numbers.empty())) {
     on_number(axis, now);
@@ -245,6 +257,7 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
   if (result.reply) completions_.answered(done.written);
+  if (result.reply) flood_.belonged(result.reply->text.size() + LineTiming::kTerminator);
   const auto& request = done.waiting->request;
   if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
     timing_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
@@ -286,7 +299,7 @@ void Line::barrier_moved(TimePoint now) {
   maybe_in_two_ = false;
   barrier_.reset();
   learned(LineLearned::What::barrier_passed);
-  const bool connecting = state_.phase() == LinkPhase::identifying;
+  const bool connecting = state_.identifying();
   if (connecting) answering_ = identity.serial_number;
   if (doubted_waiting_) {
     if (const auto received = barrier_reported) {

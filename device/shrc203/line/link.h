@@ -12,7 +12,9 @@ namespace axisgate::shrc203 {
 enum class LinkPhase {
   closed,              // the port is shut; it is opened again after the backoff
   reopening,           // shut, and opened at once: a stop waits
+  babbling,            // shut after a flood of bytes; it is opened again after the backoff
   identifying,         // open; the first barrier asks who is there
+  listening,           // the same after a flood
   handshaking,         // the controller has said who it is; nothing but the handshake's questions is sent
   handshake_doubtful,  // a barrier within the handshake
   up,                  // the handshake has passed
@@ -20,11 +22,12 @@ enum class LinkPhase {
   restart_suspected,   // nothing but a stop and what shows whether the controller has restarted is sent
   restart_doubtful,    // a barrier meanwhile
 };
-inline constexpr std::size_t kLinkPhases = 9;
+inline constexpr std::size_t kLinkPhases = 11;
 
 enum class LinkEvent {
   port_opened,
   lost,            // the port was shut, by either side
+  flooded,         // shut, since the device sends without end
   stop_waits,      // a stop came while the port was shut
   identified,      // the first barrier has passed
   answer_doubted,  // a barrier has begun
@@ -33,7 +36,7 @@ enum class LinkEvent {
   restart_suspected,
   same_controller,  // the suspected restart was none
 };
-inline constexpr std::size_t kLinkEvents = 9;
+inline constexpr std::size_t kLinkEvents = 10;
 
 std::string_view name(LinkPhase phase);  // "closed", as in README.md
 std::string_view name(LinkEvent event);
@@ -50,7 +53,9 @@ class Link {
   // False for an event that the phase does not permit: the phase stays.
   [[nodiscard]] bool happened(LinkEvent event);
 
-  bool port_open() const { return phase_ != LinkPhase::closed && phase_ != LinkPhase::reopening; }
+  bool port_open() const { return phase_ >= LinkPhase::identifying; }
+  // Whether the first barrier runs.
+  bool identifying() const { return phase_ == LinkPhase::identifying || phase_ == LinkPhase::listening; }
   // Whether the handshake has passed since the port was opened.
   bool trusted() const { return phase_ >= LinkPhase::up; }
   bool restart_suspected() const { return phase_ >= LinkPhase::restart_suspected; }

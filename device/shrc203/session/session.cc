@@ -13,7 +13,8 @@ namespace axisgate::shrc203 {
 
 void Session::line_opened(TimePoint) {
   show_link();
-  store_.emit(LinkChanged{LinkState::connecting, "the line is open"});
+  const LinkState link = store_.state().link;
+  if (link == LinkState::connecting) store_.emit(LinkChanged{link, "the line is open"});
   stops_.line_opened();
 }
 
@@ -45,15 +46,17 @@ void Session::line_connected(const Identity& identity, const std::optional<std::
 
 void Session::line_lost(const std::string& why, TimePoint) {
   if (guarded(Guard::registers_unknown_after_connect)) registers_.forget();
-  const bool changed = store_.state().link != LinkState::down || store_.state().link_problem != why;
+  const LinkState before = store_.state().link;
   show_link();
+  const LinkState link = store_.state().link;
+  const bool changed = before != link || store_.state().link_problem != why;
   store_.note_trouble(LinkTrouble::line, why);
   store_.lost();
   stops_.line_lost();
   stop_jogs();
   motions_.line_lost(why);
   if (!changed) return;
-  store_.emit(LinkChanged{LinkState::down, why});
+  store_.emit(LinkChanged{link, why});
   store_.publish();
 }
 

@@ -98,6 +98,7 @@ void Recorder::tell(const LinkChanged& change) {
     case LinkState::up:
       return remark(Remark::up, change.controllable, {});
     case LinkState::down:
+    case LinkState::babbling:
       return remark(Remark::down, {}, change.why);
     default:
       return;

@@ -1,0 +1,32 @@
+// Whether a device sends without end: bytes that belong to nothing, more in a second than half of what the line
+// carries. Garbage and late replies never come near that.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "device/core/time.h"
+
+namespace axisgate::shrc203 {
+
+class Flood {
+ public:
+  static constexpr Duration kWindow = std::chrono::seconds(1);
+
+  explicit Flood(int baud) : limit_(baud / kBitsPerByte / 2) {}
+
+  void connected() { unclaimed_ = 0; }
+  void received(std::size_t bytes, TimePoint now);
+  // So many of those that were received belonged to an answer or a completion.
+  void belonged(std::size_t bytes);
+  bool too_much() const { return unclaimed_ > limit_; }
+
+ private:
+  static constexpr int kBitsPerByte = 10;
+
+  std::int64_t limit_;
+  TimePoint window_{};  // its beginning
+  std::int64_t unclaimed_ = 0;
+};
+
+}  // namespace axisgate::shrc203
