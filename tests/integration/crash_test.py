@@ -84,9 +84,9 @@ class Crash(unittest.TestCase):
                     self.crash_during(kind)
                     self.start_daemon()
                     log = self.daemon.log()
-                    self.assertRegex(log, r"stage: the daemon was killed during motion \d+ \([a-z-]+, asked by unix "
+                    self.assertRegex(log, r"stage: the daemon ended during motion \d+ \([a-z-]+, asked by unix "
                                           r"\S+\); stopping (axis 1|axes 1 and 2)\n")
-                    self.assertRegex(log, r"killed during motion [^\n]* stationary now, outcome unknown")
+                    self.assertRegex(log, r"ended during motion [^\n]* stationary now, outcome unknown")
                     self.assertNotIn("FOREIGN_MOTION", log)
                     self.wait_until(lambda: "OPEN STOP" not in self.status(), "the stop is confirmed")
                     stands_at = self.status()
@@ -99,7 +99,7 @@ class Crash(unittest.TestCase):
         begin = self.position()
         self.crash_during("move")
         self.start_daemon()
-        self.assertRegex(self.daemon.log(), r"killed during motion 1 \(move, asked by unix \S+\); letting axis 1 finish")
+        self.assertRegex(self.daemon.log(), r"ended during motion 1 \(move, asked by unix \S+\); letting axis 1 finish")
         self.assertNotIn("FOREIGN_MOTION", self.daemon.log())
         self.assertEqual(self.position(), begin + 9000)
 
@@ -107,7 +107,7 @@ class Crash(unittest.TestCase):
         self.start("finish")
         self.crash_during("jog")
         self.start_daemon()
-        self.assertRegex(self.daemon.log(), r"killed during motion 1 \(jog, asked by unix \S+\); stopping axis 1")
+        self.assertRegex(self.daemon.log(), r"ended during motion 1 \(jog, asked by unix \S+\); stopping axis 1")
 
     def test_where_another_program_used_the_line_it_is_foreign(self):
         self.start("stop")
@@ -116,7 +116,7 @@ class Crash(unittest.TestCase):
         ask(self.tty, "*IDN?")
         self.start_daemon()
         log = self.daemon.log()
-        self.assertRegex(log, r"killed during motion 1 \(move, asked by unix \S+\); another controller answers now, or "
+        self.assertRegex(log, r"ended during motion 1 \(move, asked by unix \S+\); another controller answers now, or "
                               r"another program has used the line since")
         self.assertIn("FOREIGN_MOTION: axis 1 moves", log)
         self.assertEqual(self.position(), begin + 9000, "it was not stopped")

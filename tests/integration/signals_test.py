@@ -232,7 +232,7 @@ class Signals(unittest.TestCase):
                 bed.run.restart()
                 for stage in stages:
                     bed.run.daemon.wait_for_log(
-                        rf"{stage}: the daemon was killed during motion 1 \({STAGES[stage]}, [^\n]* stationary now")
+                        rf"{stage}: the daemon ended during motion 1 \({STAGES[stage]}, [^\n]* stationary now")
                 bed.run.send(signal.SIGTERM)
                 self.assertEqual(bed.run.daemon.exit_code(), 0)
                 self.assert_nothing_moves(bed)

@@ -121,7 +121,7 @@ Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
 }
 
 std::string_view Handshake::origin_of_motion() const {
-  if (!store_.left_moving().empty()) return "the gateway had started before it was killed";
+  if (!store_.left_moving().empty()) return "the gateway had started before it ended";
   return store_.state().moving_unknown ? "the gateway had started before the line was lost"
                                        : "the gateway did not start";
 }
