@@ -36,8 +36,8 @@ struct Stop {
   StopKind kind = StopKind::stop;
   AxisSet axes;  // all for an emergency stop
   StopState state = StopState::asked;
-  std::vector<std::string> callers;  // in the order of their requests, each once; the first kCallersNamed
-  std::string serial_number;         // of the controller that is to stop; empty if it was never connected
+  std::vector<std::string> callers{};  // in the order of their requests, each once; the first kCallersNamed
+  std::string serial_number{};         // of the controller that is to stop; empty if it was never connected
   TimePoint asked{}, ended{};
   bool late = false;                      // a caller was reported that it stays open
   bool stale = false;                     // the axes rest, but a prebuffer still holds a segment that could start

@@ -24,22 +24,34 @@ std::string who(Random& random) { return fmt::format("caller-{}", random.between
 
 }  // namespace
 
-Callers::Callers(World& world, std::uint64_t seed, double mishaps_an_hour, bool shapes)
-    : world_(world), mishaps_(world, seed, mishaps_an_hour), shapes_(shapes) {
+Callers::Callers(World& world, std::uint64_t seed, double mishaps_an_hour, Habits habits)
+    : world_(world), mishaps_(world, seed, mishaps_an_hour), habits_(habits) {
   world_.device().set_inputs(kInputs);
 }
 
 void Callers::act_for(Duration duration) {
   const TimePoint end = world_.now() + duration;
   while (world_.now() < end && world_.violations().empty()) {
-    world_.run_for(milliseconds(world_.random().between(1, 1500)));
+    pass_time();
     act();
     check_starts();
   }
 }
 
+void Callers::pass_time() {
+  const Duration time = milliseconds(world_.random().between(1, 1500));
+  if (!habits_.stop_at_faults) return world_.run_for(time);
+  const TimePoint end = world_.now() + time;
+  while (world_.now() < end && world_.violations().empty()) {
+    const auto struck = [this, before = world_.wire().faults_drawn()] {
+      return world_.wire().faults_drawn() != before || !world_.violations().empty();
+    };
+    if (world_.run_until(struck, end - world_.now())) stop();
+  }
+}
+
 void Callers::act() {
-  if (shapes_ && world_.random().chance(0.35)) {
+  if (habits_.shapes && world_.random().chance(0.35)) {
     switch (world_.random().between(0, 3)) {
       case 0:
         return scan();
@@ -242,7 +254,10 @@ void Callers::become_stationary() {
     for (const Motion& motion : world_.controller().motions()) {
       if (!is_outcome(motion.state)) return false;
     }
-    return unfinished_questions_ == 0 && world_.controller().state().link == LinkState::up;
+    // A stop behind which a prebuffer keeps a segment stays open until a reset.
+    const auto& stops = world_.controller().state().open_stops;
+    const bool obeyed = std::ranges::all_of(stops, [](const Stop& stop) { return stop.stale; });
+    return unfinished_questions_ == 0 && obeyed && world_.controller().state().link == LinkState::up;
   };
   // A wrong bit may have made of a speed another that is as good, only slower: what really moves is no fault.
   const auto moves = [this] { return world_.device().busy(1) || world_.device().busy(2) || world_.device().busy(3); };
@@ -251,7 +266,7 @@ void Callers::become_stationary() {
   if (!rests && !moves() && world_.violations().empty()) {
     world_.violation("two quiet minutes after the last fault something is still unfinished");
   }
-  if (shapes_) {
+  if (habits_.shapes) {
     allow_starts(AxisSet::of(1));
     MoveRequest last{{{1, pulses(10), {}}}, true, world_.context("last")};
     world_.controller().move(last, world_.now(), [](Result<Motion>) {});

@@ -9,16 +9,21 @@
 
 namespace axisgate::simulation {
 
+struct Habits {
+  bool shapes = false;          // they also draw curves, rest between segments, come from one side, and scan
+  bool stop_at_faults = false;  // somebody stops the stage at each fault of the line
+};
+
 class Callers {
  public:
-  // `shapes`: they also draw curves, rest between segments, come from one side, and scan.
-  explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0, bool shapes = false);
+  explicit Callers(World& world, std::uint64_t seed = 0, double mishaps_an_hour = 0, Habits habits = {});
 
   void act_for(Duration duration);
   // The line is made perfect; every motion must end and the device must answer.
   void become_stationary();
 
  private:
+  void pass_time();
   void act();
   void move();
   void home();
@@ -35,7 +40,7 @@ class Callers {
 
   World& world_;
   Mishaps mishaps_;
-  const bool shapes_;
+  const Habits habits_;
   std::array<int, stage::kAxisCount> starts_allowed_{};
   int unfinished_questions_ = 0;
 };

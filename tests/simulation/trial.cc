@@ -10,7 +10,7 @@ namespace axisgate::simulation {
 TrialResult run(const Trial& trial) {
   World world(drawn_setup(trial.seed, trial.faults));
   world.wire().spare(trial.spared);
-  Callers callers(world, trial.seed, trial.faults.mishaps_an_hour, trial.shapes);
+  Callers callers(world, trial.seed, trial.faults.mishaps_an_hour, trial.habits);
   callers.act_for(trial.duration);
   callers.become_stationary();
   TrialResult result;

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "tests/simulation/callers.h"
 #include "tests/simulation/world.h"
 
 namespace axisgate::simulation {
@@ -15,7 +16,7 @@ struct Trial {
   std::uint64_t seed = 0;
   Faults faults = Faults::hostile();
   Duration duration = std::chrono::minutes(10);
-  bool shapes = false;                  // callers draw curves, rest, come from one side, and scan, too
+  Habits habits = {};                   // of the callers
   std::set<std::uint64_t> spared = {};  // faults that do not strike, by number
 };
 

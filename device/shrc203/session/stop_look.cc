@@ -88,7 +88,7 @@ Task<StopLook::Prebuffers> StopLook::read_prebuffers(StopJobPtr job) {
     note_kept(*job, answer, commands::text(question));
     co_return Prebuffers::kept;
   }
-  job->stop.stale = false;
+  open_.note_stale(*job, false);
   if (job->report.problem && job->report.problem->reason == Reason::stale_setpoint) job->report.problem.reset();
   co_return Prebuffers::empty;
 }
@@ -99,7 +99,7 @@ void StopLook::note_kept(StopJob& job, const ExchangeResult& answer, std::string
     job.write_at = tasks_.now();
     return;
   }
-  job.stop.stale = true;
+  open_.note_stale(job, true);
   job.report.problem =
       Problem{.reason = Reason::stale_setpoint,
               .message = fmt::format(

@@ -57,7 +57,8 @@ void StopWriter::line_answers() {
 void StopWriter::line_lost() {
   for (const StopJobPtr& job : open_.all()) {
     job->write_at = TimePoint::max();
-    job->taken = job->stationary = job->stop.stale = false;
+    job->taken = job->stationary = false;
+    open_.note_stale(*job, false);
     job->stationary_looks = job->kept_looks = 0;
   }
 }

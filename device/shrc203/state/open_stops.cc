@@ -40,13 +40,18 @@ StopJobPtr OpenStops::open(AxisSet axes, StopKind kind, const RequestContext& co
 void OpenStops::note_caller(StopJob& job, const std::string& who) {
   auto& callers = job.stop.callers;
   const bool known = std::ranges::find(callers, who) != callers.end();
-  if (!known && callers.size() < Stop::kCallersNamed) callers.push_back(who);
+  if (known || callers.size() == Stop::kCallersNamed) return;
+  callers.push_back(who);
   publish(job);
 }
 
 void OpenStops::note_late(StopJob& job) {
   if (!job.open() || std::exchange(job.stop.late, true)) return;
   publish(job);
+}
+
+void OpenStops::note_stale(StopJob& job, bool stale) {
+  if (std::exchange(job.stop.stale, stale) != stale) publish(job);
 }
 
 void OpenStops::change(const StopJobPtr& job, StopEvent event) {

@@ -28,6 +28,8 @@ class OpenStops {
   void note_caller(StopJob& job, const std::string& who);
   // Notes that a caller was reported that it stays open.
   void note_late(StopJob& job);
+  // Notes whether a prebuffer keeps a segment although the axes rest.
+  void note_stale(StopJob& job, bool stale);
   void change(const StopJobPtr& job, StopEvent event);
 
   // Oldest first. A copy, since change() shortens the list.

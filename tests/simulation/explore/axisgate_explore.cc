@@ -21,7 +21,7 @@ struct Arguments {
   std::string profile = "hostile";
   std::uint64_t first_seed = 0;
   std::string without;
-  bool shapes = false, digests = false;
+  bool shapes = false, stops = false, digests = false;
 };
 
 struct Totals {
@@ -76,7 +76,7 @@ int explore(const Arguments& arguments) {
     Trial trial;
     trial.seed = arguments.first_seed + i;
     trial.faults = *Faults::named(arguments.profile);
-    trial.shapes = arguments.shapes;
+    trial.habits = {.shapes = arguments.shapes, .stop_at_faults = arguments.stops};
     trial.duration = std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(arguments.hours * 3600 / static_cast<double>(arguments.seeds)));
     const TrialResult result = run(trial);
@@ -112,6 +112,7 @@ int main_program(int count, char** words) {
     return guards::row_named(name) ? "" : "there is no guard " + name + "; --list-guards names them";
   });
   program.add_flag("--shapes", arguments.shapes, "Callers draw curves, rest, come from one side, and scan, too");
+  program.add_flag("--stops", arguments.stops, "Somebody stops the stage at each fault of the line");
   program.add_flag("--digests", arguments.digests, "Prints one number for what each seed did, instead of the totals");
   bool list = false;
   program.add_flag("--list-guards", list, "Names the guards");
