@@ -30,11 +30,13 @@ bool is_same_program(const std::string& one, const std::string& other) {
   return !one.empty() && one == other && guarded(Guard::own_stop_holds_nobody_back);
 }
 
-// The holder's own stop does not hide that of another.
-void latch(Lease& lease, const Latch& stop) {
-  const AxisSet axes = stop.axes | (lease.latch ? lease.latch->axes : AxisSet());
+// The holder's own stop does not hide that of another. Whether more axes are latched than before.
+bool latch(Lease& lease, const Latch& stop) {
+  const AxisSet before = lease.latch ? lease.latch->axes : AxisSet();
+  const AxisSet axes = stop.axes | before;
   const bool keeps = lease.latch && is_certainly(lease.holder, stop.by);
   lease.latch = Latch{axes, keeps ? lease.latch->by : stop.by, keeps ? lease.latch->at : stop.at};
+  return axes != before;
 }
 
 bool holds_back(const Leases::HeldBack& one, const std::string& who) {
@@ -88,8 +90,7 @@ void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePo
     const AxisSet hit = held.lease.terms.axes & stop.axes;
     const bool own = held.lease.token == stop.lease || is_same_program(held.lease.terms.session, stop.session);
     if (hit.empty() || own) continue;
-    latch(held.lease, {hit, stop.who, now});
-    latched[held.lease.holder] = latched[held.lease.holder] | hit;
+    if (latch(held.lease, {hit, stop.who, now})) latched[held.lease.holder] = latched[held.lease.holder] | hit;
   }
   const auto add = [&](const Use& use) {
     const bool by_holder = use.lease != 0 && use.lease == stop.lease;
@@ -103,8 +104,7 @@ void Leases::stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePo
   }
   for (const auto& [who, axes] : moved) {
     if (axes.empty()) continue;
-    hold_back(who, {axes, stop.who, now});
-    latched[who] = latched[who] | axes;
+    if (hold_back(who, {axes, stop.who, now})) latched[who] = latched[who] | axes;
   }
   for (const auto& [who, axes] : latched) report(Latched{who, axes}, now);
   changed(now);
@@ -119,18 +119,20 @@ void Leases::note_mover(Use use, TimePoint now) {
   movers_.push_back({std::move(use), now + kMovedLately});
 }
 
-// Stops of one caller by one other are one entry, so that nobody fills the list alone.
-void Leases::hold_back(const std::string& who, const Latch& latch) {
+// Stops of one caller by one other are one entry, so that nobody fills the list alone. Whether it is new, or has grown.
+bool Leases::hold_back(const std::string& who, const Latch& latch) {
   const auto known = std::ranges::find_if(held_back_, [&](const HeldBack& one) {
     return is_same_caller(one.who, who) && is_same_caller(one.latch.by, latch.by);
   });
-  AxisSet axes = latch.axes;
+  AxisSet before;
   if (known != held_back_.end()) {
-    axes = axes | known->latch.axes;
+    before = known->latch.axes;
     held_back_.erase(known);
   }
+  const AxisSet axes = latch.axes | before;
   if (held_back_.size() == kHeldBackMax) held_back_.erase(held_back_.begin());
   held_back_.push_back({who, {axes, latch.by, latch.at}});
+  return axes != before;
 }
 
 std::vector<Latch> Leases::rearm(LeaseToken token, const std::string& who, TimePoint now) {

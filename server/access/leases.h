@@ -115,7 +115,7 @@ class Leases : public stage::Permission {
   Result<void> authorize_leased(const stage::Use& use, TimePoint now);
   Result<void> may_borrow(const stage::Use& use, TimePoint now);
   void note_mover(stage::Use use, TimePoint now);
-  void hold_back(const std::string& who, const Latch& latch);
+  bool hold_back(const std::string& who, const Latch& latch);
   std::optional<Problem> held_problem(AxisSet axes, TimePoint now) const;
   std::optional<Problem> in_the_way(AxisSet axes, TimePoint now) const;
   bool runs(LeaseToken token) const;

@@ -55,7 +55,7 @@ void DeviceEvents::on_event(const stage::Event& event, TimePoint now) {
     return;
   }
   for (const stage::StopRequested& count : repeated_stops_.ended(now)) keep_and_tell(count, now);
-  if (!is_folded(event)) keep_and_tell(event, now);
+  if (!is_folded(event) && !is_known(event)) keep_and_tell(event, now);
 }
 
 void DeviceEvents::keep_and_tell(const stage::Event& event, TimePoint now) {
@@ -72,8 +72,17 @@ bool DeviceEvents::is_folded(const stage::Event& event) const {
     return ended->lane == Lane::stop && repeated_stops_.folds(ended->who);
   }
   const auto* change = std::get_if<stage::StopChanged>(&event);
-  if (change == nullptr || change->stop.late || change->stop.callers.size() != 1) return false;
-  return repeated_stops_.folds(change->stop.callers.front());
+  if (change == nullptr || change->stop.late) return false;
+  return std::ranges::all_of(change->stop.callers, [this](const auto& who) { return repeated_stops_.folds(who); });
+}
+
+// Whether it says only that more callers wait for a stop that is known to be late.
+bool DeviceEvents::is_known(const stage::Event& event) {
+  const auto* change = std::get_if<stage::StopChanged>(&event);
+  if (change == nullptr || !change->stop.late) return false;
+  if (is_open(change->stop.state)) return !late_.insert(change->stop.id).second;
+  late_.erase(change->stop.id);
+  return false;
 }
 
 std::uint64_t DeviceEvents::motion_revision(stage::MotionId motion) const {
@@ -162,7 +171,7 @@ void DeviceEvents::tell(const stage::ConditionChanged& change, TimePoint now) {
 
 void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
   using What = stage::UnfinishedJudged::What;
-  const std::string whose = fmt::format("{}: the daemon was killed during {}", device_, judged.motions);
+  const std::string whose = fmt::format("{}: the daemon ended during {}", device_, judged.motions);
   switch (judged.what) {
     case What::not_ours:
       return spdlog::warn(

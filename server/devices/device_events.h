@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "device/stage/event.h"
@@ -78,6 +79,7 @@ class DeviceEvents : public stage::EventSink {
 
   void keep_and_tell(const stage::Event& event, TimePoint now);
   bool is_folded(const stage::Event& event) const;
+  bool is_known(const stage::Event& event);
   void publish(Fact fact, TimePoint now);
 
   const std::string device_;
@@ -89,6 +91,7 @@ class DeviceEvents : public stage::EventSink {
   const Keepers keepers_;
   std::map<stage::MotionId, Known> motions_;
   RepeatedStops repeated_stops_;
+  std::set<stage::StopId> late_;  // open
   // A line that stays down is tried again and again: the same change is reported once.
   std::optional<stage::LinkChanged> link_;
   // A chattering line must not fill the disk: one log line a second, and how many were left out.

@@ -52,6 +52,32 @@ TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
 }
 
+// As in a loop of stops over ever new connections, none of which has a name.
+TEST_F(DeviceEventsTest, AFloodOfStopsIsToldOnce) {
+  stage::Stop stop{.id = 1, .axes = stage::AxisSet::all()};
+  for (int port = 40000; port < 40020; ++port) {
+    const std::string who = "tcp 127.0.0.1:" + std::to_string(port);
+    tell(stage::StopRequested{stop.axes, false, who});
+    stop.callers.push_back(who);
+  }
+  EXPECT_EQ(bus_.newest_revision(), 1u) << "the first";
+  stop.state = stage::StopState::confirmed;
+  tell(stage::StopChanged{stop});
+  EXPECT_EQ(bus_.newest_revision(), 1u);
+}
+
+TEST_F(DeviceEventsTest, AStopIsLateOnceHoweverManyJoinIt) {
+  stage::Stop stop{.id = 1, .axes = stage::AxisSet::all(), .state = stage::StopState::written, .late = true};
+  for (const char* who : {"unix anna", "unix bert", "unix carl"}) {
+    stop.callers.push_back(who);
+    tell(stage::StopChanged{stop});
+  }
+  EXPECT_EQ(bus_.newest_revision(), 1u);
+  stop.state = stage::StopState::confirmed;
+  tell(stage::StopChanged{stop});
+  EXPECT_EQ(bus_.newest_revision(), 2u);
+}
+
 // A setting is a transaction of lines: "execute of no axis" would say nothing.
 TEST_F(DeviceEventsTest, AMotionWithoutAxesNamesNone) {
   std::ostringstream text;

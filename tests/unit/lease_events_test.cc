@@ -96,6 +96,8 @@ TEST_F(LeaseEventsTest, AStopLatchesEachCallerOnceAndARearmLiftsThat) {
   take();
   stop_by("unix bert", AxisSet::all());
   EXPECT_THAT(take(), ElementsAre(R"(latched|unix anna|{"axes":[1,2]})", R"(latched|unix carl|{"axes":[3]})"));
+  stop_by("unix bert", AxisSet::all());
+  EXPECT_THAT(take(), IsEmpty()) << "nobody is held back who was not before";
   rearm("unix anna");
   rearm("unix anna");
   EXPECT_THAT(take(), ElementsAre(R"(rearmed|unix anna|{"axes":[1,2]})")) << "the second had nothing to lift";

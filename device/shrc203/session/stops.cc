@@ -28,7 +28,7 @@ void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnS
   }
   add_caller(job, named, context, std::move(done));
   line_.open_at_once(tasks_.now());
-  wake();
+  due_.notify();
 }
 
 StopJobPtr Stops::begin(AxisSet axes, StopKind kind, const RequestContext& context) {
@@ -53,6 +53,7 @@ void Stops::replace_narrower(const StopJobPtr& wider) {
     wider->stop.late = wider->stop.late || job->stop.late;
     job->stop.replaced_by = wider->stop.id;
     open_.change(job, StopEvent::widened);
+    seen_.notify();
   }
 }
 
