@@ -50,9 +50,15 @@ class Unit:
             while os.read(self.tty, 4096):
                 pass
 
+    def switch_off(self):
+        """Its end of the line stays, so that nothing else gets its number."""
+        if self._program:
+            self._program.kill()
+        self._program = None
+
     def end(self):
         os.close(self.tty)
-        self._program.kill()
+        self.switch_off()
 
 
 class Cable:
