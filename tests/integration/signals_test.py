@@ -5,6 +5,7 @@ with and without a controlling terminal. What moves afterwards is asked from the
 import contextlib
 import os
 import pathlib
+import re
 import signal
 import subprocess
 import tempfile
@@ -307,24 +308,52 @@ class Signals(unittest.TestCase):
             bed.run.send(getattr(signal, words_of_one.rpartition(" ")[2]))
             bed.run.daemon.wait_for_log(words_of_one)
 
+    @contextlib.contextmanager
+    def job(self, terminal):
+        """A daemon, and a mill that executes a job: (run, mill)."""
+        with contextlib.ExitStack() as ways_back:
+            folder = ways_back.enter_context(tempfile.TemporaryDirectory(prefix="axisgate-signals-mill-"))
+            mill = PtyMill(pathlib.Path(folder), "mill", profile_text(), "none", "--speed", "4")
+            ways_back.callback(mill.end)
+            run = Run(folder, MILL_CONFIG + mill.table, terminal=terminal)
+            ways_back.callback(run.end)
+            gateway = Gateway(run.daemon, mill)
+            wait_until(lambda: "line open" in gateway.axisctl("mill", "queue"), "the line does not open")
+            gateway.start(MILL_JOB, "5-1,5-2")
+            mill.await_true(lambda entries: len(commands(entries)) > 5, "the job does not run")
+            yield run, mill
+
+    def assert_aborted(self, mill):
+        mill.await_true(lambda entries: [entry["command"] for entry in commands(entries)][-3:] == ["!VZ", "!ZM", "!MC"],
+                        "the job is not aborted")
+        self.assertEqual(mill.person.await_state(moving="no")["buffered"], "0")
+
     def test_signals_during_a_mill_job(self):
-        for name, terminal in (("SIGHUP", False), ("SIGHUP", True), ("SIGQUIT", True)):
-            with self.subTest(name, terminal=terminal), contextlib.ExitStack() as ways_back:
-                folder = ways_back.enter_context(tempfile.TemporaryDirectory(prefix="axisgate-signals-mill-"))
-                mill = PtyMill(pathlib.Path(folder), "mill", profile_text(), "none", "--speed", "4")
-                ways_back.callback(mill.end)
-                run = Run(folder, MILL_CONFIG + mill.table, terminal=terminal)
-                ways_back.callback(run.end)
-                gateway = Gateway(run.daemon, mill)
-                wait_until(lambda gateway=gateway: "line open" in gateway.axisctl("mill", "queue"), "the line does not open")
-                gateway.start(MILL_JOB, "5-1,5-2")
-                mill.await_true(lambda entries: len(commands(entries)) > 5, "the job does not run")
-                run.send(getattr(signal, name))
+        for number, name, terminal in rows(ENDS):
+            with self.subTest(name, terminal=terminal), self.job(terminal) as (run, mill):
+                run.send(number)
                 self.assertEqual(run.daemon.exit_code(), 0)
-                self.assertRegex(run.daemon.log(), rf"ending: {name}[^\n]*\n(?s:.*)mill: the line is closed")
-                self.assertEqual([entry["command"] for entry in commands(mill.read())][-3:], ["!VZ", "!ZM", "!MC"])
-                self.assertEqual(mill.person.await_state(moving="no")["buffered"], "0")
-                self.count(ENDS)
+                self.assertRegex(run.daemon.log(), rf"ending: {re.escape(name)}[^\n]*\n(?s:.*)mill: the line is closed")
+                self.assert_aborted(mill)
+                self.count(f"job: {ENDS}")
+
+    def test_crashes_during_a_mill_job(self):
+        for number, name, terminal in rows(CRASHES):
+            with self.subTest(name, terminal=terminal), self.job(terminal) as (run, mill):
+                run.send(number)
+                self.assertIn(run.daemon.exit_code(), (-number, 128 + number))
+                run.restart()
+                self.assert_aborted(mill)
+                self.count(f"job: {CRASHES}")
+
+    def test_signals_that_a_mill_job_ignores(self):
+        for terminal in (False, True):
+            with self.subTest(terminal=terminal), self.job(terminal) as (run, mill):
+                for number in [number for number, _, what in SIGNALS if what == GOES_ON]:
+                    sent = len(commands(mill.read()))
+                    run.send(number)
+                    mill.await_true(lambda entries, sent=sent: len(commands(entries)) > sent, "the job does not go on")
+                    self.count(f"job: {GOES_ON}")
 
 
 if __name__ == "__main__":
