@@ -152,6 +152,22 @@ TEST(HazardOfStopsInDoubt, H54_OneReadyIsNotEnough) {
   for (int which = 1; which <= 6; ++which) EXPECT_FALSE(moves_when_confirmed(which)) << which;
 }
 
+// Positions prove nothing while all axes are at 0: only the answer to a ?:CMD of before the stop does.
+TEST(HazardOfStopsInDoubt, H21_AControllerThatWasFrozenHasNotRestarted) {
+  World world(quiet());
+  ASSERT_TRUE(world.run_until_up()) << world.replay();
+  world.run_for(seconds(2));
+  const auto epoch = world.controller().state().device_epoch;
+  for (int frozen = 600; frozen <= 1200; frozen += 100) {
+    world.wire().hold_up(true, milliseconds(frozen));
+    world.run_for(milliseconds(100));
+    const auto report = stopped(world);
+    EXPECT_FALSE(report.stays_open) << frozen << " ms\n" << world.replay();
+    world.run_for(seconds(3));
+    EXPECT_EQ(world.controller().state().device_epoch, epoch) << frozen << " ms\n" << world.replay();
+  }
+}
+
 TEST_F(HazardOfOpenStops, H54_AWiderStopAnswersTheCallersOfANarrowerOne) {
   lose_all_for(milliseconds(2500));
   const auto one = stop(AxisSet::of(1));

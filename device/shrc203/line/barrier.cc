@@ -35,8 +35,9 @@ void Barrier::start(TimePoint now) {
 
 void Barrier::restart(TimePoint now) {
   expect_answer();
+  question_before_stop_ = question_before_stop_ || (step_ == Step::echo && line_in_doubt_ != kAnyLine);
   // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
-  const bool older = outstanding_.identities > 0 && guarded(Guard::older_identities);
+  const bool older = step_ != Step::echo && guarded(Guard::older_identities);
   begin(older ? Step::behind_stop : Step::identity, now);
 }
 
@@ -76,6 +77,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
     begin(Step::identity, now);
     return true;
   }
+  if (is_known_command(line) && std::exchange(question_before_stop_, false)) echo_ = line;
   if (step_ == Step::behind_stop && is_known_command(line)) {
     begin(Step::identity, now);
     return true;

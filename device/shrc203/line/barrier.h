@@ -35,8 +35,8 @@ class Barrier {
   };
 
   // `line_in_doubt` is empty after a connect, and ?:CMD is then not asked; kAnyLine after a connect that begins with
-  // it: a controller that does not answer it is requested its identity all the same. `is_known`: that of the controller
-  // that is expected. `write` sends one line.
+  // it: if the controller does not answer ?:CMD, the barrier asks for its identity nevertheless. `is_known`: that of
+  // the controller that is expected. `write` sends one line.
   static constexpr std::string_view kAnyLine = "?";
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
           std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write);
@@ -59,14 +59,16 @@ class Barrier {
 
   // Whether the controller had received the line in doubt; nothing while ?:CMD has shown neither.
   std::optional<bool> received() const { return received_; }
-  // What ?:CMD was answered.
+  // Reports whether no identity has been requested yet.
+  bool in_first_step() const { return step_ == Step::echo; }
+  // What ?:CMD was answered: the one of the first step, even if a Stop has ended that.
   const std::optional<std::string>& echo() const { return echo_; }
   // The expected one, or the same twice.
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
-  // behind_stop: a ?:CMD whose answer shows only that all answers before it have come, where an older identity that is
-  // answered twice could otherwise pass for the one requested after the Stop.
+  // behind_stop: a ?:CMD whose answer shows only that all answers before it have come. Otherwise an identity requested
+  // before the Stop and answered twice could pass for the one requested after it.
   enum class Step { echo, behind_stop, identity, silence };
   void begin(Step step, TimePoint now);
   void probe(TimePoint now);
@@ -87,6 +89,7 @@ class Barrier {
   // Identities requested before this step began, in an earlier barrier or before a Stop. The controller answers in
   // order, so their answers come first and prove nothing.
   int older_ = 0;
+  bool question_before_stop_ = false;  // the ?:CMD of the first step may still be answered
   TimePoint deadline_{};
   TimePoint probed_{};
   Duration silence_{};

@@ -1,5 +1,5 @@
-// Whether a device sends without end: bytes that belong to nothing, more in a second than half of what the line
-// carries. Garbage and late replies never come near that.
+// Detects a device that sends without end: in one second, bytes that belong to no reply or notice exceed half of what
+// the line carries. Garbage and late replies never come near that.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class Flood {
 
   void connected() { unclaimed_ = 0; }
   void received(std::size_t bytes, TimePoint now);
-  // So many of those that were received belonged to an answer or a completion.
+  // Subtracts received bytes that belonged to an answer or a completion.
   void belonged(std::size_t bytes);
   bool too_much() const { return unclaimed_ > limit_; }
 

@@ -72,7 +72,7 @@ class LineListener {
   // Returns the stops to write now, before any probe: the port was opened (`heard` is empty), or a line other than an
   // axis number was received during a barrier. Their answers are not waited for.
   virtual std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) = 0;
-  // Whether a stop waits to be obeyed, so that a closed port is opened again soon.
+  // Reports whether a stop is open, so that a closed port is opened again soon.
   virtual bool stop_is_open() const = 0;
   // The identity was received and the line fell silent: the handshake may run.
   // `line_before`: what the controller had been sent before, where Line::ask_line_before() was called.

@@ -67,7 +67,10 @@ void Line::receive(std::string_view bytes, TimePoint now) {
 bool Line::shut_if_flooded(TimePoint now) {
   if (!state_.port_open() || !flood_.too_much() || !guarded(Guard::flooded_line_shut)) return false;
   change(LinkEvent::flooded, now);
-  shut("it sends without end: more than half of what the line can carry, and nothing was asked", now);
+  shut(
+      "it sends without end: unexpected bytes fill more than half of the line's capacity; check what is connected, and "
+      "the baud rate at both ends",
+      now);
   return true;
 }
 
@@ -77,8 +80,15 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     return listener_.line_event(ProgramNotice{*reported}, now);
   }
   if (!overlong && on_axis_number(line.text, now)) return;
-  if (barrier_ && write_open_stops(line.text) && guarded(Guard::barrier_after_stop)) barrier_->restart(now);
-  if (barrier_) return in_barrier(line.text, now);
+  if (barrier_) {
+    const bool stopped = write_open_stops(line.text) && guarded(Guard::barrier_after_stop);
+    const bool first_step = barrier_->in_first_step();
+    in_barrier(line.text, now);
+    // An identity that is requested only now comes behind the stop.
+    const bool behind = first_step && barrier_ && !barrier_->in_first_step();
+    if (stopped && barrier_ && !behind) barrier_->restart(now);
+    return;
+  }
   if (!in_flight_) {
     if (!settle_outstanding(outstanding_, line.text)) unexpected(line.text, now);
     return;

@@ -54,7 +54,7 @@ class Link {
   [[nodiscard]] bool happened(LinkEvent event);
 
   bool port_open() const { return phase_ >= LinkPhase::identifying; }
-  // Whether the first barrier runs.
+  // Reports whether the first barrier is in progress.
   bool identifying() const { return phase_ == LinkPhase::identifying || phase_ == LinkPhase::listening; }
   // Whether the handshake has passed since the port was opened.
   bool trusted() const { return phase_ >= LinkPhase::up; }

@@ -21,6 +21,9 @@ std::vector<ExchangeRequest> StopWriter::lines_due(std::string_view heard) {
   }
   std::vector<ExchangeRequest> lines;
   if (takes_none() || other_unit_) return lines;
+  // On a line that stayed open OK may be the late answer to the stop itself; the next line, for which ?:CMD or *IDN?
+  // has asked, decides.
+  if (heard == "OK" && line_.state().trusted()) return lines;
   const bool first = !opened && !std::exchange(heard_, true);
   const bool written = opened ? guarded(Guard::stop_written_at_open) : first && guarded(Guard::stop_written_when_heard);
   const bool refused = !opened && !first && heard == "NG" && guarded(Guard::stop_one_axis_at_a_time);

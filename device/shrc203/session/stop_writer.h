@@ -32,12 +32,12 @@ class StopWriter {
   void line_answers();
   void line_lost();
 
-  // Whether the controller takes no stop in its present mode (manual 111), 117); section 4, last note).
+  // Reports whether the controller accepts no stop in its present mode (manual 111), 117); section 4, last note).
   bool takes_none() const;
   bool can_write() const { return line_.state().port_open() && !takes_none() && !other_unit_; }
   // Writes the stop, and says in its report what the controller answered.
   Task<void> write(StopJobPtr job);
-  // When an axis that the stop names should be stationary (manual 89) D:).
+  // Returns the time that the axes of a stop need to slow down (manual 89) D:).
   Duration slowing(AxisSet axes) const;
 
  private:

@@ -13,7 +13,7 @@
 namespace axisgate::shrc203 {
 
 enum class StopEvent {
-  wrote,                // its line is about to go out, for the first time or again
+  wrote,                // its line is about to be sent, for the first time or again
   seen_stationary,      // a reading that began after the write showed its axes stationary and their prebuffers empty
   returned_stationary,  // the controller took no stop in its mode, and its axes were stationary when it was back in
                         // HOST
@@ -42,7 +42,7 @@ struct StopJob {
   RequestContext context;  // of the first caller
   std::vector<Caller> callers;
   StopReport report;           // of all its axes
-  TimePoint write_at{};        // TimePoint::max(): once the line has spoken
+  TimePoint write_at{};        // TimePoint::max(): not before a line is received
   bool taken = false;          // the newest write was received, so that one READY is enough
   bool named_several = false;  // the newest write was not answered yet, and NG may be due to one of its axes
   bool kept_waiting = false;   // the mode took no stop: it is written only if an axis is busy on the return to HOST
