@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <ctime>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -141,18 +142,41 @@ std::string condition_line(const v1::ConditionSummary& one, const v1::ConditionS
                      end == nullptr ? "" : ", ended at " + clock.text(end->seen_time()));
 }
 
-// A change is on the line of the one that it ends, if the night has that. Another mode ends the one before.
+bool is_same(const v1::ConditionSummary& one, const v1::ConditionSummary& other) {
+  return one.condition() == other.condition() && one.device() == other.device();
+}
+
+using Conditions = google::protobuf::RepeatedPtrField<v1::ConditionSummary>;
+
+// Returns the change with which the last of its axes left the condition; null if the night has none. The axes may leave
+// it one by one. Another mode, which has no axes, ends the one before.
+const v1::ConditionSummary* end_of(const Conditions& all, Conditions::const_iterator one) {
+  std::set<int> axes(one->axes().begin(), one->axes().end());
+  for (auto other = one + 1; other != all.end(); ++other) {
+    if (!is_same(*one, *other)) continue;
+    if (one->axes().empty()) return &*other;
+    if (other->begun()) continue;
+    for (const int axis : other->axes()) axes.erase(axis);
+    if (axes.empty()) return &*other;
+  }
+  return nullptr;
+}
+
+// Reports whether the night has the beginning of what this change ends.
+bool ends_another(const Conditions& all, Conditions::const_iterator end) {
+  return std::any_of(all.begin(), end, [end](const v1::ConditionSummary& one) {
+    const auto touched = [&](int axis) { return std::ranges::find(one.axes(), axis) != one.axes().end(); };
+    return is_same(one, *end) && (end->axes().empty() || (one.begun() && std::ranges::any_of(end->axes(), touched)));
+  });
+}
+
+// The end of a condition is on the line of its beginning.
 template <class Add>
 void add_conditions(const v1::SummarizeHistoryResponse& night, const NightClock& clock, const Add& add) {
-  const auto& all = night.conditions();
+  const Conditions& all = night.conditions();
   for (auto one = all.begin(); one != all.end(); ++one) {
-    const auto same = [&](const v1::ConditionSummary& other) {
-      return other.condition() == one->condition() && other.device() == one->device() &&
-             std::ranges::equal(other.axes(), one->axes());
-    };
-    if (!one->begun() && std::any_of(all.begin(), one, same)) continue;
-    const auto end = one->begun() ? std::find_if(one + 1, all.end(), same) : all.end();
-    add(one->seen_time(), condition_line(*one, end == all.end() ? nullptr : &*end, clock));
+    if (!one->begun() && ends_another(all, one)) continue;
+    add(one->seen_time(), condition_line(*one, one->begun() ? end_of(all, one) : nullptr, clock));
   }
 }
 
@@ -191,7 +215,7 @@ void print_night(const v1::SummarizeHistoryResponse& night, const NightClock& cl
   const std::vector<std::string> others = happenings(night, clock);
   for (const std::string& line : others) print_line(line);
   print_more(night.more_stops(), "stops");
-  print_more(night.more_late_stops(), "stops that were confirmed late");
+  print_more(night.more_late_stops(), "late stops");
   print_more(night.more_conditions(), "changes at a stage");
   print_more(night.more_link_losses(), "losses of a link");
   print_more(night.more_daemon_starts(), "starts of the daemon");
