@@ -157,8 +157,11 @@ int clear(const Session& session) {
       session.connection.devices, &v1::DeviceService::Stub::ClearErrors, request, kQuestionLimit);
   if (session.options.json) {
     print_json(response);
-  } else {
-    print_line("cleared; after an emergency stop the motors may be off: axisctl status");
+    return kDone;
+  }
+  print_line("cleared; after an emergency stop the motors may be off: axisctl status");
+  if (chosen_device(session).has_emergency_latch()) {
+    print_line("the emergency stop remains, and nothing moves: `axisctl clear` without axes ends it");
   }
   return kDone;
 }

@@ -102,7 +102,7 @@ After an emergency stop by somebody else, type `axisctl rearm` first, then `axis
     {"estop", "Not a safety function: keep the wired emergency stop within reach.", "axisctl estop"},
     {"withdraw",
      R"(An open stop refuses motion of its axes until the gateway has seen them stationary. If its controller will never answer
-again, an administrator gives the stop up. The history records who did it.)",
+again, an administrator can abandon the stop. The history records who did it.)",
      "axisctl withdraw 12"},
     {"clear",
      R"(Needs the role admin, unless `admin_commands` in the configuration leaves out BEC:. After an emergency stop the motors

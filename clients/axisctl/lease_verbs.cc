@@ -139,15 +139,22 @@ int lease_hand_over(const Session& session) {
 int rearm(const Session& session) {
   v1::RearmRequest request;
   *request.mutable_context() = session.connection.new_call_context();
-  request.set_device(leased_device(session).name());
+  const v1::Device device = leased_device(session);
+  request.set_device(device.name());
   const v1::RearmResponse response =
       session.connection.call(session.connection.control, &v1::ControlService::Stub::Rearm, request, kQuestionLimit);
   if (session.options.json) {
     print_json(response);
-  } else if (response.axes().empty()) {
+    return kDone;
+  }
+  if (response.axes().empty()) {
     print_line(nothing_rearmed(board_now(session, request.device())));
   } else {
     print_released(response);
+  }
+  if (device.has_emergency_latch()) {
+    print_line(fmt::format("the emergency stop of {} remains, and nothing moves: `axisctl clear` ends it",
+                           device.emergency_latch().who()));
   }
   return kDone;
 }

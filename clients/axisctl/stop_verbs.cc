@@ -130,7 +130,7 @@ int withdraw_stop(const Session& session) {
   if (session.options.json) {
     print_json(response);
   } else {
-    print_line(fmt::format("withdrawn: stop {}; nobody has seen its axes obey it", session.options.open_stop));
+    print_line(fmt::format("stop {} was withdrawn; nobody has seen its axes obey it", session.options.open_stop));
   }
   return kDone;
 }

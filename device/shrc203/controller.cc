@@ -297,7 +297,8 @@ void Controller::cancel_motion(MotionId id, const RequestContext& context, TimeP
 
 void Controller::number_motions_after(MotionId last) { rooms_->motions.number_after(last); }
 
-void Controller::inherit(const stage::Inheritance& left) {
+void Controller::inherit(const stage::Inheritance& left, TimePoint now) {
+  rooms_->tasks.now_is(now);
   if (left.unfinished) rooms_->line.ask_line_before();
   rooms_->previous_run.inherit(left.unfinished);
   rooms_->stops.inherit(left);

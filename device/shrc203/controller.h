@@ -53,7 +53,7 @@ class Controller : public StageController {
   void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) override;
   std::size_t queued(Lane lane) const override;
   int outstanding_answers() const override;
-  void inherit(const stage::Inheritance& left) override;
+  void inherit(const stage::Inheritance& left, TimePoint now) override;
   void number_motions_after(MotionId last) override;
   void wind_down(TimePoint now, OnWoundDown done) override;
 

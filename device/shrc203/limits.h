@@ -103,11 +103,11 @@ inline constexpr Duration kTriggerRestorePause = std::chrono::milliseconds(60);
 
 // --- Stop ---
 
-// A caller is reported after this time that the line does not work, and that the stop stays open.
+// A caller is notified after this time that the line does not work, and that the stop stays open.
 inline constexpr Duration kStopReopenLimit = std::chrono::seconds(1);
 // How long a stop waits for its turn on a line that is open: only other stops and a barrier are before it.
 inline constexpr Duration kStopWriteLimit = std::chrono::seconds(10);
-// How long the axes may take to be stationary before a caller is reported that the stop stays open. The longest R is 1
+// How long the axes may take to be stationary before a caller is notified that the stop stays open. The longest R is 1
 // s (manual 89) D:).
 inline constexpr Duration kStopStationaryLimit = std::chrono::seconds(10);
 // An axis that still moves so long after it should have slowed down is stopped again.

@@ -73,7 +73,7 @@ class StageController : public LineMachine {
   virtual void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) = 0;
 
   using OnDone = std::function<void(Result<void>)>;
-  // Gives an open stop up, whose controller will never answer again: not_found.
+  // Abandons an open stop whose controller will never answer again. Fails with not_found.
   virtual void withdraw_stop(StopId, const RequestContext&, TimePoint, OnDone done) {
     done(fail(Reason::not_found, "this kind of controller has no open stops"));
   }
@@ -94,7 +94,7 @@ class StageController : public LineMachine {
 
   // Before link_up(): what the run before this one left. Its motions are stopped, or finish if the profile's at_exit
   // lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
-  virtual void inherit(const Inheritance&) {}
+  virtual void inherit(const Inheritance&, TimePoint /*now*/) {}
   // Once, before the first request: the next motion has the number behind this one. Otherwise they count from 1.
   virtual void number_motions_after(MotionId last) = 0;
 

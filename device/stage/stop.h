@@ -39,7 +39,7 @@ struct Stop {
   std::vector<std::string> callers{};  // in the order of their requests, each once; the first kCallersNamed
   std::string serial_number{};         // of the controller that is to stop; empty if it was never connected
   TimePoint asked{}, ended{};
-  bool late = false;                      // a caller was reported that it stays open
+  bool late = false;                      // a caller was notified that it stays open
   bool stale = false;                     // the axes rest, but a prebuffer still holds a segment that could start
   StopId replaced_by = 0;                 // if replaced
   std::string withdrawn_by{};             // if withdrawn

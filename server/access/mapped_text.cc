@@ -31,7 +31,7 @@ Result<std::unique_ptr<MappedText>> MappedText::open(const std::string& path) {
   };
   if (!file->valid()) return failed(ENOENT);
   if (::ftruncate(file->get(), sizeof(Content)) != 0) return failed(errno);
-  // All of it now: a write to a hole of a full disk would be a signal.
+  // Allocates the whole file now: writing to a hole on a full disk would raise SIGBUS.
   if (const int error = ::posix_fallocate(file->get(), 0, sizeof(Content)); error != 0) return failed(error);
   void* const mapped = ::mmap(nullptr, sizeof(Content), PROT_READ | PROT_WRITE, MAP_SHARED, file->get(), 0);
   if (mapped == MAP_FAILED) return failed(errno);

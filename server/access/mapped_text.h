@@ -11,12 +11,12 @@
 
 namespace axisgate::server {
 
-// Not thread safe, but for sync().
+// Not thread safe, except sync().
 class MappedText {
  public:
   static constexpr std::size_t kMax = 8192;  // bytes; more is cut off
 
-  // internal, where the file cannot be made or is no regular one.
+  // Fails with internal if the file cannot be created or is not a regular file.
   static Result<std::unique_ptr<MappedText>> open(const std::string& path);
   ~MappedText();
   MappedText(const MappedText&) = delete;

@@ -60,7 +60,7 @@ class Devices {
   void clear_errors(const Call& call, std::string_view device, const Result<stage::AxisSet>& axes,
                     Answer<void> answer) const;
 
-  // Gives an open stop up. For administrators. Fails with not_found if it is not open.
+  // Abandons an open stop. For administrators. Fails with not_found if it is not open.
   void withdraw_stop(const Call& call, std::string_view stop, Answer<void> answer) const;
 
  private:

@@ -126,7 +126,7 @@ class Mills {
   void abort(const Call& call, std::string_view device, Answer<CurrentRun> answer) const;
   // not_allowed: the job is somebody else's.
   void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
-  // All of `who` that wait to begin. not_found: there is none.
+  // Cancels all jobs of `who` that wait to begin. Fails with not_found if there is none.
   void cancel_all(const Call& call, std::string_view device, std::string who, Answer<CancelledJobs> answer) const;
   // To the front, by an administrator; by its owner, before their other jobs. not_allowed, as cancel().
   void move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;

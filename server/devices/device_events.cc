@@ -63,13 +63,14 @@ void DeviceEvents::keep_and_tell(const stage::Event& event, TimePoint now) {
   std::visit([&](const auto& what) { tell(what, now); }, event);
 }
 
-// The lines of a folded stop, and its end.
+// The lines of a folded stop, and its end; also the lines that repeat a late stop, four a second on a line that is
+// shut.
 bool DeviceEvents::is_folded(const stage::Event& event) const {
   if (const auto* written = std::get_if<stage::BytesWritten>(&event)) {
-    return written->lane == Lane::stop && repeated_stops_.folds(written->who);
+    return written->lane == Lane::stop && (repeated_stops_.folds(written->who) || !late_.empty());
   }
   if (const auto* ended = std::get_if<stage::ExchangeEnded>(&event)) {
-    return ended->lane == Lane::stop && repeated_stops_.folds(ended->who);
+    return ended->lane == Lane::stop && (repeated_stops_.folds(ended->who) || !late_.empty());
   }
   const auto* change = std::get_if<stage::StopChanged>(&event);
   if (change == nullptr || change->stop.late) return false;
@@ -149,8 +150,8 @@ void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
 void DeviceEvents::tell(const stage::EmergencyLatchChanged& change, TimePoint now) {
   publish(change, now);
   if (change.latch) {
-    spdlog::warn("{}: latched by the emergency stop of {}: nothing moves before ClearErrors for all axes", device_,
-                 escaped(change.who));
+    spdlog::warn("{}: latched by the emergency stop of {}: nothing moves until the errors of all axes are cleared",
+                 device_, escaped(change.who));
   } else {
     spdlog::info("{}: the latch of the emergency stop was lifted by {}", device_, escaped(change.who));
   }

@@ -102,7 +102,7 @@ std::optional<MotionRecord::Left> MotionRecord::parsed(std::string_view text, st
 Result<std::unique_ptr<MotionRecord>> MotionRecord::open(const std::string& path, std::string boot) {
   auto file = MappedText::open(path);
   if (!file) {
-    file.error().hint = "a motion that runs when the daemon is killed will be taken for somebody else's";
+    file.error().hint = "a motion that runs when the daemon is killed will be reported as foreign motion";
     return tl::unexpected(file.error());
   }
   return std::unique_ptr<MotionRecord>(new MotionRecord(*std::move(file), std::move(boot)));

@@ -16,9 +16,9 @@ namespace axisgate::server {
 // Not thread safe: on the device's strand.
 class RepeatedStops {
  public:
-  // A stop that comes later than this after the one before it is reported by itself.
+  // Longest pause between two stops of one series.
   static constexpr Duration kSeries = std::chrono::seconds(10);
-  // A series that lasts is reported so often.
+  // Interval at which a continuing series is reported.
   static constexpr Duration kReport = std::chrono::minutes(10);
 
   // Returns what is to be reported: the stop itself, the count of a series, or nothing if the stop is folded.

@@ -6,6 +6,7 @@
 #include <map>
 #include <utility>
 
+#include "device/link/clock.h"
 #include "server/explain.h"
 
 namespace axisgate::server {
@@ -56,7 +57,7 @@ Stage::Stage(const DeviceConfig& device, const StageConfig& config, std::unique_
 void Stage::inherit() {
   stage::Inheritance left = stops_ ? stops_->before() : stage::Inheritance{};
   if (record_) left.unfinished = record_->unfinished();
-  controller_->inherit(left);
+  controller_->inherit(left, monotonic_now());
 }
 
 void Stage::number_motions_after(const journal::Journal& journal) {

@@ -46,11 +46,11 @@ Stop stop_in(const Json& json) {
   stop.callers = json.at("callers").get<std::vector<std::string>>();
   stop.serial_number = json.at("serial_number");
   stop.asked = from_file(json.at("asked"));
-  stop.late = true;  // the caller who asked has heard nothing better
+  stop.late = true;  // the previous run may have ended before it answered the caller
   return stop;
 }
 
-// Nothing is left where the text is none of this class.
+// Returns an empty Inheritance if this class did not write the text.
 stage::Inheritance parsed(std::string_view text) {
   stage::Inheritance left;
   try {

@@ -27,7 +27,7 @@ class StopRecord {
   StopRecord(const StopRecord&) = delete;
   StopRecord& operator=(const StopRecord&) = delete;
 
-  // What the run before left.
+  // Open stops and the latch that the previous run left.
   const stage::Inheritance& before() const { return before_; }
 
   void on_event(const stage::Event& event);

@@ -127,6 +127,11 @@ class Babble(unittest.TestCase):
         self.assertEqual(stopped.returncode, 1, stopped.stderr)
         self.assertIn("stays open", stopped.stderr)
         self.assertRegex(self.server.told, rb"\AL:(W|E|1,1,1|D)\r\n")
+        limit = time.monotonic() + LIMIT_S
+        while self.server.told.count(b"L:") < 20:
+            self.assertLess(time.monotonic(), limit, self.server.told)
+            time.sleep(0.05)  # between two looks; the limit above decides
+        self.assertLess(self.daemon.run("history").stdout.count("sent: L:"), 12, "it is repeated all night")
         self.server.noisy = False
         self.link_is("LINK_STATE_UP")
         history = self.daemon.run("history").stdout

@@ -94,6 +94,22 @@ class Stops(unittest.TestCase):
         self.assertRegex(answer.stdout, r"(?m)^dead: axis 1: no stop sent yet, state unknown, position unknown$")
 
     # The display of the motion takes the only stream.
+    def test_an_emergency_stop_outlives_the_daemon_and_half_a_clear(self):
+        self.with_daemon(STAGE.format("stage"))
+        self.assertEqual(self.daemon.run("estop").returncode, 0)
+        self.daemon.kill()
+        self.daemon = Daemon(self.folder, HEAD + STAGE.format("stage"))
+        self.addCleanup(self.daemon.stop)
+        refused = self.daemon.run("move", "1=1mm")
+        self.assertRegex(refused.stderr, r"EMERGENCY_STOPPED: unix \S+ requested an emergency stop [^\n]* axisctl clear")
+        remains = "the emergency stop of unix \\S+ remains, and nothing moves: `axisctl clear` ends it\n"
+        self.assertRegex(self.daemon.run("rearm").stdout, remains)
+        half = self.daemon.run("clear", "1")
+        self.assertEqual(half.returncode, 0, half.stderr)
+        self.assertIn("the emergency stop remains, and nothing moves: `axisctl clear` without axes ends it\n", half.stdout)
+        self.assertNotIn("remains", self.daemon.run("clear").stdout)
+        self.assertNotIn("1970", self.daemon.run("history").stdout)
+
     def test_an_outcome_without_a_stream(self):
         self.with_daemon(STAGE.format("stage") + "[limits]\nstreams = 1\n")
         answer = self.daemon.run("move", "1=1um")

@@ -66,10 +66,10 @@ Daemon::Daemon(const StateFolder& folder, const MemoryBounds& bounds, std::uint3
       stops_(server::StopRecord::open(folder.stops()).value()),
       entries_(kDevice, journal_.get(), requests_) {}
 
-void Daemon::prepare(stage::StageController& controller) {
+void Daemon::prepare(stage::StageController& controller, TimePoint now) {
   stage::Inheritance left = stops_->before();
   left.unfinished = record_->unfinished();
-  controller.inherit(left);
+  controller.inherit(left, now);
   controller.number_motions_after(std::max(journal_->last_motion(kDevice).value(), record_->last_motion()));
   server::EventBus nobody_watches([](std::function<void()>) {});
   server::settle_what_was_left(journal_.get(), requests_, nobody_watches,

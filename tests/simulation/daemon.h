@@ -52,7 +52,7 @@ class Daemon {
   server::journal::Journal& journal() { return *journal_; }
 
   // As server::Gateway and server::Stage do with what was left, and axisgated.cc behind them.
-  void prepare(stage::StageController& controller);
+  void prepare(stage::StageController& controller, TimePoint now);
   // As server::DeviceEvents.
   void on_event(const stage::Event& event, TimePoint now);
 

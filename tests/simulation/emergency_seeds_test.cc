@@ -23,7 +23,7 @@ class FourUsers {
   explicit FourUsers(std::uint64_t seed)
       : random_(seed ^ 0x454D4552u), daemon_(new_daemon()), world_(with_leases(seed)) {
     world_.on_news = [this](const Event& event) { on_event(event); };
-    daemon_->prepare(world_.controller());
+    daemon_->prepare(world_.controller(), world_.now());
   }
 
   void act() {
@@ -106,7 +106,7 @@ class FourUsers {
                               daemon_ = new_daemon();
                               return daemon_->leases();
                             },
-                            .prepare = [this](Controller& controller) { daemon_->prepare(controller); },
+                            .prepare = [this](Controller& controller) { daemon_->prepare(controller, world_.now()); },
                             .away = milliseconds(random_.between(10, 1500)),
                             .written_is_lost = random_.chance(0.5)});
   }

@@ -31,7 +31,7 @@ struct Answer {
 // A daemon with a stage on a good line, and what anna is answered.
 struct Bed {
   Bed() {
-    daemon->prepare(world.controller());
+    daemon->prepare(world.controller(), world.now());
     world.on_news = [this](const Event& event) {
       daemon->on_event(event, world.now());
       if (std::holds_alternative<BytesWritten>(event) && lines_to_kill > 0 && --lines_to_kill == 0) {
@@ -55,7 +55,7 @@ struct Bed {
                              daemon = std::make_unique<Daemon>(folder, server::journal::MemoryBounds{}, run);
                              return daemon->leases();
                            },
-                           .prepare = [this](Controller& controller) { daemon->prepare(controller); },
+                           .prepare = [this](Controller& controller) { daemon->prepare(controller, world.now()); },
                            .away = milliseconds(300),
                            .written_is_lost = written_is_lost});
   }

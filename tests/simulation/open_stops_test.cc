@@ -45,7 +45,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
  protected:
   OpenStops() {
     world_.on_news = [this](const Event& event) { on_event(event); };
-    daemon_->prepare(world_.controller());
+    daemon_->prepare(world_.controller(), world_.now());
   }
 
   static Way way() { return std::get<0>(GetParam()); }
@@ -135,7 +135,7 @@ class OpenStops : public testing::TestWithParam<std::tuple<Way, Fault, bool>> {
                               daemon_ = std::make_unique<Daemon>(folder_, server::journal::MemoryBounds{}, ++run_);
                               return daemon_->leases();
                             },
-                            .prepare = [this](Controller& controller) { daemon_->prepare(controller); },
+                            .prepare = [this](Controller& controller) { daemon_->prepare(controller, world_.now()); },
                             .away = away});
   }
 

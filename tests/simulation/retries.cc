@@ -35,7 +35,7 @@ Retries::Retries(std::uint64_t seed, const RetryTerms& terms)
       world_(setup_of(seed, terms.faults, daemon_->leases())) {
   for (int i = 0; i < kUsers; ++i) users_.push_back({fmt::format("user-{}", i)});
   world_.on_news = [this](const Event& event) { on_news(event); };
-  daemon_->prepare(world_.controller());
+  daemon_->prepare(world_.controller(), world_.now());
   plan_kill();
 }
 
@@ -341,7 +341,7 @@ void Retries::kill() {
                           .prepare =
                               [&](Controller& controller) {
                                 if (disk_still_hangs) daemon_->let_disk_hang();
-                                daemon_->prepare(controller);
+                                daemon_->prepare(controller, world_.now());
                               },
                           .away = milliseconds(random.between(0, 2000)),
                           .written_is_lost = random.chance(0.3)});

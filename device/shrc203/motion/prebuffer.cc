@@ -29,7 +29,7 @@ Task<bool> Prebuffer::is_empty(LiveMotionPtr live, Sent sent) {
 }
 
 Task<void> Prebuffer::stop_wrong_segment(LiveMotionPtr live, Sent sent) {
-  stops_.stop(AxisSet::all(), {.who = "the gateway, since the line changed a segment"});
+  stops_.stop(AxisSet::all(), {.who = "the gateway (the line changed a segment)"});
   co_await standstill_.wait(live);
   motions_.end(
       *live, MotionState::failed,

@@ -21,8 +21,8 @@ bool Handshake::is_expected(const Identity& identity) {
   const bool stop_open = !store_.state().open_stops.empty();
   const std::string why =
       fmt::format("{} {} answers, but {} {} {}{}", escaped(identity.model), escaped(identity.serial_number),
-                  profile.model, store_.expected_unit(), as_configured ? "is configured" : "was here before",
-                  stop_open ? "; it may have received the open stop, and receives no more" : "");
+                  profile.model, store_.expected_unit(), as_configured ? "is configured" : "was connected before",
+                  stop_open ? "; it may have received the open stop, and receives no further stops" : "");
   stop_writer_.other_unit_answered();
   line_.disconnect(why, tasks_.now());
   store_.note_trouble(LinkTrouble::other_unit);

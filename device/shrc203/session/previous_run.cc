@@ -46,7 +46,7 @@ void PreviousRun::take_over() {
   if (!stopped.empty()) {
     store_.emit(UnfinishedJudged{UnfinishedJudged::What::stopped, stopped, unfinished_->motions});
     if (guarded(Guard::orphans_stopped)) {
-      stops_.stop(stopped, {.who = "the gateway, since it ended during a motion"});
+      stops_.stop(stopped, {.who = "the gateway (it had ended during a motion)"});
     }
   }
   if (stopped != moving) {

@@ -145,7 +145,7 @@ Task<void> Restorer::restore_settings_of(EndedLease lease) {
 
 // At the gateway's end, when nothing moves any more: no lease outlives it.
 Task<void> Restorer::restore_everything() {
-  const auto request = request_for("the gateway, which is ending");
+  const auto request = request_for("the gateway (it is ending)");
   co_await restore_speeds(AxisSet::all(), request.caller);
   pending_.forget_speeds(AxisSet::all());
   (void)co_await restore_trigger(request.caller);

@@ -67,7 +67,7 @@ void Session::stop_jogs() {
     if (live->jog && live->life.has_written() && !live->life.has_outcome()) axes = axes | live->motion.axes;
   }
   if (axes.empty() || !guarded(Guard::orphans_stopped)) return;
-  stops_.stop(axes, {.who = "the gateway, since the line was lost during a jog"});
+  stops_.stop(axes, {.who = "the gateway (the line was lost during a jog)"});
 }
 
 void Session::barrier_entered(const std::string& why, TimePoint) {

@@ -52,7 +52,7 @@ void StopLook::confirm(const StopJobPtr& job) {
   open_.change(job, job->stop.state == StopState::asked ? StopEvent::returned_stationary : StopEvent::seen_stationary);
 }
 
-// Whether the axes, and a program, are seen to be stationary.
+// Reads whether the axes are stationary and no program runs.
 Task<bool> StopLook::read(StopJobPtr job) {
   const auto read = co_await reader_.read_positions(Lane::motion, job->context.who);
   if (!guarded(Guard::stop_confirmed_stationary)) co_return true;

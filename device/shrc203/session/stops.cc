@@ -215,7 +215,7 @@ Problem Stops::unseen(const StopJob& job) const {
             .message = fmt::format(
                 "the stop was {} and stays open: it is sent {} as soon as the controller answers; its outcome "
                 "is not known: {}",
-                written ? "written" : "not written yet", written ? "again" : "first", state.link_problem),
+                written ? "written" : "not written yet", written ? "again" : "first", store_.link_problem()),
             .hint = kHint};
   }
   return {.reason = Reason::outcome_unknown,

@@ -34,21 +34,21 @@ class Stops {
         due_(tasks.executor()),
         seen_(tasks.executor()) {}
 
-  // No axes: all. If an open stop includes these axes, this joins it; open stops that this one includes are replaced.
+  // Stops these axes, or all if empty. Joins an open stop that includes them, and replaces open stops that it includes.
   void stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done);
-  // Without a caller who waits.
+  // The same, without a caller who waits.
   void stop(AxisSet axes, const RequestContext& context) {
     stop(axes, StopKind::stop, context, [](const StopReport&) {});
   }
   // Stops the motion, or turns it away while it waits. A motion that ended UNKNOWN is stopped as long as its axes were
   // not seen stationary. Fails with not_found, and with what the stop reports.
   void cancel(MotionId id, const RequestContext& context, OnDone done);
-  // Gives an open stop up: not_found.
+  // Abandons an open stop. Fails with not_found.
   void withdraw(StopId id, const RequestContext& context, const OnDone& done);
-  // Before the line is opened: what the run before left.
+  // Takes over the stops that the previous run left open. Call before the line is opened.
   void inherit(const stage::Inheritance& left);
 
-  // Whether a caller waits for an answer.
+  // Reports whether a caller waits for an answer.
   bool pending() const { return answering_ > 0; }
 
   // The line reports these.

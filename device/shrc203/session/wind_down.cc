@@ -64,7 +64,7 @@ void WindDown::stop(Whom whom, Report report) {
   }
   if (whom == Whom::everybody && store_.state().moving_unknown) axes = AxisSet::all();
   if (axes.empty()) return;
-  const RequestContext context{"the gateway, which is ending", "", tasks_.now() + StageController::kStopLimit};
+  const RequestContext context{"the gateway (it is ending)", "", tasks_.now() + StageController::kStopLimit};
   stops_.stop(axes, StopKind::stop, context, [report](const StopReport& stopped) {
     if (stopped.problem) report->problem = stopped.problem;
   });

@@ -1,5 +1,5 @@
-// Finds what has changed at the stage by itself, by comparing each reading with those before: an emergency stop, a
-// limit sensor, an error, a motor, the mode, the command format.
+// Detects conditions that begin or end at the stage by comparing each reading with the earlier ones: an emergency stop,
+// a limit sensor, an error, a motor, the mode, the command format.
 #pragma once
 
 #include <array>

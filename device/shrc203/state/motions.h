@@ -64,7 +64,7 @@ class Motions {
   void line_lost(const std::string& why);
   void completion_seen(int axis, bool doubtful, bool deduced);
 
-  // A reading showed these axes stationary: the caller who left one of them UNKNOWN there has left it now.
+  // A reading showed these axes stationary: motions that ended UNKNOWN now leave them.
   void seen_stationary(AxisSet axes);
   // The axes of a motion that ended UNKNOWN and were not seen stationary since.
   AxisSet left_moving(MotionId id) const;

@@ -26,7 +26,7 @@ class OpenStops {
   StopJobPtr open(AxisSet axes, StopKind kind, const RequestContext& context);
   // Notes who requested it.
   void note_caller(StopJob& job, const std::string& who);
-  // Notes that a caller was reported that it stays open.
+  // Notes that a caller was notified that the stop stays open.
   void note_late(StopJob& job);
   // Notes whether a prebuffer keeps a segment although the axes rest.
   void note_stale(StopJob& job, bool stale);

@@ -64,7 +64,7 @@ std::optional<Problem> Rights::motion_forbidden(AxisSet axes) const {
         .reason = Reason::emergency_stopped,
         .message = fmt::format("{} requested an emergency stop {} ago, and nothing moves until it is cleared",
                                state.emergency->who, for_people(tasks_.now() - state.emergency->at)),
-        .hint = "see that it is safe, then clear it for all axes: axisctl clear"};
+        .hint = "make sure that motion is safe, then clear the errors of all axes: axisctl clear"};
   }
   for (const Stop& stop : state.open_stops) {
     if (!stop.late || !stop.axes.touches(axes) || !guarded(Guard::open_stop_refuses_motion)) continue;

@@ -20,9 +20,13 @@ void StateStore::note_wrong_panel() {
   }
 }
 
+std::string StateStore::link_problem() const {
+  return state_.link_problem.empty() ? "the controller has not answered yet" : state_.link_problem;
+}
+
 Problem StateStore::not_up() const {
   return {.reason = panel_is_wrong() ? Reason::wrong_mode : Reason::link_down,
-          .message = "the device is not up: " + state_.link_problem,
+          .message = "the device is not up: " + link_problem(),
           .hint = remedy()};
 }
 

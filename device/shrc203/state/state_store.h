@@ -112,6 +112,9 @@ class StateStore {
   // What has changed at the stage; its changes are emitted with the reading that shows them.
   const Conditions& conditions() const { return conditions_; }
 
+  // Why the link is not up, for people: never empty.
+  std::string link_problem() const;
+
   // The last reading was READY, and nothing has happened since.
   bool settled() const { return settled_; }
   void settle() { settled_ = true; }
