@@ -57,8 +57,8 @@ void describe(CLI::App& program, Arguments& arguments) {
   program.add_flag("--check-config", arguments.check_config, "Check the configuration, say what is wrong, and end");
   program.set_version_flag("--version", "axisgated " AXISGATE_VERSION);
   program.footer(
-      "Ctrl-C, SIGTERM, and all other signals that end a program, first stop or finish what moves, as `at_exit`\n"
-      "says. A second one ends the daemon at once, and what moves may continue to move. Ctrl-Z is ignored.\n\n"
+      "Ctrl-C, SIGTERM and most other signals end the daemon in order: motions first stop or finish, as `at_exit`\n"
+      "says. A second signal ends it at once, and what moves may continue to move. Ctrl-Z is ignored.\n\n"
       "Exit codes: 0 ended by a signal, or all is well; 1 it could not start; 2 the command line or the\n"
       "configuration is wrong.");
 }

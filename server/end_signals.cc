@@ -109,7 +109,7 @@ void EndSignals::on_signal(Gateway& gateway, int signal) {
 void EndSignals::advance(Gateway& gateway, int signal) {
   const bool asks = !is_repeated(signal);
   if (step_ == Step::asked && asks) {
-    spdlog::warn("ending at once: {}, asked twice; what moves may continue to move", name_of(signal));
+    spdlog::warn("ending at once: {} asks again; what moves may continue to move", name_of(signal));
     return context_.stop();
   }
   spdlog::info("{}: {}{}", step_ == Step::serving ? "ending" : "already ending", name_of(signal),

@@ -1,4 +1,4 @@
-// What the log says of a server certificate that expires.
+// Warns in the log before a server certificate expires and after it has expired.
 #pragma once
 
 #include <string>

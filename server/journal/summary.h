@@ -38,7 +38,7 @@ struct StopSummary {
   bool emergency = false;
 };
 
-// A stop of which a caller was reported that it stays open.
+// A late stop: a caller was notified that it stays open.
 struct LateStop {
   WallTime time;  // when it ended
   std::string who, device;

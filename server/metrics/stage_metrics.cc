@@ -66,17 +66,19 @@ struct StageMetrics::Families {
         motions(counter_family(registry, "axisgate_motions_total", "Motions that ended, by kind and outcome.")),
         stops(counter_family(registry, "axisgate_stops_total",
                              "Stops requested: slowing down (normal, L:) or at once and latched (emergency, L:E).")),
-        open_stops(gauge_family(registry, "axisgate_open_stops",
-                                "Stops that nobody has seen the axes obey; late: and somebody was reported so.")),
+        open_stops(gauge_family(
+            registry, "axisgate_open_stops",
+            "Stops that nobody has seen the axes obey; late: a caller was notified that the stop stays open.")),
         stop_seconds(prometheus::BuildHistogram()
                          .Name("axisgate_stop_confirmed_seconds")
                          .Help("Time from asking for a stop until its axes were seen stationary.")
                          .Register(registry)),
         emergency_latched(gauge_family(registry, "axisgate_emergency_latched",
                                        "1 from an emergency stop until it is cleared for all axes, else 0.")),
-        conditions(counter_family(registry, "axisgate_conditions_total",
-                                  "How often a condition of the stage began by itself: an emergency stop, a limit "
-                                  "sensor, an error, a motor that is off, another mode.")),
+        conditions(
+            counter_family(registry, "axisgate_conditions_total",
+                           "How often a condition of the stage began, whatever caused it: an emergency stop, a limit "
+                           "sensor, an error, a motor that is off, another mode.")),
         positions(gauge_family(registry, "axisgate_position_pulses",
                                "Command counter of an axis in pulses, as last read; NaN when it is not known.")),
         link_up(gauge_family(registry, "axisgate_link_up", "1 when the configured controller answers, else 0.")),

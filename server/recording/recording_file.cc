@@ -82,7 +82,7 @@ bool RecordingFile::open() {
   return true;
 }
 
-// What the ring keeps stands in both files, so that each of them is a recording by itself.
+// Both files contain what the ring keeps, so that each is a complete recording.
 void RecordingFile::begin_another() {
   const std::string before = path_ + kBeforeSuffix;
   if (::rename(path_.c_str(), before.c_str()) != 0) return complain("renamed");

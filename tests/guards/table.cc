@@ -162,7 +162,7 @@ constexpr Row kTable[] = {
     by_tests(Guard::stop_again, "stop-again", "a stop that is not obeyed is written again",
              "Hazard.H14_TheKeptSegmentStarts"),
     by_tests(Guard::stop_confirmed_stationary, "stop-confirmed-stationary",
-             "a stop is done when the axes are seen to stand", "Hazard.H17_AStopThatIsRefusedThroughout"),
+             "a stop is done when the axes are confirmed stationary", "Hazard.H17_AStopThatIsRefusedThroughout"),
     by_tests(Guard::stop_looks_at_prebuffer, "stop-looks-at-prebuffer", "... and the prebuffers to be empty",
              "Hazard.H14_AStopThatKeepsThePrebuffer"),
     by_tests(Guard::stops_hold_motions, "stops-hold-motions", "until then nothing new is set on the stopped axes",
