@@ -97,6 +97,17 @@ TEST(Completions, SettlesWhenTheLastAxisDoes) {
   EXPECT_EQ(completions.settles_from(kFirstTwo), after(1700));
 }
 
+// A segment of a chain has started it again since it was READY: the answer that shows that does not settle it.
+TEST(Completions, AnAnswerThatShowsAnAxisBusyDoesNotSettleIt) {
+  Completions completions;
+  completions.started(kFirstTwo, after(0));
+  completions.ready(kFirstTwo, after(1000));
+  completions.answered(after(2000), kFirst);
+  EXPECT_EQ(completions.possible(), kFirst);
+  completions.answered(after(2010));
+  EXPECT_EQ(completions.possible(), AxisSet());
+}
+
 TEST(Completions, ANewStartBeginsAnew) {
   Completions completions;
   completions.started(kFirst, after(0));

@@ -55,8 +55,10 @@ AxisSet Completions::busy(AxisSet axes) {
   return changed;
 }
 
-void Completions::answered(TimePoint written) {
-  for (Axis& one : axes_) {
+void Completions::answered(TimePoint written, AxisSet busy) {
+  for (const int number : AxisSet::all().list()) {
+    Axis& one = axis(number);
+    if (busy.has(number)) continue;
     const bool after = one.until && (*one.until <= written || !guarded(Guard::settled_by_exchange));
     if (one.possible && after) one = {};
   }

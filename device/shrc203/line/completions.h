@@ -30,8 +30,9 @@ class Completions {
   AxisSet busy(AxisSet axes);
 
   // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
-  // sent before has come; one that is due no more after READY cannot come any more.
-  void answered(TimePoint written);
+  // sent before has come; one that is due no more after READY cannot come any more. Except of axes that the answer
+  // itself shows as busy: something has started them since.
+  void answered(TimePoint written, AxisSet busy = {});
 
   AxisSet possible() const;
   bool possible(int axis) const { return possible().has(axis); }

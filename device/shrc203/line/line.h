@@ -199,6 +199,7 @@ class Line {
   void on_line_while_closing(std::string_view text, TimePoint now);
   void close(TimePoint now);
   void on_reply(Reply reply, TimePoint now);
+  AxisSet busy_in(const ExchangeRequest& request, const Reply& reply) const;
   void finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now);
   void enter_barrier(ExchangeResult doubted, ExchangeEnded::Outcome outcome, const std::string& why, TimePoint now);
   void barrier_moved(TimePoint now);

@@ -263,10 +263,21 @@ ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result
           .waited = exchange.written - exchange.waiting->asked};
 }
 
+// What was asked reads the answer only after the next line has been sent.
+AxisSet Line::busy_in(const ExchangeRequest& request, const Reply& reply) const {
+  AxisSet busy;
+  const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
+  const auto readings = positions ? parse_positions(reply, controllable_) : std::nullopt;
+  for (std::size_t axis = 0; readings && axis < readings->size(); ++axis) {
+    if ((*readings)[axis].valid && (*readings)[axis].busy) busy.add(static_cast<int>(axis) + 1);
+  }
+  return busy;
+}
+
 void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoint now) {
   const InFlight done = std::move(*in_flight_);
   in_flight_.reset();
-  if (result.reply) completions_.answered(done.written);
+  if (result.reply) completions_.answered(done.written, busy_in(done.waiting->request, *result.reply));
   if (result.reply) flood_.belonged(result.reply->text.size() + LineTiming::kTerminator);
   const auto& request = done.waiting->request;
   if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
