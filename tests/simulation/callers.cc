@@ -254,7 +254,7 @@ void Callers::become_stationary() {
     for (const Motion& motion : world_.controller().motions()) {
       if (!is_outcome(motion.state)) return false;
     }
-    // A stop behind which a prebuffer keeps a segment stays open until a reset.
+    // If a prebuffer keeps a segment, the stop stays open until a reset.
     const auto& stops = world_.controller().state().open_stops;
     const bool obeyed = std::ranges::all_of(stops, [](const Stop& stop) { return stop.stale; });
     return unfinished_questions_ == 0 && obeyed && world_.controller().state().link == LinkState::up;

@@ -61,7 +61,7 @@ class Barrier {
   std::optional<bool> received() const { return received_; }
   // Reports whether no identity has been requested yet.
   bool in_first_step() const { return step_ == Step::echo; }
-  // What ?:CMD was answered: the one of the first step, even if a Stop has ended that.
+  // Returns the answer to the ?:CMD of the first step, even if a Stop has ended that step.
   const std::optional<std::string>& echo() const { return echo_; }
   // The expected one, or the same twice.
   const std::optional<Identity>& identity() const { return identity_; }

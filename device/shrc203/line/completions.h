@@ -30,8 +30,8 @@ class Completions {
   AxisSet busy(AxisSet axes);
 
   // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
-  // sent before has come; one that is due no more after READY cannot come any more. Except of axes that the answer
-  // itself shows as busy: something has started them since.
+  // sent before has come; one whose time after READY has passed cannot come. Axes that the answer itself shows
+  // as busy are excepted: something has started them since.
   void answered(TimePoint written, AxisSet busy = {});
 
   AxisSet possible() const;

@@ -84,7 +84,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     const bool stopped = write_open_stops(line.text) && guarded(Guard::barrier_after_stop);
     const bool first_step = barrier_->in_first_step();
     in_barrier(line.text, now);
-    // An identity that is requested only now comes behind the stop.
+    // An identity that is requested only now is answered after the stop.
     const bool behind = first_step && barrier_ && !barrier_->in_first_step();
     if (stopped && barrier_ && !behind) barrier_->restart(now);
     return;
@@ -263,7 +263,7 @@ ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result
           .waited = exchange.written - exchange.waiting->asked};
 }
 
-// What was asked reads the answer only after the next line has been sent.
+// Returns the axes that a reading shows as busy. Whoever asked for it reads it only after the next line was sent.
 AxisSet Line::busy_in(const ExchangeRequest& request, const Reply& reply) const {
   AxisSet busy;
   const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
