@@ -31,7 +31,7 @@ struct LeaseTerms {
   AtLoss at_loss = AtLoss::stop;
   std::optional<Duration> expected_use{};  // for those who wait
   std::string purpose{};                   // for people; may be empty
-  std::string session{};                   // stage::Use::session of who asked for it
+  std::string session{};                   // stage::Use::session of its caller
 };
 
 // A stop by another: nothing moves there until the caller who was stopped rearms.

@@ -264,6 +264,7 @@ class WithDaemon(unittest.TestCase):
         self.daemon.stop()
         self.daemon = Daemon(self.folder, CONFIG)
         watcher.until(r"^\d+ \S+ daemon started$")
+        watcher.kill()
         self.assertNotIn("COMPACTED", watcher.errors)
 
     def test_a_daemon_lost_in_mid_move_is_an_unknown_outcome(self):

@@ -2,13 +2,11 @@
 """How the daemon ends: SIGTERM in mid-move, with shrc203-sim at the other end of a pseudo-terminal."""
 
 import os
-import re
 import signal
 import tempfile
-import time
 import unittest
 
-from programs import BIN, LIMIT_S, Daemon, Lines
+from programs import BIN, Daemon, Lines
 from serial_line import ask
 
 CONFIG = """
@@ -73,10 +71,7 @@ class End(unittest.TestCase):
         self.assertEqual(recorder.end(), 4)
         self.assertEqual(recorder.errors,
                          "axisctl: DAEMON_ENDING: the daemon is ending (connect again when it runs again)\n")
-        deadline = time.monotonic() + LIMIT_S
-        while not re.search(r"DAEMON_ENDING: the daemon is ending \(trying again from revision \d+\)", watcher.errors):
-            self.assertLess(time.monotonic(), deadline, watcher.errors)
-            time.sleep(0.02)  # between two looks; the deadline above decides
+        watcher.until_error(r"DAEMON_ENDING: the daemon is ending \(trying again from revision \d+\)")
         watcher.kill()  # it waits for the next daemon
 
     def test_finish_waits_for_what_moves_and_takes_nothing_new(self):

@@ -25,7 +25,8 @@ class Lines:
     def __init__(self, arguments):
         self.process = subprocess.Popen(arguments, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
                                         stderr=subprocess.PIPE, text=True)
-        self.errors = ""
+        self._errors = ""
+        self._has_errors = threading.Condition()
         self._lines = queue.Queue()
         self._readers = [threading.Thread(target=self._read), threading.Thread(target=self._read_errors)]
         for reader in self._readers:
@@ -38,12 +39,26 @@ class Lines:
 
     def _read_errors(self):
         for line in self.process.stderr:
-            self.errors += line
+            with self._has_errors:
+                self._errors += line
+                self._has_errors.notify()
+
+    @property
+    def errors(self):
+        """All of standard error, which is known only once the process has ended; before, see until_error()."""
+        assert not any(reader.is_alive() for reader in self._readers), "errors of a process that still runs"
+        return self._errors
+
+    def until_error(self, pattern):
+        """What is shown on standard output may be read before what was written to standard error ahead of it."""
+        with self._has_errors:
+            if not self._has_errors.wait_for(lambda: re.search(pattern, self._errors), LIMIT_S):
+                raise AssertionError(f"standard error does not say {pattern}: {self._errors}")
 
     def next(self):
         line = self._lines.get(timeout=LIMIT_S)
         if line is None:
-            raise AssertionError("the output ended; standard error: " + self.errors)
+            raise AssertionError("the output ended; standard error: " + self._errors)
         return line
 
     def until(self, pattern):

@@ -263,7 +263,7 @@ ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result
           .waited = exchange.written - exchange.waiting->asked};
 }
 
-// Returns the axes that a reading shows as busy. Whoever asked for it reads it only after the next line was sent.
+// Returns the axes that a reading shows as busy. The one who requested it reads it only after the next line was sent.
 AxisSet Line::busy_in(const ExchangeRequest& request, const Reply& reply) const {
   AxisSet busy;
   const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
