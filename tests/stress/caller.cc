@@ -35,14 +35,11 @@ constexpr int kKnownAnswers = 10;
 // What a line that comes and goes, full queues and other callers' stops may make of a request.
 void expect_excuse(const Problem& problem, const std::string& asked) {
   static const std::set<Reason> kExcuses = {
-      Reason::link_down,        Reason::not_sent,
-      Reason::reply_timed_out,  Reason::line_fault,
-      Reason::axis_busy,        Reason::stopped,
-      Reason::deadline_passed,  Reason::completion_outstanding,
-      Reason::queue_full,       Reason::not_found,
-      Reason::outcome_unknown,  Reason::target_not_reached,
-      Reason::position_unknown, Reason::stale_setpoint,
-      Reason::stopped_by,       Reason::too_fast};  // a path, by a machine whose load makes each answer late
+      Reason::link_down,        Reason::not_sent,       Reason::reply_timed_out, Reason::line_fault,
+      Reason::axis_busy,        Reason::stopped,        Reason::deadline_passed, Reason::completion_outstanding,
+      Reason::queue_full,       Reason::not_found,      Reason::outcome_unknown, Reason::target_not_reached,
+      Reason::position_unknown, Reason::stale_setpoint, Reason::stopped_by,      Reason::stop_unconfirmed,
+      Reason::too_fast};  // a path, by a machine whose load makes each answer late
   EXPECT_TRUE(kExcuses.contains(problem.reason)) << asked << ": " << name(problem.reason) << ": " << problem.message;
 }
 
