@@ -192,6 +192,9 @@ class MillKill(unittest.TestCase):
         self.await_state("PAUSED")
         before = self.numbers(1)
         self.assertTrue(self.aborted(), "the tool is up")
+        # A daemon that dies before its place is on the disk does not know it: the job would be PAUSED_UNKNOWN.
+        kept = self.folder / "state" / "spool" / "mill" / "1.json"
+        self.await_true(lambda: "from" in json.loads(json.loads(kept.read_text())["facts"]), "its place is not kept")
         self.restart()
         self.await_state("PAUSED")
         self.assertEqual(self.numbers(1), before)

@@ -268,6 +268,7 @@ TEST_F(RpcMillWithFlowControl, WhatHasLeftTheHostIsTaken) {
   const v1::Job job = sent(vectors(2000));
   ASSERT_TRUE(confirm(job).ok());
   ASSERT_TRUE(start(job).ok());
+  watch_until([](const v1::Mill& mill) { return mill.running().written() > 0; });
   ASSERT_TRUE(on_mill(&v1::MillService::Stub::PauseJob).ok());
   const v1::RunningJob running =
       watch_until([](const v1::Mill& mill) { return mill.running().taken() == mill.running().written(); }).running();
