@@ -127,6 +127,7 @@ void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
 void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
   const stage::Stop& stop = change.stop;
   const bool open = is_open(stop.state);
+  if (!open) due_(Due::state_at_once);
   if (open && !stop.late) return;
   publish(change, now);
   const std::string who = escaped(fmt::format("{}", fmt::join(stop.callers, ", ")));
@@ -148,6 +149,7 @@ void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
 }
 
 void DeviceEvents::tell(const stage::EmergencyLatchChanged& change, TimePoint now) {
+  due_(Due::state_at_once);
   publish(change, now);
   if (change.latch) {
     spdlog::warn("{}: latched by the emergency stop of {}: nothing moves until the errors of all axes are cleared",

@@ -23,8 +23,9 @@ namespace axisgate::server {
 // Called on the device's strand, as EventSink demands.
 class DeviceEvents : public stage::EventSink {
  public:
-  // What to publish after an event: `queues` or the whole `state` changed. Called from within on_event().
-  enum class Due { queues, state };
+  // What to publish after an event: `queues` or the whole `state` changed; `state_at_once`, if a caller may be answered
+  // behind the event, and then looks. Called from within on_event().
+  enum class Due { queues, state, state_at_once };
   using OnDue = std::function<void(Due)>;
 
   // Where events are kept; null: nowhere.

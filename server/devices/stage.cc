@@ -92,8 +92,7 @@ Duration Stage::wind_down_limit() const {
 
 // Closed from within the answer, so that nothing comes in between.
 void Stage::on_wound_down(const stage::WindDownReport& report) {
-  on_due(DeviceEvents::Due::state);
-  publish_due();
+  on_due(DeviceEvents::Due::state_at_once);
   shutdown();
   if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
   spdlog::info("{}: the line is closed; motions that were running: {}", name(),
@@ -101,10 +100,12 @@ void Stage::on_wound_down(const stage::WindDownReport& report) {
 }
 
 // An event must not call back into the controller, and many come at once: what they leave to do is done once, behind
-// the call that made them.
+// the call that made them; before its answer only where the caller would look and see what was.
 void Stage::on_due(DeviceEvents::Due due) {
   due_ = true;
-  state_due_ = state_due_ || due == DeviceEvents::Due::state;
+  state_due_ = state_due_ || due != DeviceEvents::Due::queues;
+  const bool made = controller_ != nullptr;  // it is not while it reports what it inherits
+  if (due == DeviceEvents::Due::state_at_once && made) publish_due();
 }
 
 void Stage::publish_due() {

@@ -219,8 +219,9 @@ class MillKill(unittest.TestCase):
         self.axisctl("mill", "confirm", "--yes", "--start")
         self.await_state("FED")
         self.assertEqual(self.numbers(1), list(range(1, 41)))
-        raised = [entry for entry in self.entries() if entry.get("command") == "!ZM"]
-        self.assertEqual(len(raised), 2, "by the two epilogues, and by no abort")
+        raised = lambda: [entry["command"] for entry in self.entries() if entry.get("command") == "!ZM"]
+        self.await_true(lambda: len(raised()) >= 2, "the mill has not executed what it was fed")
+        self.assertEqual(len(raised()), 2, "by the two epilogues, and by no abort")
 
     def end_daemon(self):
         self.daemon.signal(signal.SIGTERM)

@@ -168,7 +168,7 @@ class Unplugs(unittest.TestCase):
 
     def check_resources(self):
         third = len(self.descriptors) // 3
-        self.assertEqual(max(self.descriptors[-third:]), max(self.descriptors[:third]), self.descriptors)
+        self.assertLessEqual(max(self.descriptors[-third:]), max(self.descriptors[:third]), self.descriptors)
         pulls = STAGES * (ROUNDS - third)
         self.assertLess(self.memory_kib[-1] - self.memory_kib[third - 1], KEPT_KIB * pulls + ONCE_KIB, self.memory_kib)
 

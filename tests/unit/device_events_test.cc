@@ -15,6 +15,7 @@ namespace axisgate::server::device_events_test {
 namespace {
 
 using ::testing::ElementsAre;
+using ::testing::IsEmpty;
 
 class DeviceEventsTest : public ::testing::Test {
  protected:
@@ -50,6 +51,17 @@ TEST_F(DeviceEventsTest, FactsGetRevisionsAndTelemetryDoesNot) {
   tell(stage::StateChanged{});
   EXPECT_EQ(bus_.newest_revision(), 4u);
   EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::queues, DeviceEvents::Due::state));
+}
+
+// Who is answered that a stop was obeyed, or that a latch is lifted, looks, and must not see what was before.
+TEST_F(DeviceEventsTest, TheEndOfAStopAndALatchAreShownAtOnce) {
+  stage::Stop stop{.id = 1, .axes = stage::AxisSet::all(), .state = stage::StopState::written, .late = true};
+  tell(stage::StopChanged{stop});
+  EXPECT_THAT(due_, IsEmpty());
+  stop.state = stage::StopState::confirmed;
+  tell(stage::StopChanged{stop});
+  tell(stage::EmergencyLatchChanged{});
+  EXPECT_THAT(due_, ElementsAre(DeviceEvents::Due::state_at_once, DeviceEvents::Due::state_at_once));
 }
 
 // As in a loop of stops over ever new connections, none of which has a name.
