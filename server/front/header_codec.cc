@@ -10,12 +10,12 @@ namespace {
 constexpr std::size_t kTableBytes = 4096;  // of both ends, where nobody says otherwise (RFC 9113, 6.5.2)
 
 // nghttp2 takes what is constant by pointers that are not.
-std::uint8_t* bytes_of(std::string_view text) {
+std::uint8_t* as_bytes(std::string_view text) {
   return reinterpret_cast<std::uint8_t*>(
       const_cast<char*>(text.data()));  // NOLINT(cppcoreguidelines-pro-type-const-cast)
 }
 
-std::string_view text_of(const std::uint8_t* bytes, std::size_t size) {
+std::string_view as_text(const std::uint8_t* bytes, std::size_t size) {
   return {reinterpret_cast<const char*>(bytes), size};
 }
 
@@ -33,12 +33,6 @@ void append_text(std::string& block, std::string_view text) {
 
 }  // namespace
 
-std::optional<std::string_view> find(const Headers& headers, std::string_view name) {
-  const auto found = std::ranges::find(headers, name, &Header::name);
-  if (found == headers.end()) return std::nullopt;
-  return found->value;
-}
-
 HeaderDecoder::HeaderDecoder() {
   nghttp2_hd_inflater* inflater = nullptr;
   if (nghttp2_hd_inflate_new(&inflater) != 0) throw std::bad_alloc();
@@ -52,14 +46,14 @@ std::optional<Headers> HeaderDecoder::decode(std::string_view block, std::size_t
     nghttp2_nv pair{};
     int flags = 0;
     const ssize_t taken =
-        nghttp2_hd_inflate_hd2(inflater_.get(), &pair, &flags, bytes_of(block), block.size(), 1 /* the last piece */);
+        nghttp2_hd_inflate_hd2(inflater_.get(), &pair, &flags, as_bytes(block), block.size(), 1 /* the last piece */);
     if (taken < 0) return std::nullopt;
     block.remove_prefix(static_cast<std::size_t>(taken));
     if ((flags & NGHTTP2_HD_INFLATE_EMIT) != 0) {
       bytes += pair.namelen + pair.valuelen;
       if (bytes > bytes_max) return std::nullopt;
       headers.push_back(
-          {std::string(text_of(pair.name, pair.namelen)), std::string(text_of(pair.value, pair.valuelen))});
+          {std::string(as_text(pair.name, pair.namelen)), std::string(as_text(pair.value, pair.valuelen))});
     }
     if ((flags & NGHTTP2_HD_INFLATE_FINAL) != 0) break;
     if ((flags & NGHTTP2_HD_INFLATE_EMIT) == 0 && block.empty()) break;
@@ -79,11 +73,11 @@ std::string HeaderEncoder::encode(const Headers& headers) {
   pairs.reserve(headers.size());
   for (const Header& header : headers) {
     pairs.push_back(
-        {bytes_of(header.name), bytes_of(header.value), header.name.size(), header.value.size(), NGHTTP2_NV_FLAG_NONE});
+        {as_bytes(header.name), as_bytes(header.value), header.name.size(), header.value.size(), NGHTTP2_NV_FLAG_NONE});
   }
   std::string block(nghttp2_hd_deflate_bound(deflater_.get(), pairs.data(), pairs.size()), '\0');
   const ssize_t size =
-      nghttp2_hd_deflate_hd(deflater_.get(), bytes_of(block), block.size(), pairs.data(), pairs.size());
+      nghttp2_hd_deflate_hd(deflater_.get(), as_bytes(block), block.size(), pairs.data(), pairs.size());
   if (size < 0) throw std::bad_alloc();
   block.resize(static_cast<std::size_t>(size));
   return block;

@@ -8,18 +8,10 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
+
+#include "server/front/headers.h"
 
 namespace axisgate::front {
-
-struct Header {
-  std::string name;  // lower case, ":path" among them
-  std::string value;
-};
-using Headers = std::vector<Header>;
-
-// The first of that name; nothing without one.
-std::optional<std::string_view> find(const Headers& headers, std::string_view name);
 
 // Each block must pass through, in order: both ends keep a table. Not thread safe.
 class HeaderDecoder {

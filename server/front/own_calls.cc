@@ -6,15 +6,9 @@
 #include <utility>
 
 #include "server/front/replies.h"
+#include "server/front/request_body.h"
 
 namespace axisgate::front {
-namespace {
-
-// Of gRPC's codes.
-constexpr int kInvalidArgument = 3, kResourceExhausted = 8;
-
-}  // namespace
-
 bool OwnCalls::within_limits() const {
   const auto uncounted = std::ranges::count_if(calls_, [](const auto& entry) { return entry.second.place == nullptr; });
   return static_cast<std::size_t>(uncounted) < limits_.answers && requests_bytes_ <= limits_.requests_bytes;

@@ -11,7 +11,7 @@
 namespace axisgate::front {
 namespace {
 
-constexpr std::size_t kPrefixBytes = 5;  // of a message: whether it is packed, and its length
+constexpr std::size_t kMessagePrefix = 5;  // of a message: whether it is packed, and its length
 constexpr auto kEnd =
     static_cast<std::uint8_t>(static_cast<int>(FrameFlag::end_headers) | static_cast<int>(FrameFlag::end_stream));
 
@@ -73,13 +73,6 @@ std::string head_frame(std::uint32_t stream) {
                encode_without_table(kHead));
 }
 
-std::string with_prefix(std::string_view message) {
-  std::string data(1, '\0');
-  for (int shift = 24; shift >= 0; shift -= 8) data.push_back(static_cast<char>(message.size() >> shift & 0xff));
-  data.append(message);
-  return data;
-}
-
 std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone) {
   Headers headers = alone ? kHead : Headers();
   for (Header& header : trailers(reply)) headers.push_back(std::move(header));
@@ -87,8 +80,8 @@ std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone) {
 }
 
 std::optional<std::string> message_in(std::string_view data, std::size_t bytes_max) {
-  if (data.size() < kPrefixBytes || data.size() - kPrefixBytes != number_at(data, 1)) return std::nullopt;
-  const std::string_view message = data.substr(kPrefixBytes);
+  if (data.size() < kMessagePrefix || data.size() - kMessagePrefix != number_at(data, 1)) return std::nullopt;
+  const std::string_view message = data.substr(kMessagePrefix);
   if (message.size() > bytes_max) return std::nullopt;
   return data[0] == 0 ? std::string(message) : unpacked(message, bytes_max);
 }

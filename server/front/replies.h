@@ -12,8 +12,6 @@ namespace axisgate::front {
 
 // Before the first message of an answer.
 std::string head_frame(std::uint32_t stream);
-// A message as DATA carries it.
-std::string with_prefix(std::string_view message);
 // The status, which ends the stream. `alone`: no head came before.
 std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone);
 
