@@ -61,7 +61,8 @@ fuzz() {
 cd "$root"
 mkdir -p "$build"
 jobs=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
-front=(server/front/{conversation,own_calls,spending,frames,header_codec,replies,budget}.cc)
+front=(server/front/{conversation,grpc_side,own_calls,http2_session,request_body,headers,spending,replies,budget}.cc
+  tests/http2/{frames,header_codec}.cc)
 
 # TARGET SOURCE...
 build_and_fuzz() {

@@ -13,13 +13,14 @@ namespace axisgate::front {
 
 enum class Cost {
   stream,        // a call that begins
-  header_bytes,  // of its headers, as they were sent
+  header_bytes,  // of its headers, as they were sent, or as a list has them, if that is more
   reset,         // a call that its caller breaks off
-  control,       // PING, WINDOW_UPDATE, PRIORITY, empty DATA, unknown frames
+  control,       // PING, WINDOW_UPDATE, PRIORITY, empty DATA, acknowledgements, unknown frames, those of no call
   settings,      // SETTINGS
-  refusal,       // a call that was refused for want of a right
+  refusal,       // a call that was refused for want of a right, or that is against the rules of HTTP/2
+  unpacked,      // bytes of messages that were compressed
 };
-inline constexpr std::size_t kCosts = 6;
+inline constexpr std::size_t kCosts = 7;
 
 // Filled by `per_second` up to `burst`.
 struct Rate {

@@ -11,7 +11,7 @@ namespace axisgate::front {
 enum class Cause {
   handshake_failed,  // TLS: no trusted certificate, another protocol, or not finished in time
   no_call,           // nobody was let in within FrontLimits::silence
-  frame_unfinished,  // within FrontLimits::frame_time
+  frame_unfinished,  // a frame, or headers, by FrontLimits::pace
   over_budget,       // more of something than FrontLimits allows
   protocol_error,    // no HTTP/2, or frames against RFC 9113
 };

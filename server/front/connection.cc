@@ -13,6 +13,9 @@ namespace asio = boost::asio;
 // A client that does not take what it is sent does not get its farewell either.
 constexpr Duration kFarewell = std::chrono::seconds(1);
 
+// What is judged in one go: a few dozen calls, which delay others by less than a stop notices.
+constexpr std::size_t kPortion = 1024;
+
 }  // namespace
 
 Connection::Connection(const Surroundings& around, Peer peer, bool stops_only)
@@ -37,17 +40,16 @@ void Connection::handshake_over(std::optional<std::string> certificate) {
 
 void Connection::begin() {
   // An answer may come from any thread, and after the connection has gone.
-  auto on_answer = [self = weak_from_this(), inbox = around_.inbox](std::uint32_t stream) {
+  auto on_answer = [self = weak_from_this(), inbox = around_.inbox](StreamId stream) {
     inbox->post([self, stream] {
       if (const auto connection = self.lock()) connection->pull(stream);
     });
   };
-  conversation_.emplace(around_.desk, around_.limits, around_.sources, peer_, stops_only_, std::move(on_answer),
-                        monotonic_now());
+  conversation_.emplace(around_.shared, peer_, stops_only_, std::move(on_answer), monotonic_now());
   move_on();
 }
 
-void Connection::pull(std::uint32_t stream) {
+void Connection::pull(StreamId stream) {
   if (closed_) return;
   conversation_->pull(stream);
   move_on();
@@ -56,13 +58,12 @@ void Connection::pull(std::uint32_t stream) {
 // Starts whatever can be started now.
 void Connection::move_on() {
   if (closed_) return;
-  if (conversation_->upstream() == Conversation::Upstream::open && !grpc_.is_open()) connect_to_grpc();
+  if (conversation_->uses_grpc() && !grpc_.is_open()) connect_to_grpc();
   write_client();
   write_grpc();
-  const bool said_all = !writes_client_ && !conversation_->has_for_client();
-  if (conversation_->fault()) {
-    if (said_all) return close();
-    if (!fault_since_) fault_since_ = monotonic_now();
+  if (conversation_->over()) {
+    if (!writes_client_ && !conversation_->has_for_client()) return close();
+    if (!over_since_) over_since_ = monotonic_now();
     return;
   }
   read_client();
@@ -70,7 +71,9 @@ void Connection::move_on() {
 }
 
 void Connection::read_client() {
-  if (reads_client_ || closed_ || conversation_->full()) return;
+  if (reads_client_ || closed_) return;
+  if (!unfed_.empty()) return feed_later();
+  if (conversation_->full()) return;
   const TimePoint now = monotonic_now();
   if (conversation_->not_before() > now) return wait_for_budget(now);
   reads_client_ = true;
@@ -78,14 +81,26 @@ void Connection::read_client() {
     reads_client_ = false;
     if (error) return close();
     active_ = monotonic_now();
-    conversation_->from_client({from_client_.data(), size}, active_);
-    if (!conversation_->in_frame()) {
-      frame_since_.reset();
-    } else if (!frame_since_) {
-      frame_since_ = active_;
-    }
-    move_on();
+    unfed_ = {from_client_.data(), size};
+    feed();
   });
+}
+
+// A client that sends much at once is judged in portions: between them it is the turn of others. What has been read is
+// judged to its end, whatever the budget: who sends so much at once that its debt is long is to be closed.
+void Connection::feed_later() {
+  reads_client_ = true;
+  asio::post(around_.strand, [this, self = shared_from_this()] {
+    reads_client_ = false;
+    if (!closed_) feed();
+  });
+}
+
+void Connection::feed() {
+  const std::string_view portion = unfed_.substr(0, kPortion);
+  unfed_.remove_prefix(portion.size());
+  conversation_->from_client(portion, monotonic_now());
+  move_on();
 }
 
 void Connection::wait_for_budget(TimePoint now) {
@@ -99,8 +114,9 @@ void Connection::wait_for_budget(TimePoint now) {
 
 void Connection::write_client() {
   if (writes_client_ || !conversation_->has_for_client()) return;
-  writes_client_ = true;
   to_client_ = conversation_->take_to_client();
+  if (to_client_.empty()) return;
+  writes_client_ = true;
   wire_->write(asio::buffer(to_client_), [this, self = shared_from_this()](const Error& error) {
     writes_client_ = false;
     if (error) return close();
@@ -114,7 +130,7 @@ void Connection::connect_to_grpc() {
   asio::local::connect_pair(grpc_, theirs, error);
   if (error) {
     grpc_.close(error);
-    return conversation_->upstream_failed();
+    return conversation_->grpc_failed();
   }
   theirs.non_blocking(true, error);
   const int descriptor = theirs.release(error);
@@ -122,23 +138,26 @@ void Connection::connect_to_grpc() {
 }
 
 void Connection::read_grpc() {
-  if (reads_grpc_ || closed_ || !grpc_.is_open() || conversation_->full()) return;
+  if (reads_grpc_ || closed_ || !grpc_.is_open()) return;
   reads_grpc_ = true;
   grpc_.async_read_some(asio::buffer(from_grpc_),
                         [this, self = shared_from_this()](const Error& error, std::size_t size) {
                           reads_grpc_ = false;
                           if (closed_) return;
-                          // gRPC has ended the connection: what it said before has been written.
-                          if (error) return close();
-                          conversation_->from_server({from_grpc_.data(), size});
+                          if (error) {
+                            conversation_->grpc_left();
+                          } else {
+                            conversation_->from_grpc({from_grpc_.data(), size});
+                          }
                           move_on();
                         });
 }
 
 void Connection::write_grpc() {
-  if (writes_grpc_ || closed_ || !conversation_->has_for_server()) return;
+  if (writes_grpc_ || closed_ || !conversation_->has_for_grpc()) return;
+  to_grpc_ = conversation_->take_to_grpc();
+  if (to_grpc_.empty()) return;
   writes_grpc_ = true;
-  to_grpc_ = conversation_->take_to_server();
   asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
     writes_grpc_ = false;
     if (error) return close();
@@ -147,16 +166,17 @@ void Connection::write_grpc() {
 }
 
 void Connection::check(TimePoint now) {
-  const FrontLimits& limits = around_.limits;
-  if (fault_since_ && now - *fault_since_ > kFarewell) return close();
+  const FrontLimits& limits = around_.shared.limits;
+  if (over_since_ && now - *over_since_ > kFarewell) return close();
   if (now - begun_ > limits.silence) {
     if (!conversation_) return close(Closing{Cause::handshake_failed, "the TLS handshake was not finished in time"});
     if (!conversation_->admitted()) return close(Closing{Cause::no_call, "no call came in time"});
   }
-  if (frame_since_ && now - *frame_since_ > limits.frame_time) {
-    return close(Closing{Cause::frame_unfinished, "a frame was not finished in time"});
-  }
-  if (!conversation_ || !conversation_->stops_only() || conversation_->calls() > 0) return;
+  if (!conversation_) return;
+  const bool reads = !conversation_->full() && conversation_->not_before() <= now;
+  conversation_->check(now, reads);
+  move_on();
+  if (closed_ || !conversation_->stops_only() || conversation_->calls() > 0) return;
   if (now - active_ > limits.reserve_idle || now - begun_ > limits.reserve_age) close();
 }
 
@@ -168,7 +188,7 @@ void Connection::close(const std::optional<Closing>& why) {
   grpc_.close(ignored);
   budget_timer_.cancel();
   const bool at_fault = conversation_ && conversation_->fault();
-  around_.ended(*this, at_fault ? conversation_->fault()->why : why);
+  around_.ended(*this, at_fault ? conversation_->fault() : why);
 }
 
 }  // namespace axisgate::front

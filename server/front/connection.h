@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "device/link/asio.h"
 #include "device/link/clock.h"
@@ -23,9 +24,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   struct Surroundings {
     Strand strand;
     std::shared_ptr<Inbox> inbox;  // to that strand
-    Desk& desk;
-    const FrontLimits& limits;
-    Sources& sources;
+    Conversation::Shared shared;
     std::function<void(Descriptor)> to_grpc;  // a connection of its own, not blocking
     // Once: it is closed; with why, where this side closed it for a cause.
     std::function<void(const Connection&, const std::optional<Closing>&)> ended;
@@ -50,9 +49,11 @@ class Connection : public std::enable_shared_from_this<Connection> {
   using Error = Wire::Error;
 
   void begin();
-  void pull(std::uint32_t stream);
+  void pull(StreamId stream);
   void move_on();
   void read_client();
+  void feed_later();
+  void feed();
   void write_client();
   void connect_to_grpc();
   void read_grpc();
@@ -64,13 +65,13 @@ class Connection : public std::enable_shared_from_this<Connection> {
   const bool stops_only_;
   const TimePoint begun_ = monotonic_now();
   TimePoint active_ = begun_;
-  std::optional<TimePoint> frame_since_;  // of one that is not whole yet
-  std::optional<TimePoint> fault_since_;
+  std::optional<TimePoint> over_since_;
   std::unique_ptr<Wire> wire_;
   std::optional<Conversation> conversation_;  // none during a handshake
   boost::asio::local::stream_protocol::socket grpc_;
   boost::asio::steady_timer budget_timer_;
   std::array<char, 16 * 1024> from_client_{};
+  std::string_view unfed_;  // of that
   std::array<char, 16 * 1024> from_grpc_{};
   std::string to_client_, to_grpc_;  // being written
   // An operation of each kind is under way.

@@ -1,392 +1,353 @@
 #include "server/front/conversation.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <chrono>
 #include <utility>
+#include <vector>
 
 #include "server/front/replies.h"
 
 namespace axisgate::front {
 namespace {
 
-// A quarter of what a client may send before it must know that it may send more (RFC 9113, 6.9.2).
-constexpr std::size_t kUntoldMax = 16 << 10;
+constexpr std::int64_t kPrefaceBytes = 24, kFrameHeadBytes = 9;  // RFC 9113, 3.4 and 4.1
+constexpr std::uint32_t kStreamWindow = 64 << 10;
+constexpr std::int32_t kConnectionWindow = 256 << 10;
+constexpr Duration kSoon = std::chrono::seconds(1);
 
-std::uint8_t flags(bool end_headers, bool end_stream) {
-  return static_cast<std::uint8_t>((end_headers ? static_cast<int>(FrameFlag::end_headers) : 0) |
-                                   (end_stream ? static_cast<int>(FrameFlag::end_stream) : 0));
+SessionTerms terms_of(const FrontLimits& limits) {
+  return {.list_bytes = limits.header_bytes,
+          .list_fields = limits.header_fields,
+          .open_streams = static_cast<std::uint32_t>(limits.open_calls),
+          .stream_window = kStreamWindow,
+          .connection_window = kConnectionWindow};
 }
 
-std::uint16_t id_of(SettingId id) { return static_cast<std::uint16_t>(id); }
-
-// Longer frames and larger tables than the front's are nobody's: both sides have to do with the first values.
-std::map<std::uint16_t, std::uint32_t> bounded(std::map<std::uint16_t, std::uint32_t> settings, bool from_server) {
-  settings.erase(id_of(SettingId::max_frame_size));
-  if (from_server) settings.erase(id_of(SettingId::header_table_size));
-  return settings;
-}
-
-Cause cause_of(ErrorCode code) {
-  return code == ErrorCode::enhance_your_calm ? Cause::over_budget : Cause::protocol_error;
-}
+bool has_flag(const nghttp2_frame_hd& frame, nghttp2_flag flag) { return (frame.flags & flag) != 0; }
 
 bool is_own(const Header& header) { return header.name == kCallerHeader || header.name == kSourceHeader; }
 
-bool ends_call(const Frame& frame) {
-  const bool carries = frame.type == FrameType::headers || frame.type == FrameType::data;
-  return frame.type == FrameType::rst_stream || (carries && frame.has(FrameFlag::end_stream));
+// What gRPC's protocol over HTTP/2 asks of every call; the answer to one that is something else.
+std::optional<Headers> not_grpc(const Headers& headers) {
+  if (find(headers, ":method") != "POST") return Headers{{":status", "405"}, {"allow", "POST"}};
+  const std::string_view type = find(headers, "content-type").value_or("");
+  constexpr std::string_view kGrpc = "application/grpc";
+  const bool grpc = type.starts_with(kGrpc) && (type.size() == kGrpc.size() || type[kGrpc.size()] == '+' ||
+                                                type[kGrpc.size()] == ';' || type[kGrpc.size()] == ' ');
+  if (!grpc) return Headers{{":status", "415"}};
+  return std::nullopt;
+}
+
+Reply too_much_metadata(const FrontLimits& limits) {
+  return {.code = kResourceExhausted,
+          .message = fmt::format("the metadata of this call is too long: the daemon takes {} bytes in {} fields, as "
+                                 "RFC 9113 counts them (6.5.2)",
+                                 limits.header_bytes, limits.header_fields)};
+}
+
+Reply too_many_open() {
+  return {.code = kResourceExhausted,
+          .message = "too many stops and lists are open on this connection (wait for some of them)",
+          .retry_after = kSoon};
 }
 
 }  // namespace
 
-Conversation::Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only,
-                           OwnCalls::OnAnswer on_answer, TimePoint now)
-    : desk_(desk),
-      limits_(limits),
+Conversation::Conversation(const Shared& shared, Peer peer, bool stops_only, OwnCalls::OnAnswer on_answer,
+                           TimePoint now)
+    : shared_(shared),
       peer_(std::move(peer)),
-      spending_(limits, sources, peer_.source, now),
+      spending_(shared.limits, shared.sources, peer_.source, now),
       stops_only_(stops_only),
       now_(now),
-      own_calls_(desk, limits, peer_, std::move(on_answer)) {
-  to_client_ =
-      settings_frame({{id_of(SettingId::max_header_list_size), static_cast<std::uint32_t>(limits.header_bytes)}});
-}
-
-void Conversation::end(ErrorCode code, std::string why) {
-  if (fault_) return;
-  to_client_ += goaway(last_stream_, code, why);
-  fault_ = Fault{code, {cause_of(code), std::move(why)}};
-}
-
-bool Conversation::spend(Cost cost, double tokens) {
-  if (spending_.spend(cost, tokens, now_)) return true;
-  end(ErrorCode::enhance_your_calm, "more frames a second than the daemon takes from one client");
-  return false;
-}
-
-bool Conversation::take_preface(std::string_view& bytes) {
-  const std::size_t size = std::min(preface_.size(), bytes.size());
-  if (bytes.substr(0, size) != std::string_view(preface_).substr(0, size)) {
-    end(ErrorCode::protocol_error, "this is not HTTP/2");
-    return false;
-  }
-  preface_.erase(0, size);
-  bytes.remove_prefix(size);
-  return preface_.empty();
-}
+      client_(Http2Session::Role::server, terms_of(shared.limits), *this),
+      own_calls_(shared.desk, peer_, shared.held, client_, std::move(on_answer)),
+      unshown_(-kPrefaceBytes) {}
 
 void Conversation::from_client(std::string_view bytes, TimePoint now) {
   now_ = now;
-  if (fault_ || (!preface_.empty() && !take_preface(bytes))) return;
-  reader_.feed(bytes, [this](const Frame& frame) { return take_frame(frame); });
-  if (reader_.too_long()) end(ErrorCode::frame_size_error, "a frame is longer than 16384 bytes");
+  if (over_) return;
+  pace_.came(bytes.size());
+  unshown_ += static_cast<std::int64_t>(bytes.size());
+  const bool was_within = is_within();
+  if (client_.feed(bytes)) spend_for_unshown();
+  if (!was_within) pace_.begin(now);
 }
 
-bool Conversation::take_frame(const Frame& frame) {
-  if (block_ && (frame.type != FrameType::continuation || frame.stream != block_->stream)) {
-    end(ErrorCode::protocol_error, "headers are not followed by their CONTINUATION");
-    return false;
+// In the head of a frame, or in the headers of a call.
+bool Conversation::is_within() const { return in_block_ || (unshown_ > 0 && !strays_); }
+
+void Conversation::from_grpc(std::string_view bytes) {
+  if (grpc_) grpc_->from_grpc(bytes);
+}
+
+bool Conversation::end(Cause cause, std::uint32_t error, const char* why) {
+  client_.end(error, why);
+  over_ = true;
+  fault_ = Closing{cause, why};
+  return false;
+}
+
+void Conversation::failed(std::uint32_t error, std::string_view why) {
+  over_ = true;
+  fault_ = Closing{error == NGHTTP2_ENHANCE_YOUR_CALM ? Cause::over_budget : Cause::protocol_error, std::string(why)};
+}
+
+bool Conversation::spend(Cost cost, double tokens) {
+  if (over_) return false;
+  if (spending_.spend(cost, tokens, now_)) return true;
+  return end(Cause::over_budget, NGHTTP2_ENHANCE_YOUR_CALM,
+             "more frames a second than the daemon takes from one client");
+}
+
+bool Conversation::frame_begun(const nghttp2_frame_hd& frame) {
+  unshown_ -= kFrameHeadBytes + static_cast<std::int64_t>(frame.length);
+  strays_ = false;
+  if (over_) return false;
+  if (frame.type == NGHTTP2_HEADERS || frame.type == NGHTTP2_CONTINUATION) return spend_for_headers(frame);
+  in_block_ = false;
+  return spend_for(frame);
+}
+
+bool Conversation::spend_for_headers(const nghttp2_frame_hd& frame) {
+  if (!spend(Cost::header_bytes, static_cast<double>(frame.length))) return false;
+  if (frame.type == NGHTTP2_CONTINUATION) {
+    block_bytes_ += frame.length;
+    if (++continuations_ <= shared_.limits.continuations) return true;
+    return end(Cause::over_budget, NGHTTP2_ENHANCE_YOUR_CALM, "headers in more pieces than the daemon takes");
   }
+  const bool begins_call = frame.stream_id > last_stream_;
+  last_stream_ = std::max(last_stream_, frame.stream_id);
+  block_bytes_ = frame.length;
+  continuations_ = 0;
+  in_block_ = begins_call || calls_.contains(frame.stream_id);
+  if (begins_call) return spend(Cost::stream, 1);
+  return in_block_ || spend_for_nobodys(kFrameHeadBytes + frame.length, 1);
+}
+
+bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
   switch (frame.type) {
-    case FrameType::headers:
-      take_headers(frame);
-      break;
-    case FrameType::continuation:
-      take_continuation(frame);
-      break;
-    case FrameType::data:
-      take_data(frame);
-      break;
-    case FrameType::settings:
-      take_settings(frame);
-      break;
-    case FrameType::window_update:
-      take_window_update(frame);
-      break;
-    case FrameType::rst_stream:
-      take_reset(frame);
-      break;
-    case FrameType::ping:
-      take_ping(frame);
-      break;
-    case FrameType::push_promise:
-      end(ErrorCode::protocol_error, "a client must not push");
-      break;
-    case FrameType::goaway:    // the client's connection ends when it closes it
-    case FrameType::priority:  // nobody here has an order of streams
+    case NGHTTP2_DATA: {
+      const bool may_be_empty = frame.length == 0 || has_flag(frame, NGHTTP2_FLAG_PADDED);
+      return !may_be_empty || has_flag(frame, NGHTTP2_FLAG_END_STREAM) || spend(Cost::control, 1);
+    }
+    case NGHTTP2_PRIORITY:
+      // The library ignores them all; RFC 9113, 6.3 does not allow this one.
+      if (frame.stream_id == 0) return end(Cause::protocol_error, NGHTTP2_PROTOCOL_ERROR, "PRIORITY of no stream");
+      return spend(Cost::control, 1);
+    case NGHTTP2_SETTINGS:
+      if (!has_flag(frame, NGHTTP2_FLAG_ACK)) return spend(Cost::settings, 1);
+      return settings_due_-- > 0 || spend(Cost::control, 1);
+    case NGHTTP2_RST_STREAM:
+      return spend(Cost::reset, 1);
+    case NGHTTP2_WINDOW_UPDATE:
+      if (acknowledgements_due_ == 0) return spend(Cost::control, 1);
+      --acknowledgements_due_;
+      return true;
     default:
-      spend(Cost::control, 1);
-  }
-  return !fault_;
-}
-
-void Conversation::take_headers(const Frame& frame) {
-  const auto content = content_of(frame);
-  if (!content || frame.stream % 2 == 0) {
-    return end(ErrorCode::protocol_error, "HEADERS with a wrong stream or padding");
-  }
-  if (!spend(Cost::header_bytes, static_cast<double>(frame.payload.size()))) return;
-  Block block{frame.stream, frame.has(FrameFlag::end_stream), 0, std::string(*content)};
-  if (frame.has(FrameFlag::end_headers)) return take_block(std::move(block));
-  block_ = std::move(block);
-}
-
-void Conversation::take_continuation(const Frame& frame) {
-  if (!block_) return end(ErrorCode::protocol_error, "CONTINUATION without headers");
-  block_->bytes.append(frame.payload);
-  ++block_->frames;
-  if (block_->frames > limits_.continuations || block_->bytes.size() > limits_.header_bytes) {
-    return end(ErrorCode::enhance_your_calm, "too many headers");
-  }
-  if (!spend(Cost::header_bytes, static_cast<double>(frame.payload.size()))) return;
-  if (!frame.has(FrameFlag::end_headers)) return;
-  Block block = *std::move(block_);
-  block_.reset();
-  take_block(std::move(block));
-}
-
-void Conversation::take_block(Block block) {
-  std::optional<Headers> headers = decoder_.decode(block.bytes, limits_.header_bytes);
-  if (!headers) return end(ErrorCode::compression_error, "headers that cannot be read, or are too long");
-  if (open_.contains(block.stream)) return forward_headers(block.stream, *std::move(headers), block.ends_stream);
-  if (block.stream <= last_stream_) return;  // behind the end of its call
-  last_stream_ = block.stream;
-  if (!spend(Cost::stream, 1)) return;
-  if (calls() >= limits_.open_calls) {
-    return end(ErrorCode::enhance_your_calm, "too many calls are open on this connection");
-  }
-  begin_call(block.stream, *std::move(headers), block.ends_stream);
-}
-
-void Conversation::begin_call(std::uint32_t stream, Headers headers, bool whole) {
-  const Verdict verdict = desk_.judge(headers, peer_, stops_only_);
-  if (verdict.unwanted && !spend(Cost::refusal, 1)) return;
-  if (!verdict.unwanted) spending_.admit(verdict.caller, now_);
-  switch (verdict.what) {
-    case Verdict::What::refuse:
-      return refuse(stream, verdict.refusal, whole);
-    case Verdict::What::forward:
-      open_[stream] = verdict.place;
-      std::erase_if(headers, is_own);
-      headers.push_back({std::string(kCallerHeader), peer_.who});
-      headers.push_back({std::string(kSourceHeader), peer_.source});
-      return forward_headers(stream, std::move(headers), whole);
-    case Verdict::What::answer:
-      break;
-  }
-  if (!own_calls_.within_limits()) {
-    return end(ErrorCode::enhance_your_calm, "too many stops, or requests in pieces, are open on this connection");
-  }
-  own_calls_.begin(stream, std::move(headers), verdict.place);
-  if (whole) ask_desk(stream);
-}
-
-void Conversation::forward_headers(std::uint32_t stream, Headers headers, bool ends_stream) {
-  open_upstream();
-  const std::string block = encoder_.encode(headers);
-  std::string_view rest = block;
-  FrameType type = FrameType::headers;
-  do {
-    const std::string_view piece = rest.substr(0, kFramePayloadMax);
-    rest.remove_prefix(piece.size());
-    const bool first = type == FrameType::headers;
-    to_server_ += frame(type, flags(rest.empty(), first && ends_stream), stream, piece);
-    type = FrameType::continuation;
-  } while (!rest.empty());
-}
-
-void Conversation::refuse(std::uint32_t stream, const Reply& refusal, bool whole) {
-  send(ending_frame(stream, refusal, true));
-  // What the client still sends of it is dropped.
-  if (!whole) send(rst_stream(stream, ErrorCode::no_error));
-}
-
-void Conversation::ask_desk(std::uint32_t stream) {
-  if (const auto refusal = own_calls_.ask(stream)) refuse(stream, *refusal, true);
-}
-
-void Conversation::pull(std::uint32_t stream) {
-  own_calls_.pull(stream);
-  send_answers();
-}
-
-// More when this has been written.
-void Conversation::send_answers() {
-  if (in_server_block_ || fault_ || full()) return;
-  const std::int64_t before = window_;
-  const std::string answers = own_calls_.frames(window_);
-  window_used_ += before - window_;
-  if (answers.empty()) return;
-  tell_given_back();
-  to_client_ += answers;
-}
-
-std::string Conversation::take_to_client() {
-  std::string bytes = std::exchange(to_client_, {});
-  send_answers();
-  return bytes;
-}
-
-// Not between a HEADERS of gRPC and its CONTINUATION (RFC 9113, 6.10).
-void Conversation::send(const std::string& bytes) { (in_server_block_ ? held_ : to_client_) += bytes; }
-
-void Conversation::take_data(const Frame& frame) {
-  if (frame.payload.empty() && !frame.has(FrameFlag::end_stream) && !spend(Cost::control, 1)) return;
-  if (open_.contains(frame.stream)) {
-    to_server_ += frame.raw;
-    return;
-  }
-  give_back(frame.payload.size());
-  if (own_calls_.has(frame.stream)) take_own_data(frame);
-}
-
-void Conversation::take_own_data(const Frame& frame) {
-  const auto content = content_of(frame);
-  if (!content) return end(ErrorCode::protocol_error, "DATA with a wrong padding");
-  const bool whole = frame.has(FrameFlag::end_stream);
-  if (const auto refusal = own_calls_.take(frame.stream, *content)) return refuse(frame.stream, *refusal, whole);
-  if (whole) ask_desk(frame.stream);
-}
-
-// What gRPC did not see it does not allow to be sent again. The client learns of it with the next answer, or when it is
-// much: a frame of its own would cost it a wake-up.
-void Conversation::give_back(std::size_t bytes) {
-  untold_ += bytes;
-  if (untold_ >= kUntoldMax) tell_given_back();
-}
-
-void Conversation::tell_given_back() {
-  if (untold_ > 0) send(window_update(0, static_cast<std::uint32_t>(std::exchange(untold_, 0))));
-}
-
-void Conversation::take_settings(const Frame& frame) {
-  if (frame.has(FrameFlag::ack)) {
-    if (acks_for_front_ > 0) {
-      --acks_for_front_;
-    } else if (upstream_ == Upstream::open) {
-      to_server_ += frame.raw;
-    }
-    return;
-  }
-  const auto settings = settings_in(frame.payload);
-  if (!settings) return end(ErrorCode::frame_size_error, "SETTINGS of a wrong length");
-  if (!spend(Cost::settings, 1)) return;
-  if (const auto first = settings->find(id_of(SettingId::initial_window_size)); first != settings->end()) {
-    if (first->second > kWindowMax) return end(ErrorCode::flow_control_error, "a window that cannot be");
-    own_calls_.set_first_window(first->second);
-  }
-  if (upstream_ == Upstream::open) {
-    to_server_ += settings_frame(bounded(*settings, false));
-    return;
-  }
-  for (const auto& [id, value] : *settings) {
-    constexpr std::size_t kKept = 32;
-    if (client_settings_.size() < kKept) client_settings_[id] = value;
-  }
-  send(settings_ack());
-}
-
-void Conversation::open_upstream() {
-  if (std::exchange(upstream_, Upstream::open) == Upstream::open) return;
-  to_server_ += kPreface;
-  to_server_ += settings_frame(bounded(client_settings_, false));
-  acks_from_server_ = 1;
-  if (window_ > kFirstWindow) {
-    to_server_ += window_update(0, static_cast<std::uint32_t>(window_ - kFirstWindow));
-    window_used_ = 0;
-  } else {
-    window_used_ = kFirstWindow - window_;
+      return spend(Cost::control, 1);
   }
 }
 
-void Conversation::upstream_failed() {
-  upstream_ = Upstream::none;
-  stops_only_ = true;
-  to_server_.clear();
-  encoder_ = HeaderEncoder();
-  for (const auto& [stream, place] : std::exchange(open_, {})) refuse(stream, desk_.no_room(), false);
-}
-
-void Conversation::take_window_update(const Frame& frame) {
-  if (acknowledgements_due_ > 0) {
-    --acknowledgements_due_;
-  } else if (!spend(Cost::control, 1)) {
-    return;
-  }
-  constexpr std::size_t kBytes = 4;
-  if (frame.payload.size() != kBytes) return end(ErrorCode::frame_size_error, "WINDOW_UPDATE of a wrong length");
-  if (frame.stream != 0) {
-    if (open_.contains(frame.stream)) to_server_ += frame.raw;
-    if (own_calls_.has(frame.stream)) widen(frame);
-    return;
-  }
-  const std::int64_t bytes = number_at(frame.payload, 0) & kWindowMax;
-  if (bytes == 0 || window_ + bytes > kWindowMax) return end(ErrorCode::protocol_error, "WINDOW_UPDATE out of range");
-  window_ += bytes;
-  if (upstream_ == Upstream::open) {
-    const std::int64_t kept = std::min(bytes, window_used_);
-    window_used_ -= kept;
-    if (bytes > kept) to_server_ += window_update(0, static_cast<std::uint32_t>(bytes - kept));
-  }
-  send_answers();
-}
-
-void Conversation::widen(const Frame& frame) {
-  if (!own_calls_.widen(frame.stream, number_at(frame.payload, 0) & kWindowMax)) {
-    return end(ErrorCode::flow_control_error, "a window that cannot be");
-  }
-  send_answers();
-}
-
-void Conversation::take_reset(const Frame& frame) {
-  if (!spend(Cost::reset, 1)) return;
-  own_calls_.forget(frame.stream);
-  if (open_.erase(frame.stream) > 0) to_server_ += frame.raw;
-}
-
-// The daemon's answer to a PING is the front's: gRPC would count pings, and close the connections of clients that keep
-// themselves alive by them.
-void Conversation::take_ping(const Frame& frame) {
-  if (frame.has(FrameFlag::ack)) {
-    if (upstream_ == Upstream::open) to_server_ += frame.raw;
-    return;
-  }
-  constexpr std::size_t kBytes = 8;
-  if (frame.payload.size() != kBytes) return end(ErrorCode::frame_size_error, "PING of a wrong length");
-  if (spend(Cost::control, 1)) send(ping_ack(frame.payload));
-}
-
-void Conversation::from_server(std::string_view bytes) {
-  server_reader_.feed(bytes, [this](const Frame& frame) { return take_server_frame(frame); });
-}
-
-bool Conversation::take_server_frame(const Frame& frame) {
-  const bool block = frame.type == FrameType::headers || frame.type == FrameType::continuation;
-  if (block) in_server_block_ = !frame.has(FrameFlag::end_headers);
-  if (frame.type == FrameType::settings) {
-    if (!frame.has(FrameFlag::ack)) {
-      to_client_ +=
-          settings_frame(bounded(settings_in(frame.payload).value_or(std::map<std::uint16_t, std::uint32_t>{}), true));
-      return true;
-    }
-    if (acks_from_server_ > 0) {
-      --acks_from_server_;
-      return true;
-    }
-  }
-  if (frame.type == FrameType::data) note_data(frame);
-  to_client_ += frame.raw;
-  if (ends_call(frame)) open_.erase(frame.stream);
-  if (!in_server_block_) to_client_ += std::exchange(held_, {});
-  send_answers();
+// What an honest client had sent before it learned that its call is over costs it nothing.
+bool Conversation::spend_for_nobodys(std::size_t bytes, std::size_t frames) {
+  if (free_ < bytes) return spend(Cost::control, static_cast<double>(frames));
+  free_ -= bytes;
   return true;
+}
+
+// The library shows no DATA of streams that have gone. As many frames as there can be are in these bytes; fewer than
+// the head of one may be the beginning of the next.
+void Conversation::spend_for_unshown() {
+  if (over_ || unshown_ < kFrameHeadBytes) return;
+  const auto bytes = static_cast<std::size_t>(std::exchange(unshown_, 0));
+  strays_ = true;
+  spend_for_nobodys(bytes, bytes / kFrameHeadBytes);
+}
+
+bool Conversation::frame_refused() {
+  in_block_ = false;
+  return spend(Cost::refusal, 1);
+}
+
+bool Conversation::headers_came(HeaderBlock block) {
+  in_block_ = false;
+  const std::size_t unpacked = block.bytes - std::min(block.bytes, block_bytes_);
+  if (!spend(Cost::header_bytes, static_cast<double>(unpacked))) return false;
+  if (!block.trailers) return begin_call(std::move(block));
+  request_is_whole(block.stream);
+  return true;
+}
+
+bool Conversation::begin_call(HeaderBlock block) {
+  if (!block.fits) {
+    refuse(block.stream, too_much_metadata(shared_.limits));
+    return true;
+  }
+  if (const auto answer = not_grpc(block.headers)) {
+    client_.respond(block.stream, *answer, true);
+    return spend(Cost::refusal, 1);
+  }
+  const Verdict verdict = shared_.desk.judge(block.headers, peer_, stops_only_);
+  if (verdict.unwanted && !spend(Cost::refusal, 1)) return false;
+  if (!verdict.unwanted) spending_.admit(verdict.caller, now_);
+  if (verdict.what == Verdict::What::refuse) {
+    refuse(block.stream, verdict.refusal);
+  } else {
+    let_in(std::move(block), verdict);
+  }
+  return true;
+}
+
+void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
+  const auto uncounted = std::ranges::count_if(calls_, [](const auto& call) { return call.second.uncounted; });
+  if (verdict.uncounted && static_cast<std::size_t>(uncounted) >= shared_.limits.answers) {
+    return refuse(block.stream, too_many_open());
+  }
+  const StreamId stream = block.stream;
+  Call& call = calls_[stream];
+  call.place = verdict.place;
+  call.uncounted = verdict.uncounted;
+  call.request.emplace(find(block.headers, "grpc-encoding").value_or(""),
+                       verdict.uncounted ? shared_.limits.stop_bytes : shared_.limits.message_bytes, shared_.held);
+  call.pace.begin(now_);
+  const bool whole = block.last;
+  if (verdict.what == Verdict::What::answer) {
+    own_calls_.begin(stream, std::move(block.headers));
+  } else {
+    forward(std::move(block), verdict.path);
+  }
+  if (whole) request_is_whole(stream);
+}
+
+void Conversation::forward(HeaderBlock block, const std::string& path) {
+  if (!grpc_) grpc_.emplace(client_, shared_.held);
+  // A client's own are dropped; messages reach gRPC as they were before compression.
+  std::erase_if(block.headers, [](const Header& one) {
+    return is_own(one) || one.name == "grpc-encoding" || one.name == "content-length";
+  });
+  std::ranges::find(block.headers, ":path", &Header::name)->value = path;
+  block.headers.push_back({kCallerHeader, peer_.who});
+  block.headers.push_back({kSourceHeader, peer_.source});
+  grpc_->begin(block.stream, block.headers, block.last);
+}
+
+bool Conversation::data_came(StreamId stream, std::string_view bytes) {
+  const auto found = calls_.find(stream);
+  if (found == calls_.end() || !found->second.request) {
+    client_.consume(stream, bytes.size());
+    return true;
+  }
+  const auto refusal = take(stream, found->second, bytes);
+  const std::size_t cost = found->second.request->take_cost();
+  if (refusal) refuse(stream, *refusal);
+  return cost == 0 || spend(Cost::unpacked, static_cast<double>(cost));
+}
+
+std::optional<Reply> Conversation::take(StreamId stream, Call& call, std::string_view bytes) {
+  std::string out;
+  if (!call.request->unfinished()) call.pace.begin(now_);
+  call.pace.came(bytes.size());
+  auto refusal = call.request->take(bytes, out);
+  call.request->passed_on();
+  if (!refusal && grpc_ && grpc_->has(stream)) {
+    grpc_->pass(stream, out, bytes.size());
+    return std::nullopt;
+  }
+  client_.consume(stream, bytes.size());
+  if (!refusal && own_calls_.has(stream)) refusal = own_calls_.take(stream, out);
+  return refusal;
+}
+
+bool Conversation::stream_ended(StreamId stream) {
+  request_is_whole(stream);
+  return !over_;
+}
+
+void Conversation::request_is_whole(StreamId stream) {
+  const auto found = calls_.find(stream);
+  if (found == calls_.end() || !found->second.request) return;
+  found->second.request.reset();
+  if (!own_calls_.has(stream)) return grpc_->end_request(stream);
+  if (const auto refusal = own_calls_.ask(stream)) refuse(stream, *refusal);
+}
+
+void Conversation::refuse(StreamId stream, const Reply& refusal) {
+  free_ += kStreamWindow;
+  own_calls_.forget(stream);
+  if (const auto found = calls_.find(stream); found != calls_.end()) found->second.request.reset();
+  if (grpc_ && grpc_->has(stream)) {
+    return grpc_->refuse(stream, answer_without_body(refusal), trailers_of(refusal));
+  }
+  client_.respond(stream, answer_without_body(refusal), true);
+}
+
+void Conversation::stream_closed(StreamId stream, std::uint32_t, std::size_t unsent) {
+  own_calls_.forget(stream);
+  if (grpc_) grpc_->forget(stream, unsent);
+  const auto call = calls_.find(stream);
+  if (call == calls_.end()) return;
+  if (call->second.request) free_ += kStreamWindow;
+  calls_.erase(call);
 }
 
 // Clients acknowledge what they were sent, on its stream and on the connection: that costs them nothing, or a thousand
 // streams of events would be a flood.
-void Conversation::note_data(const Frame& frame) {
+void Conversation::sent(StreamId stream, std::size_t bytes) {
   constexpr int kAcknowledgements = 2, kMost = 100'000;
-  window_ -= static_cast<std::int64_t>(frame.payload.size());
   acknowledgements_due_ = std::min(acknowledgements_due_ + kAcknowledgements, kMost);
+  if (grpc_) grpc_->delivered(stream, bytes);
+}
+
+void Conversation::grpc_failed() {
+  stops_only_ = true;
+  if (!grpc_) return;
+  std::vector<StreamId> calls;
+  for (const auto& [stream, call] : calls_) {
+    if (grpc_->has(stream)) calls.push_back(stream);
+  }
+  grpc_.reset();
+  for (const StreamId stream : calls) refuse(stream, shared_.desk.no_room());
+}
+
+void Conversation::grpc_left() {
+  if (grpc_) grpc_->lost();
+  over_ = true;
+}
+
+void Conversation::check(TimePoint now, bool reads) {
+  if (over_) return;
+  now_ = now;
+  if (!reads) pace_.begin(now);
+  if (is_within() && pace_.stalled(shared_.limits.pace, now)) {
+    end(Cause::frame_unfinished, NGHTTP2_ENHANCE_YOUR_CALM, "a frame was not finished in time");
+    return;
+  }
+  check_requests(now, reads);
+}
+
+void Conversation::check_requests(TimePoint now, bool reads) {
+  std::vector<StreamId> stalled;
+  for (auto& [stream, call] : calls_) {
+    const bool own = own_calls_.has(stream);
+    const bool awaited = call.request && (own || call.request->unfinished());
+    if (!awaited || !reads || (!own && grpc_->is_behind(stream))) {
+      call.pace.begin(now);
+    } else if (call.pace.stalled(shared_.limits.pace, now)) {
+      stalled.push_back(stream);
+    }
+  }
+  const FrontLimits& limits = shared_.limits;
+  for (const StreamId stream : stalled) {
+    refuse(stream,
+           {.code = kDeadlineExceeded,
+            .message = fmt::format("the request was begun, and did not go on: at least {} bytes are expected "
+                                   "in each {} s",
+                                   limits.pace.bytes,
+                                   std::chrono::duration_cast<std::chrono::seconds>(limits.pace.span).count())});
+  }
 }
 
 }  // namespace axisgate::front

@@ -1,140 +1,134 @@
-// One client's HTTP/2, from its first byte: passes on to gRPC what may pass, answers the rest, and says when the
+// One client's calls, from its first byte: passes on to gRPC what may pass, answers the rest, and says when the
 // connection has cost too much. No I/O, no threads: bytes in, bytes out.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "device/core/time.h"
 #include "server/front/budget.h"
 #include "server/front/closing.h"
 #include "server/front/desk.h"
-#include "server/front/frames.h"
-#include "server/front/header_codec.h"
+#include "server/front/grpc_side.h"
+#include "server/front/headers.h"
+#include "server/front/http2_session.h"
 #include "server/front/limits.h"
 #include "server/front/own_calls.h"
+#include "server/front/pace.h"
+#include "server/front/request_body.h"
 #include "server/front/spending.h"
 
 namespace axisgate::front {
 
-class Conversation {
+class Conversation final : private Http2Session::Events {
  public:
-  // gRPC's side, which is opened with the first call that is its.
-  enum class Upstream { none, open };
-  // Why it ended, where this side ended it.
-  struct Fault {
-    ErrorCode code = ErrorCode::no_error;
-    Closing why;
+  // What all conversations share. It outlives them.
+  struct Shared {
+    Desk& desk;
+    const FrontLimits& limits;
+    Sources& sources;
+    HeldBytes& held;
   };
 
-  // `desk`, `limits` and `sources` outlive it.
-  Conversation(Desk& desk, const FrontLimits& limits, Sources& sources, Peer peer, bool stops_only,
-               OwnCalls::OnAnswer on_answer, TimePoint now);
+  Conversation(const Shared& shared, Peer peer, bool stops_only, OwnCalls::OnAnswer on_answer, TimePoint now);
 
   void from_client(std::string_view bytes, TimePoint now);
-  void from_server(std::string_view bytes);
+  void from_grpc(std::string_view bytes);
   // After on_answer: the desk has more for this call.
-  void pull(std::uint32_t stream);
+  void pull(StreamId stream) { own_calls_.pull(stream); }
+  // What stalls is ended. `reads`: the client is being read, so that what does not come is not sent.
+  void check(TimePoint now, bool reads);
 
   // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
-  void upstream_failed();
+  void grpc_failed();
+  // gRPC has closed its side: so does the daemon, when what was said before has been written.
+  void grpc_left();
 
-  // What is to be written. Each is taken once.
-  std::string take_to_client();
-  std::string take_to_server() { return std::exchange(to_server_, {}); }
-  bool has_for_client() const { return !to_client_.empty(); }
-  bool has_for_server() const { return !to_server_.empty(); }
-  // As much of it as a side may leave untaken: nothing more is read from the other.
-  bool full() const { return to_client_.size() > kUntaken || to_server_.size() > kUntaken; }
+  // What is to be written next. Each is taken once.
+  std::string take_to_client() { return client_.take(kPiece); }
+  std::string take_to_grpc() { return grpc_ ? grpc_->take_to_grpc(kPiece) : std::string(); }
+  bool has_for_client() const { return client_.has_more(); }
+  bool has_for_grpc() const { return grpc_ && grpc_->has_for_grpc(); }
+  // The client leaves untaken what it caused: nothing more is read from it.
+  bool full() const { return client_.waiting() > kWaiting; }
 
-  Upstream upstream() const { return upstream_; }
-  const std::optional<Fault>& fault() const { return fault_; }
+  bool uses_grpc() const { return grpc_.has_value(); }
+  // Nothing more is read, and when the rest is written the connection is closed.
+  bool over() const { return over_ || client_.is_over(); }
+  // Why, where this side ended it for a cause.
+  const std::optional<Closing>& fault() const { return fault_; }
   // Nothing more is to be read from the client before then.
   TimePoint not_before() const { return spending_.not_before(); }
   bool stops_only() const { return stops_only_; }
   bool admitted() const { return spending_.admitted(); }  // a call was let in
-  bool in_frame() const { return reader_.in_frame() || !preface_.empty() || block_; }
-  std::size_t calls() const { return open_.size() + own_calls_.size(); }
+  std::size_t calls() const { return calls_.size(); }
 
  private:
-  static constexpr std::size_t kUntaken = 64 << 10;
+  static constexpr std::size_t kPiece = 64 << 10;
+  static constexpr std::size_t kWaiting = 1'000;  // frames
 
-  // Headers that are not whole yet.
-  struct Block {
-    std::uint32_t stream = 0;
-    bool ends_stream = false;
-    std::size_t frames = 0;
-    std::string bytes;
+  // A call that was let in, until its stream closes.
+  struct Call {
+    std::shared_ptr<void> place;
+    bool uncounted = false;
+    std::optional<RequestBody> request{};  // until it is whole
+    Pace pace{};
   };
 
-  void end(ErrorCode code, std::string why);
+  bool frame_begun(const nghttp2_frame_hd& frame) override;
+  bool frame_refused() override;
+  bool headers_came(HeaderBlock block) override;
+  bool data_came(StreamId stream, std::string_view bytes) override;
+  bool stream_ended(StreamId stream) override;
+  void stream_closed(StreamId stream, std::uint32_t error, std::size_t unsent) override;
+  void sent(StreamId stream, std::size_t bytes) override;
+  void going_away(StreamId, std::uint32_t) override {}  // what is open continues
+  void failed(std::uint32_t error, std::string_view why) override;
+
   bool spend(Cost cost, double tokens);
-  bool take_preface(std::string_view& bytes);
+  bool spend_for(const nghttp2_frame_hd& frame);
+  bool spend_for_headers(const nghttp2_frame_hd& frame);
+  bool spend_for_nobodys(std::size_t bytes, std::size_t frames);
+  void spend_for_unshown();
+  bool is_within() const;
+  bool end(Cause cause, std::uint32_t error, const char* why);
 
-  bool take_frame(const Frame& frame);
-  void take_headers(const Frame& frame);
-  void take_continuation(const Frame& frame);
-  void take_block(Block block);
-  void take_data(const Frame& frame);
-  void take_settings(const Frame& frame);
-  void take_window_update(const Frame& frame);
-  void widen(const Frame& frame);
-  void take_reset(const Frame& frame);
-  void take_ping(const Frame& frame);
+  bool begin_call(HeaderBlock block);
+  void let_in(HeaderBlock block, const Verdict& verdict);
+  void forward(HeaderBlock block, const std::string& path);
+  std::optional<Reply> take(StreamId stream, Call& call, std::string_view bytes);
+  void request_is_whole(StreamId stream);
+  void refuse(StreamId stream, const Reply& refusal);
+  void check_requests(TimePoint now, bool reads);
 
-  void begin_call(std::uint32_t stream, Headers headers, bool whole);
-  void forward_headers(std::uint32_t stream, Headers headers, bool ends_stream);
-  void refuse(std::uint32_t stream, const Reply& refusal, bool whole);
-  void take_own_data(const Frame& frame);
-  void ask_desk(std::uint32_t stream);
-  void open_upstream();
-  void give_back(std::size_t bytes);
-  void tell_given_back();
-  void send_answers();
-  void send(const std::string& bytes);
-
-  bool take_server_frame(const Frame& frame);
-  void note_data(const Frame& frame);
-
-  Desk& desk_;
-  const FrontLimits& limits_;
+  const Shared& shared_;
   const Peer peer_;
   Spending spending_;
   bool stops_only_;
   TimePoint now_;
-  std::optional<Fault> fault_;
-  Upstream upstream_ = Upstream::none;
+  bool over_ = false;
+  std::optional<Closing> fault_;
 
-  std::string preface_{kPreface};  // what of it has not come yet
-  FrameReader reader_, server_reader_;
-  HeaderDecoder decoder_;
-  HeaderEncoder encoder_;
-  std::optional<Block> block_;
-  std::uint32_t last_stream_ = 0;
-  std::map<std::uint32_t, std::shared_ptr<void>> open_;  // gRPC's calls and their places
+  std::map<StreamId, Call> calls_;
+  Http2Session client_;
   OwnCalls own_calls_;
+  std::optional<GrpcSide> grpc_;  // from the first call that is gRPC's
 
-  // RFC 9113, 6.5: each SETTINGS is acknowledged once. The front sends and takes the first ones itself.
-  std::map<std::uint16_t, std::uint32_t> client_settings_;
-  int acks_for_front_ = 1;  // outstanding, of the client
-  int acks_from_server_ = 0;
-
-  // What the client lets the daemon send on the whole connection, and how much of that the front used without gRPC's
-  // knowledge.
-  std::int64_t window_ = kFirstWindow;
-  std::int64_t window_used_ = 0;
-  int acknowledgements_due_ = 0;  // WINDOW_UPDATEs for what gRPC has sent
-  std::size_t untold_ = 0;        // bytes that the client may send again, and does not know
-  bool in_server_block_ = false;
-  std::string held_;  // until gRPC's headers have ended
-
-  std::string to_client_, to_server_;
+  StreamId last_stream_ = 0;
+  bool in_block_ = false;          // headers of a call have begun, and are not whole
+  std::size_t block_bytes_ = 0;    // of them, as they were sent
+  std::size_t continuations_ = 0;  // frames of them beyond the first
+  Pace pace_;                      // of them
+  std::int64_t unshown_;           // bytes that came, less those of the preface and of frames that have begun
+  bool strays_ = false;            // frames that the library does not show: where the next one begins is not known
+  int settings_due_ = 1;           // acknowledgements of SETTINGS
+  int acknowledgements_due_ = 0;   // WINDOW_UPDATEs for what was sent
+  std::size_t free_ = 0;           // bytes that may still come for calls that were refused
 };
 
 }  // namespace axisgate::front

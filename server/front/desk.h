@@ -8,7 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "server/front/header_codec.h"
+#include "device/core/time.h"
+#include "server/front/headers.h"
 
 namespace axisgate::front {
 
@@ -28,11 +29,12 @@ inline constexpr int kInvalidArgument = 3, kDeadlineExceeded = 4, kResourceExhau
 
 // What is sent to a caller: a message, the end, or both. A call with one answer has one of these.
 struct Reply {
-  int code = 0;                       // gRPC's; 0 is OK
-  std::string message{};              // for people, where it is not OK
-  std::string details{};              // of grpc-status-details-bin; empty: none
-  std::optional<std::string> body{};  // a message of the answer
-  bool last = true;                   // the call ends with it; otherwise its code says nothing
+  int code = 0;                           // gRPC's; 0 is OK
+  std::string message{};                  // for people, where it is not OK
+  std::string details{};                  // of grpc-status-details-bin; empty: none
+  std::optional<std::string> body{};      // a message of the answer
+  bool last = true;                       // the call ends with it; otherwise its code says nothing
+  std::optional<Duration> retry_after{};  // where it was refused for a while only
 };
 
 // The answer to one call, on the front's thread. It goes when it has ended, or when its caller has left it.
@@ -55,6 +57,9 @@ struct Verdict {
   // caller's admission.
   bool unwanted = false;
   std::shared_ptr<void> place{};  // given back when the call has ended
+  std::string path{};             // of a call to forward: its ":path" for gRPC
+  // It counts in no limit of its caller, as a stop does: the front bounds how many are open, and how long they are.
+  bool uncounted = false;
   // Who was let in by a name of their own, "token alice": whatever connections this caller has, from wherever, share
   // one budget. Empty: whom nothing names.
   std::string caller{};

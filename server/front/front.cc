@@ -1,6 +1,7 @@
 #include "server/front/front.h"
 
 #include <netinet/in.h>
+#include <netinet/tcp.h>
 #include <sys/socket.h>
 
 #include <algorithm>
@@ -16,11 +17,22 @@ namespace {
 
 constexpr auto kCheck = std::chrono::milliseconds(250);
 
+// A client that is gone without a word is noticed within a minute.
+void notice_silence(int connection) {
+  constexpr int kYes = 1, kIdleSeconds = 20, kBetweenSeconds = 10, kTries = 3, kUntakenMilliseconds = 50'000;
+  ::setsockopt(connection, SOL_SOCKET, SO_KEEPALIVE, &kYes, sizeof kYes);
+  ::setsockopt(connection, IPPROTO_TCP, TCP_KEEPIDLE, &kIdleSeconds, sizeof kIdleSeconds);
+  ::setsockopt(connection, IPPROTO_TCP, TCP_KEEPINTVL, &kBetweenSeconds, sizeof kBetweenSeconds);
+  ::setsockopt(connection, IPPROTO_TCP, TCP_KEEPCNT, &kTries, sizeof kTries);
+  ::setsockopt(connection, IPPROTO_TCP, TCP_USER_TIMEOUT, &kUntakenMilliseconds, sizeof kUntakenMilliseconds);
+}
+
 Socket socket_of(const Strand& strand, Descriptor connection) {
   int family = 0;
   socklen_t size = sizeof(family);
   ::getsockopt(connection.get(), SOL_SOCKET, SO_DOMAIN, &family, &size);
   const int protocol = family == AF_UNIX ? 0 : static_cast<int>(IPPROTO_TCP);
+  if (family != AF_UNIX) notice_silence(connection.get());
   Socket socket(strand);
   socket.assign(boost::asio::generic::stream_protocol(family, protocol), connection.get());
   (void)connection.release();
@@ -33,12 +45,11 @@ Front::Front(Strand strand, Desk& desk, const std::optional<server::NetworkConfi
              std::function<void(Descriptor)> to_grpc, OnClosing on_closing, const FrontLimits& limits)
     : limits_(limits),
       sources_(limits.source),
+      held_(limits.held_bytes),
       on_closing_(std::move(on_closing)),
       around_{strand,
               std::make_shared<Inbox>(strand),
-              desk,
-              limits_,
-              sources_,
+              {desk, limits_, sources_, held_},
               std::move(to_grpc),
               [this](const Connection& connection, const std::optional<Closing>& why) { ended(connection, why); }},
       timer_(strand) {

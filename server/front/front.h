@@ -16,6 +16,7 @@
 #include "server/front/closing.h"
 #include "server/front/connection.h"
 #include "server/front/desk.h"
+#include "server/front/holding.h"
 #include "server/front/limits.h"
 #include "server/front/tls.h"
 
@@ -50,6 +51,7 @@ class Front {
 
   const FrontLimits limits_;
   Sources sources_;
+  HeldBytes held_;
   const OnClosing on_closing_;
   std::optional<TlsFiles> tls_;
   std::map<uid_t, std::string> users_;  // their names, each looked up once

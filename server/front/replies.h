@@ -1,22 +1,16 @@
-// How a call is answered that gRPC does not see: by frames of our own, as gRPC's protocol over HTTP/2 has them.
+// How a call is answered that gRPC does not see: by headers and trailers, as gRPC's protocol over HTTP/2 has them.
 #pragma once
 
-#include <cstdint>
-#include <optional>
-#include <string>
-#include <string_view>
-
 #include "server/front/desk.h"
+#include "server/front/headers.h"
 
 namespace axisgate::front {
 
 // Before the first message of an answer.
-std::string head_frame(std::uint32_t stream);
-// The status, which ends the stream. `alone`: no head came before.
-std::string ending_frame(std::uint32_t stream, const Reply& reply, bool alone);
-
-// The message in the DATA of a call with one request: what is behind its five bytes, unpacked by zlib where the client
-// packed it. Nothing where it is not whole, or more than `bytes_max`.
-std::optional<std::string> message_in(std::string_view data, std::size_t bytes_max);
+Headers answer_head();
+// The status, behind the last one.
+Headers trailers_of(const Reply& reply);
+// Both in one, where there is no message.
+Headers answer_without_body(const Reply& reply);
 
 }  // namespace axisgate::front

@@ -37,8 +37,8 @@ bool Spending::spend(Cost cost, double tokens, TimePoint now) {
   const Duration of_others = debt_of_others(cost, tokens, now);
   if (of_others > debt && !spared_.take_if_there(cost, tokens, now)) debt = of_others;
   if (debt <= Duration::zero()) return true;
-  const bool may_wait =
-      cost == Cost::stream || cost == Cost::header_bytes || (cost == Cost::refusal && debt < kRefusalsWait);
+  const bool may_wait = cost == Cost::stream || cost == Cost::header_bytes || cost == Cost::unpacked ||
+                        (cost == Cost::refusal && debt < kRefusalsWait);
   if (may_wait) not_before_ = std::max(not_before_, now + debt);
   return may_wait;
 }

@@ -76,12 +76,17 @@ constexpr std::array<MethodKind, 61> kKinds = {{
     {"StageService/CancelMotion", Kind::cancel_motion},
 }};
 
+constexpr std::string_view kReflection = "/grpc.reflection.v1.ServerReflection/",
+                           kReflectionServed = "/grpc.reflection.v1alpha.ServerReflection/";
+
 // gRPC's own services. All that is theirs may be read.
-constexpr std::array<MethodKind, 4> kOfGrpc = {{
+constexpr std::array<MethodKind, 6> kOfGrpc = {{
     {"/grpc.health.v1.Health/Watch", Kind::watch_door},
+    {"/grpc.reflection.v1.ServerReflection/ServerReflectionInfo", Kind::watch_door},
     {"/grpc.reflection.v1alpha.ServerReflection/ServerReflectionInfo", Kind::watch_door},
     {"/grpc.health.v1.Health/", Kind::ask_door},
-    {"/grpc.reflection.v1alpha.ServerReflection/", Kind::ask_door},
+    {kReflection, Kind::ask_door},
+    {kReflectionServed, Kind::ask_door},
 }};
 
 }  // namespace
@@ -95,6 +100,11 @@ Kind kind_of(std::string_view method) {
   method.remove_prefix(kApi.size());
   const auto found = std::ranges::find(kKinds, method, &MethodKind::first);
   return found == kKinds.end() ? Kind::unlisted : found->second;
+}
+
+std::string served_as(std::string_view method) {
+  if (!method.starts_with(kReflection)) return std::string(method);
+  return std::string(kReflectionServed).append(method.substr(kReflection.size()));
 }
 
 }  // namespace axisgate::rpc

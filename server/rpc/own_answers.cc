@@ -1,6 +1,7 @@
 #include "server/rpc/own_answers.h"
 
 #include <algorithm>
+#include <array>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -57,46 +58,31 @@ v1::ListDevicesResponse list_of(const api::DeviceList& list) {
 
 }  // namespace
 
-bool OwnAnswers::has(RequestKind kind) {
-  switch (kind) {
-    case RequestKind::stop:
-    case RequestKind::emergency_stop:
-    case RequestKind::abort_job:
-    case RequestKind::list_devices:
-    case RequestKind::get_device:
-    case RequestKind::execute:
-      return true;
-    default:
-      return false;
-  }
-}
-
-template <class Request>
-std::unique_ptr<Answer> OwnAnswers::parsed(Method<Request> method, const std::string& message, Asked asked) const {
+template <class Request, OwnAnswers::Method<Request> kMethod>
+std::unique_ptr<Answer> OwnAnswers::parsed(const std::string& message, Asked asked) const {
   Request request;
-  if (request.ParseFromString(message)) return (this->*method)(request, std::move(asked));
+  if (request.ParseFromString(message)) return (this->*kMethod)(request, std::move(asked));
   front::Reply refusal = asked.served->refused(not_readable(asked.served->method()));
   return answer_now(std::move(refusal), std::move(asked.wake));
 }
 
-std::unique_ptr<Answer> OwnAnswers::answer(RequestKind kind, std::shared_ptr<Served> served,
+const OwnAnswers::Row* OwnAnswers::row_of(RequestKind kind) {
+  static constexpr std::array kRows = {
+      Row{RequestKind::stop, &OwnAnswers::parsed<v1::StopRequest, &OwnAnswers::stop>},
+      Row{RequestKind::emergency_stop, &OwnAnswers::parsed<v1::EmergencyStopRequest, &OwnAnswers::emergency_stop>},
+      Row{RequestKind::abort_job, &OwnAnswers::parsed<v1::AbortJobRequest, &OwnAnswers::abort_job>},
+      Row{RequestKind::list_devices, &OwnAnswers::parsed<v1::ListDevicesRequest, &OwnAnswers::list_devices>},
+      Row{RequestKind::get_device, &OwnAnswers::parsed<v1::GetDeviceRequest, &OwnAnswers::get_device>},
+      Row{RequestKind::execute, &OwnAnswers::parsed<v1::ExecuteRequest, &OwnAnswers::execute>},
+  };
+  const auto found = std::ranges::find(kRows, kind, &Row::kind);
+  return found == kRows.end() ? nullptr : &*found;
+}
+
+std::unique_ptr<Answer> OwnAnswers::answer(const Row& row, std::shared_ptr<Served> served,
                                            std::optional<TimePoint> deadline, const std::string& message,
                                            Wake wake) const {
-  Asked asked{std::move(served), deadline, std::move(wake)};
-  switch (kind) {
-    case RequestKind::stop:
-      return parsed<v1::StopRequest>(&OwnAnswers::stop, message, std::move(asked));
-    case RequestKind::emergency_stop:
-      return parsed<v1::EmergencyStopRequest>(&OwnAnswers::emergency_stop, message, std::move(asked));
-    case RequestKind::abort_job:
-      return parsed<v1::AbortJobRequest>(&OwnAnswers::abort_job, message, std::move(asked));
-    case RequestKind::get_device:
-      return parsed<v1::GetDeviceRequest>(&OwnAnswers::get_device, message, std::move(asked));
-    case RequestKind::execute:
-      return parsed<v1::ExecuteRequest>(&OwnAnswers::execute, message, std::move(asked));
-    default:
-      return parsed<v1::ListDevicesRequest>(&OwnAnswers::list_devices, message, std::move(asked));
-  }
+  return (this->*row.answer)(message, {std::move(served), deadline, std::move(wake)});
 }
 
 std::unique_ptr<Answer> OwnAnswers::stop(const v1::StopRequest& request, Asked asked) const {

@@ -25,24 +25,30 @@ class OwnAnswers {
   // It outlives this.
   explicit OwnAnswers(const api::Api& api) : api_(api) {}
 
-  static bool has(api::RequestKind kind);
-
-  // Of one that it has. `deadline` is the call's.
-  std::unique_ptr<front::Answer> answer(api::RequestKind kind, std::shared_ptr<Served> served,
-                                        std::optional<TimePoint> deadline, const std::string& message, Wake wake) const;
-
- private:
   // What came with one request, and whom it is answered to.
   struct Asked {
     std::shared_ptr<Served> served;
     std::optional<TimePoint> deadline;
     Wake wake;
   };
+  // A kind that is answered here, and how.
+  struct Row {
+    api::RequestKind kind;
+    std::unique_ptr<front::Answer> (OwnAnswers::*answer)(const std::string& message, Asked asked) const;
+  };
+  // Nothing for one that gRPC answers.
+  static const Row* row_of(api::RequestKind kind);
+
+  // `deadline` is the call's.
+  std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
+                                        std::optional<TimePoint> deadline, const std::string& message, Wake wake) const;
+
+ private:
   template <class Request>
   using Method = std::unique_ptr<front::Answer> (OwnAnswers::*)(const Request&, Asked) const;
 
-  template <class Request>
-  std::unique_ptr<front::Answer> parsed(Method<Request> method, const std::string& message, Asked asked) const;
+  template <class Request, Method<Request> kMethod>
+  std::unique_ptr<front::Answer> parsed(const std::string& message, Asked asked) const;
 
   std::unique_ptr<front::Answer> stop(const v1::StopRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const;

@@ -22,6 +22,12 @@ front::Reply to_reply(const grpc::Status& status) {
   return {.code = status.error_code(), .message = status.error_message(), .details = status.error_details()};
 }
 
+front::Reply to_reply(const Problem& problem) {
+  front::Reply reply = to_reply(to_status(problem));
+  reply.retry_after = retry_after(problem.reason);
+  return reply;
+}
+
 Served::Served(RpcMetrics& metrics, Refusals& refusals, const front::Headers& headers, const front::Peer& peer)
     : refusals_(refusals),
       peer_(peer),
@@ -39,7 +45,9 @@ front::Reply Served::ended(const api::StreamEnd& end) {
   const grpc::Status status = to_status(end);
   call_.ended(status.error_code());
   if (end.problem) refusals_.note(peer_, credential_, method_, end.problem->reason, end.problem->message);
-  return to_reply(status);
+  front::Reply reply = to_reply(status);
+  if (end.problem) reply.retry_after = retry_after(end.problem->reason);
+  return reply;
 }
 
 }  // namespace axisgate::rpc

@@ -39,5 +39,6 @@ std::string_view method_of(const front::Headers& headers);
 api::Credential credential_of(const front::Headers& headers, const front::Peer& peer);
 
 front::Reply to_reply(const grpc::Status& status);
+front::Reply to_reply(const Problem& problem);
 
 }  // namespace axisgate::rpc

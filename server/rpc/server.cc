@@ -119,7 +119,8 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       front_(
           listener_->strand(), desk_, gateway.config().network,
           [this](Descriptor connection) { enter(std::move(connection)); },
-          [this](const front::Peer& peer, const front::Closing& closing) { refusals_.note(peer, closing); }) {}
+          [this](const front::Peer& peer, const front::Closing& closing) { refusals_.note(peer, closing); },
+          {.message_bytes = static_cast<std::size_t>(message_bytes_max_)}) {}
 
 Result<void> Server::Services::serve(server::Gateway& gateway, const server::ConnectionLimits& limits) {
   build();
@@ -150,6 +151,9 @@ void Server::Services::build() {
   interceptors.push_back(rpc_metrics_.interceptor());
   builder.experimental().SetInterceptorCreators(std::move(interceptors));
   builder.SetMaxReceiveMessageSize(message_bytes_max_);
+  // The front bounds them.
+  constexpr int kMetadataBytes = 64 << 10;
+  builder.AddChannelArgument(GRPC_ARG_MAX_METADATA_SIZE, kMetadataBytes);
   using Type = grpc::ServerBuilder::experimental_type::ExternalConnectionType;
   // The front knows who calls, and what the caller may do.
   acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, grpc::InsecureServerCredentials());

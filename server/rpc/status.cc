@@ -1,5 +1,9 @@
 #include "server/rpc/status.h"
 
+#include <google/protobuf/util/time_util.h>
+
+#include <chrono>
+
 #include "device/core/escape.h"
 #include "server/explain.h"
 
@@ -36,7 +40,19 @@ v1::ErrorInfo to_info(const v1::Problem& problem, Reason reason) {
   return info;
 }
 
+v1::RetryInfo to_info(Duration retry_after) {
+  v1::RetryInfo info;
+  *info.mutable_retry_delay() =
+      google::protobuf::util::TimeUtil::NanosecondsToDuration(std::chrono::nanoseconds(retry_after).count());
+  return info;
+}
+
 }  // namespace
+
+std::optional<Duration> retry_after(Reason reason) {
+  if (reason != Reason::queue_full) return std::nullopt;
+  return std::chrono::seconds(1);
+}
 
 grpc::StatusCode code_of(Reason reason) {
   switch (reason) {
@@ -127,6 +143,7 @@ grpc::Status to_status(const Problem& problem, const Metadata& metadata) {
   status.set_message(message);
   pack("axisgate.v1.Problem", detail, status);
   pack("google.rpc.ErrorInfo", to_info(detail, problem.reason), status);
+  if (const auto wait = retry_after(problem.reason)) pack("google.rpc.RetryInfo", to_info(*wait), status);
   return {code, message, status.SerializeAsString()};
 }
 

@@ -6,14 +6,15 @@
 #include <cstdlib>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
 #include "server/front/conversation.h"
-#include "server/front/frames.h"
-#include "server/front/header_codec.h"
+#include "tests/http2/frames.h"
+#include "tests/http2/header_codec.h"
 
 namespace {
 
@@ -23,6 +24,8 @@ using namespace axisgate::front;
 void require(bool good) {
   if (!good) std::abort();
 }
+
+constexpr FrontLimits kLimits{.message_bytes = 3'000, .stop_bytes = 1'000, .held_bytes = 6'000};
 
 // What the fuzzer chose, taken from the front.
 class Choices {
@@ -61,15 +64,17 @@ class FuzzDesk final : public Desk {
  public:
   Verdict judge(const Headers& headers, const Peer&, bool stops_only) override {
     const auto path = find(headers, ":path").value_or("");
-    if (path == "/s") return {.what = Verdict::What::answer};
+    if (path == "/s") return {.what = Verdict::What::answer, .uncounted = true};
     if (path == "/a") return {.what = Verdict::What::answer, .place = std::make_shared<int>()};
-    if (path == "/f" && !stops_only) return {.what = Verdict::What::forward, .place = std::make_shared<int>()};
+    if (path == "/f" && !stops_only) {
+      return {.what = Verdict::What::forward, .place = std::make_shared<int>(), .path = "/g"};
+    }
     return {.refusal = {.code = 12, .message = "no"}, .unwanted = path != "/f"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
   std::unique_ptr<Answer> answer(const Headers&, const Peer&, const std::string& message,
                                  std::function<void()> wake) override {
-    require(message.size() <= 64 << 10);
+    require(message.size() <= kLimits.message_bytes);
     auto replies = std::make_shared<std::vector<Reply>>();
     asked.push_back([replies, wake = std::move(wake)](Reply reply) {
       replies->push_back(std::move(reply));
@@ -83,60 +88,78 @@ class FuzzDesk final : public Desk {
 
 class World {
  public:
-  explicit World(bool stops_only)
-      : conversation_(
-            desk_, limits_, sources_, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
-            [this](std::uint32_t stream) { conversation_.pull(stream); }, now_) {
-    conversation_.from_client(kPreface, now_);
+  explicit World(bool stops_only) {
+    conversation_.emplace(
+        shared_, Peer{.who = "unix anna", .source = "uid 1"}, stops_only,
+        [this](StreamId stream) { conversation_->pull(stream); }, now_);
+    conversation_->from_client(kPreface, now_);
   }
+  ~World() {
+    conversation_.reset();
+    require(held_.held() == 0);
+  }
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
 
   void step(Choices& choices) {
-    const bool ended = conversation_.fault().has_value();
+    const bool over = conversation_->over();
     const std::uint8_t what = choices.byte();
     act(what, choices);
-    const std::string to_client = conversation_.take_to_client(), to_server = conversation_.take_to_server();
-    require(!ended || to_server.empty());
+    const std::string to_client = conversation_->take_to_client(), to_grpc = conversation_->take_to_grpc();
+    require(!over || conversation_->over());
+    require(held_.held() <= kLimits.held_bytes);
     follow(to_client_, to_client);
-    if (to_server.empty()) return;
-    require(conversation_.upstream() == Conversation::Upstream::open);
-    std::string_view bytes = to_server;
-    if (std::exchange(fresh_, false)) {
+    std::string_view bytes = to_grpc;
+    if (!bytes.empty() && std::exchange(fresh_, false)) {
       require(bytes.starts_with(kPreface));
       bytes.remove_prefix(std::string_view(kPreface).size());
     }
-    follow(to_server_, bytes);
+    follow(to_grpc_, bytes);
   }
 
  private:
   void act(std::uint8_t what, Choices& choices) {
-    constexpr std::uint8_t kActs = 8;
+    constexpr std::uint8_t kActs = 12;
     switch (what % kActs) {
       case 0:
-        return conversation_.from_client(choices.text(), now_);
+        return from_client(choices.text());
       case 1:
-        return conversation_.from_client(any_frame(choices), now_);
+        return from_client(any_frame(choices));
       case 2:
-        return conversation_.from_client(call(choices), now_);
+        return from_client(call(choices));
       case 3:
-        now_ += std::chrono::milliseconds(choices.byte());
-        return;
+        now_ += std::chrono::milliseconds(50 * choices.byte());
+        return conversation_->check(now_, choices.byte() % 8 != 0);
       case 4:
-        if (conversation_.upstream() == Conversation::Upstream::open) conversation_.from_server(any_frame(choices));
-        return;
+        return from_grpc(any_frame(choices));
       case 5:
         if (desk_.asked.empty()) return;
         desk_.asked.back()({.body = choices.text(), .last = choices.byte() % 2 == 0});
         if (choices.byte() % 4 == 0) desk_.asked.pop_back();
         return;
       case 6:
-        return conversation_.from_client(settings_ack(), now_);
+        return from_client(settings_ack());
+      case 7:
+        return from_client(body(choices));
+      case 8:
+        return from_grpc(answer(choices));
+      case 9:
+        return from_grpc(settings_frame({}));
+      case 10:
+        if (choices.byte() % 8 == 0) conversation_->grpc_left();
+        return;
       default:
-        return conversation_.upstream_failed();
+        if (choices.byte() % 8 == 0) conversation_->grpc_failed();
     }
   }
 
+  void from_client(const std::string& bytes) { conversation_->from_client(bytes, now_); }
+  void from_grpc(const std::string& bytes) {
+    if (!fresh_) conversation_->from_grpc(bytes);
+  }
+
   static std::string any_frame(Choices& choices) {
-    const auto type = static_cast<FrameType>(choices.byte() % 11);
+    const auto type = static_cast<FrameType>(choices.byte() % 12);
     const std::uint8_t flags = choices.byte(), stream = choices.byte() % 16;
     return frame(type, flags, stream, choices.text());
   }
@@ -144,7 +167,28 @@ class World {
   static std::string call(Choices& choices) {
     static const std::vector<std::string> paths = {"/f", "/s", "/a", "/x"};
     const std::uint8_t flags = choices.byte(), stream = choices.byte() % 32;
-    const Headers headers = {{":method", "POST"}, {":path", paths[choices.byte() % paths.size()]}};
+    const std::uint8_t which = choices.byte();
+    Headers headers = {{":method", "POST"},
+                       {":scheme", "http"},
+                       {":path", paths[which % paths.size()]},
+                       {":authority", "x"},
+                       {"content-type", "application/grpc"}};
+    if (which & 0x80) headers.push_back({"grpc-encoding", "gzip"});
+    return frame(FrameType::headers, flags | 4, stream, encode_without_table(headers));
+  }
+
+  // A message, as long as it says.
+  static std::string body(Choices& choices) {
+    const std::uint8_t flags = choices.byte() & 1, stream = choices.byte() % 32;
+    std::string bytes = with_prefix(choices.text());
+    bytes[0] = static_cast<char>(choices.byte() % 4 == 0);
+    return frame(FrameType::data, flags, stream, bytes);
+  }
+
+  static std::string answer(Choices& choices) {
+    const std::uint8_t flags = (choices.byte() & 1) | 4, stream = choices.byte() % 32;
+    Headers headers = {{"grpc-status", "0"}};
+    if (choices.byte() % 2 == 0) headers.insert(headers.begin(), {":status", "200"});
     return frame(FrameType::headers, flags, stream, encode_without_table(headers));
   }
 
@@ -153,12 +197,13 @@ class World {
     require(!reader.too_long() && !reader.in_frame());
   }
 
-  static constexpr FrontLimits limits_{};
   TimePoint now_{std::chrono::seconds(1)};
   FuzzDesk desk_;
-  Sources sources_{limits_.source};
-  Conversation conversation_;
-  FrameReader to_client_, to_server_;
+  Sources sources_{kLimits.source};
+  HeldBytes held_{kLimits.held_bytes};
+  Conversation::Shared shared_{desk_, kLimits, sources_, held_};
+  std::optional<Conversation> conversation_;
+  FrameReader to_client_, to_grpc_;
   bool fresh_ = true;
 };
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "server/front/frames.h"
+#include "tests/http2/frames.h"
 
-namespace axisgate::front::frames_test {
+namespace axisgate::front::http2_frames_test {
 namespace {
 
 using namespace std::string_literals;
@@ -26,7 +26,7 @@ std::vector<std::string> payloads(FrameReader& reader, std::string_view bytes) {
   return heard;
 }
 
-TEST(FrontFrames, AreCutOutOfBytesHoweverTheyCome) {
+TEST(Http2Frames, AreCutOutOfBytesHoweverTheyCome) {
   const std::string both = kPing + kData;
   for (std::size_t cut = 0; cut <= both.size(); ++cut) {
     FrameReader reader;
@@ -37,7 +37,7 @@ TEST(FrontFrames, AreCutOutOfBytesHoweverTheyCome) {
   }
 }
 
-TEST(FrontFrames, SayWhatTheyAre) {
+TEST(Http2Frames, SayWhatTheyAre) {
   FrameReader reader;
   reader.feed(kData, [](const Frame& frame) {
     EXPECT_EQ(frame.type, FrameType::data);
@@ -49,7 +49,7 @@ TEST(FrontFrames, SayWhatTheyAre) {
   });
 }
 
-TEST(FrontFrames, OneThatIsTooLongEndsTheReading) {
+TEST(Http2Frames, OneThatIsTooLongEndsTheReading) {
   FrameReader reader;
   const std::string longest = "\0\x40\0\0\0\0\0\0\1"s + std::string(16'384, 'a');
   EXPECT_EQ(payloads(reader, longest).size(), 1u);
@@ -58,7 +58,7 @@ TEST(FrontFrames, OneThatIsTooLongEndsTheReading) {
   EXPECT_TRUE(reader.too_long());
 }
 
-TEST(FrontFrames, AreWrittenAsTheyAreRead) {
+TEST(Http2Frames, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(frame(FrameType::data, 1, 5, "xyz"), kData);
   EXPECT_EQ(ping_ack("abcdefgh"), "\0\0\x08\x06\1\0\0\0\0abcdefgh"s);
   EXPECT_EQ(settings_ack(), "\0\0\0\4\1\0\0\0\0"s);
@@ -68,12 +68,12 @@ TEST(FrontFrames, AreWrittenAsTheyAreRead) {
   EXPECT_EQ(goaway(9, ErrorCode::enhance_your_calm, "why"), "\0\0\x0b\7\0\0\0\0\0\0\0\0\x09\0\0\0\x0bwhy"s);
 }
 
-TEST(FrontFrames, SettingsAreSixBytesEach) {
+TEST(Http2Frames, SettingsAreSixBytesEach) {
   EXPECT_THAT(*settings_in("\0\4\0\0\1\0\0\5\0\0\x40\0"s), ElementsAre(Pair(4, 256), Pair(5, 16'384)));
   EXPECT_FALSE(settings_in("\0\4\0\0\1"s));
 }
 
-TEST(FrontFrames, ContentIsWithoutPaddingAndPriority) {
+TEST(Http2Frames, ContentIsWithoutPaddingAndPriority) {
   const auto content = [](FrameType type, int flags, std::string_view payload) {
     return content_of({type, static_cast<std::uint8_t>(flags), 1, payload, {}});
   };
@@ -86,4 +86,4 @@ TEST(FrontFrames, ContentIsWithoutPaddingAndPriority) {
 }
 
 }  // namespace
-}  // namespace axisgate::front::frames_test
+}  // namespace axisgate::front::http2_frames_test

@@ -1,4 +1,4 @@
-#include "server/front/header_codec.h"
+#include "tests/http2/header_codec.h"
 
 #include <algorithm>
 #include <cstdint>

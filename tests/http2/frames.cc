@@ -1,4 +1,4 @@
-#include "server/front/frames.h"
+#include "tests/http2/frames.h"
 
 namespace axisgate::front {
 namespace {

@@ -1,4 +1,4 @@
-// HPACK (RFC 7541) by nghttp2: what a client compressed, readable, and compressed again for gRPC.
+// HPACK (RFC 7541) by nghttp2, for tests that write and read HTTP/2 by hand.
 #pragma once
 
 #include <nghttp2/nghttp2.h>

@@ -1,4 +1,4 @@
-// HTTP/2's frames (RFC 9113, 4 and 6), as far as the front needs them.
+// HTTP/2's frames (RFC 9113, 4 and 6), for tests that write and read them by hand.
 #pragma once
 
 #include <cstddef>
