@@ -12,6 +12,8 @@ import tempfile
 import time
 import unittest
 
+import hpack
+
 from programs import BIN, LIMIT_S, Daemon
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1] / "attack"))
@@ -166,13 +168,22 @@ class Refusals(unittest.TestCase):
         token = self.make("works")
         link = http2.Door("unix", self.daemon.socket).link()
         self.addCleanup(link.close)
-        headers = http2.request_headers("/%1b[31m\x1b]0;x\x07" + 500 * "y", token=token)
-        link.send(http2.PREFACE + http2.frame(http2.SETTINGS, 0, 0)
-                  + http2.frame(http2.HEADERS, http2.END_HEADERS | http2.END_STREAM, 1, headers), link.opened + LIMIT_S)
-        self.daemon.wait_for_log("refused /%1b")
-        (line,) = self.refused_lines()
-        self.assertTrue(line.isprintable(), line)
-        self.assertLess(len(line), 600)
+        calls = b"".join(
+            http2.frame(http2.HEADERS, http2.END_HEADERS | http2.END_STREAM, stream,
+                        http2.request_headers(path, token=token))
+            for stream, path in ((1, "/\x1b]0;x\x07"), (3, "/%1b[31m" + 500 * "y")))
+        until = link.opened + LIMIT_S
+        link.send(http2.PREFACE + http2.frame(http2.SETTINGS, 0, 0) + calls, until)
+        answers = {}
+        while answers.keys() != {1, 3}:
+            frames = link.next(until)
+            self.assertTrue(frames, answers)
+            answers |= {stream: (kind, payload) for kind, _, stream, payload in frames if stream and stream not in answers}
+        self.assertEqual(answers[1][0], http2.RST_STREAM, "HTTP/2 allows no such path")
+        headers = dict(hpack.Decoder().decode(answers[3][1]))
+        self.assertEqual(headers["grpc-status"], "12")
+        self.assertRegex(headers["grpc-message"], r"\A/%251b\[31my{80,100}\.\.\. is no method of this daemon")
+        self.assertTrue(self.daemon.log().replace("\n", "").isprintable())
 
     def test_connections_closed_for_a_cause(self):
         with socket.create_connection(self.daemon.address().rsplit(":", 1), timeout=LIMIT_S) as raw:
