@@ -41,7 +41,8 @@ void GrpcSide::sent(StreamId stream, std::size_t bytes) {
   const std::size_t given =
       session_.unsent(stream) == 0 ? call->second.withheld : std::min(bytes, call->second.withheld);
   call->second.withheld -= given;
-  call->second.unpacked.give_back(bytes);
+  // Until then gRPC holds what it has of the message, and the message is not whole.
+  if (session_.unsent(stream) == 0) call->second.unpacked.give_back();
   client_.consume(stream, given);
 }
 

@@ -38,7 +38,7 @@ struct FrontLimits {
   std::size_t answers = 512;            // at once on one connection, of those that count for nobody: stops
   std::size_t message_bytes = 4 << 20;  // of a request, before compression
   std::size_t stop_bytes = 64 << 10;    // likewise, of those that count for nobody
-  std::size_t held_bytes = 64 << 20;    // of requests that are not whole, of all connections together
+  std::size_t held_bytes = 32 << 20;    // of requests that are not whole, of all connections together
 
   Pace::Least pace{512, std::chrono::seconds(10)};  // of a frame, of headers, of a message
   Duration silence = std::chrono::seconds(20);      // until the first call is whole

@@ -8,6 +8,7 @@ The right token is expected in AXISGATE_TOKEN. Prints "begun", and at its end on
 
 import argparse
 import dataclasses
+import gzip
 import itertools
 import json
 import os
@@ -15,6 +16,7 @@ import select
 import signal
 import ssl
 import statistics
+import struct
 import sys
 import time
 from collections.abc import Callable, Iterator
@@ -24,6 +26,7 @@ from http2 import Door, Link, frame
 
 KNOWN_METHOD = "/axisgate.v1.DeviceService/ListDevices"
 ENDLESS_METHOD = "/axisgate.v1.EventService/Watch"
+HISTORY_METHOD = "/axisgate.v1.HistoryService/ListHistory"
 UNKNOWN_METHOD = "/axisgate.v1.NoService/Nothing"
 WRONG_TOKEN = "x" * 43
 
@@ -138,6 +141,31 @@ def slow_headers(request: Request) -> Iterator[Chunk]:
         yield Chunk(whole[begin:begin + 1], int(begin == 0), pause_s=1)
 
 
+def header_bomb(request: Request) -> Iterator[Chunk]:
+    """A field in the table of headers, and 16,000 times one byte that means it (RFC 7541, 6.1): 528 KB as headers."""
+    first, again = b"\x40\x01a\x00", bytes([0x80 | 62])
+    headers = request(KNOWN_METHOD) + first + 16_000 * again
+    for stream in range(1, STREAMS.stop, 2):
+        yield Chunk(frame(http2.HEADERS, http2.END_HEADERS | http2.END_STREAM, stream, headers), 1)
+
+
+def gzip_bomb(request: Request) -> Iterator[Chunk]:
+    """A message of 4 KB that is 4 MB of zeros: as much as a message may have."""
+    packed = gzip.compress(bytes(4_000_000), mtime=0)
+    message = struct.pack(">BI", 1, len(packed)) + packed
+    headers = request(HISTORY_METHOD) + http2.literal("grpc-encoding", "gzip")
+    for stream in range(1, STREAMS.stop, 2):
+        yield Chunk(frame(http2.HEADERS, http2.END_HEADERS, stream, headers)
+                    + frame(http2.DATA, http2.END_STREAM, stream, message), 2)
+
+
+def free_frames(request: Request) -> Iterator[Chunk]:
+    """For a call that is over, and for nobody: what the library skips without a word."""
+    yield Chunk(frame(http2.HEADERS, http2.END_HEADERS | http2.END_STREAM, 1, request(UNKNOWN_METHOD)), 1)
+    yield from _always(frame(http2.DATA, 0, 1, b"x") + frame(http2.PING, http2.ACK, 0, b"axisgate")
+                       + frame(http2.HEADERS, http2.END_HEADERS, 1) + frame(0x42, 0, 0))
+
+
 def reconnect(request: Request) -> Iterator[Chunk]:
     yield Chunk(frame(http2.HEADERS, http2.END_HEADERS, 1, request(KNOWN_METHOD))
                 + frame(http2.DATA, http2.END_STREAM, 1, http2.message()), 2)
@@ -161,7 +189,8 @@ FLOODS: dict[str, Callable[[Request], Iterator[Chunk]] | None] = {
     "rapid_reset": rapid_reset, "unknown_methods": unknown_methods, "no_body": no_body, "ping": ping,
     "settings": settings, "continuation": continuation, "window_update": window_update, "half_open": None,
     "slow_headers": slow_headers, "reconnect": reconnect, "oversized_headers": oversized_headers,
-    "never_acknowledges": never_acknowledges,
+    "never_acknowledges": never_acknowledges, "header_bomb": header_bomb, "gzip_bomb": gzip_bomb,
+    "free_frames": free_frames,
 }
 
 # An acknowledgement would come between the parts of their headers.
