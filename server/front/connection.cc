@@ -138,13 +138,15 @@ void Connection::connect_to_grpc() {
 }
 
 void Connection::read_grpc() {
-  if (reads_grpc_ || closed_ || !grpc_.is_open()) return;
+  if (reads_grpc_ || closed_ || grpc_left_ || !grpc_.is_open()) return;
   reads_grpc_ = true;
   grpc_.async_read_some(asio::buffer(from_grpc_),
                         [this, self = shared_from_this()](const Error& error, std::size_t size) {
                           reads_grpc_ = false;
                           if (closed_) return;
                           if (error) {
+                            grpc_left_ = true;
+                            over_since_ = monotonic_now();  // who does not take the rest is not waited for
                             conversation_->grpc_left();
                           } else {
                             conversation_->from_grpc({from_grpc_.data(), size});
@@ -159,8 +161,8 @@ void Connection::write_grpc() {
   if (to_grpc_.empty()) return;
   writes_grpc_ = true;
   asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
+    if (error) return;  // gRPC has closed its end: what it said before is read still, and nothing more is written
     writes_grpc_ = false;
-    if (error) return close();
     move_on();
   });
 }

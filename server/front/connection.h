@@ -76,6 +76,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::string to_client_, to_grpc_;  // being written
   // An operation of each kind is under way.
   bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;
+  bool grpc_left_ = false;
   bool closed_ = false;
 };
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::int64_t kPrefaceBytes = 24, kFrameHeadBytes = 9;  // RFC 9113, 3.4 and 4.1
 constexpr std::uint32_t kStreamWindow = 64 << 10;
-constexpr std::int32_t kConnectionWindow = 256 << 10;
+constexpr std::int32_t kConnectionWindow = 8 << 20;  // so that no few requests that wait hold others back
 constexpr Duration kSoon = std::chrono::seconds(1);
 
 SessionTerms terms_of(const FrontLimits& limits) {
@@ -47,6 +47,13 @@ Reply too_much_metadata(const FrontLimits& limits) {
                                  limits.header_bytes, limits.header_fields)};
 }
 
+// Of compressed messages only: others wait in the client.
+Reply too_much_waits() {
+  return {.code = kResourceExhausted,
+          .message = "the messages of this request are much longer unpacked, and come faster than they are taken",
+          .retry_after = kSoon};
+}
+
 Reply too_many_open() {
   return {.code = kResourceExhausted,
           .message = "too many stops and lists are open on this connection (wait for some of them)",
@@ -69,10 +76,11 @@ Conversation::Conversation(const Shared& shared, Peer peer, bool stops_only, Own
 void Conversation::from_client(std::string_view bytes, TimePoint now) {
   now_ = now;
   if (over_) return;
+  const bool was_within = is_within();
   pace_.came(bytes.size());
   unshown_ += static_cast<std::int64_t>(bytes.size());
-  const bool was_within = is_within();
   if (client_.feed(bytes)) spend_for_unshown();
+  if (block_ends_ && unshown_ >= 0) in_block_ = false;  // the library is silent about a block that it ignores
   if (!was_within) pace_.begin(now);
 }
 
@@ -112,6 +120,7 @@ bool Conversation::frame_begun(const nghttp2_frame_hd& frame) {
 }
 
 bool Conversation::spend_for_headers(const nghttp2_frame_hd& frame) {
+  block_ends_ = has_flag(frame, NGHTTP2_FLAG_END_HEADERS);
   if (!spend(Cost::header_bytes, static_cast<double>(frame.length))) return false;
   if (frame.type == NGHTTP2_CONTINUATION) {
     block_bytes_ += frame.length;
@@ -139,7 +148,9 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
       return spend(Cost::control, 1);
     case NGHTTP2_SETTINGS:
       if (!has_flag(frame, NGHTTP2_FLAG_ACK)) return spend(Cost::settings, 1);
-      return settings_due_-- > 0 || spend(Cost::control, 1);
+      if (settings_due_ == 0) return spend(Cost::control, 1);
+      --settings_due_;
+      return true;
     case NGHTTP2_RST_STREAM:
       return spend(Cost::reset, 1);
     case NGHTTP2_WINDOW_UPDATE:
@@ -169,6 +180,7 @@ void Conversation::spend_for_unshown() {
 
 bool Conversation::frame_refused() {
   in_block_ = false;
+  free_ += kStreamWindow;
   return spend(Cost::refusal, 1);
 }
 
@@ -188,6 +200,7 @@ bool Conversation::begin_call(HeaderBlock block) {
   }
   if (const auto answer = not_grpc(block.headers)) {
     client_.respond(block.stream, *answer, true);
+    free_ += kStreamWindow;
     return spend(Cost::refusal, 1);
   }
   const Verdict verdict = shared_.desk.judge(block.headers, peer_, stops_only_);
@@ -217,6 +230,7 @@ void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
   if (verdict.what == Verdict::What::answer) {
     own_calls_.begin(stream, std::move(block.headers));
   } else {
+    call.forwarded = true;
     forward(std::move(block), verdict.path);
   }
   if (whole) request_is_whole(stream);
@@ -253,6 +267,8 @@ std::optional<Reply> Conversation::take(StreamId stream, Call& call, std::string
   auto refusal = call.request->take(bytes, out);
   call.request->passed_on();
   if (!refusal && grpc_ && grpc_->has(stream)) {
+    const std::size_t waits = grpc_->waiting(stream);
+    if (waits > 0 && waits + out.size() > shared_.limits.message_bytes) return too_much_waits();
     grpc_->pass(stream, out, bytes.size());
     return std::nullopt;
   }
@@ -286,9 +302,9 @@ void Conversation::refuse(StreamId stream, const Reply& refusal) {
 
 void Conversation::stream_closed(StreamId stream, std::uint32_t, std::size_t unsent) {
   own_calls_.forget(stream);
-  if (grpc_) grpc_->forget(stream, unsent);
   const auto call = calls_.find(stream);
   if (call == calls_.end()) return;
+  if (grpc_ && call->second.forwarded) grpc_->forget(stream, unsent);
   if (call->second.request) free_ += kStreamWindow;
   calls_.erase(call);
 }
@@ -298,7 +314,8 @@ void Conversation::stream_closed(StreamId stream, std::uint32_t, std::size_t uns
 void Conversation::sent(StreamId stream, std::size_t bytes) {
   constexpr int kAcknowledgements = 2, kMost = 100'000;
   acknowledgements_due_ = std::min(acknowledgements_due_ + kAcknowledgements, kMost);
-  if (grpc_) grpc_->delivered(stream, bytes);
+  const auto call = calls_.find(stream);
+  if (grpc_ && call != calls_.end() && call->second.forwarded) grpc_->delivered(stream, bytes);
 }
 
 void Conversation::grpc_failed() {
@@ -314,7 +331,6 @@ void Conversation::grpc_failed() {
 
 void Conversation::grpc_left() {
   if (grpc_) grpc_->lost();
-  over_ = true;
 }
 
 void Conversation::check(TimePoint now, bool reads) {
@@ -333,7 +349,7 @@ void Conversation::check_requests(TimePoint now, bool reads) {
   for (auto& [stream, call] : calls_) {
     const bool own = own_calls_.has(stream);
     const bool awaited = call.request && (own || call.request->unfinished());
-    if (!awaited || !reads || (!own && grpc_->is_behind(stream))) {
+    if (!awaited || !reads || (!own && grpc_->waiting(stream) > 0)) {
       call.pace.begin(now);
     } else if (call.pace.stalled(shared_.limits.pace, now)) {
       stalled.push_back(stream);

@@ -46,7 +46,7 @@ class Conversation final : private Http2Session::Events {
 
   // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
   void grpc_failed();
-  // gRPC has closed its side: so does the daemon, when what was said before has been written.
+  // gRPC has closed its side: the connection is over when the answers that are due have been written.
   void grpc_left();
 
   // What is to be written next. Each is taken once.
@@ -76,6 +76,7 @@ class Conversation final : private Http2Session::Events {
   struct Call {
     std::shared_ptr<void> place;
     bool uncounted = false;
+    bool forwarded = false;                // gRPC's
     std::optional<RequestBody> request{};  // until it is whole
     Pace pace{};
   };
@@ -122,6 +123,7 @@ class Conversation final : private Http2Session::Events {
   StreamId last_stream_ = 0;
   bool in_block_ = false;          // headers of a call have begun, and are not whole
   std::size_t block_bytes_ = 0;    // of them, as they were sent
+  bool block_ends_ = false;        // with the frame that came last
   std::size_t continuations_ = 0;  // frames of them beyond the first
   Pace pace_;                      // of them
   std::int64_t unshown_;           // bytes that came, less those of the preface and of frames that have begun

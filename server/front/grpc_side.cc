@@ -37,9 +37,9 @@ void GrpcSide::pass(StreamId stream, std::string_view bytes, std::size_t size) {
 void GrpcSide::sent(StreamId stream, std::size_t bytes) {
   const auto call = calls_.find(stream);
   if (call == calls_.end()) return;
-  // A request that was compressed is longer here than it was sent, or shorter.
-  const std::size_t given =
-      session_.unsent(stream) == 0 ? call->second.withheld : std::min(bytes, call->second.withheld);
+  // A request that was compressed is longer here than it was sent, or shorter: a part of it counts as that part.
+  const auto all = static_cast<double>(bytes + session_.unsent(stream));
+  const auto given = static_cast<std::size_t>(static_cast<double>(call->second.withheld * bytes) / all);
   call->second.withheld -= given;
   // Until then gRPC holds what it has of the message, and the message is not whole.
   if (session_.unsent(stream) == 0) call->second.unpacked.give_back();
@@ -108,13 +108,14 @@ void GrpcSide::forget(StreamId stream, std::size_t unsent) {
 // Two of them come: the first, which says nothing of the last stream, so that what is under way arrives.
 void GrpcSide::going_away(StreamId last, std::uint32_t error) {
   if (error == NGHTTP2_NO_ERROR && last == std::numeric_limits<StreamId>::max()) return client_.announce_end();
-  client_.end(error, "the daemon is ending");
+  client_.end(NGHTTP2_NO_ERROR, "the daemon is ending");  // and what the front answers itself continues
 }
 
 void GrpcSide::failed(std::uint32_t, std::string_view) { lost(); }
 
 void GrpcSide::lost() {
   for (const auto& [stream, call] : std::exchange(calls_, {})) {
+    client_.consume(stream, call.withheld);
     if (!call.ended) client_.reset(stream, NGHTTP2_INTERNAL_ERROR);
   }
   client_.end(NGHTTP2_NO_ERROR, "the daemon is ending");

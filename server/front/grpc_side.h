@@ -24,8 +24,8 @@ class GrpcSide final : private Http2Session::Events {
   // Part of a request. The client may send `size` bytes again when gRPC has taken these.
   void pass(StreamId stream, std::string_view bytes, std::size_t size);
   void end_request(StreamId stream) { session_.finish(stream, {}); }
-  // gRPC has not taken all of the request that came.
-  bool is_behind(StreamId stream) const { return session_.unsent(stream) > 0; }
+  // Bytes of the request that gRPC has not taken yet.
+  std::size_t waiting(StreamId stream) const { return session_.unsent(stream); }
   // The answer is given here, not by gRPC.
   void refuse(StreamId stream, const Headers& alone, Headers trailers);
   // The client's stream has gone; of the answer `unsent` bytes did not reach it.

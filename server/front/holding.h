@@ -20,6 +20,12 @@ class HeldBytes {
   std::size_t held_ = 0;
 };
 
+// What counts of a request: one of no more than a kilobyte always finds room, as it may be a stop.
+inline std::size_t counted(std::size_t bytes) {
+  constexpr std::size_t kFree = 1024;
+  return bytes > kFree ? bytes - kFree : 0;
+}
+
 // What one call holds of them; it gives all back when it goes.
 class Holding {
  public:

@@ -216,10 +216,9 @@ void Http2Session::frame_sent(const nghttp2_frame& frame) {
   if (::nghttp2_session_get_stream_remote_close(session_.get(), stream) == 0) reset(stream, NGHTTP2_NO_ERROR);
 }
 
-// Too long, or, for a request, behind the other end's GOAWAY: then there is no stream, and so it was not executed.
+// Of a request, as behind the other end's GOAWAY, the library closes the stream itself; an answer is too long then.
 void Http2Session::headers_not_sent(StreamId stream) {
-  if (::nghttp2_session_find_stream(session_.get(), stream) == nullptr) return closed(stream, NGHTTP2_REFUSED_STREAM);
-  reset(stream, NGHTTP2_INTERNAL_ERROR);
+  if (role_ == Role::server) reset(stream, NGHTTP2_INTERNAL_ERROR);
 }
 
 void Http2Session::closed(StreamId stream, std::uint32_t error) {

@@ -35,7 +35,7 @@ struct FrontLimits {
   std::size_t header_fields = 128;      // likewise
   std::size_t continuations = 8;        // frames of one call's headers beyond the first
   std::size_t open_calls = 4'096;       // of one connection
-  std::size_t answers = 512;            // at once on one connection, of those that count for nobody: stops
+  std::size_t answers = 128;            // at once on one connection, of those that count for nobody: stops
   std::size_t message_bytes = 4 << 20;  // of a request, before compression
   std::size_t stop_bytes = 64 << 10;    // likewise, of those that count for nobody
   std::size_t held_bytes = 32 << 20;    // of requests that are not whole, of all connections together

@@ -7,15 +7,6 @@
 #include "server/front/request_body.h"
 
 namespace axisgate::front {
-namespace {
-
-// A request of no more than that always finds room: it may be a stop.
-constexpr std::size_t kFree = 1024;
-
-std::size_t held_of(std::size_t bytes) { return bytes - std::min(bytes, kFree); }
-
-}  // namespace
-
 void OwnCalls::begin(StreamId stream, Headers headers) {
   calls_.try_emplace(stream, Call{.headers = std::move(headers), .holding = Holding(held_)});
   client_.put_first(stream);
@@ -23,8 +14,8 @@ void OwnCalls::begin(StreamId stream, Headers headers) {
 
 std::optional<Reply> OwnCalls::take(StreamId stream, std::string_view bytes) {
   Call& call = calls_.at(stream);
-  const std::size_t before = held_of(call.request.size());
-  if (!call.holding.take(held_of(call.request.size() + bytes.size()) - before)) {
+  const std::size_t before = counted(call.request.size());
+  if (!call.holding.take(counted(call.request.size() + bytes.size()) - before)) {
     return Reply{.code = kResourceExhausted,
                  .message = "too many long requests are on their way at the same time (try again in 1 s)"};
   }

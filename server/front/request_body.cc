@@ -69,6 +69,8 @@ std::optional<Reply> RequestBody::begin_message() {
                  .message = fmt::format("a message of this request has {} bytes; the daemon takes {} at most", left_,
                                         message_bytes_)};
   }
+  // Some clients call an empty message compressed, and it is.
+  if (left_ == 0 && prefix_[0] == 1) prefix_[0] = 0;
   if (prefix_[0] == 0) return std::nullopt;
   if (!unknown_encoding_.empty()) {
     return Reply{.code = kUnimplemented,
@@ -103,7 +105,7 @@ std::optional<Reply> RequestBody::unpack(std::string_view packed) {
                                           "takes no more",
                                           message_bytes_)};
     }
-    if (!unpacked_.take(size)) {
+    if (!unpacked_.take(counted(message_.size() + size) - counted(message_.size()))) {
       return Reply{.code = kResourceExhausted,
                    .message = "too many long requests are on their way at the same time (try again in 1 s)"};
     }
@@ -119,7 +121,7 @@ std::optional<Reply> RequestBody::end_message(std::string& out) {
   const bool whole = inflater_->ended;
   inflater_.reset();
   if (!whole) return unreadable();
-  given_out_ += message_.size();
+  given_out_ += counted(message_.size());
   out.append(with_prefix(std::exchange(message_, {})));
   return std::nullopt;
 }

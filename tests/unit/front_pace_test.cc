@@ -42,6 +42,29 @@ TEST_F(FrontPaceTest, AByteASecondEndsAfterTenSeconds) {
   EXPECT_EQ(conversation->fault()->cause, Cause::frame_unfinished);
 }
 
+// However long the connection has been there, or the machine.
+TEST_F(FrontPaceTest, ATimeBeginsWithWhatIsBegun) {
+  now += seconds(1'000);
+  open();
+  pass(seconds(100));
+  const std::string bytes = call(1, "/stop");
+  say(bytes.substr(0, bytes.size() / 2));
+  pass(seconds(9));
+  EXPECT_EQ(fault(), "");
+  say(bytes.substr(bytes.size() / 2) + message(1, "halt"));
+  EXPECT_THAT(desk.asked, SizeIs(1));
+}
+
+// The library is silent about headers of a call that is over.
+TEST_F(FrontPaceTest, IgnoredHeadersAreNotAwaited) {
+  open();
+  say(call(1, "/refused", true));
+  heard();
+  say(frame(FrameType::headers, kEndHeaders | kEndStream, 1, encoder.encode({{"x", "y"}})));
+  pass(seconds(60));
+  EXPECT_EQ(fault(), "");
+}
+
 TEST_F(FrontPaceTest, ASlowUploadThatGoesOnSucceeds) {
   open();
   say(call(1, "/forward"));
