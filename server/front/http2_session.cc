@@ -109,6 +109,8 @@ struct Http2Session::Callbacks {
     ::nghttp2_option_set_max_settings(all, kSettings);
     ::nghttp2_option_set_max_continuations(all, kContinuations);
     ::nghttp2_option_set_stream_reset_rate_limit(all, kResets, kResets);
+    // A blank at an end of a value is nobody's harm: some clients send one in metadata.
+    ::nghttp2_option_set_no_rfc9113_leading_and_trailing_ws_validation(all, 1);
     // Otherwise the library skips frames of unknown types without a word.
     constexpr int kKnownTypes = 10, kTypes = 256;
     for (int type = kKnownTypes; type < kTypes; ++type) {

@@ -232,7 +232,7 @@ TEST_F(RpcLimits, AMessageTooLargeIsRefused) {
   request.mutable_context()->set_request_id(std::string(5000, 'x'));
   const grpc::Status refused = move(request);
   EXPECT_EQ(refused.error_code(), grpc::RESOURCE_EXHAUSTED);
-  EXPECT_THAT(refused.error_message(), HasSubstr("larger than max"));
+  EXPECT_THAT(refused.error_message(), HasSubstr("the daemon takes 4096 at most"));
 }
 
 class ConnectionLimitsTest : public RpcLimits {
