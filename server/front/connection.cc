@@ -13,7 +13,7 @@ namespace asio = boost::asio;
 // A client that does not take what it is sent does not get its farewell either.
 constexpr Duration kFarewell = std::chrono::seconds(1);
 
-// What is judged in one go: a few dozen calls, which delay others by less than a stop notices.
+// A portion is judged in one go. It holds a few dozen calls, which delay a stop of others by about a millisecond.
 constexpr std::size_t kPortion = 1024;
 
 }  // namespace

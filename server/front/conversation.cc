@@ -29,7 +29,7 @@ bool has_flag(const nghttp2_frame_hd& frame, nghttp2_flag flag) { return (frame.
 
 bool is_own(const Header& header) { return header.name == kCallerHeader || header.name == kSourceHeader; }
 
-// What gRPC's protocol over HTTP/2 asks of every call; the answer to one that is something else.
+// Returns the answer to a request that is no call of gRPC: its protocol over HTTP/2 requires POST and its content type.
 std::optional<Headers> not_grpc(const Headers& headers) {
   if (find(headers, ":method") != "POST") return Headers{{":status", "405"}, {"allow", "POST"}};
   const std::string_view type = find(headers, "content-type").value_or("");
@@ -47,7 +47,7 @@ Reply too_much_metadata(const FrontLimits& limits) {
                                  limits.header_bytes, limits.header_fields)};
 }
 
-// Of compressed messages only: others wait in the client.
+// Only compressed messages are refused so: others wait in the client, as its window is not widened.
 Reply too_much_waits() {
   return {.code = kResourceExhausted,
           .message = "the messages of this request are much longer unpacked, and come faster than they are taken",
@@ -162,7 +162,7 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
   }
 }
 
-// What an honest client had sent before it learned that its call is over costs it nothing.
+// Frames of no call cost nothing as far as an honest client may have sent them before it learned that its call is over.
 bool Conversation::spend_for_nobodys(std::size_t bytes, std::size_t frames) {
   if (free_ < bytes) return spend(Cost::control, static_cast<double>(frames));
   free_ -= bytes;

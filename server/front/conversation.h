@@ -27,7 +27,7 @@ namespace axisgate::front {
 
 class Conversation final : private Http2Session::Events {
  public:
-  // What all conversations share. It outlives them.
+  // All conversations share these, which outlive them.
   struct Shared {
     Desk& desk;
     const FrontLimits& limits;
@@ -41,7 +41,7 @@ class Conversation final : private Http2Session::Events {
   void from_grpc(std::string_view bytes);
   // After on_answer: the desk has more for this call.
   void pull(StreamId stream) { own_calls_.pull(stream); }
-  // What stalls is ended. `reads`: the client is being read, so that what does not come is not sent.
+  // Ends what stalls. `reads`: the client is being read, so bytes that do not come were not sent.
   void check(TimePoint now, bool reads);
 
   // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
@@ -49,7 +49,7 @@ class Conversation final : private Http2Session::Events {
   // gRPC has closed its side: the connection is over when the answers that are due have been written.
   void grpc_left();
 
-  // What is to be written next. Each is taken once.
+  // Returns the bytes to be written next, each once.
   std::string take_to_client() { return client_.take(kPiece); }
   std::string take_to_grpc() { return grpc_ ? grpc_->take_to_grpc(kPiece) : std::string(); }
   bool has_for_client() const { return client_.has_more(); }

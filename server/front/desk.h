@@ -24,7 +24,7 @@ struct Peer {
   bool needs_token = false;  // without a token nobody may call so
 };
 
-// Of gRPC's codes, those that the front gives by itself.
+// The front gives these of gRPC's codes by itself.
 inline constexpr int kInvalidArgument = 3, kDeadlineExceeded = 4, kResourceExhausted = 8, kUnimplemented = 12;
 
 // What is sent to a caller: a message, the end, or both. A call with one answer has one of these.

@@ -7,8 +7,8 @@
 namespace axisgate::front {
 namespace {
 
-// What gRPC may send of one answer before the client has taken it, and of all together: answers that wait hold up to
-// that many bytes here, and others pass by them.
+// gRPC may send 32 KiB of one answer before the client has taken it, and 16 MiB of all. Answers that wait stay here,
+// and others overtake them.
 constexpr SessionTerms kTerms{.list_bytes = 256 << 10,
                               .list_fields = 1'000,
                               .open_streams = 0,
@@ -105,7 +105,7 @@ void GrpcSide::forget(StreamId stream, std::size_t unsent) {
   session_.reset(stream, NGHTTP2_CANCEL);
 }
 
-// Two of them come: the first, which says nothing of the last stream, so that what is under way arrives.
+// gRPC sends two. The first names no last stream, so that calls that are on their way still arrive.
 void GrpcSide::going_away(StreamId last, std::uint32_t error) {
   if (error == NGHTTP2_NO_ERROR && last == std::numeric_limits<StreamId>::max()) return client_.announce_end();
   client_.end(NGHTTP2_NO_ERROR, "the daemon is ending");  // and what the front answers itself continues

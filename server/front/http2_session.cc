@@ -109,7 +109,7 @@ struct Http2Session::Callbacks {
     ::nghttp2_option_set_max_settings(all, kSettings);
     ::nghttp2_option_set_max_continuations(all, kContinuations);
     ::nghttp2_option_set_stream_reset_rate_limit(all, kResets, kResets);
-    // A blank at an end of a value is nobody's harm: some clients send one in metadata.
+    // Some clients send a blank at the end of a value, which harms nobody.
     ::nghttp2_option_set_no_rfc9113_leading_and_trailing_ws_validation(all, 1);
     // Otherwise the library skips frames of unknown types without a word.
     constexpr int kKnownTypes = 10, kTypes = 256;
@@ -218,7 +218,7 @@ void Http2Session::frame_sent(const nghttp2_frame& frame) {
   if (::nghttp2_session_get_stream_remote_close(session_.get(), stream) == 0) reset(stream, NGHTTP2_NO_ERROR);
 }
 
-// Of a request, as behind the other end's GOAWAY, the library closes the stream itself; an answer is too long then.
+// An answer's headers were too long. A request is refused after the other end's GOAWAY: the library closes its stream.
 void Http2Session::headers_not_sent(StreamId stream) {
   if (role_ == Role::server) reset(stream, NGHTTP2_INTERNAL_ERROR);
 }

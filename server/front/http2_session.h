@@ -74,7 +74,7 @@ class Http2Session {
   // What is to be sent next; about `limit` bytes at most.
   std::string take(std::size_t limit);
   bool has_more() const;
-  // Neither end has anything to say any more, as after the other's GOAWAY and the last stream.
+  // Neither end will say more: the other sent a GOAWAY, and the last stream has ended.
   bool is_over() const;
   // Frames that wait to be taken.
   std::size_t waiting() const { return ::nghttp2_session_get_outbound_queue_size(session_.get()); }
@@ -94,12 +94,13 @@ class Http2Session {
   // A server's: its answer goes before those of other streams, which otherwise take turns.
   void put_first(StreamId stream);
 
-  // The other end may send so many bytes again: of this stream, or, of one that has gone, of the connection.
+  // The other end may send as many bytes again, on this stream and on the connection; if the stream has gone, only on
+  // the connection.
   void consume(StreamId stream, std::size_t bytes);
 
   // A server's: no new streams soon. What is open continues.
   void announce_end() { ::nghttp2_submit_shutdown_notice(session_.get()); }
-  // GOAWAY, behind the last stream that came. Without an error, what is open continues.
+  // Sends a GOAWAY that names the last stream that came. Without an error, open streams continue.
   void end(std::uint32_t error, std::string_view why);
 
  private:

@@ -8,7 +8,7 @@ namespace axisgate::front {
 
 // Before the first message of an answer.
 Headers answer_head();
-// The status, behind the last one.
+// The status follows the last one.
 Headers trailers_of(const Reply& reply);
 // Both in one, where there is no message.
 Headers answer_without_body(const Reply& reply);
