@@ -23,8 +23,8 @@ namespace axisgate::server {
 // Called on the device's strand, as EventSink demands.
 class DeviceEvents : public stage::EventSink {
  public:
-  // What to publish after an event: `queues` or the whole `state` changed; `state_at_once`, if a caller may be answered
-  // behind the event, and then looks. Called from within on_event().
+  // An event names what is to be published after it: `queues`, or the whole `state`. With `state_at_once` it is
+  // published before the next answer, since its caller may read the state. Called from within on_event().
   enum class Due { queues, state, state_at_once };
   using OnDue = std::function<void(Due)>;
 

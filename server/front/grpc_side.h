@@ -30,7 +30,7 @@ class GrpcSide final : private Http2Session::Events {
   void refuse(StreamId stream, const Headers& alone, Headers trailers);
   // The client's stream has gone; of the answer `unsent` bytes did not reach it.
   void forget(StreamId stream, std::size_t unsent);
-  // So many bytes of an answer are on their way to the client.
+  // Reports that as many bytes of an answer are on their way to the client.
   void delivered(StreamId stream, std::size_t bytes) { session_.consume(stream, bytes); }
   // gRPC has closed the connection.
   void lost();

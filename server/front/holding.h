@@ -20,13 +20,13 @@ class HeldBytes {
   std::size_t held_ = 0;
 };
 
-// What counts of a request: one of no more than a kilobyte always finds room, as it may be a stop.
+// Returns how many bytes of a request are counted. The first kilobyte is not: a stop must always find room.
 inline std::size_t counted(std::size_t bytes) {
   constexpr std::size_t kFree = 1024;
   return bytes > kFree ? bytes - kFree : 0;
 }
 
-// What one call holds of them; it gives all back when it goes.
+// A Holding is the share of one call. It returns all of it when it is destroyed.
 class Holding {
  public:
   // `all` outlives it.

@@ -28,7 +28,7 @@ struct HeaderBlock {
   bool last = false;      // nothing follows on this stream
 };
 
-// What one end announces, and keeps.
+// One end announces these bounds, and enforces them.
 struct SessionTerms {
   std::size_t list_bytes = 0, list_fields = 0;  // of headers, or of trailers
   std::uint32_t open_streams = 0;               // which the other end may have at once; a server's only
@@ -56,7 +56,7 @@ class Http2Session {
     virtual bool stream_ended(StreamId stream) = 0;
     // The stream has gone; of what was written to it `unsent` bytes were not sent.
     virtual void stream_closed(StreamId stream, std::uint32_t error, std::size_t unsent) = 0;
-    // So many bytes of write() are on their way.
+    // As many bytes of write() are on their way.
     virtual void sent(StreamId stream, std::size_t bytes) = 0;
     // The other end takes no new streams beyond `last`.
     virtual void going_away(StreamId last, std::uint32_t error) = 0;
