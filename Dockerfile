@@ -6,7 +6,8 @@
 # With a stage, its line and a configuration of your own:
 #   docker run --network host --device /dev/ttyUSB0 --volume "$PWD/axisgate.toml:/etc/axisgate/axisgate.toml:ro" \
 #     axisgate --config /etc/axisgate/axisgate.toml
-# Tokens and the names of saved positions are in /var/lib/axisgate: --volume axisgate-state:/var/lib/axisgate keeps them.
+# The journal, tokens and the names of saved positions are in /var/lib/axisgate. That is a volume, since motions are
+# refused where nothing can be recorded. --volume axisgate-state:/var/lib/axisgate keeps it over a new container.
 FROM debian:bookworm-slim AS build
 WORKDIR /src
 COPY deploy/debian-packages.txt deploy/install-packages.sh deploy/
@@ -35,6 +36,7 @@ LABEL org.opencontainers.image.title="axisgate" \
       org.opencontainers.image.revision="${REVISION}"
 ENV AXISGATE_SOCKET=/run/axisgate/axisgate.sock STATE_DIRECTORY=/var/lib/axisgate
 USER axisgate
+VOLUME /var/lib/axisgate
 EXPOSE 50203 9203
 # Whether the daemon answers; not whether the line is up, which no new container would mend.
 HEALTHCHECK --interval=30s --timeout=5s --start-period=10s CMD ["axisctl", "devices"]

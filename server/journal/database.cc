@@ -3,6 +3,8 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 
+#include <system_error>
+
 #include "server/access/access.h"
 #include "server/access/synced_file.h"
 
@@ -17,6 +19,15 @@ tl::unexpected<Problem> failed(sqlite3* database, std::string_view what) {
   return fail(Reason::internal,
               fmt::format("journal {}: {} failed: {}", path == nullptr ? "" : path, what, sqlite3_errmsg(database)),
               "look at the disk's free space and rights");
+}
+
+// SQLite knows the path of a database only once it is open, and says itself only that it could not open one.
+Problem unopened(sqlite3* database, const std::string& path) {
+  const int error = sqlite3_system_errno(database);
+  return {.reason = Reason::internal,
+          .message = fmt::format("{}: {}{}", path, sqlite3_errmsg(database),
+                                 error == 0 ? "" : ": " + std::generic_category().message(error)),
+          .hint = "let the daemon's user write in its state directory, which STATE_DIRECTORY names"};
 }
 
 void identity_function(sqlite3_context* context, int, sqlite3_value** arguments) {
@@ -91,7 +102,7 @@ tl::expected<Database, Unopened> Database::open(const std::string& path, Access 
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(path.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX | SQLITE_OPEN_NOFOLLOW, vfs);
   Database database(opened);
-  if (code != SQLITE_OK) return tl::unexpected(Unopened{failed(opened, "opening it").value()});
+  if (code != SQLITE_OK) return tl::unexpected(Unopened{unopened(opened, path)});
   sqlite3_busy_timeout(opened, kBusyMilliseconds);
   sqlite3_create_function_v2(opened, "identity_of", 1, SQLITE_UTF8 | SQLITE_DETERMINISTIC, nullptr, identity_function,
                              nullptr, nullptr, nullptr);

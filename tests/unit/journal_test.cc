@@ -112,6 +112,13 @@ TEST_F(JournalTest, RefusalsBeyondTheirBudgetAreCountedAtTheEndAtTheLatest) {
   EXPECT_EQ(kept()[0].entry.who, "unix anna");
 }
 
+TEST_F(JournalTest, WhereNoFileCanBeMadeTheMessageSaysWhichAndWhy) {
+  const std::string path = directory_ / "missing/journal.sqlite";
+  const auto opened = Journal::open(path);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().message, path + ": unable to open database file: No such file or directory");
+}
+
 TEST_F(JournalTest, OneThatCouldNotBeOpenedRefusesAsADiskDoes) {
   std::filesystem::create_symlink(directory_ / "elsewhere", path_);
   const auto opened = Journal::open(path_);
