@@ -132,7 +132,8 @@ Result<void> Store::upgrade(std::int64_t from) {
 
 Result<void> Store::append(std::span<const Record> records, const FactChange& facts) {
   if (auto begun = database_.run("BEGIN IMMEDIATE"); !begun) return begun;
-  Result<void> done;
+  // Facts are first: they were kept before the records came, and a record may erase a name that they have.
+  Result<void> done = FactTable(database_).change(facts);
   Result<Head> last = head();
   if (!last) done = tl::unexpected(last.error());
   RequestTable requests(database_);
@@ -141,7 +142,6 @@ Result<void> Store::append(std::span<const Record> records, const FactChange& fa
     if (done) done = requests.change(record.requests);
     if (done && record.erased_person != 0) done = erase(record.erased_person);
   }
-  if (done) done = FactTable(database_).change(facts);
   if (done) done = database_.run("COMMIT");
   if (!done) (void)database_.run("ROLLBACK");
   return done;

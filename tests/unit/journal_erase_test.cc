@@ -167,13 +167,16 @@ TEST_F(JournalErase, RememberedRequestsWithTheNameAreCounted) {
   EXPECT_EQ((*journal_->erase("unix anna", "unix root"))->requests, 2);
 }
 
-TEST_F(JournalErase, KeptEventsHaveTheNameNoMore) {
+journal::FactChange fact_about_anna() {
   stage::MotionChanged change;
   change.motion.who = "unix anna";
   change.motion.problem = Problem{.reason = Reason::stopped, .message = "stopped by unix anna"};
-  const journal::FactChange facts{{std::make_shared<const FactRecord>(FactRecord{1, "stage", {}, change, {}, "r"})}, 1};
+  return {{std::make_shared<const FactRecord>(FactRecord{1, "stage", {}, change, {}, "r"})}, 1};
+}
+
+TEST_F(JournalErase, KeptEventsHaveTheNameNoMore) {
   const Record record{{.who = "unix anna"}};
-  ASSERT_TRUE(Store::open(path_)->append({&record, 1}, facts));
+  ASSERT_TRUE(Store::open(path_)->append({&record, 1}, fact_about_anna()));
   open();
   ASSERT_TRUE(*journal_->erase("unix anna", "unix root"));
   EXPECT_EQ(bytes().find("unix anna"), std::string::npos);
@@ -181,6 +184,16 @@ TEST_F(JournalErase, KeptEventsHaveTheNameNoMore) {
   ASSERT_TRUE(kept);
   ASSERT_EQ(kept->facts.size(), 1u);
   EXPECT_EQ(std::get<stage::MotionChanged>(kept->facts[0]->fact).motion.who, "erased 1");
+}
+
+TEST_F(JournalErase, EventsThatAreWrittenWithTheErasureHaveTheNameNoMore) {
+  auto store = Store::open(path_);
+  const Record before{{.who = "unix anna"}};
+  ASSERT_TRUE(store->append({&before, 1}, {}));
+  const Record erasure{{.kind = EntryKind::person_erased, .who = "unix root", .body = "{}"}, {}, 1};
+  ASSERT_TRUE(store->append({&erasure, 1}, fact_about_anna()));
+  ASSERT_TRUE(store->empty_log());
+  EXPECT_EQ(bytes().find("unix anna"), std::string::npos);
 }
 
 TEST_F(JournalErase, WhileAnotherProgramReadsTheLogKeepsTheName) {
