@@ -3,8 +3,9 @@
 namespace axisgate {
 
 void Executor::spawn(Task<void> task) {
+  task.handle().promise().spawned = {next_number_, &ended_};
   post(task.handle());
-  tasks_.push_back(std::move(task));
+  tasks_.emplace(next_number_++, std::move(task));
 }
 
 void Executor::run() {
@@ -16,7 +17,7 @@ void Executor::run() {
   }
   ready_.clear();
   running_ = false;
-  tasks_.remove_if([](const Task<void>& task) { return task.handle().done(); });
+  for (const std::uint64_t number : std::exchange(ended_, {})) tasks_.erase(number);
 }
 
 void Executor::advance(TimePoint now) {

@@ -5,8 +5,8 @@
 #pragma once
 
 #include <coroutine>
+#include <cstdint>
 #include <exception>
-#include <list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -22,11 +22,18 @@ class Task;
 
 namespace detail {
 
+// A task that was spawned notes its end, so that its executor finds it without looking through all that wait.
+struct Spawned {
+  std::uint64_t number = 0;
+  std::vector<std::uint64_t>* ended = nullptr;
+};
+
 struct FinalAwaiter {
   bool await_ready() const noexcept { return false; }
   template <class Promise>
   std::coroutine_handle<> await_suspend(std::coroutine_handle<Promise> handle) const noexcept {
     auto& promise = handle.promise();
+    if (promise.spawned.ended != nullptr) promise.spawned.ended->push_back(promise.spawned.number);
     return promise.parent ? promise.parent : std::noop_coroutine();
   }
   void await_resume() const noexcept {}
@@ -34,6 +41,7 @@ struct FinalAwaiter {
 
 struct PromiseBase {
   std::coroutine_handle<> parent;
+  Spawned spawned;
   std::suspend_always initial_suspend() const noexcept { return {}; }
   FinalAwaiter final_suspend() const noexcept { return {}; }
   [[noreturn]] void unhandled_exception() { std::terminate(); }  // nothing below throws
@@ -113,7 +121,9 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
  private:
-  std::list<Task<void>> tasks_;
+  std::map<std::uint64_t, Task<void>> tasks_;  // by number, in the order in which they were spawned
+  std::uint64_t next_number_ = 0;
+  std::vector<std::uint64_t> ended_;
   std::vector<std::coroutine_handle<>> ready_;
   bool running_ = false;
   std::multimap<TimePoint, std::weak_ptr<Waiter>> deadlines_;

@@ -79,6 +79,16 @@ class Gateway {
                         [&](const ExecuteEvent& event) { ended = event.kind == ExecuteEvent::Kind::ended; });
     run_until([&] { return ended; });
   }
+  // One line is answered while so many others wait, and the next takes its place among them. All are different, since
+  // equal questions share an exchange.
+  void setting_among(std::size_t waiting) {
+    while (begun_ < answered_ + waiting) {
+      ++begun_;
+      controller_.execute({{fmt::format("D:1S1000F{}R100", 1000 + begun_ % 10'000)}, context()}, now_,
+                          [this](const ExecuteEvent& event) { answered_ += event.kind == ExecuteEvent::Kind::ended; });
+    }
+    run_until([this, before = answered_] { return answered_ > before; });
+  }
   void move(std::int64_t target) {
     MotionId id = 0;
     MoveRequest request{{{1, Quantity{{target, 0}, Unit::pulses}, {}}}, false, context()};
@@ -101,6 +111,7 @@ class Gateway {
     }
   }
 
+  std::size_t begun_ = 0, answered_ = 0;
   Cable commands_, answers_;
   Nobody nobody_;
   Simulator device_;
@@ -119,6 +130,13 @@ void QuestionThroughTheCore(benchmark::State& state) {
   for (auto _ : state) gateway.question();
 }
 BENCHMARK(QuestionThroughTheCore)->Unit(benchmark::kMicrosecond);
+
+// Sharing the line must not cost more the more callers wait: compare the times of 10 and of 250.
+void SettingAmongOthers(benchmark::State& state) {
+  Gateway gateway;
+  for (auto _ : state) gateway.setting_among(static_cast<std::size_t>(state.range(0)));
+}
+BENCHMARK(SettingAmongOthers)->Arg(10)->Arg(250)->Unit(benchmark::kMicrosecond);
 
 void MoveDirect(benchmark::State& state) {
   Alone alone;
