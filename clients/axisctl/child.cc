@@ -23,7 +23,7 @@ void pass_on(int signal) {
   if (child_to_end > 0) ::kill(static_cast<pid_t>(child_to_end), signal);
 }
 
-pid_t spawn(const std::vector<std::string>& command) {
+pid_t spawn(const std::vector<std::string>& command, const sigset_t& mask) {
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -35,7 +35,8 @@ pid_t spawn(const std::vector<std::string>& command) {
   ::sigaddset(&defaults, SIGINT);
   ::sigaddset(&defaults, SIGQUIT);
   ::posix_spawnattr_setsigdefault(&attributes, &defaults);
-  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
+  ::posix_spawnattr_setsigmask(&attributes, &mask);
+  ::posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETSIGMASK);
   pid_t child = 0;
   const int error = ::posix_spawnp(&child, words[0], nullptr, &attributes, words.data(), environ);
   ::posix_spawnattr_destroy(&attributes);
@@ -49,10 +50,17 @@ int run_child(const std::vector<std::string>& command, const std::string& name, 
   ::setenv(name.c_str(), value.c_str(), 1);
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGQUIT, SIG_IGN);
-  const pid_t child = spawn(command);
-  child_to_end = static_cast<std::sig_atomic_t>(child);
+  // A signal that comes while the command is being started is passed on to it afterwards.
+  sigset_t passed_on, before;
+  ::sigemptyset(&passed_on);
+  ::sigaddset(&passed_on, SIGTERM);
+  ::sigaddset(&passed_on, SIGHUP);
+  ::pthread_sigmask(SIG_BLOCK, &passed_on, &before);
   std::signal(SIGTERM, pass_on);
   std::signal(SIGHUP, pass_on);
+  child_to_end = static_cast<std::sig_atomic_t>(spawn(command, before));
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  const auto child = static_cast<pid_t>(child_to_end);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) continue;
   child_to_end = 0;
