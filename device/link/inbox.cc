@@ -18,18 +18,23 @@ class Inbox::Queue : public std::enable_shared_from_this<Queue> {
  public:
   explicit Queue(const Strand& strand);
 
-  void post(std::function<void()> task);
+  void post(std::function<void()> run, std::function<void()> too_late);
   void close();
   void wait();
 
  private:
-  std::optional<std::function<void()>> take();
+  struct Task {
+    std::function<void()> run;
+    std::function<void()> too_late;
+  };
+  bool push(Task& task);
+  std::optional<Task> take();
   void run();
 
   const Descriptor bell_;  // an eventfd; outlives `reader_`, since a thread may still ring when that has been closed
   std::uint64_t rings_ = 0;
   std::mutex mutex_;
-  std::deque<std::function<void()>> tasks_;
+  std::deque<Task> tasks_;
   std::optional<boost::asio::posix::stream_descriptor> reader_;  // of bell_; none once closed
 };
 
@@ -48,23 +53,35 @@ Descriptor new_bell() {
 
 Inbox::Queue::Queue(const Strand& strand) : bell_(new_bell()) { reader_.emplace(strand, bell_.get()); }
 
-void Inbox::Queue::post(std::function<void()> task) {
+void Inbox::Queue::post(std::function<void()> run, std::function<void()> too_late) {
+  Task task{std::move(run), std::move(too_late)};
+  if (!push(task) && task.too_late) task.too_late();
+}
+
+// False, where it is closed.
+bool Inbox::Queue::push(Task& task) {
   {
     const std::lock_guard lock(mutex_);
-    if (!reader_) return;
+    if (!reader_) return false;
     tasks_.push_back(std::move(task));
-    if (tasks_.size() > 1) return;  // it has rung, and they are not all taken
+    if (tasks_.size() > 1) return true;  // it has rung, and they are not all taken
   }
   const std::uint64_t ring = 1;
   (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only where the count is full: then it rings anyway
+  return true;
 }
 
 void Inbox::Queue::close() {
-  std::deque<std::function<void()>> dropped;  // may end what posts again
-  const std::lock_guard lock(mutex_);
-  dropped.swap(tasks_);
-  if (reader_) (void)reader_->release();
-  reader_.reset();
+  std::deque<Task> dropped;
+  {
+    const std::lock_guard lock(mutex_);
+    dropped.swap(tasks_);
+    if (reader_) (void)reader_->release();
+    reader_.reset();
+  }
+  for (const Task& task : dropped) {
+    if (task.too_late) task.too_late();  // may post again
+  }
 }
 
 void Inbox::Queue::wait() {
@@ -74,7 +91,7 @@ void Inbox::Queue::wait() {
                            });
 }
 
-std::optional<std::function<void()>> Inbox::Queue::take() {
+std::optional<Inbox::Queue::Task> Inbox::Queue::take() {
   const std::lock_guard lock(mutex_);
   if (tasks_.empty()) return std::nullopt;
   auto task = std::move(tasks_.front());
@@ -86,7 +103,7 @@ void Inbox::Queue::run() {
   for (int done = 0; reader_ && done < kTasksInTurn; ++done) {
     const auto task = take();
     if (!task) return wait();
-    (*task)();
+    task->run();
   }
   if (reader_) boost::asio::post(reader_->get_executor(), [self = shared_from_this()] { self->run(); });
 }
@@ -95,7 +112,9 @@ Inbox::Inbox(const Strand& strand) : queue_(std::make_shared<Queue>(strand)) { q
 
 Inbox::~Inbox() { close(); }
 
-void Inbox::post(std::function<void()> task) { queue_->post(std::move(task)); }
+void Inbox::post(std::function<void()> task, std::function<void()> too_late) {
+  queue_->post(std::move(task), std::move(too_late));
+}
 
 void Inbox::close() { queue_->close(); }
 

@@ -20,10 +20,10 @@ class Inbox {
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
 
-  // Tasks run on the strand, in the order of posting. What else waits there has its turn between them.
-  void post(std::function<void()> task);
-  // From now on what is posted is dropped. On the strand, or when no thread runs its io_context. Needed before the
-  // io_context ends.
+  // Tasks run on the strand, in the order of posting. What else waits there has its turn between them. Of a task that
+  // cannot run since this was closed, `too_late` is called, if there is one: by close(), or from within post().
+  void post(std::function<void()> task, std::function<void()> too_late = {});
+  // No task runs from now on. On the strand, or when no thread runs its io_context. Needed before the io_context ends.
   void close();
 
  private:

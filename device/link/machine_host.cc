@@ -7,10 +7,10 @@
 
 namespace axisgate {
 
-void MachineHost::post(std::function<void(TimePoint now)> request) {
-  inbox_.post([self = shared_from_this(), request = std::move(request)] {
-    self->call([&](LineMachine&, TimePoint now) { request(now); });
-  });
+void MachineHost::post(std::function<void(TimePoint now)> request, std::function<void()> too_late) {
+  inbox_.post([self = shared_from_this(),
+               request = std::move(request)] { self->call([&](LineMachine&, TimePoint now) { request(now); }); },
+              std::move(too_late));
 }
 
 void MachineHost::detach() {

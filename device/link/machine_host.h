@@ -22,7 +22,8 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
   MachineHost& operator=(const MachineHost&) = delete;
 
   void attach(LineMachine& machine) { machine_ = &machine; }
-  void post(std::function<void(TimePoint now)> request);
+  // After detach() `too_late` is called in its place, if there is one.
+  void post(std::function<void(TimePoint now)> request, std::function<void()> too_late = {});
   const Strand& strand() const { return strand_; }
 
  protected:

@@ -268,7 +268,9 @@ void Runner::adopt(int descriptor) {
                         [line = line_, opened = Descriptor(descriptor)]() mutable { line->adopt(std::move(opened)); });
 }
 
-void Runner::post(std::function<void(TimePoint now)> request) { line_->post(std::move(request)); }
+void Runner::post(std::function<void(TimePoint now)> request, std::function<void()> too_late) {
+  line_->post(std::move(request), std::move(too_late));
+}
 
 void Runner::write(std::string_view bytes) { line_->write(bytes); }
 

@@ -47,8 +47,9 @@ class Runner : public FlowLink {
   void adopt(int descriptor);
 
   // Runs `request` on the strand, never from within post(). Afterwards what it made the machine write is sent, and the
-  // machine's deadline is looked at again. Dropped after shutdown().
-  void post(std::function<void(TimePoint now)> request);
+  // machine's deadline is looked at again. After shutdown() `too_late` is called in its place, if there is one, from
+  // any thread.
+  void post(std::function<void(TimePoint now)> request, std::function<void()> too_late = {});
 
   void write(std::string_view bytes) override;
   // While the line is already being opened, that attempt continues.

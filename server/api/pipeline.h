@@ -14,6 +14,7 @@
 #include "server/api/audit.h"
 #include "server/api/axes_used.h"
 #include "server/api/call.h"
+#include "server/api/ending.h"
 #include "server/api/mutations.h"
 #include "server/api/repeats.h"
 #include "server/api/request_kinds.h"
@@ -201,23 +202,25 @@ void PipelineOf<Device>::act(const Asked& asked, Ready ready, Begin begin, Refus
   };
   const auto visit = std::make_shared<Visit>(Visit{*std::move(admitted), std::move(ready), std::move(begin)});
   using Controller = typename Device::Controller;
-  device.post([kind = asked.kind, visit, mutation, refuse_it](Controller& controller, TimePoint now) {
+  const auto too_late = [refuse_it] { refuse_it(daemon_ending()); };
+  const auto come = [kind = asked.kind, visit, mutation, refuse_it, too_late](Controller& controller, TimePoint now) {
     const Admitted& it = visit->admitted;
     const Turn turn{*it.device, controller, it.caller, it.context, now};
     const Result<std::string> what = ready_if_up(kind, turn, visit->ready);
     if (!what) return refuse_it(what.error());
     audit(kind, turn.device, turn.context, *what);
-    const auto then = [kind, visit, mutation, refuse_it](const Result<void>& written) {
-      if (!written) return refuse_it(written.error());
-      visit->admitted.device->post([kind, visit, mutation, refuse_it](Controller& same, TimePoint later) {
-        const Admitted& still = visit->admitted;
-        const Turn second{*still.device, same, still.caller, still.context, later};
-        const Result<std::string> yet = ready_if_up(kind, second, visit->ready);
-        yet ? visit->begin(second, mutation) : refuse_it(yet.error());
-      });
+    const auto come_again = [kind, visit, mutation, refuse_it](Controller& same, TimePoint later) {
+      const Admitted& still = visit->admitted;
+      const Turn second{*still.device, same, still.caller, still.context, later};
+      const Result<std::string> yet = ready_if_up(kind, second, visit->ready);
+      yet ? visit->begin(second, mutation) : refuse_it(yet.error());
+    };
+    const auto then = [visit, come_again, refuse_it, too_late](const Result<void>& written) {
+      written ? visit->admitted.device->post(come_again, too_late) : refuse_it(written.error());
     };
     if (!mutation->intend(it.context, *what, then)) visit->begin(turn, mutation);
-  });
+  };
+  device.post(come, too_late);
 }
 
 template <class Device>
@@ -271,10 +274,13 @@ void PipelineOf<Device>::ask(const Asked& asked, Answer<Outcome> answer, Begin b
   Result<Admitted> admitted = admit(asked);
   if (!admitted) return answer(tl::unexpected(std::move(admitted.error())));
   Device& device = *admitted->device;
-  device.post([admitted = *std::move(admitted), answer = std::move(answer), begin = std::move(begin)](
-                  typename Device::Controller& controller, TimePoint now) {
-    begin(Turn{*admitted.device, controller, admitted.caller, admitted.context, now}, answer);
-  });
+  const auto too_late = [answer] { answer(tl::unexpected(daemon_ending())); };
+  device.post(
+      [admitted = *std::move(admitted), answer = std::move(answer), begin = std::move(begin)](
+          typename Device::Controller& controller, TimePoint now) {
+        begin(Turn{*admitted.device, controller, admitted.caller, admitted.context, now}, answer);
+      },
+      too_late);
 }
 
 }  // namespace axisgate::api

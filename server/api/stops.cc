@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "device/core/escape.h"
+#include "server/api/ending.h"
 #include "server/api/mills.h"
 #include "server/api/names.h"
 
@@ -35,6 +36,8 @@ class Gathering {
     stops_[index].state = state;
     if (--missing_ == 0) answer_(std::move(stops_));
   }
+  // As the daemon ends its line is closed already, and `at_exit` has been obeyed.
+  void add_too_late(std::size_t index) { add(index, {.axes = {}, .problem = daemon_ending()}, {}); }
 
  private:
   std::vector<DeviceStop> stops_;
@@ -54,11 +57,13 @@ StopReport report_of_abort(const Mill& mill, bool job_ran, bool sent) {
 
 void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
                std::size_t index) {
-  mill.post([&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
-    const bool job_ran = controller.running_job() != 0;
-    const bool sent = controller.abort(context, now);
-    gathering->add(index, report_of_abort(mill, job_ran, sent), {});
-  });
+  mill.post(
+      [&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
+        const bool job_ran = controller.running_job() != 0;
+        const bool sent = controller.abort(context, now);
+        gathering->add(index, report_of_abort(mill, job_ran, sent), {});
+      },
+      [gathering, index] { gathering->add_too_late(index); });
 }
 
 // `start(controller, now, done)` stops one stage.
@@ -72,11 +77,13 @@ void stop_each(const std::vector<Device*>& devices, const stage::RequestContext&
       continue;
     }
     auto& stage = dynamic_cast<Stage&>(*devices[index]);
-    stage.post([gathering, index, start](StageController& controller, TimePoint now) {
-      start(controller, now, [gathering, index, &controller](StopReport report) {
-        gathering->add(index, std::move(report), controller.state());
-      });
-    });
+    stage.post(
+        [gathering, index, start](StageController& controller, TimePoint now) {
+          start(controller, now, [gathering, index, &controller](StopReport report) {
+            gathering->add(index, std::move(report), controller.state());
+          });
+        },
+        [gathering, index] { gathering->add_too_late(index); });
   }
 }
 

@@ -5,14 +5,9 @@
 #include <utility>
 #include <vector>
 
+#include "server/api/ending.h"
+
 namespace axisgate::api {
-namespace {
-
-const Problem kDaemonEnding{
-    .reason = Reason::daemon_ending, .message = "the daemon is ending", .hint = "connect again when it runs again"};
-
-}  // namespace
-
 void OpenStream::on_cut_off(std::function<void()> then) {
   {
     const std::lock_guard lock(mutex_);
@@ -78,7 +73,7 @@ void Streams::count(Open& open, Quota quota, const std::string& who, int one) {
 Result<Streams::Place> Streams::take(RequestKind kind, const std::string& who) {
   const Quota quota = rule_of(kind).quota;
   const std::lock_guard lock(open_->mutex);
-  if (open_->ended) return tl::unexpected(kDaemonEnding);
+  if (open_->ended) return tl::unexpected(daemon_ending());
   if (auto problem = full(quota, who)) return tl::unexpected(*std::move(problem));
   count(*open_, quota, who, 1);
   const Entry entry = open_->by_caller.emplace(who, std::weak_ptr<OpenStream>());
@@ -112,12 +107,12 @@ void Streams::end_all() {
     open_->ended = true;
     all = places(open_->by_caller.begin(), open_->by_caller.end());
   }
-  for (const Place& place : all) place->cut_off({kDaemonEnding, true});
+  for (const Place& place : all) place->cut_off({daemon_ending(), true});
 }
 
 std::optional<Problem> Streams::ending() const {
   const std::lock_guard lock(open_->mutex);
-  return open_->ended ? std::optional(kDaemonEnding) : std::nullopt;
+  return open_->ended ? std::optional(daemon_ending()) : std::nullopt;
 }
 
 std::vector<Streams::Place> Streams::places(Entry begin, Entry end) {

@@ -23,8 +23,8 @@ Device::Device(std::string name, const stage::RecordingHeader& header, std::uniq
   };
 }
 
-void Device::post(Request request) {
-  runner_.post([this, request = std::move(request)](TimePoint now) { request(leases_, now); });
+void Device::post(Request request, std::function<void()> too_late) {
+  runner_.post([this, request = std::move(request)](TimePoint now) { request(leases_, now); }, std::move(too_late));
 }
 
 void Device::start() {

@@ -43,8 +43,8 @@ class Device {
   // For what is requested of every device, whatever its kind.
   using Controller = Leases;
   using Request = std::function<void(Leases&, TimePoint)>;
-  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
-  void post(Request request);
+  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
+  void post(Request request, std::function<void()> too_late = {});
 
   // On the device's strand only.
   Leases& leases() { return leases_; }

@@ -80,8 +80,9 @@ void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why,
   if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, why, name(), now)});
 }
 
-void Mill::post(Request request) {
-  runner().post([this, request = std::move(request)](TimePoint now) { request(controller_, now); });
+void Mill::post(Request request, std::function<void()> too_late) {
+  runner().post([this, request = std::move(request)](TimePoint now) { request(controller_, now); },
+                std::move(too_late));
 }
 
 void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint now) {

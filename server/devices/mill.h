@@ -56,9 +56,9 @@ class Mill final : public Device, private rml1::MillEvents {
   // destroyed.
   void when_kept(std::function<void()> then);
 
-  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
   using Request = std::function<void(rml1::MillController&, TimePoint)>;
-  void post(Request request);
+  void post(Request request, std::function<void()> too_late = {});
 
   // On the strand only.
   MillNow now(TimePoint at);

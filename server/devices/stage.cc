@@ -71,8 +71,9 @@ std::optional<StartedMotions> Stage::started_before() const {
   return record_ ? record_->started_before() : std::nullopt;
 }
 
-void Stage::post(Request request) {
-  runner().post([this, request = std::move(request)](TimePoint now) { request(*controller_, now); });
+void Stage::post(Request request, std::function<void()> too_late) {
+  runner().post([this, request = std::move(request)](TimePoint now) { request(*controller_, now); },
+                std::move(too_late));
 }
 
 void Stage::wind_down(std::function<void()> done) {

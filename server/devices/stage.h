@@ -36,9 +36,9 @@ class Stage final : public Device {
   const stage::Profile& profile() const { return profile_; }
   Newest<stage::State>& newest_state() { return newest_state_; }
 
-  // Runs the request on the device's strand, from any thread. After shutdown() it is dropped.
+  // Runs the request on the device's strand, from any thread. After shutdown() `too_late` is called in its place.
   using Request = std::function<void(stage::StageController&, TimePoint)>;
-  void post(Request request);
+  void post(Request request, std::function<void()> too_late = {});
 
   // On the strand only: from within a posted request or a callback of the controller.
   std::uint64_t motion_revision(stage::MotionId motion) const { return events_.motion_revision(motion); }

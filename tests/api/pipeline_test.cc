@@ -59,6 +59,16 @@ TEST(PipelineTest, APassedEpochIsRefused) {
   EXPECT_EQ(world.reason_of_move(call), Reason::unspecified);
 }
 
+// Its caller would otherwise wait until the connection breaks, and not know that nothing was done.
+TEST(PipelineTest, WhatComesAfterTheEndOfADeviceIsRefused) {
+  World world;
+  world.device().shutdown();
+  EXPECT_EQ(reason_of_asked(world, World::by(kAdmin), kDevice, move_in_no_unit()), Reason::daemon_ending);
+  for (const RequestKind kind : {RequestKind::acquire_lease, RequestKind::clear_errors}) {
+    EXPECT_EQ(ask(world, kind, World::by(kAdmin)), Reason::daemon_ending) << static_cast<int>(kind);
+  }
+}
+
 TEST(PipelineTest, ValidateOnlyPostsNothing) {
   World world;
   save_position(world);

@@ -42,6 +42,15 @@ TEST_F(StopsTest, WithoutADeviceAllAreStopped) {
   EXPECT_TRUE((*stops)[2].report.problem);
 }
 
+TEST_F(StopsTest, AsTheDaemonEndsEachClosedLineSaysSo) {
+  for (const auto& device : world_.gateway->devices()) device->shutdown();
+  Asking<std::vector<DeviceStop>> asking;
+  world_.api->stops.stop(World::by(kAnna), "", stage::AxisSet(), asking.answer());
+  const auto stops = asking.get();
+  ASSERT_TRUE(stops);
+  for (const DeviceStop& one : *stops) EXPECT_EQ(one.report.problem->reason, Reason::daemon_ending);
+}
+
 // Which axes of which device: not guessed.
 TEST_F(StopsTest, AxesOfSeveralDevicesNeedTheirDevice) {
   Asking<std::vector<DeviceStop>> asking;

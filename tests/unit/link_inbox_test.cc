@@ -72,6 +72,25 @@ TEST_F(InboxTest, OnceClosedItRunsAndKeepsNothing) {
   EXPECT_EQ(kept.use_count(), 1);
 }
 
+TEST_F(InboxTest, WhoseTaskCannotRunIsToldOnce) {
+  int ran = 0, too_late = 0;
+  inbox_->post([&] { ++ran; }, [&] { ++too_late; });
+  inbox_->close();
+  EXPECT_EQ(too_late, 1) << "of what waited";
+  inbox_->post([&] { ++ran; }, [&] { ++too_late; });
+  EXPECT_EQ(too_late, 2) << "of what comes later";
+  loop_.run_ready();
+  EXPECT_EQ(ran, 0);
+}
+
+TEST_F(InboxTest, ATaskThatRanIsNotToldToBeTooLate) {
+  int ran = 0, too_late = 0;
+  inbox_->post([&] { ++ran; }, [&] { ++too_late; });
+  EXPECT_TRUE(loop_.run_until([&] { return ran == 1; }));
+  inbox_->close();
+  EXPECT_EQ(too_late, 0);
+}
+
 TEST_F(InboxTest, ATaskMayCloseIt) {
   int ran = 0;
   inbox_->post([&] {
