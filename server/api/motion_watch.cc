@@ -77,6 +77,7 @@ void MotionSubscription::end(const Problem& problem) {
 
 void MotionSubscription::set_due(CurrentMotion motion) {
   if (stage::is_outcome(motion.motion.state) && !end_) end_ = StreamEnd{};
+  shown_ = motion.revision;
   due_ = std::move(motion);
 }
 
@@ -108,7 +109,8 @@ void MotionSubscription::read_changes() {
     }
     const server::FactRecord& record = *std::get<std::shared_ptr<const server::FactRecord>>(reading);
     const auto* change = std::get_if<stage::MotionChanged>(&record.fact);
-    if (change != nullptr && change->motion.id == followed_ && record.device == device_->name()) {
+    const bool newer = record.revision > shown_;  // the answer to a request may show more than the next events
+    if (change != nullptr && newer && change->motion.id == followed_ && record.device == device_->name()) {
       set_due(CurrentMotion(*device_, change->motion, record.revision, record.clock));
     }
   }

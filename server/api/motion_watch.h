@@ -89,6 +89,7 @@ class MotionSubscription : public Subscription<CurrentMotion> {
   server::Stage* device_ = nullptr;  // null: no motion is followed
   stage::MotionId followed_ = 0;
   std::optional<CurrentMotion> due_;
+  std::uint64_t shown_ = 0;       // its revision, or that of the one before
   std::optional<StreamEnd> end_;  // after what is due
 };
 

@@ -15,9 +15,16 @@ class JogTest : public ::testing::Test {
   bool start(const Result<std::vector<JogAxis>>& axes, const std::string& device = kDevice) {
     return jog_->start(World::by(kAnna), device, axes);
   }
+  // What is shown never goes back in time.
+  std::optional<CurrentMotion> next() {
+    auto one = reader_.next();
+    EXPECT_GT(one ? one->revision : seen_ + 1, seen_);
+    if (one) seen_ = one->revision;
+    return one;
+  }
   MotionState outcome() {
     std::optional<CurrentMotion> last;
-    while (auto one = reader_.next()) last = one;
+    while (auto one = next()) last = one;
     return last ? last->motion.state : MotionState::queued;
   }
   Reason why() { return reader_.end().problem ? reader_.end().problem->reason : Reason::unspecified; }
@@ -25,12 +32,13 @@ class JogTest : public ::testing::Test {
   World world_;
   const std::shared_ptr<Jog> jog_ = *world_.api->jogs.open({.who = kAnna});
   Reader<CurrentMotion> reader_{jog_};
+  std::uint64_t seen_ = 0;
 };
 
 // Renewed for longer than the silence that ends a jog; the gateway runs in real time here.
 TEST_F(JogTest, RunsUntilItsCallerEndsIt) {
   ASSERT_TRUE(start(plus()));
-  EXPECT_EQ(reader_.next()->motion.state, MotionState::running);
+  EXPECT_EQ(next()->motion.state, MotionState::running);
   for (int i = 0; i < 4; ++i) {
     std::this_thread::sleep_for(milliseconds(200));
     EXPECT_TRUE(jog_->renew(std::vector<JogAxis>()));
