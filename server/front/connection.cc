@@ -49,6 +49,12 @@ void Connection::begin() {
   move_on();
 }
 
+void Connection::announce_end() {
+  if (closed_ || !conversation_) return;
+  conversation_->announce_end();
+  move_on();
+}
+
 void Connection::pull(StreamId stream) {
   if (closed_) return;
   conversation_->pull(stream);

@@ -38,6 +38,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void hold(std::unique_ptr<Wire> wire) { wire_ = std::move(wire); }
   void handshake_over(std::optional<std::string> certificate);
 
+  // The daemon ends, as Conversation::announce_end().
+  void announce_end();
   // Now and then: what has taken too long is ended.
   void check(TimePoint now);
   void close(const std::optional<Closing>& why = {});

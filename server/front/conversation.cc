@@ -100,6 +100,8 @@ bool Conversation::end(Cause cause, std::uint32_t error, const char* why) {
 
 void Conversation::failed(std::uint32_t error, std::string_view why) {
   over_ = true;
+  // A client that takes its leave may say it wrongly: grpc-go names a stream of its own as the last one.
+  if (client_leaves_) return;
   fault_ = Closing{error == NGHTTP2_ENHANCE_YOUR_CALM ? Cause::over_budget : Cause::protocol_error, std::string(why)};
 }
 
@@ -153,6 +155,9 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
       return true;
     case NGHTTP2_RST_STREAM:
       return spend(Cost::reset, 1);
+    case NGHTTP2_GOAWAY:
+      client_leaves_ = true;
+      return spend(Cost::control, 1);
     case NGHTTP2_WINDOW_UPDATE:
       if (acknowledgements_due_ == 0) return spend(Cost::control, 1);
       --acknowledgements_due_;
@@ -194,6 +199,11 @@ bool Conversation::headers_came(HeaderBlock block) {
 }
 
 bool Conversation::begin_call(HeaderBlock block) {
+  if (daemon_ends_) {
+    client_.reset(block.stream, NGHTTP2_REFUSED_STREAM);
+    free_ += kStreamWindow;
+    return true;
+  }
   if (!block.fits) {
     refuse(block.stream, too_much_metadata(shared_.limits));
     return true;
@@ -327,6 +337,11 @@ void Conversation::grpc_failed() {
   }
   grpc_.reset();
   for (const StreamId stream : calls) refuse(stream, shared_.desk.no_room());
+}
+
+void Conversation::announce_end() {
+  daemon_ends_ = true;
+  client_.announce_end();
 }
 
 void Conversation::grpc_left() {

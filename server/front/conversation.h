@@ -46,6 +46,9 @@ class Conversation final : private Http2Session::Events {
 
   // gRPC cannot be reached: its calls are refused, and from now on only stops are served.
   void grpc_failed();
+  // The daemon ends: the client learns it before the ends of its calls, or it would make them again here. Calls that
+  // still come are refused with REFUSED_STREAM, so that a client may make them elsewhere.
+  void announce_end();
   // gRPC has closed its side: the connection is over when the answers that are due have been written.
   void grpc_left();
 
@@ -113,6 +116,8 @@ class Conversation final : private Http2Session::Events {
   bool stops_only_;
   TimePoint now_;
   bool over_ = false;
+  bool daemon_ends_ = false;
+  bool client_leaves_ = false;  // it has sent GOAWAY
   std::optional<Closing> fault_;
 
   std::map<StreamId, Call> calls_;

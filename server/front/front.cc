@@ -108,6 +108,10 @@ void Front::ended(const Connection& connection, const std::optional<Closing>& wh
   look_whether_grpc_has_left();
 }
 
+void Front::announce_end() {
+  for (const auto& [address, connection] : Held(connections_)) connection->announce_end();
+}
+
 void Front::when_grpc_has_left(std::function<void()> then) {
   when_grpc_has_left_ = std::move(then);
   look_whether_grpc_has_left();

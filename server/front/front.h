@@ -36,6 +36,8 @@ class Front {
 
   void enter(Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin);
 
+  // The daemon ends: Conversation::announce_end() of all.
+  void announce_end();
   // Calls `then` on the strand once gRPC has closed all of its connections, and clients were sent what it said before.
   void when_grpc_has_left(std::function<void()> then);
 

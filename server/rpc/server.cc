@@ -62,7 +62,7 @@ class Server::Services {
  private:
   void build();
   void enter(Descriptor connection);
-  void pass_on_what_grpc_said();
+  void on_the_front(std::function<void(const std::function<void()>& done)> act);
 
   api::Api api_;
   const HalfClose half_close_;
@@ -193,21 +193,26 @@ Server::Services::~Services() {
   connection_metrics_.reset();
   ending_ = true;
   listener_->stop_accepting();
+  on_the_front([this](const std::function<void()>& done) {
+    front_.announce_end();
+    done();
+  });
   api_.streams.end_all();
   if (grpc_ != nullptr) {
     grpc_->Shutdown(std::chrono::system_clock::now() + kShutdownWait);
     grpc_->Wait();
-    pass_on_what_grpc_said();
+    // How a stream ended may still be on its way through the front.
+    on_the_front([this](const std::function<void()>& done) { front_.when_grpc_has_left(done); });
   }
   listener_->stop();
 }
 
-// How a stream ended may still be on its way through the front. A client that does not read is not waited for.
-void Server::Services::pass_on_what_grpc_said() {
-  const auto passed_on = std::make_shared<std::promise<void>>();
-  boost::asio::post(listener_->strand(),
-                    [this, passed_on] { front_.when_grpc_has_left([passed_on] { passed_on->set_value(); }); });
-  passed_on->get_future().wait_for(kShutdownWait);
+// Waits until `act`, on the front's strand, has called what it was given. A client that does not read is not waited
+// for.
+void Server::Services::on_the_front(std::function<void(const std::function<void()>& done)> act) {
+  const auto acted = std::make_shared<std::promise<void>>();
+  boost::asio::post(listener_->strand(), [acted, act = std::move(act)] { act([acted] { acted->set_value(); }); });
+  acted->get_future().wait_for(kShutdownWait);
 }
 
 Server::Server(std::unique_ptr<Services> services) : services_(std::move(services)) {}

@@ -226,6 +226,37 @@ TEST_F(ConversationTest, GrpcsFarewellIsTheFronts) {
   EXPECT_FALSE(conversation->fault());
 }
 
+TEST_F(ConversationTest, AnEndIsAnnouncedAndCallsThatStillComeMayBeMadeElsewhere) {
+  open();
+  say(call(1, "/forward"));
+  passed_on();
+  heard();
+  conversation->announce_end();
+  const std::vector<Seen> farewell = heard();
+  ASSERT_THAT(farewell, SizeIs(1));
+  EXPECT_EQ(farewell[0].type, FrameType::goaway);
+  EXPECT_EQ(farewell[0].payload, "\x7f\xff\xff\xff\0\0\0\0"s) << "no error, and any last stream";
+  say(call(3, "/forward"));
+  EXPECT_THAT(only(FrameType::headers, passed_on()), IsEmpty());
+  const std::vector<Seen> refused = only(FrameType::rst_stream, heard());
+  ASSERT_THAT(refused, SizeIs(1));
+  EXPECT_EQ(refused[0].payload, "\0\0\0\x07"s);
+  grpc_says(answer(1, false));
+  grpc_says(trailers(1));
+  EXPECT_THAT(only(FrameType::headers, heard()), SizeIs(2)) << "what is open continues";
+  EXPECT_EQ(fault(), "");
+}
+
+// grpc-go names a stream of its own in its GOAWAY, which RFC 9113, 6.8 does not allow.
+TEST_F(ConversationTest, AClientThatTakesItsLeaveWronglyIsNoFault) {
+  open();
+  say(call(1, "/forward"));
+  say(frame(FrameType::goaway, 0, 0, "\0\0\0\x01\0\0\0\0"s));
+  heard();
+  EXPECT_TRUE(conversation->over());
+  EXPECT_EQ(fault(), "");
+}
+
 // Its client may make it again: gRPC has not seen it.
 TEST_F(ConversationTest, WhatGrpcDidNotSeeIsRefused) {
   open();
