@@ -186,7 +186,7 @@ class WithDaemon(unittest.TestCase):
         with open(path, "w", encoding="utf-8") as file:
             file.write("# a square\n1=0.2 2=0 speed=1mm/s\n1=0 2=200\n\n1=-0.2 2=0   # back\n1=0 2=-0.2mm\n")
         shown = self.ok("path", path, "--speed", "1mm/s")
-        self.assertIn("segment 2 sent: OK_D\n", shown)
+        self.assertRegex(shown, r"segment 2 (sent: OK_D\n|came too late)")  # the latter on a busy machine
         self.assertIn("segment 4 done\n", shown)
         self.assertRegex(shown, r"axis 1 completed\n")
         self.assertRegex(shown, r"done: axis x at 0 mm, axis y at 0 um\n\Z")

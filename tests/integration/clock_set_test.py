@@ -27,7 +27,7 @@ speed = 10
 HOUR_S = 3600
 JUMPS = (25 * HOUR_S, -365 * 24 * HOUR_S)  # each from the true time
 MOVE = ["move", "1=+100pulse", "--relative"]
-SLOW_MOVE = ["move", "1=15mm", "--speed", "2mm/s"]  # takes a second here
+SLOW_MOVE = ["move", "1=15mm", "--speed", "0.5mm/s"]  # takes some seconds here
 
 
 class ClockSet(unittest.TestCase):

@@ -190,8 +190,8 @@ class MillKill(unittest.TestCase):
         self.begin_lines()
         self.axisctl("mill", "pause", "--raise")
         self.await_state("PAUSED")
+        self.await_true(self.aborted, "the tool is not up")  # only then has the mill begun all that it will
         before = self.numbers(1)
-        self.assertTrue(self.aborted(), "the tool is up")
         # A daemon that dies before its place is on the disk does not know it: the job would be PAUSED_UNKNOWN.
         kept = self.folder / "state" / "spool" / "mill" / "1.json"
         self.await_true(lambda: "from" in json.loads(json.loads(kept.read_text())["facts"]), "its place is not kept")
@@ -218,10 +218,10 @@ class MillKill(unittest.TestCase):
         self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
         self.axisctl("mill", "confirm", "--yes", "--start")
         self.await_state("FED")
-        self.assertEqual(self.numbers(1), list(range(1, 41)))
         raised = lambda: [entry["command"] for entry in self.entries() if entry.get("command") == "!ZM"]
         self.await_true(lambda: len(raised()) >= 2, "the mill has not executed what it was fed")
         self.assertEqual(len(raised()), 2, "by the two epilogues, and by no abort")
+        self.assertEqual(self.numbers(1), list(range(1, 41)))
 
     def end_daemon(self):
         self.daemon.signal(signal.SIGTERM)
