@@ -31,6 +31,7 @@
 #include "server/rpc/history_service.h"
 #include "server/rpc/mill_service.h"
 #include "server/rpc/position_service.h"
+#include "server/rpc/queue_waker.h"
 #include "server/rpc/refusals.h"
 #include "server/rpc/rpc_metrics.h"
 #include "server/rpc/setting_service.h"
@@ -88,6 +89,7 @@ class Server::Services {
   std::unique_ptr<grpc::experimental::ExternalConnectionAcceptor> acceptor_;
   std::unique_ptr<grpc::Server> grpc_;
   std::shared_ptr<grpc::health::v1::Health::Stub> itself_;  // a client within this process
+  std::optional<QueueWaker> waker_;                         // none before gRPC has started
   front::Front front_;
   std::atomic<bool> ending_ = false;
 };
@@ -127,6 +129,9 @@ Result<void> Server::Services::serve(server::Gateway& gateway, const server::Con
   if (grpc_ == nullptr) {
     return fail(Reason::internal, "gRPC does not start", "SPDLOG_LEVEL=debug shows what it says about it");
   }
+  const auto itself = grpc_->InProcessChannel({});
+  itself_ = grpc::health::v1::Health::NewStub(itself);
+  waker_.emplace(itself, gateway.timeouts());
   listener_->start(limits,
                    [this](Descriptor connection, server::Acceptor::Service service, server::Acceptor::Origin origin) {
                      front_.enter(std::move(connection), service, origin);
@@ -158,7 +163,6 @@ void Server::Services::build() {
   // The front knows who calls, and what the caller may do.
   acceptor_ = builder.experimental().AddExternalConnectionAcceptor(Type::FROM_FD, grpc::InsecureServerCredentials());
   grpc_ = builder.BuildAndStart();
-  if (grpc_ != nullptr) itself_ = grpc::health::v1::Health::NewStub(grpc_->InProcessChannel({}));
 }
 
 // gRPC's threads answer where a call of its own passes through them.
@@ -191,6 +195,7 @@ void Server::Services::enter(Descriptor connection) {
 
 Server::Services::~Services() {
   connection_metrics_.reset();
+  waker_.reset();
   ending_ = true;
   listener_->stop_accepting();
   on_the_front([this](const std::function<void()>& done) {
