@@ -67,7 +67,8 @@ prove() {
   fi
   timed "clone" clone_head
   timed "deploy/quickstart.sh --once" inside "$repository/deploy/quickstart.sh" --once
-  timed "tests/run.sh" inside "$repository/tests/run.sh"
+  # Whether all is there that the tests need; what 1,000 seeds find is for tests/run.sh itself.
+  timed "tests/run.sh" inside env AXISGATE_SEEDS=100 "$repository/tests/run.sh"
 }
 
 arguments=()
