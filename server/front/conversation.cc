@@ -76,6 +76,7 @@ Conversation::Conversation(const Shared& shared, Peer peer, bool stops_only, Own
 void Conversation::from_client(std::string_view bytes, TimePoint now) {
   now_ = now;
   if (over_) return;
+  client_leaves_ = false;
   const bool was_within = is_within();
   pace_.came(bytes.size());
   unshown_ += static_cast<std::int64_t>(bytes.size());
@@ -115,6 +116,7 @@ bool Conversation::spend(Cost cost, double tokens) {
 bool Conversation::frame_begun(const nghttp2_frame_hd& frame) {
   unshown_ -= kFrameHeadBytes + static_cast<std::int64_t>(frame.length);
   strays_ = false;
+  client_leaves_ = frame.type == NGHTTP2_GOAWAY;
   if (over_) return false;
   if (frame.type == NGHTTP2_HEADERS || frame.type == NGHTTP2_CONTINUATION) return spend_for_headers(frame);
   in_block_ = false;
@@ -155,9 +157,6 @@ bool Conversation::spend_for(const nghttp2_frame_hd& frame) {
       return true;
     case NGHTTP2_RST_STREAM:
       return spend(Cost::reset, 1);
-    case NGHTTP2_GOAWAY:
-      client_leaves_ = true;
-      return spend(Cost::control, 1);
     case NGHTTP2_WINDOW_UPDATE:
       if (acknowledgements_due_ == 0) return spend(Cost::control, 1);
       --acknowledgements_due_;

@@ -117,7 +117,7 @@ class Conversation final : private Http2Session::Events {
   TimePoint now_;
   bool over_ = false;
   bool daemon_ends_ = false;
-  bool client_leaves_ = false;  // it has sent GOAWAY
+  bool client_leaves_ = false;  // of the bytes that came last, its GOAWAY was the last frame
   std::optional<Closing> fault_;
 
   std::map<StreamId, Call> calls_;

@@ -257,6 +257,16 @@ TEST_F(ConversationTest, AClientThatTakesItsLeaveWronglyIsNoFault) {
   EXPECT_EQ(fault(), "");
 }
 
+TEST_F(ConversationTest, AFaultAfterAFarewellIsOne) {
+  open();
+  say(call(1, "/forward"));
+  say(frame(FrameType::goaway, 0, 0, "\0\0\0\0\0\0\0\0"s));
+  say(frame(FrameType::ping, 0, 0, "short"));
+  heard();
+  EXPECT_TRUE(conversation->over());
+  EXPECT_NE(fault(), "");
+}
+
 // Its client may make it again: gRPC has not seen it.
 TEST_F(ConversationTest, WhatGrpcDidNotSeeIsRefused) {
   open();
