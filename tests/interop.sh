@@ -12,7 +12,7 @@ built="$repository/build/interop"
 packages=(curl libprotobuf-dev nghttp2-client protobuf-compiler protobuf-compiler-grpc python3-grpcio python3-h2
   python3-protobuf python3-venv)
 
-# What clients meet: the protocol, the front, and what answers behind it.
+# Clients meet the protocol, the front, and what answers behind it.
 input_paths() {
   git -C "$repository" ls-tree -r --name-only HEAD -- proto server/front server/rpc server/api tests/interop \
     tests/interop.sh tests/recorded-proof.sh

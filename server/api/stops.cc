@@ -36,7 +36,7 @@ class Gathering {
     stops_[index].state = state;
     if (--missing_ == 0) answer_(std::move(stops_));
   }
-  // As the daemon ends its line is closed already, and `at_exit` has been obeyed.
+  // The line of this device is closed already, since the daemon ends; `at_exit` has been obeyed.
   void add_too_late(std::size_t index) { add(index, {.axes = {}, .problem = daemon_ending()}, {}); }
 
  private:

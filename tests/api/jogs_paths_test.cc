@@ -15,7 +15,7 @@ class JogTest : public ::testing::Test {
   bool start(const Result<std::vector<JogAxis>>& axes, const std::string& device = kDevice) {
     return jog_->start(World::by(kAnna), device, axes);
   }
-  // What is shown never goes back in time.
+  // A reader is never shown an earlier state after a later one.
   std::optional<CurrentMotion> next() {
     auto one = reader_.next();
     EXPECT_GT(one ? one->revision : seen_ + 1, seen_);

@@ -16,7 +16,7 @@ WORKERS = 600  # a call needs one as long as it runs
 MANY = 50  # so many calls of a method are answered well
 SETTLE_S = 0.1
 
-# What a gateway must set so that honest clients may send PINGs and metadata.
+# These options let honest clients send PINGs and metadata.
 GENEROUS = {"grpc.max_metadata_size": 64 << 10, "grpc.http2.max_ping_strikes": 0, "grpc.so_reuseport": 0}
 OPTIONS = {
     "no gzip": {"grpc.compression_enabled_algorithms_bitset": 1},

@@ -11,7 +11,7 @@ import threading
 from gateway import HERE, running
 
 LIMIT_S = 120
-# What a breaker does wrong in each row (breaker.py).
+# In each row the breaker does this wrong (breaker.py).
 FAULTS = {
     "unary-front": "loses an answer",
     "unary-grpc": "loses an answer",

@@ -125,7 +125,7 @@ def check_windows(_, address):
 
 TOOLS = {"h2load": check_h2load, "curl": check_curl, "grpcurl": check_grpcurl, "ghz": check_ghz,
          "python h2": check_windows}
-# What is wrong with a gateway that each must notice. "ends": the daemon is killed while it is asked.
+# Each tool must notice a gateway that does this. "ends": the daemon is killed while it is asked.
 NOTICED = {"h2load": "ends", "curl": "loses an answer", "grpcurl": "loses an answer", "ghz": "refuses some",
            "python h2": "loses an answer"}
 COMPLAINTS = (AssertionError, KeyError, ValueError, OSError)
