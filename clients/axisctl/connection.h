@@ -21,6 +21,7 @@
 #include "axisgate/v1/simulator.grpc.pb.h"
 #include "axisgate/v1/stage.grpc.pb.h"
 #include "clients/axisctl/options.h"
+#include "clients/axisctl/upload_steps.h"
 
 namespace axisgate::axisctl {
 
@@ -61,19 +62,19 @@ class Connection {
     });
   }
 
-  // The same for a request in several messages, of which the first has the context; there is at least one.
+  // The same for a request in several messages, of which the first has the context; there is at least one. What is
+  // limited is the time of each message and of the answer: UploadSteps.
   template <class Stub, class Request, class Response>
   Response upload(const std::unique_ptr<Stub>& stub,
-                  std::unique_ptr<grpc::ClientWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*),
-                  std::vector<Request> messages, std::chrono::seconds limit) const {
+                  std::unique_ptr<grpc::ClientAsyncWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*,
+                                                                                    grpc::CompletionQueue*),
+                  std::vector<Request> messages) const {
     messages.front().mutable_context()->set_request_memory(request_memory_);
-    return attempt<Response>(true, limit, [&](grpc::ClientContext& context, Response& response) {
-      const auto writer = (stub.get()->*method)(&context, &response);
-      for (const Request& message : messages) {
-        if (!writer->Write(message)) break;  // the daemon has refused: why is in the status
-      }
-      writer->WritesDone();
-      return writer->Finish();
+    std::size_t bytes = 0;
+    for (const Request& message : messages) bytes += message.ByteSizeLong();
+    return attempt<Response>(true, upload_limit(bytes), [&](grpc::ClientContext& context, Response& response) {
+      UploadSteps steps(context);
+      return steps.run(*(stub.get()->*method)(&context, &response, steps.queue()), messages);
     });
   }
 

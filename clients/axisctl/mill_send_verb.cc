@@ -24,9 +24,6 @@
 namespace axisgate::axisctl {
 namespace {
 
-constexpr std::size_t kUploadPiece = 1 << 16;
-constexpr std::size_t kSlowestUpload = 100'000;  // bytes a second, over a network
-
 // In pieces, each in a message of its own. Returns how many bytes it has.
 std::int64_t add_file(const std::string& name, std::vector<v1::SendJobRequest>& messages) {
   const auto close = [](std::FILE* file) { return file == stdin ? 0 : std::fclose(file); };
@@ -104,9 +101,8 @@ int mill_send(const Session& session) {
   if (header.parts().empty()) header.set_tool(tool_of(session, device));
   for (const std::string& section : job.accepted) header.add_accepted_warnings(section);
   messages.front() = header;
-  const auto limit = kStartLimit + std::chrono::seconds((messages.size() - 1) * kUploadPiece / kSlowestUpload);
-  const v1::SendJobResponse response =
-      session.connection.upload(session.connection.mills, &v1::MillService::Stub::SendJob, std::move(messages), limit);
+  const v1::SendJobResponse response = session.connection.upload(
+      session.connection.mills, &v1::MillService::Stub::PrepareAsyncSendJob, std::move(messages));
   session.options.json ? print_json(response) : print_line(state_text(response.job()));
   return kDone;
 }
