@@ -296,7 +296,7 @@ void Conversation::request_is_whole(StreamId stream) {
   if (found == calls_.end() || !found->second.request) return;
   found->second.request.reset();
   if (!own_calls_.has(stream)) return grpc_->end_request(stream);
-  if (const auto refusal = own_calls_.ask(stream)) refuse(stream, *refusal);
+  own_calls_.ask(stream);
 }
 
 void Conversation::refuse(StreamId stream, const Reply& refusal) {

@@ -6,6 +6,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "device/core/time.h"
@@ -76,10 +77,10 @@ class Desk {
   // For a call that gRPC cannot be reached for, because no descriptors are free.
   virtual Reply no_room() = 0;
 
-  // `message` is the whole request. `wake` is called from any thread, perhaps from within this and after the answer has
-  // gone, whenever take() has something.
-  virtual std::unique_ptr<Answer> answer(const Headers& headers, const Peer& peer, const std::string& message,
-                                         std::function<void()> wake) = 0;
+  // `message` is that of the whole request; nothing, if the request is not one message. `wake` is called from any
+  // thread, perhaps from within this and after the answer has gone, whenever take() has something.
+  virtual std::unique_ptr<Answer> answer(const Headers& headers, const Peer& peer,
+                                         std::optional<std::string_view> message, std::function<void()> wake) = 0;
 };
 
 }  // namespace axisgate::front

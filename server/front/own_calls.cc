@@ -23,15 +23,12 @@ std::optional<Reply> OwnCalls::take(StreamId stream, std::string_view bytes) {
   return std::nullopt;
 }
 
-std::optional<Reply> OwnCalls::ask(StreamId stream) {
+void OwnCalls::ask(StreamId stream) {
   Call& call = calls_.at(stream);
-  const auto message = only_message(call.request);
-  if (!message) return Reply{.code = kInvalidArgument, .message = "the request is not one whole message"};
-  call.answer =
-      desk_.answer(call.headers, peer_, std::string(*message), [on_answer = on_answer_, stream] { on_answer(stream); });
+  call.answer = desk_.answer(call.headers, peer_, only_message(call.request),
+                             [on_answer = on_answer_, stream] { on_answer(stream); });
   call.holding.give_back();
   call.request = {};
-  return std::nullopt;
 }
 
 void OwnCalls::pull(StreamId stream) {

@@ -28,9 +28,10 @@ class OwnCalls {
   bool has(StreamId stream) const { return calls_.contains(stream); }
 
   void begin(StreamId stream, Headers headers);
-  // A piece of its request, or, with ask(), the end of it. A refusal, if it cannot be taken.
+  // A piece of its request. A refusal, if it cannot be taken.
   std::optional<Reply> take(StreamId stream, std::string_view bytes);
-  std::optional<Reply> ask(StreamId stream);
+  // Its request is whole.
+  void ask(StreamId stream);
   // Its caller has left it, or it has been answered.
   void forget(StreamId stream) { calls_.erase(stream); }
 

@@ -108,8 +108,8 @@ front::Verdict Desk::refused(const Headers& headers, const Peer& peer, const Pro
 
 front::Reply Desk::no_room() { return to_reply(nothing_left()); }
 
-std::unique_ptr<front::Answer> Desk::answer(const Headers& headers, const Peer& peer, const std::string& message,
-                                            std::function<void()> wake) {
+std::unique_ptr<front::Answer> Desk::answer(const Headers& headers, const Peer& peer,
+                                            std::optional<std::string_view> message, std::function<void()> wake) {
   return answers_.answer(*OwnAnswers::row_of(kind_of(method_of(headers))),
                          std::make_shared<Served>(metrics_, refusals_, headers, peer), deadline_of(headers), message,
                          std::move(wake));

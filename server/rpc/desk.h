@@ -19,7 +19,7 @@ class Desk final : public front::Desk {
   front::Verdict judge(const front::Headers& headers, const front::Peer& peer, bool stops_only) override;
   front::Reply no_room() override;
   std::unique_ptr<front::Answer> answer(const front::Headers& headers, const front::Peer& peer,
-                                        const std::string& message, std::function<void()> wake) override;
+                                        std::optional<std::string_view> message, std::function<void()> wake) override;
 
  private:
   front::Verdict refused(const front::Headers& headers, const front::Peer& peer, const Problem& problem);

@@ -59,10 +59,12 @@ v1::ListDevicesResponse list_of(const api::DeviceList& list) {
 }  // namespace
 
 template <class Request, OwnAnswers::Method<Request> kMethod>
-std::unique_ptr<Answer> OwnAnswers::parsed(const std::string& message, Asked asked) const {
+std::unique_ptr<Answer> OwnAnswers::parsed(std::optional<std::string_view> message, Asked asked) const {
   Request request;
-  if (request.ParseFromString(message)) return (this->*kMethod)(request, std::move(asked));
-  front::Reply refusal = asked.served->refused(not_readable(asked.served->method()));
+  if (message && request.ParseFromArray(message->data(), static_cast<int>(message->size())))
+    return (this->*kMethod)(request, std::move(asked));
+  const std::string method = asked.served->method();
+  front::Reply refusal = asked.served->refused(message ? not_readable(method) : not_one_message(method));
   return answer_now(std::move(refusal), std::move(asked.wake));
 }
 
@@ -80,7 +82,7 @@ const OwnAnswers::Row* OwnAnswers::row_of(RequestKind kind) {
 }
 
 std::unique_ptr<Answer> OwnAnswers::answer(const Row& row, std::shared_ptr<Served> served,
-                                           std::optional<TimePoint> deadline, const std::string& message,
+                                           std::optional<TimePoint> deadline, std::optional<std::string_view> message,
                                            Wake wake) const {
   return (this->*row.answer)(message, {std::move(served), deadline, std::move(wake)});
 }

@@ -5,7 +5,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
-#include <string>
+#include <string_view>
 
 #include "axisgate/v1/command.pb.h"
 #include "axisgate/v1/device.pb.h"
@@ -34,21 +34,22 @@ class OwnAnswers {
   // A kind that is answered here, and how.
   struct Row {
     api::RequestKind kind;
-    std::unique_ptr<front::Answer> (OwnAnswers::*answer)(const std::string& message, Asked asked) const;
+    std::unique_ptr<front::Answer> (OwnAnswers::*answer)(std::optional<std::string_view> message, Asked asked) const;
   };
   // Nothing for one that gRPC answers.
   static const Row* row_of(api::RequestKind kind);
 
-  // `deadline` is the call's.
+  // `deadline` is the call's; `message` as front::Desk::answer() has it.
   std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
-                                        std::optional<TimePoint> deadline, const std::string& message, Wake wake) const;
+                                        std::optional<TimePoint> deadline, std::optional<std::string_view> message,
+                                        Wake wake) const;
 
  private:
   template <class Request>
   using Method = std::unique_ptr<front::Answer> (OwnAnswers::*)(const Request&, Asked) const;
 
   template <class Request, Method<Request> kMethod>
-  std::unique_ptr<front::Answer> parsed(const std::string& message, Asked asked) const;
+  std::unique_ptr<front::Answer> parsed(std::optional<std::string_view> message, Asked asked) const;
 
   std::unique_ptr<front::Answer> stop(const v1::StopRequest& request, Asked asked) const;
   std::unique_ptr<front::Answer> emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const;

@@ -49,6 +49,12 @@ Problem not_readable(std::string_view method) {
           .hint = "see that client and daemon have the same proto files"};
 }
 
+Problem not_one_message(std::string_view method) {
+  return {.reason = Reason::invalid_request,
+          .message = fmt::format("the request holds not exactly one whole message of {}", method),
+          .hint = "send a message in gRPC's framing, five bytes for its length and then itself, also when it is empty"};
+}
+
 std::unique_ptr<hooks::ServerInterceptorFactoryInterface> unreadable_interceptor() {
   return std::make_unique<ExplainingFactory>();
 }

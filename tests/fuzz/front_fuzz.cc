@@ -72,9 +72,9 @@ class FuzzDesk final : public Desk {
     return {.refusal = {.code = 12, .message = "no"}, .unwanted = path != "/f"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
-  std::unique_ptr<Answer> answer(const Headers&, const Peer&, const std::string& message,
+  std::unique_ptr<Answer> answer(const Headers&, const Peer&, std::optional<std::string_view> message,
                                  std::function<void()> wake) override {
-    require(message.size() <= kLimits.message_bytes);
+    require(!message || message->size() <= kLimits.message_bytes);
     auto replies = std::make_shared<std::vector<Reply>>();
     asked.push_back([replies, wake = std::move(wake)](Reply reply) {
       replies->push_back(std::move(reply));

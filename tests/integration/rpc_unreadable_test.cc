@@ -89,6 +89,16 @@ TEST_F(UnreadableTest, EveryMethodSaysSo) {
   }
 }
 
+TEST_F(UnreadableTest, WhatIsNotOneMessageIsRefusedByMethodsThatTheFrontAnswers) {
+  const std::string method = "/axisgate.v1.StageService/Stop";
+  for (const std::vector<std::string>& messages : {std::vector<std::string>{}, {"", ""}}) {
+    const grpc::Status status = send(method, messages);
+    EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT) << messages.size();
+    EXPECT_THAT(status.error_message(), HasSubstr("not exactly one whole message of " + method));
+    EXPECT_EQ(reason(status), v1::REASON_INVALID_REQUEST);
+  }
+}
+
 // To end its reading is all that gRPC does about it, as at the end of a path.
 TEST_F(UnreadableTest, HalfAPathDoesNotRun) {
   const std::string method = "/axisgate.v1.StageService/RunPath";

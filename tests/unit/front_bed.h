@@ -47,10 +47,10 @@ class TestDesk final : public Desk {
         .what = Verdict::What::refuse, .refusal = {.code = 7, .message = "no: 100 %"}, .unwanted = path == "/unwanted"};
   }
   Reply no_room() override { return {.code = 8, .message = "no room"}; }
-  std::unique_ptr<Answer> answer(const Headers&, const Peer&, const std::string& message,
+  std::unique_ptr<Answer> answer(const Headers&, const Peer&, std::optional<std::string_view> message,
                                  std::function<void()> wake) override {
     auto replies = std::make_shared<std::vector<Reply>>();
-    asked.emplace_back(message, [replies, wake = std::move(wake)](Reply reply) {
+    asked.emplace_back(std::optional<std::string>(message), [replies, wake = std::move(wake)](Reply reply) {
       replies->push_back(std::move(reply));
       wake();
     });
@@ -60,7 +60,8 @@ class TestDesk final : public Desk {
   std::shared_ptr<int> place = std::make_shared<int>();
   std::string caller;
   std::vector<std::string> judged;
-  std::vector<std::pair<std::string, std::function<void(Reply)>>> asked;
+  // With the message; nothing, where the request was not one message.
+  std::vector<std::pair<std::optional<std::string>, std::function<void(Reply)>>> asked;
 };
 
 struct Seen {

@@ -153,10 +153,14 @@ TEST_F(OwnCallsTest, ATooLongRequestIsRefusedAndTheConnectionGoesOn) {
   EXPECT_THAT(desk.asked, SizeIs(1));
 }
 
-TEST_F(OwnCallsTest, WhatIsNoWholeMessageIsRefused) {
+// The desk refuses it, so that it is counted and noted as other refusals are.
+TEST_F(OwnCallsTest, ThatThereIsNotOneWholeMessageIsForTheDesk) {
   open();
   say(call(1, "/ask") + frame(FrameType::data, kEndStream, 1, "\0\0\0\0\2a"s));
-  EXPECT_EQ(find(headers_of(heard().back()), "grpc-status"), "3");
+  say(call(3, "/ask", true));
+  ASSERT_THAT(desk.asked, SizeIs(2));
+  EXPECT_EQ(desk.asked[0].first, std::nullopt);
+  EXPECT_EQ(desk.asked[1].first, std::nullopt);
   EXPECT_EQ(fault(), "");
 }
 
