@@ -3,19 +3,26 @@
 import contextlib
 import json
 import pathlib
+import re
 import socket
+import subprocess
 import sys
 import tempfile
 
 HERE = pathlib.Path(__file__).resolve().parent
 sys.path.insert(0, str(HERE.parent / "integration"))
 
-from programs import ROOT, Daemon  # noqa: E402
+from programs import BIN, LIMIT_S, ROOT, Daemon  # noqa: E402
 
 CONFIG = """
 listen = "ADDRESS"
 metrics = "127.0.0.1:0"
 socket = "{socket}"
+
+[network]
+listen = "127.0.0.1:0"
+certificate = "FOLDER/gateway.crt"
+key = "FOLDER/gateway.key"
 
 [access]
 local = "admin"
@@ -48,9 +55,16 @@ class Gateway:
     def __init__(self, host="127.0.0.1"):
         self._folder = tempfile.TemporaryDirectory(prefix="axisgate-interop-")
         self.address = free_address(host)
+        subprocess.run([BIN / "axisgate-certificates", self._folder.name, "lab", "gateway"], check=True, timeout=LIMIT_S)
         profile = ROOT / "deploy" / "mills" / "mdx-20.toml"
-        self._config = CONFIG.replace("ADDRESS", self.address).replace("PROFILE", str(profile))
+        self._config = CONFIG.replace("ADDRESS", self.address).replace("PROFILE", str(profile)).replace("FOLDER", self._folder.name)
         self.daemon = Daemon(self._folder.name, self._config)
+
+    def tls_address(self):
+        return re.search(r"gRPC with TLS on (\S+)", self.daemon.log())[1]
+
+    def new_token(self):
+        return self.daemon.run("token", "create", "suite").stdout.strip()
 
     def restart(self):
         self.daemon.stop()

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # Builds h2spec, grpcurl and ghz from their published sources. h2spec asks by GET and without a content type, which is no
-# call of gRPC, so that is changed; the versions of what it is built with are in go.mod beside this.
+# call of gRPC, so that is changed, and it gets a token; the versions of what it is built with are in go.mod beside this.
 # usage: build.sh FOLDER
 set -euo pipefail
 
@@ -18,6 +18,8 @@ build_h2spec() {
   sed -i -e 's|HeaderField(":method", "GET"),|HeaderField(":method", "POST"),|' \
     -e 's|HeaderField(":authority", authority),|&\n\t\tHeaderField("content-type", "application/grpc"),|' \
     -e 's|HeaderField("content-type", "application/grpc"),|&\n\t\tHeaderField("te", "trailers"),|' \
+    -e 's|HeaderField("te", "trailers"),|&\n\t\tHeaderField("authorization", "Bearer "+os.Getenv("H2SPEC_TOKEN")),|' \
+    -e 's|^import (|&\n\t"os"|' \
     "$folder/h2spec-source/spec/util.go"
   (cd "$folder/h2spec-source" && go build -o "$folder/h2spec" ./cmd/h2spec)
 }
