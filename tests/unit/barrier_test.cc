@@ -171,6 +171,21 @@ TEST_F(BarrierTest, AnOwedIdentityIsSwallowedAfterwards) {
   EXPECT_FALSE(settle_outstanding(owed, kIdentity)) << "no more than is owed";
 }
 
+// Two stops in one barrier: the ?:CMD from before the first is answered late, and shows nothing of the second.
+TEST_F(BarrierTest, AQuestionAskedBeforeTheStopDoesNotStandForTheOneBehindIt) {
+  auto it = barrier("?:EP");
+  it.start(at(0));
+  it.restart(at(10));
+  it.restart(at(20));
+  EXPECT_THAT(lines, ElementsAre("?:CMD", "*IDN?", "?:CMD"));
+  EXPECT_TRUE(it.on_line("?:EP", at(30)));
+  EXPECT_EQ(it.echo(), "?:EP");
+  EXPECT_EQ(lines.size(), 3u);
+  EXPECT_TRUE(it.on_line(kIdentity, at(40)));
+  EXPECT_TRUE(it.on_line("*IDN?", at(41)));
+  EXPECT_THAT(lines, ElementsAre("?:CMD", "*IDN?", "?:CMD", "*IDN?"));
+}
+
 // The first identity to come was requested before the stop, whose OK has not come yet, even if it comes twice.
 TEST_F(BarrierTest, AnIdentityAskedForBeforeTheStopDoesNotPass) {
   auto it = barrier("");

@@ -44,7 +44,7 @@ void Barrier::restart(TimePoint now) {
 void Barrier::begin(Step step, TimePoint now) {
   step_ = step;
   probes_ = 0;
-  older_ = guarded(Guard::older_identities) ? outstanding_.identities : 0;
+  older_ = older_answers(step);
   if (step == Step::silence) {
     silence_ = guarded(Guard::silence) ? std::max(limits_.silence, 2 * (now - probed_)) : Duration::zero();
     deadline_ = now + silence_;
@@ -52,6 +52,12 @@ void Barrier::begin(Step step, TimePoint now) {
   } else {
     probe(now);
   }
+}
+
+int Barrier::older_answers(Step step) const {
+  if (!guarded(Guard::older_identities)) return 0;
+  if (step == Step::identity) return outstanding_.identities;
+  return step == Step::behind_stop ? outstanding_.echoes : 0;
 }
 
 void Barrier::probe(TimePoint now) {
@@ -79,6 +85,10 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   }
   if (is_known_command(line) && std::exchange(question_before_stop_, false)) echo_ = line;
   if (step_ == Step::behind_stop && is_known_command(line)) {
+    if (older_ > 0) {
+      --older_;
+      return settle_outstanding(outstanding_, line);
+    }
     begin(Step::identity, now);
     return true;
   }

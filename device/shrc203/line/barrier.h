@@ -71,6 +71,7 @@ class Barrier {
   // before the Stop and answered twice could pass for the one requested after it.
   enum class Step { echo, behind_stop, identity, silence };
   void begin(Step step, TimePoint now);
+  int older_answers(Step step) const;
   void probe(TimePoint now);
   void expect_answer();
   void probe_again(TimePoint now);
@@ -86,8 +87,8 @@ class Barrier {
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;
-  // Identities requested before this step began, in an earlier barrier or before a Stop. The controller answers in
-  // order, so their answers come first and prove nothing.
+  // Probes of the same kind from before this step began, in an earlier barrier or before a Stop. The controller answers
+  // in order, so their answers come first and prove nothing.
   int older_ = 0;
   bool question_before_stop_ = false;  // the ?:CMD of the first step may still be answered
   TimePoint deadline_{};
