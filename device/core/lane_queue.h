@@ -4,9 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <cstdint>
-#include <deque>
-#include <map>
+#include <iterator>
 #include <optional>
 #include <string>
 #include <utility>
@@ -15,6 +13,7 @@
 #include "device/core/guard.h"
 #include "device/core/lane.h"
 #include "device/core/problem.h"
+#include "device/core/turn_queue.h"
 
 namespace axisgate {
 
@@ -38,11 +37,9 @@ class LaneQueue {
   Result<void> push(Lane lane, std::string caller, Work work, std::size_t share = kLaneMax) {
     auto& waiting = lanes_[index(lane)].waiting;
     if (guarded(Guard::lanes_bounded) && waiting.size() >= kLaneMax) return lane_full(lane, waiting.size());
-    if (share < kLaneMax && guarded(Guard::shares_bounded)) {
-      const auto own = static_cast<std::size_t>(std::ranges::count(waiting, caller, &Entry::caller));
-      if (own >= share) return share_full(lane, caller, own);
-    }
-    waiting.push_back({std::move(caller), std::move(work)});
+    const std::size_t own = waiting.size_of(caller);
+    if (share < kLaneMax && own >= share && guarded(Guard::shares_bounded)) return share_full(lane, caller, own);
+    waiting.push(std::move(caller), std::move(work));
     return {};
   }
 
@@ -63,37 +60,26 @@ class LaneQueue {
   // Removes and hands over all work for which chosen(work) holds.
   template <class Chosen, class Consume>
   void drain(Chosen chosen, Consume consume) {
-    std::deque<Work> out;
-    for (auto& lane : lanes_) {
-      std::deque<Entry> kept;
-      for (auto& entry : lane.waiting) {
-        if (chosen(entry.work)) {
-          out.push_back(std::move(entry.work));
-        } else {
-          kept.push_back(std::move(entry));
-        }
-      }
-      lane.waiting = std::move(kept);
-    }
-    for (auto& work : out) consume(std::move(work));
+    std::vector<Work> removed;
+    for (auto& lane : lanes_) std::ranges::move(lane.waiting.remove(chosen), std::back_inserter(removed));
+    for (auto& work : removed) consume(std::move(work));
   }
 
+  template <class Holds>
+  bool any_of(Holds holds) const {
+    return std::ranges::any_of(lanes_, [&](const OneLane& lane) { return lane.waiting.any_of(holds); });
+  }
+
+  // In no order.
   template <class Visit>
   void for_each(Visit visit) const {
-    for (const auto& lane : lanes_) {
-      for (const auto& entry : lane.waiting) visit(entry.work);
-    }
+    for (const auto& lane : lanes_) lane.waiting.for_each(visit);
   }
 
   // In the order in which take() would hand it over if all of it was admissible now: by the last turn of each caller.
   template <class Visit>
-  void for_each_in_turn(Lane number, Visit visit) const {
-    const auto& lane = lanes_[index(number)];
-    std::vector<std::pair<std::uint64_t, const Work*>> order;
-    for (const auto& entry : lane.waiting) order.emplace_back(lane.last_turn(entry.caller), &entry.work);
-    const auto turn_of = [](const auto& one) { return one.first; };
-    if (guarded(Guard::callers_take_turns)) std::ranges::stable_sort(order, {}, turn_of);
-    for (const auto& [turn, work] : order) visit(*work);
+  void for_each_in_turn(Lane lane, Visit visit) const {
+    lanes_[index(lane)].waiting.for_each_in_turn(visit);
   }
 
   // Whether a stop would not have to let others go first.
@@ -102,52 +88,27 @@ class LaneQueue {
   std::size_t size(Lane lane) const { return lanes_[index(lane)].waiting.size(); }
 
  private:
-  struct Entry {
-    std::string caller;
-    Work work;
-  };
   struct OneLane {
-    std::deque<Entry> waiting;
-    std::map<std::string, std::uint64_t> served;  // when each caller had its last turn
+    TurnQueue<Work> waiting;
     int passes = 0;
-
-    std::uint64_t last_turn(const std::string& caller) const {  // 0: none since the lane was empty
-      const auto found = served.find(caller);
-      return found == served.end() ? 0 : found->second;
-    }
   };
   static std::size_t index(Lane lane) { return static_cast<std::size_t>(lane); }
 
   template <class Admissible>
   std::optional<Work> take_from(std::size_t number, Admissible& admissible) {
     auto& lane = lanes_[number];
-    auto chosen = lane.waiting.end();
-    std::uint64_t chosen_served = 0;
-    for (auto entry = lane.waiting.begin(); entry != lane.waiting.end(); ++entry) {
-      if (!admissible(entry->work)) continue;
-      const auto when = lane.last_turn(entry->caller);
-      if (chosen == lane.waiting.end() || when < chosen_served) {
-        chosen = entry;
-        chosen_served = when;
-      }
-      if (when == 0 || !guarded(Guard::callers_take_turns)) break;
-    }
-    if (chosen == lane.waiting.end()) return {};
-    Work work = std::move(chosen->work);
-    lane.served[chosen->caller] = ++takes_;
-    lane.waiting.erase(chosen);
-    if (lane.waiting.empty()) lane.served.clear();
+    auto work = lane.waiting.take(admissible);
+    if (!work) return {};
     lane.passes = 0;
     last_was_stop_ = number == 0;
     for (std::size_t below = number + 1; below < kLaneCount; ++below) {
-      if (!lanes_[below].waiting.empty()) ++lanes_[below].passes;
+      if (lanes_[below].waiting.size() > 0) ++lanes_[below].passes;
     }
     return work;
   }
 
   std::array<OneLane, kLaneCount> lanes_;
   bool last_was_stop_ = false;
-  std::uint64_t takes_ = 0;
 };
 
 }  // namespace axisgate

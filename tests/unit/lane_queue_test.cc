@@ -118,6 +118,42 @@ TEST(LaneQueue, DrainHandsOverTheChosenAndKeepsTheOthersOrder) {
   EXPECT_THAT(take_all(queue), ElementsAre(2, 4));
 }
 
+TEST(LaneQueue, DrainHandsOverInTheOrderInWhichItCame) {
+  Queue queue;
+  for (const int work : {1, 3, 5}) queue.push(Lane::motion, "b", work);
+  for (const int work : {2, 4}) queue.push(Lane::motion, "a", work);
+  queue.push(Lane::stop, "c", 6);
+  std::vector<int> drained;
+  queue.drain([](int work) { return work != 3; }, [&](int work) { drained.push_back(work); });
+  EXPECT_THAT(drained, ElementsAre(6, 1, 5, 2, 4));
+  EXPECT_THAT(take_all(queue), ElementsAre(3));
+}
+
+TEST(LaneQueue, WhatIsNotAdmissibleKeepsItsPlaceAndItsCallersTurn) {
+  Queue queue;
+  queue.push(Lane::motion, "a", 10);
+  queue.push(Lane::motion, "a", 1);
+  queue.push(Lane::motion, "b", 20);
+  queue.push(Lane::motion, "b", 2);
+  const auto small = [](int work) { return work < 10; };
+  EXPECT_TRUE(queue.any_of(small));
+  EXPECT_EQ(queue.take(small), 1);
+  EXPECT_EQ(queue.take(small), 2);
+  EXPECT_FALSE(queue.any_of(small));
+  queue.push(Lane::motion, "b", 21);
+  queue.push(Lane::motion, "c", 30);
+  EXPECT_THAT(take_all(queue), ElementsAre(30, 10, 20, 21));
+}
+
+TEST(LaneQueue, TurnsAreForgottenWhenNothingWaits) {
+  Queue queue;
+  queue.push(Lane::motion, "a", 1);
+  queue.take(kAny);
+  queue.push(Lane::motion, "a", 2);
+  queue.push(Lane::motion, "b", 3);
+  EXPECT_THAT(take_all(queue), ElementsAre(2, 3));
+}
+
 TEST(LaneQueue, WorkMayComeInWhileItIsDrained) {
   Queue queue;
   queue.push(Lane::motion, "m", 1);

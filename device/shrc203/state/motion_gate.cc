@@ -74,7 +74,7 @@ std::string MotionGate::what_goes_first(const Entry& entry) const {
   }
   std::string first = "others had theirs";
   queue_.for_each([&](const Entry& other) {
-    if (!other.axes.touches(entry.axes) || !is_overdue(other)) return;
+    if (!other.axes.touches(entry.axes) || other.since > overdue_since()) return;
     first = fmt::format("motion {} of {} has waited for {} for {} and goes first", other.id, other.caller,
                         to_string(other.axes), waited(other.since));
   });
@@ -104,21 +104,22 @@ AxisSet MotionGate::busy() const {
   return axes;
 }
 
-bool MotionGate::is_overdue(const Entry& entry) const {
-  return tasks_.now() - entry.since >= kTurnAfter && guarded(Guard::motions_not_overtaken);
+// What has waited since then or longer is not overtaken.
+TimePoint MotionGate::overdue_since() const {
+  return guarded(Guard::motions_not_overtaken) ? tasks_.now() - kTurnAfter : TimePoint::min();
 }
 
 // Those that need an axis for which another has waited so long, and whose turn comes after that one's.
 std::set<MotionId> MotionGate::overtaking(AxisSet busy) const {
-  bool any = false;
-  queue_.for_each([&](const Entry& entry) { any = any || (busy.touches(entry.axes) && is_overdue(entry)); });
   std::set<MotionId> later;
-  if (!any) return later;
+  const TimePoint overdue = overdue_since();
+  if (!queue_.any_of([&](const Entry& entry) { return busy.touches(entry.axes) && entry.since <= overdue; }))
+    return later;
   AxisSet kept;
   queue_.for_each_in_turn(Lane::motion, [&](const Entry& entry) {
     const bool after = kept.touches(entry.axes);
     if (after) later.insert(entry.id);
-    if ((after || busy.touches(entry.axes)) && is_overdue(entry)) kept = kept | entry.axes;
+    if ((after || busy.touches(entry.axes)) && entry.since <= overdue) kept = kept | entry.axes;
   });
   return later;
 }
@@ -128,9 +129,7 @@ void MotionGate::admit() {
     const AxisSet taken = busy();
     const std::set<MotionId> later = overtaking(taken);
     const auto may_enter = [&](const Entry& entry) { return !taken.touches(entry.axes) && !later.contains(entry.id); };
-    bool any = false;
-    queue_.for_each([&](const Entry& entry) { any = any || may_enter(entry); });
-    if (!any) return question_turn_.keeps_nobody_out();
+    if (!queue_.any_of(may_enter)) return question_turn_.keeps_nobody_out();
     if (question_turn_.keeps_out(tasks_.now())) return;
     auto entry = queue_.take(may_enter);
     inside_[entry->id] = entry->axes;

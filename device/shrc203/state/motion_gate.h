@@ -58,7 +58,7 @@ class MotionGate {
   };
   AxisSet held() const;
   AxisSet busy() const;
-  bool is_overdue(const Entry& entry) const;
+  TimePoint overdue_since() const;
   std::set<MotionId> overtaking(AxisSet busy) const;
   std::string what_goes_first(const Entry& entry) const;
 
