@@ -61,8 +61,9 @@ class Conversation final : private Http2Session::Events {
   bool full() const { return client_.waiting() > kWaiting; }
 
   bool uses_grpc() const { return grpc_.has_value(); }
-  // Nothing more is read, and when the rest is written the connection is closed.
-  bool over() const { return over_ || client_.is_over(); }
+  // Nothing more is read, and when the rest is written the connection is closed. Once it is over it stays so, whatever
+  // answers still come.
+  bool over() { return over_ = over_ || client_.is_over(); }
   // Why, where this side ended it for a cause.
   const std::optional<Closing>& fault() const { return fault_; }
   // Nothing more is to be read from the client before then.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdlib>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,6 +12,7 @@
 #include <vector>
 
 #include "server/front/conversation.h"
+#include "tests/fuzz/require.h"
 #include "tests/http2/frames.h"
 #include "tests/http2/header_codec.h"
 
@@ -20,10 +20,6 @@ namespace {
 
 using namespace axisgate;
 using namespace axisgate::front;
-
-void require(bool good) {
-  if (!good) std::abort();
-}
 
 constexpr FrontLimits kLimits{.message_bytes = 3'000, .stop_bytes = 1'000, .held_bytes = 6'000};
 

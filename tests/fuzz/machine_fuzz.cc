@@ -1,21 +1,17 @@
 // Whatever the job, the tool stays in the work area, its time is a time, and it can be drawn.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <random>
 #include <string_view>
 
 #include "device/rml1/picture.h"
 #include "tests/fuzz/mutator.h"
+#include "tests/fuzz/require.h"
 #include "tests/rml1/mill.h"
 
 namespace {
 
 using namespace axisgate::rml1;
-
-void require(bool good) {
-  if (!good) std::abort();
-}
 
 bool ordered(const Box& box) {
   return box.lowest.x <= box.highest.x && box.lowest.y <= box.highest.y && box.lowest.z <= box.highest.z;

@@ -1,13 +1,13 @@
 // Whatever the bytes and wherever they are cut, the parser reports the same.
 #include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <string_view>
 #include <tuple>
 #include <vector>
 
 #include "device/rml1/parser.h"
 #include "tests/fuzz/mutator.h"
+#include "tests/fuzz/require.h"
 
 namespace {
 
@@ -86,8 +86,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Read whole = read(job, job.size() + 1);
   for (const std::size_t piece : {std::size_t{1}, std::size_t{7}}) {
     const Read pieces = read(job, piece);
-    if (pieces.told != whole.told || pieces.commands != whole.commands) std::abort();
-    if (!same(pieces.diagnostics, whole.diagnostics)) std::abort();
+    require(pieces.told == whole.told && pieces.commands == whole.commands);
+    require(same(pieces.diagnostics, whole.diagnostics));
   }
   return 0;
 }

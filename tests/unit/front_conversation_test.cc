@@ -257,6 +257,16 @@ TEST_F(ConversationTest, AClientThatTakesItsLeaveWronglyIsNoFault) {
   EXPECT_EQ(fault(), "");
 }
 
+// Found by the fuzzer: the library had something to write again.
+TEST_F(ConversationTest, WhatIsOverStaysOver) {
+  open();
+  say(goaway(0, ErrorCode::no_error, ""));
+  heard();
+  ASSERT_TRUE(conversation->over());
+  conversation->announce_end();
+  EXPECT_TRUE(conversation->over());
+}
+
 TEST_F(ConversationTest, AFaultAfterAFarewellIsOne) {
   open();
   say(call(1, "/forward"));
