@@ -21,7 +21,7 @@ using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-constexpr std::size_t kPieceSent = 1 << 16;
+constexpr std::size_t kPieceSent = 16'384;
 
 class MillSend : public MillVerbs {
  protected:

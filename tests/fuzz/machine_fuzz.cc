@@ -12,6 +12,7 @@
 namespace {
 
 using namespace axisgate::rml1;
+using axisgate::require;
 
 bool ordered(const Box& box) {
   return box.lowest.x <= box.highest.x && box.lowest.y <= box.highest.y && box.lowest.z <= box.highest.z;

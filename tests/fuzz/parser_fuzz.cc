@@ -12,6 +12,7 @@
 namespace {
 
 using namespace axisgate::rml1;
+using axisgate::require;
 
 struct Verdict {
   std::string_view name;
