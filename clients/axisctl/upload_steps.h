@@ -18,7 +18,7 @@ std::chrono::seconds upload_limit(std::size_t bytes);
 
 class UploadSteps {
  public:
-  // Of the call that `context` is of, and that is made over queue().
+  // `context` is that of the call, which is made over queue(); it outlives this.
   explicit UploadSteps(grpc::ClientContext& context) : context_(context) {}
 
   grpc::CompletionQueue* queue() { return &queue_; }

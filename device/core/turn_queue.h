@@ -17,8 +17,7 @@
 
 namespace axisgate {
 
-// What it costs to take work does not grow with how much waits, as long as the first work of a caller is admissible.
-// Not thread safe.
+// take() costs the same however much waits, as long as the first work of a caller is admissible. It is not thread safe.
 template <class Work>
 class TurnQueue {
  public:

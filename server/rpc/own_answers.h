@@ -39,7 +39,7 @@ class OwnAnswers {
   // Nothing for one that gRPC answers.
   static const Row* row_of(api::RequestKind kind);
 
-  // `deadline` is the call's; `message` as front::Desk::answer() has it.
+  // `deadline` is the call's, and `message` is as front::Desk::answer() describes it.
   std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
                                         std::optional<TimePoint> deadline, std::optional<std::string_view> message,
                                         Wake wake) const;

@@ -1,4 +1,4 @@
-// What must hold for every input.
+// A fuzzer states here what holds for every input.
 #pragma once
 
 #include <cstdio>

@@ -104,7 +104,7 @@ AxisSet MotionGate::busy() const {
   return axes;
 }
 
-// What has waited since then or longer is not overtaken.
+// Motions that have waited since then, or longer, are not overtaken.
 TimePoint MotionGate::overdue_since() const {
   return guarded(Guard::motions_not_overtaken) ? tasks_.now() - kTurnAfter : TimePoint::min();
 }
