@@ -62,8 +62,8 @@ class Connection {
     });
   }
 
-  // The same for a request in several messages, of which the first has the context; there is at least one. What is
-  // limited is the time of each message and of the answer: UploadSteps.
+  // The same for a request in several messages, of which the first has the context; there is at least one. UploadSteps
+  // limits the time of each message and of the answer.
   template <class Stub, class Request, class Response>
   Response upload(const std::unique_ptr<Stub>& stub,
                   std::unique_ptr<grpc::ClientAsyncWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*,

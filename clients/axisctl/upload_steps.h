@@ -1,5 +1,5 @@
-// A request in several messages, each with a time limit of its own: a slow way makes an upload long, and only one that
-// does not move is abandoned.
+// A request in several messages, each with a time limit of its own: over a slow connection an upload takes long, and
+// only one that stalls is abandoned.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -10,7 +10,7 @@
 
 namespace axisgate::axisctl {
 
-// A message is no longer than this, so that a slow way is seen to move.
+// No message is longer than this, so that a slow upload differs from one that stalls.
 inline constexpr std::size_t kUploadPiece = 1 << 14;
 
 // A message of `bytes` is on its way no longer than this; so is a whole upload, with all attempts.

@@ -51,7 +51,7 @@ Problem not_readable(std::string_view method) {
 
 Problem not_one_message(std::string_view method) {
   return {.reason = Reason::invalid_request,
-          .message = fmt::format("the request holds not exactly one whole message of {}", method),
+          .message = fmt::format("the request must hold exactly one whole message of {}", method),
           .hint = "send a message in gRPC's framing, five bytes for its length and then itself, also when it is empty"};
 }
 

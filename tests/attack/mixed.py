@@ -17,7 +17,7 @@ from target import Attackers, MemoryPeak, Target
 
 WAYS = ("loopback", "tls", "unix")
 PAUSE_S = 0.25  # between two Stops
-AFTERWARDS_S = 30
+AFTERWARDS_S = 30  # in which the daemon gives memory back
 MEMORY_PEAK_MIB, MEMORY_LATER_MIB = 150, 20  # above what there was before
 
 

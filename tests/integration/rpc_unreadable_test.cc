@@ -94,7 +94,7 @@ TEST_F(UnreadableTest, WhatIsNotOneMessageIsRefusedByMethodsThatTheFrontAnswers)
   for (const std::vector<std::string>& messages : {std::vector<std::string>{}, {"", ""}}) {
     const grpc::Status status = send(method, messages);
     EXPECT_EQ(status.error_code(), grpc::INVALID_ARGUMENT) << messages.size();
-    EXPECT_THAT(status.error_message(), HasSubstr("not exactly one whole message of " + method));
+    EXPECT_THAT(status.error_message(), HasSubstr("must hold exactly one whole message of " + method));
     EXPECT_EQ(reason(status), v1::REASON_INVALID_REQUEST);
   }
 }

@@ -114,7 +114,7 @@ TEST(SeedsThatOnceFailed, StayMendedWithAllFaults) {
 }
 
 // 8100002: a stop was late before it was seen that a prebuffer keeps a segment, and nobody was shown that. 8401104:
-// between two stops the late answer to an older ?:CMD was taken for that to the one behind the second stop.
+// the late answer to a ?:CMD from before a stop was taken for the answer to the one after it.
 TEST(SeedsThatOnceFailed, StayMendedWithStopsAtEachFault) {
   for (const std::uint64_t seed : {8100002u, 8401104u}) {
     if (!HasFatalFailure()) hold({.seed = seed, .habits = {.stop_at_faults = true}});
