@@ -11,6 +11,9 @@ namespace axisgate::server {
 namespace {
 
 constexpr Duration kPause = std::chrono::seconds(20);
+// Blocks as long as the longest messages are the system's, and go back to it at once. Otherwise the allocator raises
+// this limit with each that is freed, and they leave holes behind.
+constexpr int kOfTheSystem = 128 << 10;  // bytes
 
 void look_later(Timeouts& timeouts, std::shared_ptr<SpareMemory> memory) {
   timeouts.after(kPause, [&timeouts, memory = std::move(memory)] {
@@ -31,6 +34,7 @@ void SpareMemory::look() {
 }
 
 void keep_little_spare_memory(Timeouts& timeouts) {
+  mallopt(M_MMAP_THRESHOLD, kOfTheSystem);
   look_later(timeouts, std::make_shared<SpareMemory>(SpareMemory::Allocator{
                            .unused = [] { return mallinfo2().fordblks; },
                            .give_back = [] { malloc_trim(0); },
