@@ -232,8 +232,9 @@ void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
   Call& call = calls_[stream];
   call.place = verdict.place;
   call.uncounted = verdict.uncounted;
-  call.request.emplace(find(block.headers, "grpc-encoding").value_or(""),
-                       verdict.uncounted ? shared_.limits.stop_bytes : shared_.limits.message_bytes, shared_.held);
+  call.request = std::make_unique<RequestBody>(
+      find(block.headers, "grpc-encoding").value_or(""),
+      verdict.uncounted ? shared_.limits.stop_bytes : shared_.limits.message_bytes, shared_.held);
   call.pace.begin(now_);
   const bool whole = block.last;
   if (verdict.what == Verdict::What::answer) {

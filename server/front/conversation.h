@@ -80,8 +80,8 @@ class Conversation final : private Http2Session::Events {
   struct Call {
     std::shared_ptr<void> place;
     bool uncounted = false;
-    bool forwarded = false;                // gRPC's
-    std::optional<RequestBody> request{};  // until it is whole
+    bool forwarded = false;                  // gRPC's
+    std::unique_ptr<RequestBody> request{};  // until it is whole: of a thousand streams none is left
     Pace pace{};
   };
 

@@ -283,7 +283,9 @@ ssize_t Http2Session::fill(StreamId stream, std::uint8_t* buffer, std::size_t si
       ::nghttp2_submit_trailer(session_.get(), stream, fields.data(), fields.size());
     }
   }
+  const bool ends = body.finished && body.left() == 0;
   if (sent > 0) events_.sent(stream, sent);
+  if (ends) bodies_.erase(stream);
   return static_cast<ssize_t>(sent);
 }
 
