@@ -57,7 +57,7 @@ int start_job(const Session& session, const v1::CallContext& context, const std:
   if (session.options.json) {
     print_json(started);
   } else {
-    print_line(fmt::format("{}; {}", state_text(started.job()), run_on_text(started.run_on())));
+    print_line(state_text(started.job()));
   }
   return session.options.follow ? JobFollower(session, job).follow() : kDone;
 }
@@ -114,7 +114,7 @@ void JobFollower::show_progress(const v1::RunningJob& running) {
   running_ = running;
   if (first) say_on_interrupt("the job continues; to end it: axisctl mill abort");
   if (session_.options.json) return;
-  if (first && !was_started_) display_.fact(fmt::format("{}; {}", state_text(job_), run_on_text(running.run_on())));
+  if (first && !was_started_) display_.fact(state_text(job_));
   if (newly_busy) display_.fact(kBusyText);
   display_.in_place(progress_text(job_, running));
 }

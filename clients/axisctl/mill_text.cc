@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <boost/algorithm/string/case_conv.hpp>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 
@@ -46,10 +47,23 @@ std::string range_text(std::int64_t least, std::int64_t most) {
   return range_text(std::to_string(least), std::to_string(most));
 }
 
-// Of one that continues in its middle, too, it is the time of all of it.
+// "full"; empty where it is not known, as in events.
+std::string streaming_text(const v1::Job& job) {
+  switch (job.streaming()) {
+    case v1::STREAMING_FULL:
+      return "full";
+    case v1::STREAMING_PACED:
+      return "paced";
+    default:
+      return "";
+  }
+}
+
+// "12 min 0 s to 18 min 30 s, paced"
 std::string takes_text(const v1::Job& job) {
   const std::string range = range_text(duration_text(job.shortest()), duration_text(job.longest()));
-  return job.setup().has_from() ? "as a whole " + range : range;
+  const std::string streaming = streaming_text(job);
+  return streaming.empty() ? range : fmt::format("{}, {}", range, streaming);
 }
 
 std::string duration_range_text(const TimeRange& range) {
@@ -66,13 +80,15 @@ std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
   return bar;
 }
 
-// ", up to 3.2 s,": rounded up, since it is a bound.
+// ", up to 3.2 s and 14 mm,": rounded up, since it is a bound.
 std::string within_text(const v1::RunOn& run_on) {
   using google::protobuf::util::TimeUtil;
   if (!run_on.has_longest()) return "";
   const std::int64_t ns = TimeUtil::DurationToNanoseconds(run_on.longest());
   const std::int64_t shown = ns < 10'000'000'000 ? 100'000'000 : 1'000'000'000;  // by duration_text()
-  return fmt::format(", up to {},", duration_text(TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown)));
+  const std::string way = run_on.mm() > 0 ? fmt::format(" and {:.0f} mm", std::ceil(run_on.mm())) : "";
+  return fmt::format(", up to {}{},", duration_text(TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown)),
+                     way);
 }
 
 std::string held_text(const v1::RunOn& run_on) {
@@ -160,7 +176,8 @@ std::string job_text(const v1::Job& job) {
 }
 
 std::string state_text(const v1::Job& job) {
-  return fmt::format("{} {}; takes {}", job_text(job), name_of(job.state()), takes_text(job));
+  const std::string run_on = job.has_run_on() ? "; " + run_on_text(job.run_on()) : "";
+  return fmt::format("{} {}; takes {}{}", job_text(job), name_of(job.state()), takes_text(job), run_on);
 }
 
 std::string change_text(const v1::JobChange& change) {
@@ -191,7 +208,7 @@ std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
                                           begun_steps(running.executed_most(), job.bytes(), percent));
   return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left", name_of(running.sending()),
                      bar_text(job, running), executed, running.written(), job.bytes(), running.taken(),
-                     duration_range_text(time_left(job, running)));
+                     duration_range_text(time_left(running)));
 }
 
 // Bytes that have not left this host may stay here, and the fastest mill has executed the most.
@@ -270,7 +287,7 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
                                  fmt::format("  takes     {}", takes_text(job)),
                                  fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
   if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
-  if (job.streaming() == v1::STREAMING_FULL) lines.emplace_back("  streaming full");
+  if (job.has_run_on()) lines.push_back("  abort     " + run_on_text(job.run_on()));
   if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
   return lines;

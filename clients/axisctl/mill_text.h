@@ -16,7 +16,7 @@ const v1::Job* find_job(const v1::Mill& mill, std::string_view name);
 // "job 7 (part.rml)".
 std::string job_text(const v1::Job& job);
 
-// "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s".
+// "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s, paced; after an abort at most 64 bytes ... run on".
 std::string state_text(const v1::Job& job);
 
 // "job 7 (part.rml) RUNNING: PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort was sent".

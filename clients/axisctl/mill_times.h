@@ -17,8 +17,8 @@ struct TimeRange {
 // Queued, confirmed, in a tool change, or paused with the tool up.
 bool waits(const v1::Job& job);
 
-// Of the job that runs, in the ratio of the bytes not yet executed.
-TimeRange time_left(const v1::Job& job, const v1::RunningJob& running);
+// Of the job that runs.
+TimeRange time_left(const v1::RunningJob& running);
 
 // For each job of the queue, in its order: after so long the mill is done with those before it, if nobody ever has to
 // be waited for. Nothing where the job does not wait.

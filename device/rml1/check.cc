@@ -27,8 +27,10 @@ std::string time_text(const Summary& summary) {
 
 std::string time_reason(const Summary& summary, const Profile& profile) {
   const Acceleration& assumed = profile.acceleration;
-  std::string text = fmt::format("{:g} to {:g} mm/s2 and moves up to {:.0f} % slower are assumed", assumed.best,
-                                 assumed.worst, assumed.slower * 100);
+  std::string text = fmt::format(
+      "at full speed throughout, or by a mill that stops at each point ({:g} mm/s2 are "
+      "assumed) or is {:.0f} % slower",
+      assumed.worst, assumed.slower * 100);
   if (summary.seconds_down > 0) {
     text += fmt::format("; the longer time has {} for the way down from the top to Z0, which may lie anywhere",
                         duration(summary.seconds_down));
@@ -45,9 +47,7 @@ Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
       judge_(profile, options_.origin.has_value(), options_.stock, options_.others, diagnostics_),
       profile_judge_(profile, options_.others, diagnostics_),
       state_judge_(profile, diagnostics_),
-      workload_(profile, options_.tool_mm),
-      best_(profile.acceleration.best, profile.acceleration.corner_mm),
-      worst_(profile.acceleration.worst, profile.acceleration.corner_mm, 1 + profile.acceleration.slower) {}
+      workload_(profile, options_.tool_mm) {}
 
 bool Check::is_other_file() const {
   return opening_.verdict() == Opening::Verdict::g_code || opening_.verdict() == Opening::Verdict::other_file;
@@ -106,8 +106,6 @@ void Check::finish() {
     report_no_command();
   }
   summary_.final = machine_.tool();
-  summary_.seconds_low = best_.finish();
-  summary_.seconds_high = worst_.finish();
   summary_.commands = parser_.commands();
 }
 
@@ -149,23 +147,30 @@ void Check::moved(const Move& move) {
 
 // Where Z0 is not known, nobody knows from how high the tool comes down at first.
 void Check::time(const Move& move, const Point& way, bool first_height) {
-  if (!first_height || options_.origin) {
-    best_.move(way, move.speed, arrival(move.end));
-  } else {
-    summary_.seconds_down = length(way) / move.speed * (1 + profile_.acceleration.slower);
+  StepTime time = move_time(length(way), move.speed, profile_.acceleration);
+  const bool unknown = first_height && !options_.origin;
+  if (unknown) {
+    summary_.seconds_down = time.most;
+    time.least = 0;
   }
-  worst_.move(way, move.speed, arrival(move.end));
+  take(time, move.end);
+}
+
+// What comes before the last byte of its command waits for that.
+void Check::take(const StepTime& time, std::uint64_t end) {
+  summary_.seconds_low = std::max(summary_.seconds_low, arrival(end)) + time.least;
+  summary_.seconds_high = std::max(summary_.seconds_high, arrival(end)) + time.most;
 }
 
 void Check::waited(Wait what, double seconds, std::uint64_t end) {
   if (what == Wait::spin_up) ++summary_.spin_ups;
-  best_.pause(seconds, arrival(end));
-  worst_.pause(seconds * (what == Wait::turn ? 1 + profile_.acceleration.slower : 1), arrival(end));
+  take(wait_time(what, seconds, profile_.acceleration), end);
 }
 
 void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {
   judge_.commanded(from, target, height_alone, machine_.box(), by);
   if (!height_alone) profile_judge_.commanded(target, by);
+  if (!by.first && machine_.dwell_s() > 0) take(dwell_between_points(machine_.dwell_s()), by.end);
   if (moves_ == nullptr) return;
   find_left_out(machine_.box(), from, target, [this](const Point& a, const Point& b) { moves_->left_out(a, b); });
 }

@@ -11,9 +11,9 @@
 #include "device/rml1/diagnostic.h"
 #include "device/rml1/judge.h"
 #include "device/rml1/machine.h"
+#include "device/rml1/move_time.h"
 #include "device/rml1/opening.h"
 #include "device/rml1/parser.h"
-#include "device/rml1/planner.h"
 #include "device/rml1/profile_judge.h"
 #include "device/rml1/state_judge.h"
 #include "device/rml1/workload.h"
@@ -40,7 +40,7 @@ struct Summary {
 };
 
 std::string time_text(const Summary& summary);  // "45 s to 1 min 30 s"
-// Why the two ends differ: "200 to 100 mm/s2 and moves up to 50 % slower are assumed".
+// Why the two ends differ: "at full speed throughout, or by a mill that stops at each point ...".
 std::string time_reason(const Summary& summary, const Profile& profile);
 
 class Check : private MachineListener, private ParserListener {
@@ -73,6 +73,7 @@ class Check : private MachineListener, private ParserListener {
   void report_no_command();
   double arrival(std::uint64_t end) const;
   void time(const Move& move, const Point& way, bool first_height);
+  void take(const StepTime& time, std::uint64_t end);
 
   const Profile& profile_;
   const CheckOptions options_;
@@ -86,7 +87,6 @@ class Check : private MachineListener, private ParserListener {
   ProfileJudge profile_judge_;
   StateJudge state_judge_;
   Workload workload_;
-  Planner best_, worst_;
   Summary summary_;
   bool moved_ = false;
 };

@@ -128,8 +128,6 @@ class ProfileReader {
     constexpr std::string_view kAllowed = "an acceleration in mm/s2 above 0";
     acceleration.best = above_zero(table, "best", 1e6, kAllowed);
     acceleration.worst = above_zero(table, "worst", 1e6, kAllowed);
-    constexpr std::string_view kCorner = "a length in mm, 0.02";
-    acceleration.corner_mm = needed(table, "corner_mm", table.number("corner_mm", 0, 10, kCorner), kCorner);
     acceleration.slower = table.number("slower", 0, 10, "a part from 0 to 10, 0.5").value_or(0);
     if (errors_.size() == errors && acceleration.worst > acceleration.best) table.error("worst", "is more than best");
   }

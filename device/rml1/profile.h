@@ -17,9 +17,8 @@ struct Speeds {
 };
 
 struct Acceleration {
-  double best = 0, worst = 0;  // mm/s2: of the low and of the high end of a job's time
-  double corner_mm = 0;        // how far a corner may be cut
-  double slower = 0;           // by which part a real run may be slower still, at the high end
+  double best = 0, worst = 0;  // mm/s2: the simulator has both; the gateway counts with the worst
+  double slower = 0;           // by which part a real run may be slower throughout
 };
 
 struct Spindle {

@@ -62,9 +62,6 @@ Result<void> JobCheck::finish_part() {
   check_->finish();
   if (const Result<void> good = judge(); !good) return good;
   if (const Result<void> fit = check_pieces(); !fit) return fit;
-  const rml1::Summary& summary = check_->summary();
-  checked_.least_s += summary.seconds_low;
-  checked_.most_s += summary.seconds_high;
   checked_.leaves |= check_->leaves();
   begin_ += std::exchange(come_, 0);
   const std::string& tool = part().tool;

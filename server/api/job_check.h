@@ -24,7 +24,6 @@ struct PartToSend {
 
 struct CheckedJob {
   std::vector<rml1::JobPart> parts;
-  double least_s = 0, most_s = 0;  // of all of them
   rml1::Leaves leaves;
 };
 

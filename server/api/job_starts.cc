@@ -29,6 +29,17 @@ Problem changed_meanwhile(const rml1::Job& job) {
           .hint = "ask again"};
 }
 
+// The first command of what is left, and how long that takes.
+Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToChoose& from) {
+  const auto at = server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
+  if (!at) return tl::unexpected(at.error());
+  job.setup.from = *at;
+  const auto prepared =
+      server::prepared_job(mill.spool(), mill.name(), mill.config(), job, mill.newest().get().value->measured_pace);
+  if (!prepared) return tl::unexpected(prepared.error());
+  return rml1::JobRest{*at, (*prepared)->times().whole(), (*prepared)->plan().run_on};
+}
+
 }  // namespace
 
 // It is posted to the mill first: what is published then is no older than what the caller was answered before.
@@ -77,14 +88,14 @@ void Mills::choose_rest(const Call& call, std::string_view name, LineToChoose fr
   };
   read_and_act(
       RequestKind::continue_job, call, name,
-      [from, can_be_chosen](server::Mill& mill, const rml1::Job& job) -> Result<rml1::Place> {
+      [from, can_be_chosen](server::Mill& mill, const rml1::Job& job) -> Result<rml1::JobRest> {
         if (!can_be_chosen(job)) return tl::unexpected(changed_meanwhile(job));
-        return server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
+        return rest_of(mill, job, from);
       },
       [can_be_chosen](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
-                      const Result<rml1::Place>& place) -> Result<void> {
-        if (can_be_chosen(it) && !place) return tl::unexpected(place.error());
-        return controller.choose_rest(it.number, place.value_or(rml1::Place()), turn.caller.who, turn.now);
+                      const Result<rml1::JobRest>& rest) -> Result<void> {
+        if (can_be_chosen(it) && !rest) return tl::unexpected(rest.error());
+        return controller.choose_rest(it.number, rest.value_or(rml1::JobRest()), turn.caller.who, turn.now);
       },
       std::move(answer));
 }

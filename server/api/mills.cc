@@ -57,10 +57,16 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
 }
 
 // The job of the first of two requests with one id: the newest that is the same in all.
+bool same_parts(const rml1::Job& one, const rml1::Job& other) {
+  return std::ranges::equal(one.parts, other.parts, [](const rml1::JobPart& a, const rml1::JobPart& b) {
+    return a.tool == b.tool && a.end == b.end;
+  });
+}
+
 Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
   const auto same = [&](const rml1::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&
-           one.setup.origin == again.setup.origin && one.parts == again.parts && one.streaming == again.streaming &&
+           one.setup.origin == again.setup.origin && same_parts(one, again) && one.streaming == again.streaming &&
            one.stock == again.stock && one.owner == again.owner && one.name == again.name;
   };
   const rml1::Job* newest = nullptr;
@@ -137,8 +143,6 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   const Result<CheckedJob> checked = check_.finish();
   if (!checked) return answer(tl::unexpected(checked.error()));
   spooled_->set_facts(server::facts_of({.setup = {"", mill_.config().profile.name, job_.origin, ""},
-                                        .least_s = checked->least_s,
-                                        .most_s = checked->most_s,
                                         .parts = checked->parts,
                                         .leaves = checked->leaves,
                                         .streaming = job_.streaming,
@@ -147,8 +151,14 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
   call_.digest = std::move(digest);
-  const rml1::Job job = server::job_of(*spooled);
+  rml1::Job job = server::job_of(*spooled);
   const auto drop = [&mill = mill_, number = job.number] { mill.drop_spooled(number); };
+  const Result<void> planned =
+      server::plan_job(mill_.spool(), mill_.name(), mill_.config(), job, mill_.newest().get().value->measured_pace);
+  if (!planned) {
+    drop();
+    return answer(tl::unexpected(planned.error()));
+  }
   pipeline_.act(
       {RequestKind::send_job, call_, Result<Mill*>(&mill_)},
       [number = job.number](const MillTurn&) { return Result<std::string>(fmt::format("send job {}", number)); },

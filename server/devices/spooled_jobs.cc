@@ -31,6 +31,16 @@ std::optional<rml1::WrittenRange> written_in(const Json& facts) {
   return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
 }
 
+rml1::TimeRange takes_in(const Json& part) {
+  const Json takes = part.value("takes_ns", Json::array());
+  return takes.size() == 2 ? rml1::TimeRange{Duration(takes[0]), Duration(takes[1])} : rml1::TimeRange{};
+}
+
+rml1::RunOn run_on_in(const Json& facts) {
+  const Json run_on = facts.value("run_on", Json::array());
+  return run_on.size() == 4 ? rml1::RunOn{run_on[0], run_on[1], Duration(run_on[2]), run_on[3]} : rml1::RunOn{};
+}
+
 // As far as the mill may have been sent it.
 std::string_view sent_of(std::string_view body, const rml1::Job& job) {
   const bool known = job.written && job.written->most >= part_begin(job);
@@ -75,14 +85,16 @@ tl::unexpected<Problem> no_line_named(std::string_view body, const rml1::Job& jo
 
 std::string facts_of(const rml1::Job& job) {
   Json parts = Json::array();
-  for (const rml1::JobPart& part : job.parts) parts.push_back({{"tool", part.tool}, {"end", part.end}});
+  for (const rml1::JobPart& part : job.parts) {
+    parts.push_back(
+        {{"tool", part.tool}, {"end", part.end}, {"takes_ns", {part.takes.least.count(), part.takes.most.count()}}});
+  }
   Json facts{{"profile", job.setup.profile},
              {"origin", job.setup.origin},
              {"parts", parts},
              {"part", job.part},
              {"rank", job.rank},
-             {"least_s", job.least_s},
-             {"most_s", job.most_s},
+             {"run_on", {job.run_on.at_most, job.run_on.if_held, job.run_on.longest.count(), job.run_on.mm}},
              {"leaves",
               {{"surface", job.leaves.surface},
                {"revolutions", job.leaves.revolutions},
@@ -104,19 +116,18 @@ rml1::Job job_of(const spool::Job& spooled) {
                 .owner = spooled.who,
                 .setup = {spooled.sha256, facts.value("profile", ""), facts.value("origin", ""), "", {}, {}},
                 .bytes = static_cast<std::uint64_t>(spooled.bytes),
-                .least_s = facts.value("least_s", 0.0),
-                .most_s = facts.value("most_s", 0.0),
                 .leaves = {leaves.value("surface", false), leaves.value("revolutions", false),
                            leaves.value("rotation", false), leaves.value("tool", false)},
                 .rank = facts.value("rank", std::int64_t{0}),
                 .queued_since = to_monotonic(spooled.created)};
   for (const Json& part : facts.value("parts", Json::array())) {
-    job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0})});
+    job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0}), takes_in(part)});
   }
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
   if (const std::string streaming = facts.value("streaming", ""); !streaming.empty()) {
     job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
   }
+  job.run_on = run_on_in(facts);
   job.checked_for = facts.value("checked_for", "");
   const Json stock = facts.value("stock", Json::array());
   if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
@@ -188,6 +199,21 @@ Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool
   settings.streaming = job.streaming.value_or(settings.streaming);
   return std::make_shared<const rml1::PreparedJob>(*body, job.setup.digest, config.profile, origin, settings,
                                                    part_begin(job), job.setup.from, *approach);
+}
+
+Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, rml1::Job& job,
+                      const std::optional<rml1::MeasuredPace>& measured) {
+  rml1::Job at = job;
+  for (std::size_t part = job.part; part < job.parts.size(); ++part) {
+    if (part != job.part) go_to_part(at, part);
+    const auto prepared = prepared_job(spool, device, config, at, measured);
+    if (!prepared) return tl::unexpected(prepared.error());
+    job.parts[part].takes = (*prepared)->times().whole();
+    const rml1::RunOn& run_on = (*prepared)->plan().run_on;
+    if (part == job.part || run_on.at_most > job.run_on.at_most) job.run_on = run_on;
+  }
+  keep_facts(spool, device, job);
+  return {};
 }
 
 Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,

@@ -44,6 +44,9 @@ std::string checked_for(const MillConfig& config, const std::string& origin);
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
                                                               const MillConfig& config, const rml1::Job& job,
                                                               const std::optional<rml1::MeasuredPace>& measured);
+// Sets how long its part takes, and those behind it, and what runs on after an abort; the spool keeps that.
+Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, rml1::Job& job,
+                      const std::optional<rml1::MeasuredPace>& measured);
 // Where the part of `job` continues, with its first command from that line and column on. What rml1::approach_to() and
 // rml1::check_continued() refuse; invalid_request, with line 0: it says where what was sent ends.
 Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& device, const MillConfig& config,

@@ -234,34 +234,30 @@ struct Form<JobChanged> {
   static constexpr const char* key = "job";
   static Json write(const JobChanged& change) {
     const rml1::Job& job = change.job;
-    Json json{{"number", job.number},
-              {"name", job.name},
-              {"owner", job.owner},
-              {"setup", {job.setup.digest, job.setup.profile, job.setup.origin, job.setup.tool}},
-              {"bytes", job.bytes},
-              {"seconds", {job.least_s, job.most_s}},
-              {"state", static_cast<int>(job.state)},
-              {"who", change.who},
-              {"why", change.why}};
+    Json json{
+        {"number", job.number}, {"name", job.name},
+        {"owner", job.owner},   {"setup", {job.setup.digest, job.setup.profile, job.setup.origin, job.setup.tool}},
+        {"bytes", job.bytes},   {"state", static_cast<int>(job.state)},
+        {"who", change.who},    {"why", change.why}};
     if (job.confirmation) json["confirmed"] = {job.confirmation->by, nanos_of(job.confirmation->until)};
     if (job.written) json["written"] = {job.written->least, job.written->most};
     if (!job.setup.left.empty()) json["left"] = job.setup.left;
     if (job.setup.from) json["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
     if (job.part != 0) json["part"] = job.part;
-    for (const rml1::JobPart& part : job.parts) json["parts"].push_back({part.tool, part.end});
+    for (const rml1::JobPart& part : job.parts) {
+      json["parts"].push_back({part.tool, part.end, part.takes.least.count(), part.takes.most.count()});
+    }
     if (change.sending) json["sending"] = static_cast<int>(*change.sending);
     return json;
   }
   static JobChanged read(const Json& json) {
-    const Json &setup = json.at("setup"), &seconds = json.at("seconds");
+    const Json& setup = json.at("setup");
     JobChanged change{
         .job = {.number = json.at("number"),
                 .name = json.at("name"),
                 .owner = json.at("owner"),
                 .setup = {setup.at(0), setup.at(1), setup.at(2), setup.at(3), json.value("left", Texts()), {}},
                 .bytes = json.at("bytes"),
-                .least_s = seconds.at(0),
-                .most_s = seconds.at(1),
                 .state = static_cast<rml1::JobState>(json.at("state").get<int>())},
         .who = json.at("who"),
         .why = json.at("why")};
@@ -275,7 +271,10 @@ struct Form<JobChanged> {
       change.job.setup.from = rml1::Place{from.at(0), from.at(1), from.at(2)};
     }
     change.job.part = json.value("part", std::size_t{0});
-    for (const Json& part : json.value("parts", Json::array())) change.job.parts.push_back({part.at(0), part.at(1)});
+    for (const Json& part : json.value("parts", Json::array())) {
+      const rml1::TimeRange takes{Duration(part.at(2)), Duration(part.at(3))};
+      change.job.parts.push_back({part.at(0), part.at(1), takes});
+    }
     if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());
     return change;
   }

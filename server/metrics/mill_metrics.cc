@@ -94,8 +94,9 @@ void MillMetrics::count(const rml1::Job& job, TimePoint now) {
   // The estimate is of the whole job.
   if (job.state != JobState::fed || job.parts.size() > 1 || job.setup.from) return;
   job_seconds_.Increment(std::chrono::duration<double>(now - started_).count());
-  estimate_.least.Increment(job.least_s);
-  estimate_.most.Increment(job.most_s);
+  const rml1::TimeRange takes = rml1::takes(job);
+  estimate_.least.Increment(std::chrono::duration<double>(takes.least).count());
+  estimate_.most.Increment(std::chrono::duration<double>(takes.most).count());
 }
 
 // What is written around a job is no part of it, and adds nothing.

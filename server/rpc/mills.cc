@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cmath>
 #include <cstdint>
 
 #include "server/api/names.h"
@@ -27,14 +26,6 @@ v1::JobState to_job_state(JobState state) {
   static_assert(static_cast<int>(JobState::paused) + 1 == v1::JOB_STATE_PAUSED);
   static_assert(static_cast<int>(JobState::expired) + 1 == v1::JOB_STATE_EXPIRED);
   return static_cast<v1::JobState>(static_cast<int>(state) + 1);
-}
-
-google::protobuf::Duration duration_of(double seconds) {
-  google::protobuf::Duration duration;
-  const double whole = std::floor(seconds);
-  duration.set_seconds(static_cast<std::int64_t>(whole));
-  duration.set_nanos(static_cast<std::int32_t>((seconds - whole) * 1e9));
-  return duration;
 }
 
 void add_parts(const rml1::Job& job, v1::Job& proto) {
@@ -104,8 +95,10 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
   proto.set_owner(job.owner);
   *proto.mutable_setup() = setup_of(job.setup);
   proto.set_bytes(static_cast<std::int64_t>(job.bytes));
-  *proto.mutable_shortest() = duration_of(job.least_s);
-  *proto.mutable_longest() = duration_of(job.most_s);
+  const rml1::TimeRange takes = rml1::takes(job);
+  *proto.mutable_shortest() = to_proto(takes.least);
+  *proto.mutable_longest() = to_proto(takes.most);
+  *proto.mutable_run_on() = to_proto(job.run_on);
   proto.set_state(to_job_state(job.state));
   if (job.confirmation) {
     proto.set_confirmed_by(job.confirmation->by);
@@ -137,6 +130,7 @@ v1::RunOn to_proto(const rml1::RunOn& run_on) {
   proto.set_at_most(static_cast<std::int64_t>(run_on.at_most));
   proto.set_if_held(static_cast<std::int64_t>(run_on.if_held));
   *proto.mutable_longest() = to_proto(run_on.longest);
+  proto.set_mm(run_on.mm);
   return proto;
 }
 
@@ -152,6 +146,8 @@ v1::RunningJob to_proto(const api::CurrentRun& run) {
   proto.set_executed_least(static_cast<std::int64_t>(job.progress.executed_least));
   proto.set_executed_most(static_cast<std::int64_t>(job.progress.executed_most));
   *proto.mutable_run_on() = to_proto(job.run_on);
+  *proto.mutable_least_left() = to_proto(job.left.least);
+  *proto.mutable_most_left() = to_proto(job.left.most);
   proto.set_busy(job.busy);
   *proto.mutable_started() = to_proto(run.clock.at(job.started));
   return proto;

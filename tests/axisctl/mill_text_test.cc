@@ -36,8 +36,19 @@ v1::Job frame(int number, v1::JobState state) {
   return job;
 }
 
+// 600 to 1000 s for 30,000 bytes.
+void set_left(v1::RunningJob& running, std::int64_t executed_least, std::int64_t executed_most) {
+  const auto left = [](std::int64_t ms_a_byte, std::int64_t executed) {
+    return TimeUtil::MillisecondsToDuration(ms_a_byte * (30'000 - std::clamp<std::int64_t>(executed, 0, 30'000)));
+  };
+  *running.mutable_least_left() = left(20, executed_most);
+  *running.mutable_most_left() =
+      TimeUtil::MillisecondsToDuration(TimeUtil::DurationToMilliseconds(left(100, executed_least)) / 3);
+}
+
 v1::RunningJob running(std::int64_t written, std::int64_t executed_least, std::int64_t executed_most) {
   v1::RunningJob running;
+  set_left(running, executed_least, executed_most);
   running.set_job("devices/mill/jobs/7");
   running.set_sending(v1::SENDING_STATE_SENDING);
   running.set_written(written);
@@ -189,6 +200,20 @@ TEST(MillTexts, WhereWhatWasExecutedEnds) {
   EXPECT_THAT(queue_lines(mill), Not(Contains(HasSubstr("aborted"))));
 }
 
+TEST(MillTexts, HowAJobIsSentAndWhatRunsOn) {
+  v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
+  job.set_streaming(v1::STREAMING_FULL);
+  *job.mutable_run_on() = run_on(1560, 1560);
+  *job.mutable_run_on()->mutable_longest() = TimeUtil::MillisecondsToDuration(14'200);
+  job.mutable_run_on()->set_mm(120.2);
+  EXPECT_EQ(state_text(job),
+            "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s, full; after an abort at most 1560 bytes, up to "
+            "15 s and 121 mm, run on");
+  EXPECT_THAT(setup_lines(job), Contains("  takes     10 min 0 s to 16 min 40 s, full"));
+  EXPECT_THAT(setup_lines(job),
+              Contains("  abort     after an abort at most 1560 bytes, up to 15 s and 121 mm, run on"));
+}
+
 TEST(MillTexts, WhatIsSetUp) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
   EXPECT_EQ(setup_lines(job), (Lines{"job 7 (frame.rml) of unix anna", "  material  for frame.rml", "  tool      T1",
@@ -293,7 +318,7 @@ TEST(MillQueue, WhereAJobContinues) {
   job.set_state(v1::JOB_STATE_PAUSED_UNKNOWN);
   EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED_UNKNOWN  T1")) << "that was before the line broke";
   job.set_state(v1::JOB_STATE_PAUSED);
-  EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED; takes as a whole 10 min 0 s to 16 min 40 s");
+  EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED; takes 10 min 0 s to 16 min 40 s");
 }
 
 // Of each job of the queue what is said of its beginning. Column by column, so that the widths are of no account.
@@ -318,12 +343,11 @@ TEST(MillQueue, WhatWaitsBeginsWhenAllBeforeItIsDone) {
                                      "in 25 min 36 s to 43 min 10 s"}));
 }
 
-// 20,000 of 30,000 bytes are left.
 TEST(MillQueue, OfAJobInAToolChangeWhatIsLeftCounts) {
   v1::Mill mill;
   v1::Job& job = (*mill.add_jobs() = frame(7, v1::JOB_STATE_TOOL_CHANGE));
-  for (const int bytes : {10'000, 15'000, 5'000}) job.add_parts()->set_bytes(bytes);
-  job.set_part(1);
+  *job.mutable_shortest() = TimeUtil::SecondsToDuration(400);
+  *job.mutable_longest() = TimeUtil::SecondsToDuration(667);
   *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
   EXPECT_EQ(beginnings(mill), (Lines{"now", "in 6 min 40 s to 11 min 7 s"}));
 }

@@ -41,7 +41,9 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   options_.job.streaming = "full";
   options_.job.stock = "80,50,10.5";
   options_.job.profile = "mdx-20";
-  EXPECT_EQ(run(mill_send).output, "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s\n");
+  EXPECT_EQ(run(mill_send).output,
+            "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s, paced; after an abort at most 64 bytes, up to "
+            "3.2 s and 14 mm, run on\n");
   ASSERT_EQ(mill_.sent.size(), 2U);
   const v1::SendJobRequest& first = mill_.sent[0];
   EXPECT_EQ(first.device(), "devices/mill");
@@ -268,7 +270,7 @@ using MillCalls = MillVerbs;
 
 TEST_F(MillCalls, StartSaysWhatRunsOn) {
   add_job(v1::JOB_STATE_CONFIRMED);
-  EXPECT_THAT(run(mill_start).output, HasSubstr("; after an abort at most 64 bytes, up to 3 s, run on\n"));
+  EXPECT_THAT(run(mill_start).output, HasSubstr("; after an abort at most 64 bytes, up to 3.2 s and 14 mm, run on\n"));
   EXPECT_EQ(mill_.started[0].job(), "devices/mill/jobs/7");
   options_.job.number = 12;
   run(mill_start);

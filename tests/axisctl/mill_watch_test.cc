@@ -29,6 +29,8 @@ class MillWatch : public MillVerbs {
     running.set_taken(executed);
     running.set_executed_least(executed);
     running.set_executed_most(executed);
+    running.mutable_least_left()->set_seconds(600 - executed / 50);
+    running.mutable_most_left()->set_seconds(1000 - executed / 30);
     running.mutable_run_on()->set_at_most(64);
     running.mutable_run_on()->mutable_longest()->set_seconds(3);
     running.mutable_run_on()->mutable_longest()->set_nanos(200'000'000);
@@ -47,8 +49,8 @@ TEST_F(MillWatch, EachChangeOnALineUntilItIsFed) {
   EXPECT_EQ(ended.exit_code, kDone);
   EXPECT_EQ(
       ended.output,
-      "job 7 (frame.rml) RUNNING; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 bytes, up to 3.2 s, run "
-      "on\n"
+      "job 7 (frame.rml) RUNNING; takes 10 min 0 s to 16 min 40 s, paced; after an abort at most 64 bytes, up to 3.2 s "
+      "and 14 mm, run on\n"
       "SENDING [          ] 0 %, 15000 of 30000 bytes written, 0 taken, 10 min 0 s to 16 min 40 s left\n"
       "SENDING [=====     ] 50 %, 15000 of 30000 bytes written, 15000 taken, 5 min 0 s to 8 min 20 s left\n"
       "job 7 (frame.rml) FED: all was sent, and the slowest mill has executed it by now; look at the workpiece, "
@@ -193,8 +195,8 @@ TEST_F(MillWatch, AJobThatWasJustStarted) {
   options_.follow = true;
   const Ended ended = run(mill_start);
   EXPECT_EQ(ended.exit_code, kDone);
-  EXPECT_EQ(ended.output.find("job 7 (frame.rml) CONFIRMED; takes 10 min 0 s to 16 min 40 s; after an abort at most 64 "
-                              "bytes, up to 3 s, run on\nSENDING "),
+  EXPECT_EQ(ended.output.find("job 7 (frame.rml) CONFIRMED; takes 10 min 0 s to 16 min 40 s, paced; after an abort at "
+                              "most 64 bytes, up to 3.2 s and 14 mm, run on\nSENDING "),
             0U);
   EXPECT_THAT(ended.output, HasSubstr("job 7 (frame.rml) FED: "));
 }

@@ -69,8 +69,6 @@ grpc::Status ScriptedMill::StartJob(grpc::ServerContext*, const v1::StartJobRequ
   calls.emplace_back("StartJob");
   started.push_back(*request);
   if (!mill.jobs().empty()) *response->mutable_job() = mill.jobs(0);
-  response->mutable_run_on()->set_at_most(64);
-  response->mutable_run_on()->mutable_longest()->set_seconds(3);
   return next_status();
 }
 
@@ -197,6 +195,10 @@ v1::Job& MillVerbs::add_job(v1::JobState state) {
   *job.mutable_shortest() = google::protobuf::util::TimeUtil::SecondsToDuration(600);
   *job.mutable_longest() = google::protobuf::util::TimeUtil::SecondsToDuration(1000);
   job.set_state(state);
+  job.set_streaming(v1::STREAMING_PACED);
+  job.mutable_run_on()->set_at_most(64);
+  job.mutable_run_on()->set_mm(13.5);
+  *job.mutable_run_on()->mutable_longest() = google::protobuf::util::TimeUtil::MillisecondsToDuration(3200);
   return job;
 }
 

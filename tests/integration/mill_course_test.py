@@ -48,7 +48,7 @@ EPILOGUE = ["PA", "!VZ", "!ZM", "!MC", "DF", "!MC"]
 
 def without_acceleration(profile):
     text, count = re.subn(r"(?m)^acceleration = .*$",
-                          "acceleration = { best = 1000000, worst = 1000000, corner_mm = 0.02 }", profile)
+                          "acceleration = { best = 1000000, worst = 1000000 }", profile)
     if count != 1:
         raise AssertionError("the profile has no acceleration")
     return text

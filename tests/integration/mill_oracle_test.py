@@ -26,7 +26,7 @@ PROFILE = """name = "Test mill"
 step_mm = {step}
 area = {{ x_mm = {x}, y_mm = {y}, z_mm = {z} }}
 z = {{ top = {top}, up = {up}, default_z0 = {default_z0} }}
-acceleration = {{ best = 200, worst = 100, corner_mm = 0.02 }}
+acceleration = {{ best = 200, worst = 100 }}
 spindle = {{ speeds = "fixed", minimum_rpm = 6500, maximum_rpm = 6500, spin_up_s = 2 }}
 axes = {{ letters = "XYZ" }}
 clipping = {{ flat_commands = "{flat}" }}

@@ -76,7 +76,8 @@ class Summaries(unittest.TestCase):
         self.assertTrue(text_of(SLOT)[1].endswith("Z -1.00 mm to the top"))
 
     def test_why_the_time_is_a_range(self):
-        assumed = "200 to 100 mm/s2 and moves up to 50 % slower are assumed"
+        assumed = ("at full speed throughout, or by a mill that stops at each point (100 mm/s2 are assumed) or is 50 % "
+                   "slower")
         self.assertIn("time: " + assumed, text_of(SLOT, *ORIGIN))
         self.assertTrue(any(line.startswith(f"time: {assumed}; the longer time has ") for line in text_of(SLOT)))
         self.assertEqual(Checked(SLOT, *ORIGIN).summary["seconds_down"], 0)

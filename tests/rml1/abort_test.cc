@@ -229,7 +229,7 @@ class Aborts : public testing::TestWithParam<Combination> {
 
   Duration longest(const Job& job) const {
     const double slack = GetParam().streaming == Streaming::paced ? slack_ : 1;
-    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.timeline.most_s() * slack));
+    return std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.timeline.slowest_s() * slack));
   }
 
   const Profile profile_ = test_profile();

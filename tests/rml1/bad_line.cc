@@ -89,7 +89,7 @@ void BadLine::start() {
 // Until all that was drawn has happened, and the job has ended or will not.
 void BadLine::run_job() {
   const TimePoint began = bench_.now;
-  const auto longest = std::chrono::duration<double>(prepared_->timeline().most_s() * plan_.settings.sending.slack);
+  const auto longest = std::chrono::duration<double>(prepared_->timeline().slowest_s() * plan_.settings.sending.slack);
   for (const Act& one : plan_.acts) {
     while (!result_.violation && step_of_job(began + one.at)) {
     }

@@ -48,7 +48,7 @@ void BadLine::expect_busy_and_abort() {
 
 // FED is said of the slowest mill, so to a thousandth of the job's time.
 void BadLine::expect_fed_is_true() {
-  const std::chrono::duration<double> thousandth(prepared_->timeline().most_s() / 1000);
+  const std::chrono::duration<double> thousandth(prepared_->timeline().slowest_s() / 1000);
   run_for(std::chrono::duration_cast<Duration>(thousandth) + std::chrono::milliseconds(1));
   if (!is_hidden() && !executed_.whole()) violate("the job is FED, and the mill has not executed all of it");
 }

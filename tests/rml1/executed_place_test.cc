@@ -115,7 +115,7 @@ TEST_F(ExecutedPlaceTest, AStartForgetsAnAbortThatWasLost) {
   mill_.link_down(now_, "unplugged");
   ASSERT_EQ(state(1), JobState::paused_unknown);
   ASSERT_TRUE(executed());
-  ASSERT_TRUE(mill_.choose_rest(1, Place(), "unix anna", now_));
+  ASSERT_TRUE(mill_.choose_rest(1, {Place()}, "unix anna", now_));
   line_.busy = false;
   mill_.link_up(now_);
   run_for(1s);

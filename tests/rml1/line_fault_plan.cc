@@ -96,7 +96,7 @@ LineFaultPlan line_fault_plan(std::uint64_t seed, const Profile& profile) {
   draw_mill(random, plan);
   draw_bytes(random, plan);
   const double slack = plan.settings.sending.streaming == Streaming::paced ? plan.settings.sending.slack : 1;
-  const std::chrono::duration<double> longest(Timeline(plan.body, profile, kMidway).most_s() * slack);
+  const std::chrono::duration<double> longest(Timeline(plan.body, profile, kMidway).slowest_s() * slack);
   const auto job = std::chrono::duration_cast<Duration>(longest);
   draw_stuck(random, plan, job);
   draw_people_and_cable(random, plan, job);

@@ -95,4 +95,10 @@ Played play(const std::string& job, const Profile& profile, std::optional<Origin
   return witness.played;
 }
 
+double sum_of(const Timeline& timeline, float Step::*time) {
+  double sum = 0;
+  for (const Step& step : timeline.steps()) sum += step.*time;
+  return sum;
+}
+
 }  // namespace axisgate::rml1

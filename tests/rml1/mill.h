@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/rml1/machine.h"
+#include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
 
@@ -25,5 +26,8 @@ struct Played {
 // `cuts` are places at which the job's bytes are given in pieces.
 Played play(const std::string& job, const Profile& profile, std::optional<Origin> origin = {},
             std::span<const Row> more_rows = {}, const std::vector<std::size_t>& cuts = {});
+
+// The sum of one of the times of its steps.
+double sum_of(const Timeline& timeline, float Step::*time);
 
 }  // namespace axisgate::rml1

@@ -192,14 +192,14 @@ TEST_F(MillContinuedTest, ALostJobGoesOnWhereSomebodyHasChosen) {
   begin();
   run_for(3s);
   const Place from{9, 1, 10};
-  EXPECT_EQ(reason(mill_.choose_rest(1, from, "unix anna", now_)), Reason::wrong_mode) << "it runs";
+  EXPECT_EQ(reason(mill_.choose_rest(1, {from}, "unix anna", now_)), Reason::wrong_mode) << "it runs";
   mill_.link_down(now_, "unplugged");
-  EXPECT_EQ(reason(mill_.choose_rest(2, from, "unix anna", now_)), Reason::not_found);
+  EXPECT_EQ(reason(mill_.choose_rest(2, {from}, "unix anna", now_)), Reason::not_found);
   EXPECT_EQ(reason(confirm_as_shown(1)), Reason::wrong_mode);
-  ASSERT_TRUE(mill_.choose_rest(1, from, "unix anna", now_));
+  ASSERT_TRUE(mill_.choose_rest(1, {from}, "unix anna", now_));
   EXPECT_EQ(said_.back(), "PAUSED: it continues at line 1, column 10");
   EXPECT_EQ(by_[paused], "unix anna");
-  ASSERT_TRUE(mill_.choose_rest(1, {18, 1, 19}, "unix anna", now_)) << "somebody has looked again";
+  ASSERT_TRUE(mill_.choose_rest(1, {{18, 1, 19}}, "unix anna", now_)) << "somebody has looked again";
   mill_.link_up(now_);
   run_for(1s);
   ASSERT_TRUE(confirm_as_shown(1));
@@ -212,7 +212,7 @@ TEST_F(MillContinuedTest, WhatWasSentOfItIsKnownUntilItContinues) {
   const Place from = *job(1).setup.from;
   const WrittenRange written{from.offset, from.offset};
   EXPECT_EQ(job(1).written, written);
-  ASSERT_TRUE(mill_.choose_rest(1, {9, 1, 10}, "unix anna", now_));
+  ASSERT_TRUE(mill_.choose_rest(1, {{9, 1, 10}}, "unix anna", now_));
   EXPECT_EQ(job(1).written, written) << "and not the place that was chosen";
   ASSERT_TRUE(confirm_as_shown(1));
   ASSERT_TRUE(start_rest({9, 1, 10}));

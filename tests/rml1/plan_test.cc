@@ -17,7 +17,7 @@ TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
   std::string job = "^PA;V15;VS15;";
   for (int i = 0; i < 400; ++i) job += i % 21 == 0 ? "PU4000,0000;PU0,0;" : "PU0008,0000;";
   Profile profile = test_profile();
-  profile.acceleration = {.best = 1e7, .worst = 1e7, .corner_mm = 0.02, .slower = 0};
+  profile.acceleration = {.best = 1e7, .worst = 1e7, .slower = 0};
   const Timeline timeline(job, profile, std::nullopt);
   EXPECT_GT(plan_of(job, timeline, {.slack = 1, .buffer = 1024}).window, 100u);
   EXPECT_EQ(plan_of(job, timeline, {.slack = 1, .buffer = 100}).window, 100u);
@@ -26,7 +26,7 @@ TEST(Plan, AnAdaptedWindowFitsTheBuffer) {
 // Without what its bytes take on the line: ten bits each, of 64 bytes. The mill needs no time to accelerate.
 double longest_s(const std::string& job, double slack = 1) {
   Profile profile = test_profile();
-  profile.acceleration = {.best = 1e7, .worst = 1e7, .corner_mm = 0.02, .slower = 0};
+  profile.acceleration = {.best = 1e7, .worst = 1e7, .slower = 0};
   const SendPlan plan = plan_of(job, Timeline(job, profile, std::nullopt), {.window = 64, .slack = slack});
   return std::chrono::duration<double>(plan.run_on.longest).count() - 640 / 9600.0;
 }

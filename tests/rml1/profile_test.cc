@@ -43,7 +43,7 @@ const std::vector<std::string> kLines = {
     "[acceleration]",               // 23
     "best = 200",                   // 24
     "worst = 100",                  // 25
-    "corner_mm = 0.02",             // 26
+    "slower = 0.5",                 // 26
     "[spindle]",                    // 27
     "speeds = \"stages\"",          // 28
     "minimum_rpm = 1000",           // 29
@@ -138,8 +138,8 @@ TEST(Profile, HasWhatTheFileSays) {
   EXPECT_THAT((std::vector{speed.cutting_minimum, speed.cutting_maximum, speed.cutting_default}),
               ElementsAre(0.5, 15, 2));
   EXPECT_THAT((std::vector{speed.z_minimum, speed.z_maximum, speed.z_default}), ElementsAre(0.25, 16, 3));
-  EXPECT_THAT((std::vector{mill.acceleration.best, mill.acceleration.worst, mill.acceleration.corner_mm}),
-              ElementsAre(200, 100, 0.02));
+  EXPECT_THAT((std::vector{mill.acceleration.best, mill.acceleration.worst, mill.acceleration.slower}),
+              ElementsAre(200, 100, 0.5));
   EXPECT_EQ(mill.spindle.law, Spindle::Law::stages);
   EXPECT_THAT((std::vector{mill.spindle.minimum_rpm, mill.spindle.maximum_rpm, mill.spindle.spin_up_s}),
               ElementsAre(1000, 9000, 4));
@@ -156,9 +156,9 @@ TEST(Profile, HasWhatTheFileSays) {
   EXPECT_TRUE(mill.holds_flat_commands);
 }
 
-const std::vector<std::string> kOptional = {"tool.default_z2", "spindle.stage_0_rpm", "spindle.rpm_per_stage",
-                                            "line.baud",       "axes.letters",        "axes.apart",
-                                            "rotary.unit",     "extras.tolerated",    "clipping.flat_commands"};
+const std::vector<std::string> kOptional = {
+    "tool.default_z2", "acceleration.slower", "spindle.stage_0_rpm", "spindle.rpm_per_stage", "line.baud",
+    "axes.letters",    "axes.apart",          "rotary.unit",         "extras.tolerated",      "clipping.flat_commands"};
 
 TEST(Profile, MayLackSomeKeys) {
   for (const std::string& key : kOptional) EXPECT_THAT(errors(changed(where(key).line, "")), IsEmpty()) << key;
@@ -219,7 +219,7 @@ TEST(Profile, TellsOfEachValueOutOfRange) {
                                   {"speed.z_default", {"0", "0.2", "16.1"}},
                                   {"acceleration.best", {"0", "-1", "1000001"}},
                                   {"acceleration.worst", {"0", "-1", "201"}},
-                                  {"acceleration.corner_mm", {"-0.01", "10.1"}},
+                                  {"acceleration.slower", {"-0.01", "10.1"}},
                                   {"spindle.speeds", {"\"often\"", "\"Fixed\""}},
                                   {"spindle.minimum_rpm", {"0", "9001"}},
                                   {"spindle.maximum_rpm", {"0", "1000001"}},
@@ -256,7 +256,7 @@ TEST(Profile, TakesTheEndsOfEachRange) {
                                                                                    {"speed.cutting_default", "15"},
                                                                                    {"speed.z_default", "0.25"},
                                                                                    {"acceleration.worst", "200"},
-                                                                                   {"acceleration.corner_mm", "0"},
+                                                                                   {"acceleration.slower", "0"},
                                                                                    {"spindle.minimum_rpm", "9000"},
                                                                                    {"spindle.spin_up_s", "0"},
                                                                                    {"line.baud", "300"},

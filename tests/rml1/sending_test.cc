@@ -39,8 +39,8 @@ TEST(Words, AroundAJob) {
 TEST(Timeline, HasADwellBeforeEachPointAtMost) {
   const Timeline with("^PA;W1000;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
   const Timeline without("^PA;W0;PD1,0,2,0,3,0;", test_profile(), std::nullopt);
-  EXPECT_FLOAT_EQ(static_cast<float>(with.least_s() - without.least_s()), 1);
-  EXPECT_FLOAT_EQ(static_cast<float>(with.most_s() - without.most_s()), 3);
+  EXPECT_FLOAT_EQ(static_cast<float>(sum_of(with, &Step::least_s) - sum_of(without, &Step::least_s)), 1);
+  EXPECT_FLOAT_EQ(static_cast<float>(with.slowest_s() - without.slowest_s()), 3);
 }
 
 TEST_F(SenderTest, TheWholeJobIsWrittenOnceAndInCommands) {

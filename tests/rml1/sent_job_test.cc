@@ -80,7 +80,8 @@ Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
   FedMill line(job, mill_of(pair), settings.baud);
   Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
   Paused found{.shown_s = std::chrono::duration<double>(sender.run_on().longest).count()};
-  const Duration between = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeline.most_s() / 20));
+  const Duration between =
+      std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeline.slowest_s() / 20));
   TimePoint now{}, next_pause = now + between;
   const auto run_to = [&](TimePoint then) {
     now = then;

@@ -16,14 +16,14 @@ inline constexpr Origin kAtHome{0, 0, 0};
 // With accelerations and a slower high end as the shipped profiles have them.
 inline Profile short_vectors_profile() {
   Profile profile = test_profile();
-  profile.acceleration = {.best = 200, .worst = 100, .corner_mm = 0.02, .slower = 0.5};
+  profile.acceleration = {.best = 200, .worst = 100, .slower = 0.5};
   return profile;
 }
 
 // Of a mill whose figures were measured, and which needs no time to accelerate.
 inline Profile measured_profile() {
   Profile profile = test_profile();
-  profile.acceleration = {.best = 1e7, .worst = 1e7, .corner_mm = 0.02, .slower = 0};
+  profile.acceleration = {.best = 1e7, .worst = 1e7, .slower = 0};
   return profile;
 }
 

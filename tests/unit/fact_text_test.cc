@@ -133,13 +133,11 @@ TEST(FactText, AJobOfAMill) {
                 .owner = "unix jürgen",
                 .setup = {"d1", "MDX-20", "vice", "T1", {}, rml1::Place{20, 2, 5}},
                 .bytes = 5000,
-                .least_s = 61.5,
-                .most_s = 90,
                 .state = rml1::JobState::paused_unknown};
   job.confirmation = rml1::Confirmation{"unix bert", TimePoint(nanoseconds(1'000'000'001))};
   job.written = rml1::WrittenRange{120, 248};
   job.setup.left = {"job 6 (lid.rml) sets Z0"};
-  job.parts = {{"T1", 2000}, {"T3", 5000}};
+  job.parts = {{"T1", 2000, {std::chrono::seconds(61), std::chrono::seconds(90)}}, {"T3", 5000}};
   job.part = 1;
   const auto read = read_again(JobChanged{job, rml1::SenderState::paused, "unix anna", "the line was lost"});
   EXPECT_EQ(read.job.number, 7u);
@@ -147,8 +145,6 @@ TEST(FactText, AJobOfAMill) {
   EXPECT_EQ(read.job.owner, "unix jürgen");
   EXPECT_EQ(read.job.setup, job.setup);
   EXPECT_EQ(read.job.bytes, 5000u);
-  EXPECT_EQ(read.job.least_s, 61.5);
-  EXPECT_EQ(read.job.most_s, 90);
   EXPECT_EQ(read.job.state, rml1::JobState::paused_unknown);
   ASSERT_TRUE(read.job.confirmation && read.job.written);
   EXPECT_EQ(read.job.confirmation->by, "unix bert");

@@ -235,18 +235,20 @@ spool::Job spooled(const rml1::Job& job) {
           .facts = facts_of(job)};
 }
 
+constexpr rml1::TimeRange kTakes{std::chrono::milliseconds(1500), std::chrono::hours(2)};
+constexpr rml1::RunOn kRunOn{1540, 1600, std::chrono::milliseconds(1234), 12.5};
+
 TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   const rml1::Job made = job_of(spooled({.setup = {"", "mdx-20", "corner", ""},
-                                         .least_s = 1.5,
-                                         .most_s = 2.5,
-                                         .parts = {{"T2", 500}},
+                                         .parts = {{"T2", 500, kTakes}},
+                                         .run_on = kRunOn,
                                          .leaves = {.surface = true, .tool = true}}));
   EXPECT_EQ(made.number, 3u);
   EXPECT_EQ(made.owner, "unix anna");
   EXPECT_EQ(made.setup, (rml1::JobSetup{"d", "mdx-20", "corner", "T2"}));
   EXPECT_EQ(made.bytes, 500u);
-  EXPECT_EQ(made.least_s, 1.5);
-  EXPECT_EQ(made.most_s, 2.5);
+  EXPECT_EQ(made.parts.at(0).takes, kTakes);
+  EXPECT_EQ(made.run_on, kRunOn);
   EXPECT_EQ(made.state, JobState::queued);
   EXPECT_EQ(made.leaves, (rml1::Leaves{.surface = true, .tool = true}));
   EXPECT_EQ(std::chrono::round<std::chrono::hours>(monotonic_now() - made.queued_since), std::chrono::hours(48));

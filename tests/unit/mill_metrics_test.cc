@@ -27,8 +27,7 @@ class MillMetricsTest : public ::testing::Test {
 
   static Job job(JobState state) {
     Job one;
-    one.least_s = 20;
-    one.most_s = 30;
+    one.parts = {{"T1", 100, {20s, 30s}}};
     one.state = state;
     return one;
   }

@@ -3,7 +3,7 @@
 
 #include "device/rml1/guard.h"
 #include "device/rml1/mill/mill_controller.h"
-#include "device/rml1/sending/window.h"
+#include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {

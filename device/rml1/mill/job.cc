@@ -94,6 +94,23 @@ std::vector<std::string> left_by(const Job& job) {
   return texts;
 }
 
+TimeRange takes_later(const Job& job) {
+  TimeRange all;
+  for (std::size_t part = job.part + 1; part < job.parts.size(); ++part) all += job.parts[part].takes;
+  return all;
+}
+
+TimeRange takes(const Job& job) {
+  TimeRange all = takes_later(job);
+  if (!job.parts.empty()) all += job.parts[job.part].takes;
+  return all;
+}
+
+void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on) {
+  if (!job.parts.empty()) job.parts[job.part].takes = takes;
+  job.run_on = run_on;
+}
+
 std::string executed_text(const Job& job) {
   const auto text = [](const Place& place) { return fmt::format("line {}, column {}", place.line, place.column); };
   const auto& [least, most] = job.executed.value();

@@ -11,6 +11,8 @@
 #include "device/core/time.h"
 #include "device/rml1/leaves.h"
 #include "device/rml1/place.h"
+#include "device/rml1/sending/job_times.h"
+#include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
 #include "device/rml1/stock.h"
 
@@ -37,6 +39,7 @@ struct JobSetup {
 struct JobPart {
   std::string tool;       // a configured name
   std::uint64_t end = 0;  // the byte of the job behind its last
+  TimeRange takes{};      // as it is sent; of one that is continued, what is left of it
 
   friend bool operator==(const JobPart&, const JobPart&) = default;
 };
@@ -97,19 +100,19 @@ struct Job {
   std::string owner{};
   JobSetup setup{};
   std::uint64_t bytes = 0;
-  double least_s = 0, most_s = 0;  // how long the mill takes
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed
   std::optional<WrittenRange> written{};       // of one that was lost or paused, until it continues
   std::optional<PlaceRange> executed{};        // PreparedJob::executed() of one whose abort was requested
-  std::vector<JobPart> parts{};                // at most kPartsAtMost; none: all of it is one
-  std::size_t part = 0;                        // runs, or is the next to
-  Leaves leaves{};                             // of all parts
-  std::int64_t rank = 0;                       // as is_before() has it; 0 as it was sent
-  std::optional<Streaming> streaming{};        // none: as the mill has it
-  std::optional<Stock> stock{};                // none: nobody has said it
-  std::string checked_for{};                   // a digest of the profile and the origin with which it was checked
-  TimePoint queued_since{};                    // when it was sent, or when its last confirmation became void
+  std::vector<JobPart> parts{};          // at most kPartsAtMost; none: all of it is one, and its time is not known
+  RunOn run_on{};                        // of the part of which it is the most; of a part that runs, its own
+  std::size_t part = 0;                  // runs, or is the next to
+  Leaves leaves{};                       // of all parts
+  std::int64_t rank = 0;                 // as is_before() has it; 0 as it was sent
+  std::optional<Streaming> streaming{};  // none: as the mill has it
+  std::optional<Stock> stock{};          // none: nobody has said it
+  std::string checked_for{};             // a digest of the profile and the origin with which it was checked
+  TimePoint queued_since{};              // when it was sent, or when its last confirmation became void
 };
 
 // Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower
@@ -126,6 +129,12 @@ std::uint64_t next_byte(const Job& job);
 void go_to_part(Job& job, std::size_t part);
 // Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
 bool waits_to_begin(const Job& job);
+// How long its part takes as it is sent, and those behind it, without the time of people between them.
+TimeRange takes(const Job& job);
+// The same of those behind its part alone.
+TimeRange takes_later(const Job& job);
+// Of its part, as that is sent now.
+void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
 // What a void confirmation of it is.
 JobEvent void_event(const Job& job);
 

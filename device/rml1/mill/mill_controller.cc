@@ -24,8 +24,8 @@ stage::Use use_of(const stage::RequestContext& by, JobNumber job) {
 }
 
 stage::Occupation occupation_by(const Job& job, const std::string& who, TimePoint now) {
-  const auto longest = std::chrono::duration_cast<Duration>(std::chrono::duration<double>(job.most_s));
-  return {fmt::format("{}, started by {}", job.name, who), fmt::format("job {} runs", job.number), "", now + longest};
+  return {fmt::format("{}, started by {}", job.name, who), fmt::format("job {} runs", job.number), "",
+          now + takes(job).most};
 }
 
 Result<void> check_same(const Job& confirmed, const PreparedJob& prepared) {
@@ -205,6 +205,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if ((*job)->part == 0 && !(*job)->setup.from) left_ = left_by(**job);
   (*job)->written.reset();
   (*job)->executed.reset();
+  set_plan(**job, prepared->times().whole(), prepared->plan().run_on);
   change(**job, JobEvent::start, by.who, "", now);
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
@@ -258,10 +259,17 @@ std::optional<RunningJob> MillController::running(TimePoint now) {
 RunningJob MillController::view(TimePoint now) {
   SendProgress progress = running_->sender.progress(now);
   const PreparedJob& job = *running_->prepared;
+  TimeRange left = left_of(job, progress, running_->sender.measured_pace());
+  left += takes_later(**find(running_->number));
   progress = {job.of_body(progress.written), progress.unsent, job.of_body(progress.taken),
               job.of_body(progress.executed_least), job.of_body(progress.executed_most)};
-  return {running_->number,          running_->sender.state(), progress,
-          running_->sender.run_on(), running_->started,        running_->busy};
+  return {.number = running_->number,
+          .sender = running_->sender.state(),
+          .progress = progress,
+          .run_on = running_->sender.run_on(),
+          .left = left,
+          .started = running_->started,
+          .busy = running_->busy};
 }
 
 void MillController::look_at_sender(TimePoint now) {

@@ -38,8 +38,16 @@ struct RunningJob {
   SenderState sender = SenderState::ready;
   SendProgress progress;  // in bytes of the job itself
   RunOn run_on;
+  TimeRange left;  // of the job, as takes() counts
   TimePoint started{};
   bool busy = false;  // for MillSettings::busy_limit the mill has taken nothing
+};
+
+// Where a job continues, and what its part then takes.
+struct JobRest {
+  Place from;
+  TimeRange takes{};
+  RunOn run_on{};
 };
 
 // Whose QUEUED jobs another one is moved before.
@@ -99,7 +107,7 @@ class MillController : public LineMachine {
   Result<void> resume(const stage::RequestContext& by, TimePoint now);
   // Of a job that is PAUSED_UNKNOWN or PAUSED: it continues at that place of its part, when it is confirmed and
   // started. not_found; wrong_mode.
-  Result<void> choose_rest(JobNumber job, const Place& from, std::string_view by, TimePoint now);
+  Result<void> choose_rest(JobNumber job, const JobRest& rest, std::string_view by, TimePoint now);
   // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False: the line is
   // closed, and it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns, may start
   // another one before they rearm.

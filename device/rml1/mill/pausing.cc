@@ -62,16 +62,17 @@ Result<void> MillController::resume(const stage::RequestContext& by, TimePoint n
   return {};
 }
 
-Result<void> MillController::choose_rest(JobNumber number, const Place& from, std::string_view by, TimePoint now) {
+Result<void> MillController::choose_rest(JobNumber number, const JobRest& rest, std::string_view by, TimePoint now) {
   const Result<Job*> job = find(number);
   if (!job) return tl::unexpected(job.error());
   if (!next((*job)->state, JobEvent::choose_rest)) {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(**job), name((*job)->state)),
                 "only a job that is PAUSED_UNKNOWN or PAUSED is continued from a line");
   }
-  (*job)->setup.from = from;
-  change(**job, JobEvent::choose_rest, by, fmt::format("it continues at line {}, column {}", from.line, from.column),
-         now);
+  (*job)->setup.from = rest.from;
+  set_plan(**job, rest.takes, rest.run_on);
+  change(**job, JobEvent::choose_rest, by,
+         fmt::format("it continues at line {}, column {}", rest.from.line, rest.from.column), now);
   return {};
 }
 
@@ -81,6 +82,7 @@ void MillController::end_raised(TimePoint now) {
   const Place from = running_->prepared->place(written);
   Job& job = **find(running_->number);
   job.setup.from = from;
+  set_plan(job, running_->prepared->times().left(written, written), job.run_on);
   job.written = WrittenRange{running_->prepared->of_body(written), running_->prepared->of_body(written)};
   end_run(JobEvent::raised, "",
           fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);

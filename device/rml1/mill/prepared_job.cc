@@ -1,6 +1,7 @@
 #include "device/rml1/mill/prepared_job.h"
 
 #include <algorithm>
+#include <chrono>
 #include <utility>
 
 #include "device/rml1/characters.h"
@@ -31,7 +32,8 @@ PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profil
       places_(std::string_view(text_).substr(rest_in_text_, rest_size_)),
       timeline_(text_, profile, origin),
       settings_(settings),
-      plan_(plan_of(text_, timeline_, settings)) {}
+      plan_(plan_of(text_, timeline_, settings)),
+      times_(text_, timeline_, settings, plan_.window) {}
 
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
   return begin_ + rest_.offset + (bytes < rest_in_text_ ? 0 : std::min(bytes - rest_in_text_, rest_size_));
@@ -48,6 +50,17 @@ PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) con
   std::uint64_t begin = std::max(least, rest_in_text_ + 1) - 1;
   while (begin < text_.size() && (is_delimiter(text_[begin]) || text_[begin] == ',')) ++begin;
   return {place(begin), place(std::max(begin, written))};
+}
+
+// A mill that shows how fast it is shows more than its profile knows.
+TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured) {
+  if (!measured) return job.times().left(progress.executed_least, progress.executed_most);
+  const auto takes = [&job](std::uint64_t executed, double pace) {
+    return std::chrono::duration_cast<Duration>(
+        std::chrono::duration<double>(job.timeline().slowest_after(executed) * pace));
+  };
+  return {takes(progress.executed_most, measured->least / kUnsteady),
+          takes(progress.executed_least, measured->most * kUnsteady)};
 }
 
 }  // namespace axisgate::rml1

@@ -11,7 +11,10 @@
 #include "device/rml1/mill/approach.h"
 #include "device/rml1/mill/place_index.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/sending/job_times.h"
+#include "device/rml1/sending/pace_meter.h"
 #include "device/rml1/sending/plan.h"
+#include "device/rml1/sending/sender.h"
 #include "device/rml1/sending/settings.h"
 #include "device/rml1/sending/timeline.h"
 
@@ -35,6 +38,8 @@ class PreparedJob {
   const Timeline& timeline() const { return timeline_; }
   const SendSettings& settings() const { return settings_; }
   const SendPlan& plan() const { return plan_; }
+  // Of bytes of text().
+  const JobTimes& times() const { return times_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<Place>& from() const { return from_; }
   // So many bytes of text() reach up to this byte of the job itself, and to this place in the part.
@@ -56,6 +61,10 @@ class PreparedJob {
   const Timeline timeline_;
   const SendSettings settings_;
   const SendPlan plan_;
+  const JobTimes times_;
 };
+
+// What is left of one that runs. `progress`: in bytes of its text(). `measured`: by this job itself.
+TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured);
 
 }  // namespace axisgate::rml1

@@ -7,8 +7,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kWithin = 1.2;    // the high end of a range that says something, in low ends
-constexpr double kUnsteady = 1.1;  // by how much another job may be slower than the one that was measured
+constexpr double kWithin = 1.2;  // the high end of a range that says something, in low ends
 
 double width(const MeasuredPace& pace) { return pace.most / pace.least; }
 
@@ -45,8 +44,8 @@ std::optional<MeasuredPace> PaceMeter::pace() const {
 std::optional<MeasuredPace> PaceMeter::between_stops() const {
   if (!first_) return std::nullopt;
   const double seconds = std::chrono::duration<double>(last_->at - first_->at).count();
-  const double certain = most_s(first_->left + 1, begun(last_->left));
-  const double possible = most_s(begun(first_->left), last_->left + 1);
+  const double certain = slowest_s(first_->left + 1, begun(last_->left));
+  const double possible = slowest_s(begun(first_->left), last_->left + 1);
   if (seconds <= 0 || certain <= 0) return std::nullopt;
   return MeasuredPace{seconds / possible, seconds / certain};
 }
@@ -59,12 +58,12 @@ std::uint64_t PaceMeter::begun(std::uint64_t left) const {
 }
 
 // Of the steps that end there, `to` excluded.
-double PaceMeter::most_s(std::uint64_t from, std::uint64_t to) const {
+double PaceMeter::slowest_s(std::uint64_t from, std::uint64_t to) const {
   const auto& steps = timeline_.steps();
   double seconds = 0;
   for (auto step = std::ranges::lower_bound(steps, from, {}, &Step::end); step != steps.end() && step->end < to;
        ++step) {
-    seconds += step->most_s;
+    seconds += step->slowest_s;
   }
   return seconds;
 }

@@ -18,6 +18,9 @@ struct MeasuredPace {
   friend bool operator==(const MeasuredPace&, const MeasuredPace&) = default;
 };
 
+// By how much what follows may be slower or faster than what was measured.
+inline constexpr double kUnsteady = 1.1;
+
 // Where `slack_as_measured`, with that slack.
 SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured);
 
@@ -43,7 +46,7 @@ class PaceMeter {
 
   std::optional<MeasuredPace> between_stops() const;
   std::uint64_t begun(std::uint64_t left) const;
-  double most_s(std::uint64_t from, std::uint64_t to) const;
+  double slowest_s(std::uint64_t from, std::uint64_t to) const;
 
   const Timeline& timeline_;
   const std::size_t unread_;

@@ -5,6 +5,7 @@
 
 #include "device/rml1/guard.h"
 #include "device/rml1/sending/cut.h"
+#include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/window.h"
 
 namespace axisgate::rml1 {
@@ -26,20 +27,23 @@ std::size_t longest_write(std::string_view job, std::size_t window) {
   return longest;
 }
 
-// A step that runs on ends in the last `bytes` that were written. The line sends or the mill executes: where the line
-// is held, the mill has something to do.
-Duration longest_within(std::size_t bytes, const Timeline& timeline, const SendSettings& settings) {
-  const auto takes = [&settings](const Step& step) {
-    return std::chrono::ceil<Duration>(std::chrono::duration<double>(step.most_s * settings.slack));
-  };
-  Duration longest{}, within{};
+// Of the steps that end in any `bytes` of the job that follow one another.
+double most_within(std::size_t bytes, const Timeline& timeline, float Step::*amount) {
+  double most = 0, within = 0;
   auto first = timeline.steps().begin();
   for (const Step& last : timeline.steps()) {
-    within += takes(last);
-    for (; first->end + bytes <= last.end; ++first) within -= takes(*first);
-    longest = std::max(longest, within);
+    within += last.*amount;
+    for (; first->end + bytes <= last.end; ++first) within -= (*first).*amount;
+    most = std::max(most, within);
   }
-  return longest + transmit_time(bytes, settings.baud);
+  return most;
+}
+
+// The line sends or the mill executes: where the line is held, the mill has something to do.
+RunOn run_on_of(std::size_t at_most, std::size_t if_held, const Timeline& timeline, const SendSettings& settings) {
+  const std::chrono::duration<double> executing(most_within(at_most, timeline, &Step::slowest_s) * settings.slack);
+  return {at_most, if_held, std::chrono::ceil<Duration>(executing) + transmit_time(at_most, settings.baud),
+          most_within(at_most, timeline, &Step::mm)};
 }
 
 }  // namespace
@@ -50,7 +54,7 @@ SendPlan plan_of(std::string_view job, const Timeline& timeline, const SendSetti
   const std::size_t longest = longest_write(job, window);
   const std::size_t full = settings.buffer + settings.converter + 2 * longest;
   const std::size_t at_most = settings.streaming == Streaming::full ? full : std::min(std::max(window, longest), full);
-  return {window, settings.slack, {at_most, full, longest_within(at_most, timeline, settings)}};
+  return {window, settings.slack, run_on_of(at_most, full, timeline, settings)};
 }
 
 }  // namespace axisgate::rml1

@@ -18,6 +18,10 @@ struct RunOn {
   std::size_t if_held = 0;
   // Within which the slowest mill has executed any `at_most` bytes of the job.
   Duration longest{};
+  // How far its tool moves meanwhile, at most.
+  double mm = 0;
+
+  friend bool operator==(const RunOn&, const RunOn&) = default;
 };
 
 struct SendPlan {

@@ -7,7 +7,7 @@
 #include "device/core/transitions.h"
 #include "device/rml1/guard.h"
 #include "device/rml1/sending/cut.h"
-#include "device/rml1/sending/window.h"
+#include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -33,7 +33,7 @@ Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& pr
       settings_(settings),
       plan_(plan),
       line_(line),
-      slowest_(timeline, &Step::most_s, plan.slack),
+      slowest_(timeline, &Step::slowest_s, plan.slack),
       fastest_(timeline, &Step::least_s, 1),
       meter_(timeline, settings.buffer + settings.converter),
       cutter_(job, plan.window) {}

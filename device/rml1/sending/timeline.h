@@ -14,7 +14,9 @@ namespace axisgate::rml1 {
 // A move, a dwell or a spin-up.
 struct Step {
   std::uint64_t end = 0;          // bytes of the job that had to come before
-  float least_s = 0, most_s = 0;  // at full speed throughout; from rest to rest by the slowest that the profile has
+  float least_s = 0, most_s = 0;  // the range that people see (move_time.h)
+  float slowest_s = 0;            // by the slowest mill that the profile has: for what runs on
+  float mm = 0;                   // of a move
   bool turning = false;           // the spindle, from its beginning on
 };
 
@@ -24,14 +26,15 @@ class Timeline {
   Timeline(std::string_view job, const Profile& profile, std::optional<Origin> origin);
 
   const std::vector<Step>& steps() const { return steps_; }
-  double least_s() const { return least_s_; }
-  double most_s() const { return most_s_; }
+  double slowest_s() const { return slowest_s_; }
+  // Of the steps behind so many bytes.
+  double slowest_after(std::uint64_t executed) const;
   // The spindle.
   bool turns_at_end() const { return turns_at_end_; }
 
  private:
   std::vector<Step> steps_;
-  double least_s_ = 0, most_s_ = 0;
+  double slowest_s_ = 0;
   bool turns_at_end_ = false;
 };
 

@@ -4,13 +4,9 @@
 #include <cstddef>
 #include <string_view>
 
-#include "device/core/time.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {
-
-// With start bit and stop bit.
-Duration transmit_time(std::size_t bytes, int baud);
 
 // The first is enough where each command takes the mill longer than the line. The last is half of the mill's buffer.
 inline constexpr std::size_t kWindows[] = {64, 128, 256, 512};  // bytes

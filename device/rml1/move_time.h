@@ -1,0 +1,23 @@
+// How long a mill may take for one straight move, or for a wait.
+#pragma once
+
+#include "device/rml1/machine.h"
+#include "device/rml1/profile.h"
+
+namespace axisgate::rml1 {
+
+// Seconds. A mill does not say how it accelerates, nor whether it stops at each point.
+struct StepTime {
+  double least = 0;    // at full speed throughout
+  double most = 0;     // from rest to rest, or slower throughout by the profile's part, whichever is longer
+  double slowest = 0;  // both: what a bound of what runs on is computed with
+};
+
+// mm, and mm/s as set and within the machine's.
+StepTime move_time(double mm, double speed, const Acceleration& acceleration);
+// `seconds`: as the machine has it. How long a spindle needs is assumed, so it may need no time.
+StepTime wait_time(Wait what, double seconds, const Acceleration& acceleration);
+// A mill may dwell before each point of a list (guideline 3-1 W, "when the cutting direction changes").
+StepTime dwell_between_points(double seconds);
+
+}  // namespace axisgate::rml1
