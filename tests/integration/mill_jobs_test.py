@@ -117,7 +117,7 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(confirmed, rf"\njob {number} \(lid\.rml\) is confirmed by unix \S+ until 20\d\d-")
         self.assertRegex(self.run_well("queue", device="quick"), r" CONFIRMED .* by unix \S+ until ")
         followed = self.run_well("start", "--follow", device="quick")
-        self.assertRegex(followed, r"; after an abort at most \d+ bytes, up to \d.* s, run on")
+        self.assertRegex(followed, r"; after an abort at most \d+ bytes, up to \d.* s and \d+ mm, run on")
         self.assertRegex(followed, rf"\njob {number} \(lid\.rml\) FED: all was sent, ")
         self.assertRegex(self.run_well("queue", device="quick"), r"no job runs\n(.*\n)*.* FED ")
         self.assertEqual(self.run_well("done", number, device="quick"), f"job {number} is DONE\n")
@@ -149,7 +149,7 @@ class MillJobs(unittest.TestCase):
         watching.until(r"\ASENDING \[.{10}\] \d+( to \d+)? %, \d+ of \d+ bytes written, \d+ taken, ")
         self.send(SMALL)
         self.assertRegex(self.run_well("abort"),
-                         rf"\Athe abort was sent: at most \d+ bytes of job {number}, up to .* s, may run on.*; "
+                         rf"\Athe abort was sent: at most \d+ bytes of job {number}, up to .* s and \d+ mm, may run on.*; "
                          r"by the mill's profile what is executed ends (at|between) line \d+, column \d+( and .*)?; look at")
         self.assertEqual(watching.end(), 1)
         self.assertRegex(watching.errors, rf"ABORTED: the abort of job {number} |OUTCOME_UNKNOWN: job {number} has left")
@@ -173,7 +173,7 @@ class MillJobs(unittest.TestCase):
 
     def test_pause_and_resume(self):
         number = self.start_long()
-        self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it, up to .* s, "
+        self.assertRegex(self.run_well("pause"), rf"\Ajob {number} is paused: (\d+ to )?\d+ bytes of it, up to .* s and \d+ mm, "
                                                  r"still run.*; the cutter keeps turning in the cut\n\Z")
         self.assertRegex(self.run_well("queue"), rf"\njob {number} \(frame\) PAUSED \[")
         self.refused(f"WRONG_MODE: job {number} is paused already", "pause")
@@ -232,7 +232,7 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(refused.stderr, "NOT_ALLOWED")
         aborted = self.run_as_stranger("abort")  # as a stop: everybody may
         self.assertEqual(aborted.returncode, 0, aborted.stderr)
-        self.assertRegex(aborted.stdout, rf"of job {running}, up to .* s, may run on")
+        self.assertRegex(aborted.stdout, rf"of job {running}, up to .* s and \d+ mm, may run on")
 
     def test_the_same_request_is_one_job(self):
         command = ("--device", "mill", "--request-id", "lid-1", "mill", "send", "-")

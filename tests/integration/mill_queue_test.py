@@ -113,11 +113,11 @@ class AQueueAmongPeople(Queue):
     def test_when_a_job_begins(self):
         self.send("anna", "bert", "anna")
         queue = self.well("bert", "mill", "queue")
-        takes = re.search(r"  (\d+ min \d+ s to \d+ min \d+ s)  now  ", queue)
+        takes = re.search(r"  (\d+ h \d+ min(?: to \d+ h \d+ min)?), paced  now  ", queue)
         self.assertTrue(takes, queue)
         self.assertRegex(queue, rf"(?m)^2 .*  in {takes[1]} +-$")
         self.well("bert", "mill", "confirm", "--yes", "--start")
-        self.assertRegex(self.well("bert", "mill", "queue"), r"(?m)^2 .*  in \d+ min \d+ s to \d+ min \d+ s +-$")
+        self.assertRegex(self.well("bert", "mill", "queue"), r"(?m)^2 .*  in \d+ .* min +-$")
 
     def test_the_order_outlives_the_daemon(self):
         self.send("anna", "bert", "anna", "bert", "anna")

@@ -23,12 +23,12 @@ class Ways:
         self.moves = moves
 
     def bounds(self, job, baud=True):
-        """Not shorter than distance over feed; at most from rest to rest for each move, which adds no more than
-        feed / acceleration to it, and behind the last byte of the job."""
+        """Not shorter than distance over feed, by a spindle that needs no time; at most from rest to rest for each move,
+        which adds no more than feed / acceleration to it, and behind the last byte of the job."""
         ways = sum(way / feed for way, feed in self.moves)
         ramps = sum(feed / WORST for _, feed in self.moves)
         line = len(job) / BYTES_A_SECOND if baud else 0
-        return ways + SPIN_UP_S, SLOWER * (ways + ramps) + SPIN_UP_S + line
+        return ways, SLOWER * (ways + ramps) + SPIN_UP_S + line
 
 
 class Wild(unittest.TestCase):
