@@ -169,7 +169,9 @@ abort also sends what discards the mill's buffer, raises the tool and stops the 
 not known: look at it. FED means that all of a job was sent, and that the slowest mill has executed it by now. After you
 have seen the workpiece, `mill done` takes the job out of the queue. Ctrl-C does not end a job: `mill abort` does.
 
-`mill queue` shows when each job that waits begins at the earliest: a range, too. People who confirm add their time.
+A job takes as long as it is sent: with "full" streaming as long as the mill needs, from full speed throughout to a stop at
+each point; "paced" much longer, and then less runs on after an abort. Both are said before the start. `mill queue` shows
+when each job that waits begins at the earliest: a range, too. People who confirm add their time.
 `mill first` moves a job to the front. An administrator may move each; you may move your own before other jobs of yours.
 A job that is confirmed or was begun is never overtaken.
 

@@ -73,8 +73,15 @@ void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
   if (!sending.slack_as_measured) table.error("slack", fmt::format("\"{}\" is not known; use {}", word, kSlackRule));
 }
 
+// A paced job takes longer than the mill needs for it. Without flow control that is the price of losing nothing.
+rml1::Streaming usual_streaming(const ConfigTable& table, const rml1::SendSettings& sending) {
+  const bool full = sending.flow_control && !table.has("window");
+  return full ? rml1::Streaming::full : rml1::Streaming::paced;
+}
+
 void read_sending(ConfigTable& table, rml1::SendSettings& sending) {
-  sending.streaming = table.choice<rml1::Streaming>("streaming", kStreamings).value_or(sending.streaming);
+  const auto streaming = table.choice<rml1::Streaming>("streaming", kStreamings);
+  sending.streaming = streaming.value_or(usual_streaming(table, sending));
   read_bytes(table, "window", 16, 4096, sending.window);
   read_bytes(table, "buffer", 16, 1 << 20, sending.buffer);
   read_bytes(table, "converter", 0, 65'536, sending.converter);
@@ -206,9 +213,9 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   if (!connection || *connection == ConnectionKind::simulated) {
     mill.slower_percent = table.number("slower", 0, 1000, "percent from 0 to 1000").value_or(mill.slower_percent);
   }
+  mill.sending.flow_control = has_flow_control(device);
   read_sending(table, mill.sending);
   mill.sending.baud = device.baud;
-  mill.sending.flow_control = has_flow_control(device);
   mill.holds_host_back = holds_host_back(device);
   if (connection && mill.sending.streaming == rml1::Streaming::full && !mill.holds_host_back)
     refuse_full(table, device);

@@ -52,7 +52,7 @@ class MillPace(unittest.TestCase):
         return float(run_on.get("longest", "0s").rstrip("s"))
 
     def run_on_of_a_paced_job(self):
-        return self.feed("^PA;!MC0;" + "PU2000,1000;PU1000,1000;" * 4)
+        return self.feed("^PA;!MC0;" + "PU2000,1000;PU1000,1000;" * 4, "--streaming", "paced")
 
     def test_a_long_job_shows_it(self):
         self.assertEqual(self.pace(), [0, 0])
