@@ -138,22 +138,13 @@ void Check::moved(const Move& move) {
   if (move.cuts() && move.turning) summary_.rpm.take(machine_.rpm());
   summary_.bounds.take(first_height ? move.to : move.from);
   summary_.bounds.take(move.to);
-  time(move, way, first_height);
+  const StepTime time = move_time(move, profile_, options_.origin.has_value());
+  if (first_height && !options_.origin) summary_.seconds_down = time.most;
+  take(time, move.end);
   judge_.moved(move);
   const bool plane = move.operation == Operation::plot && (way.x != 0 || way.y != 0);
   judge_.took(workload_.moved(move, plane ? machine_.cutting_speed() : machine_.z_speed()), move);
   if (moves_ != nullptr) moves_->moved(move);
-}
-
-// Where Z0 is not known, nobody knows from how high the tool comes down at first.
-void Check::time(const Move& move, const Point& way, bool first_height) {
-  StepTime time = move_time(length(way), move.speed, profile_.acceleration);
-  const bool unknown = first_height && !options_.origin;
-  if (unknown) {
-    summary_.seconds_down = time.most;
-    time.least = 0;
-  }
-  take(time, move.end);
 }
 
 // What comes before the last byte of its command waits for that.

@@ -72,7 +72,6 @@ class Check : private MachineListener, private ParserListener {
   void begin_job();
   void report_no_command();
   double arrival(std::uint64_t end) const;
-  void time(const Move& move, const Point& way, bool first_height);
   void take(const StepTime& time, std::uint64_t end);
 
   const Profile& profile_;

@@ -12,12 +12,21 @@ double rest_to_rest(double mm, double speed, double acceleration) {
   return reaches ? mm / speed + speed / acceleration : 2 * std::sqrt(mm / acceleration);
 }
 
+// Of a move, in mm.
+double certain_way(const Move& move, double step_mm) {
+  Point way = move.to - move.from;
+  way.z = std::min(move.to.z, 0.0) - std::min(move.from.z, 0.0);
+  return length(way) * step_mm;
+}
+
 }  // namespace
 
-StepTime move_time(double mm, double speed, const Acceleration& acceleration) {
-  const double least = mm / speed, stopping = rest_to_rest(mm, speed, acceleration.worst);
-  const double slower = 1 + acceleration.slower;
-  return {least, std::max(least * slower, stopping), stopping * slower};
+StepTime move_time(const Move& move, const Profile& profile, bool knows_z0) {
+  const double mm = length(move.to - move.from) * profile.step_mm, even = mm / move.speed;
+  const double stopping = rest_to_rest(mm, move.speed, profile.acceleration.worst);
+  const double slower = 1 + profile.acceleration.slower;
+  const double least = knows_z0 ? even : certain_way(move, profile.step_mm) / move.speed;
+  return {least, std::max(even * slower, stopping), stopping * slower};
 }
 
 StepTime wait_time(Wait what, double seconds, const Acceleration& acceleration) {

@@ -13,8 +13,9 @@ struct StepTime {
   double slowest = 0;  // both: what a bound of what runs on is computed with
 };
 
-// mm, and mm/s as set and within the machine's.
-StepTime move_time(double mm, double speed, const Acceleration& acceleration);
+// Where it is not known how far Z0 lies below the top (`knows_z0`), clipping may leave out any way above Z0: then that
+// counts at the longer ends only.
+StepTime move_time(const Move& move, const Profile& profile, bool knows_z0);
 // `seconds`: as the machine has it. How long a spindle needs is assumed, so it may need no time.
 StepTime wait_time(Wait what, double seconds, const Acceleration& acceleration);
 // A mill may dwell before each point of a list (guideline 3-1 W, "when the cutting direction changes").

@@ -58,12 +58,21 @@ void expect_within(const TimeRange& takes, double driven, const std::string& wha
   EXPECT_LE(driven, seconds(takes.most) + 0.01) << what;
 }
 
-// 20 mm at 10 mm/s, on the mill's first level: at full speed 2 s; slower throughout by half 3 s. Behind it the tool,
-// which is at the top, is raised nowhere.
+// 20 mm at 10 mm/s, on the mill's first level: at full speed 2 s; slower throughout by half 3 s.
 TEST(JobTimes, OfOneMove) {
   const PreparedJob job = prepared("!MC0;^PA;V10;Z2000,0,0;", on("none"));
   EXPECT_NEAR(seconds(job.times().whole().least), 2, 0.1);
   EXPECT_NEAR(seconds(job.times().whole().most), 3, 0.1);
+}
+
+// Where Z0 may be the top, a lift may be no way at all: at least 10 mm across at 10 mm/s.
+TEST(JobTimes, WithoutAnOriginWaysAboveTheSurfaceMayBeNone) {
+  const std::string body = "!MC0;^PA;V10;!PZ-100,2000;F10;PU0,0;PD0,0;PD1000,0;PU1000,0;";
+  const Profile profile = short_vectors_profile();
+  const PreparedJob anywhere(body, "", profile, std::nullopt, {.streaming = Streaming::full});
+  const PreparedJob deep(body, "", profile, Origin{0, 0, 30}, {.streaming = Streaming::full});
+  EXPECT_LT(anywhere.times().whole().least, deep.times().whole().least);
+  EXPECT_NEAR(seconds(anywhere.times().whole().least), 1 + 0.2, 0.15) << "and 1 mm down, and up";
 }
 
 // A triangle: 2 sqrt(0.2 mm / 100 mm/s2) is 89 ms, where 0.2 mm at 10 mm/s are 20 ms.
@@ -108,7 +117,7 @@ TEST(JobTimes, WhatIsLeftBeginsAtAllAndEndsAtNothing) {
   }
 }
 
-// The mill holds its line at most of the time, so it shows how fast it is.
+// The mill holds its line most of the time, so it shows how fast it is.
 TEST(JobTimes, WhatIsLeftFollowsAMillThatShowsItsPace) {
   const Way way = on("none");
   const PreparedJob job = prepared(uniform_vectors(3000), way);
@@ -117,6 +126,10 @@ TEST(JobTimes, WhatIsLeftFollowsAMillThatShowsItsPace) {
   const TimeRange left = left_of(job, progress, pace);
   EXPECT_NEAR(seconds(left.most), job.timeline().slowest_after(1000) * 0.22 * 1.1, 1e-6);
   EXPECT_NEAR(seconds(left.least), job.timeline().slowest_after(2000) * 0.2 / 1.1, 1e-6);
+  const TimeRange full_speed = job.times().left(1000, 1000);
+  EXPECT_EQ(left_of(job, {.executed_least = 1000, .executed_most = 1000}, MeasuredPace{0.01, 0.011}),
+            (TimeRange{full_speed.least, full_speed.least}))
+      << "no mill is faster than at full speed";
   EXPECT_EQ(left_of(job, progress, std::nullopt), job.times().left(1000, 2000));
 }
 

@@ -52,15 +52,18 @@ PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) con
   return {place(begin), place(std::max(begin, written))};
 }
 
-// A mill that shows how fast it is shows more than its profile knows.
+// A mill that shows how fast it is shows more than its profile knows. What comes may be moves of another kind, which no
+// mill makes faster than at full speed.
 TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured) {
   if (!measured) return job.times().left(progress.executed_least, progress.executed_most);
   const auto takes = [&job](std::uint64_t executed, double pace) {
     return std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(job.timeline().slowest_after(executed) * pace));
   };
-  return {takes(progress.executed_most, measured->least / kUnsteady),
-          takes(progress.executed_least, measured->most * kUnsteady)};
+  const TimeRange full_speed{job.times().left(progress.executed_least, progress.executed_most).least,
+                             job.times().left(progress.executed_most, progress.executed_least).least};
+  return {std::max(full_speed.least, takes(progress.executed_most, measured->least / kUnsteady)),
+          std::max(full_speed.most, takes(progress.executed_least, measured->most * kUnsteady))};
 }
 
 }  // namespace axisgate::rml1

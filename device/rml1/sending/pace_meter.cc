@@ -59,13 +59,8 @@ std::uint64_t PaceMeter::begun(std::uint64_t left) const {
 
 // Of the steps that end there, `to` excluded.
 double PaceMeter::slowest_s(std::uint64_t from, std::uint64_t to) const {
-  const auto& steps = timeline_.steps();
-  double seconds = 0;
-  for (auto step = std::ranges::lower_bound(steps, from, {}, &Step::end); step != steps.end() && step->end < to;
-       ++step) {
-    seconds += step->slowest_s;
-  }
-  return seconds;
+  return std::max(0.0, timeline_.slowest_until(std::max<std::uint64_t>(to, 1) - 1) -
+                           timeline_.slowest_until(std::max<std::uint64_t>(from, 1) - 1));
 }
 
 }  // namespace axisgate::rml1

@@ -1,6 +1,7 @@
 #include "device/rml1/sending/timeline.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "device/rml1/diagnostic.h"
 #include "device/rml1/move_time.h"
@@ -13,7 +14,7 @@ class Recorder : public MachineListener {
  public:
   Recorder(const Profile& profile, std::optional<Origin> origin, Diagnostics& diagnostics, std::vector<Step>& steps)
       : profile_(profile),
-        knows_height_(origin.has_value()),
+        knows_z0_(origin.has_value()),
         steps_(steps),
         machine_(profile, origin, diagnostics, *this) {}
 
@@ -21,13 +22,7 @@ class Recorder : public MachineListener {
 
  private:
   void moved(const Move& move) override {
-    const Point way = (move.to - move.from) * profile_.step_mm;
-    StepTime time = move_time(length(way), move.speed, profile_.acceleration);
-    // Where Z0 is not known, nobody knows from how high the tool comes down at first.
-    const bool unknown = !knows_height_ && !moved_ && way.x == 0 && way.y == 0;
-    moved_ = true;
-    if (unknown) time.least = 0;
-    add(move.end, time, move.turning, length(way));
+    add(move.end, move_time(move, profile_, knows_z0_), move.turning, length(move.to - move.from) * profile_.step_mm);
   }
   void waited(Wait what, double seconds, std::uint64_t end) override {
     const bool rests = what == Wait::spin_up;  // until then
@@ -41,14 +36,13 @@ class Recorder : public MachineListener {
 
   void add(std::uint64_t end, const StepTime& time, bool turning, double mm = 0) {
     steps_.push_back({end, static_cast<float>(time.least), static_cast<float>(time.most),
-                      static_cast<float>(time.slowest), static_cast<float>(mm), turning});
+                      static_cast<float>(time.slowest), static_cast<float>(mm), 0, turning});
   }
 
   const Profile& profile_;
-  const bool knows_height_;
+  const bool knows_z0_;
   std::vector<Step>& steps_;
   Machine machine_;
-  bool moved_ = false;
 };
 
 }  // namespace
@@ -60,15 +54,12 @@ Timeline::Timeline(std::string_view job, const Profile& profile, std::optional<O
   parser.feed(job);
   parser.finish();
   turns_at_end_ = recorder.machine().spindle_turns();
-  for (const Step& step : steps_) slowest_s_ += step.slowest_s;
+  for (Step& step : steps_) step.slowest_until_s = slowest_s_ += step.slowest_s;
 }
 
-double Timeline::slowest_after(std::uint64_t executed) const {
-  double seconds = 0;
-  for (auto step = std::ranges::upper_bound(steps_, executed, {}, &Step::end); step != steps_.end(); ++step) {
-    seconds += step->slowest_s;
-  }
-  return seconds;
+double Timeline::slowest_until(std::uint64_t end) const {
+  const auto next = std::ranges::upper_bound(steps_, end, {}, &Step::end);
+  return next == steps_.begin() ? 0 : std::prev(next)->slowest_until_s;
 }
 
 }  // namespace axisgate::rml1

@@ -17,6 +17,7 @@ struct Step {
   float least_s = 0, most_s = 0;  // the range that people see (move_time.h)
   float slowest_s = 0;            // by the slowest mill that the profile has: for what runs on
   float mm = 0;                   // of a move
+  double slowest_until_s = 0;     // the sum up to the end of this one
   bool turning = false;           // the spindle, from its beginning on
 };
 
@@ -27,8 +28,9 @@ class Timeline {
 
   const std::vector<Step>& steps() const { return steps_; }
   double slowest_s() const { return slowest_s_; }
-  // Of the steps behind so many bytes.
-  double slowest_after(std::uint64_t executed) const;
+  // Of the steps that end with so many bytes, or before.
+  double slowest_until(std::uint64_t end) const;
+  double slowest_after(std::uint64_t executed) const { return slowest_s_ - slowest_until(executed); }
   // The spindle.
   bool turns_at_end() const { return turns_at_end_; }
 
