@@ -73,15 +73,19 @@ void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
   if (!sending.slack_as_measured) table.error("slack", fmt::format("\"{}\" is not known; use {}", word, kSlackRule));
 }
 
-// A paced job takes longer than the mill needs for it. Without flow control that is the price of losing nothing.
-rml1::Streaming usual_streaming(const ConfigTable& table, const rml1::SendSettings& sending) {
-  const bool full = sending.flow_control && !table.has("window");
+// A paced job takes longer than the mill needs for it. Where nobody says that the line holds the host back, that is the
+// price of losing nothing; so it is where DSR does, which comes too late for what is under way.
+rml1::Streaming usual_streaming(const ConfigTable& table, const DeviceConfig& device) {
+  const auto* serial = std::get_if<SerialSettings>(&device.connection);
+  const bool said = table.has("flow_control") && serial != nullptr &&
+                    (serial->flow == FlowControl::rts_cts || serial->flow == FlowControl::xon_xoff);
+  const bool full = (said || std::holds_alternative<PrinterSettings>(device.connection)) && !table.has("window");
   return full ? rml1::Streaming::full : rml1::Streaming::paced;
 }
 
-void read_sending(ConfigTable& table, rml1::SendSettings& sending) {
+void read_sending(ConfigTable& table, const DeviceConfig& device, rml1::SendSettings& sending) {
   const auto streaming = table.choice<rml1::Streaming>("streaming", kStreamings);
-  sending.streaming = streaming.value_or(usual_streaming(table, sending));
+  sending.streaming = streaming.value_or(usual_streaming(table, device));
   read_bytes(table, "window", 16, 4096, sending.window);
   read_bytes(table, "buffer", 16, 1 << 20, sending.buffer);
   read_bytes(table, "converter", 0, 65'536, sending.converter);
@@ -214,7 +218,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
     mill.slower_percent = table.number("slower", 0, 1000, "percent from 0 to 1000").value_or(mill.slower_percent);
   }
   mill.sending.flow_control = has_flow_control(device);
-  read_sending(table, mill.sending);
+  read_sending(table, device, mill.sending);
   mill.sending.baud = device.baud;
   mill.holds_host_back = holds_host_back(device);
   if (connection && mill.sending.streaming == rml1::Streaming::full && !mill.holds_host_back)
