@@ -61,6 +61,7 @@ std::string streaming_text(const v1::Job& job) {
 
 // "12 min 0 s to 18 min 30 s, paced"
 std::string takes_text(const v1::Job& job) {
+  if (!job.has_longest()) return "a time that is not known";
   const std::string range = range_text(duration_text(job.shortest()), duration_text(job.longest()));
   const std::string streaming = streaming_text(job);
   return streaming.empty() ? range : fmt::format("{}, {}", range, streaming);
@@ -254,7 +255,7 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
       fmt::format("{}  {}  line {}", last_part(mill.name()), mill.profile(), mill.line_open() ? "open" : "closed")};
   lines.push_back(mill.has_running() ? running_line(mill) : "no job runs");
   if (mill.has_measured_pace()) {
-    lines.push_back(fmt::format("measured: the mill takes {:.2f} to {:.2f} times the longest time by its profile",
+    lines.push_back(fmt::format("measured: the mill takes {:.2f} to {:.2f} times as long as the slowest of its profile",
                                 mill.measured_pace().least(), mill.measured_pace().most()));
   }
   if (mill.ended().has_executed() && mill.ended().state() == v1::JOB_STATE_ABORTED) {

@@ -56,13 +56,13 @@ Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber num
               "`axisctl mill queue` lists them; `axisctl history` has those that have ended");
 }
 
-// The job of the first of two requests with one id: the newest that is the same in all.
 bool same_parts(const rml1::Job& one, const rml1::Job& other) {
   return std::ranges::equal(one.parts, other.parts, [](const rml1::JobPart& a, const rml1::JobPart& b) {
     return a.tool == b.tool && a.end == b.end;
   });
 }
 
+// The job of the first of two requests with one id: the newest that is the same in all.
 Result<CurrentJob> sent_before(Mill& mill, const std::vector<rml1::Job>& jobs, const rml1::Job& again, TimePoint now) {
   const auto same = [&](const rml1::Job& one) {
     return one.setup.digest == again.setup.digest && one.setup.profile == again.setup.profile &&

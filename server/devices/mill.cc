@@ -49,6 +49,7 @@ void Mill::restore_jobs() {
   const auto last = record_ ? record_->before() : std::nullopt;
   if (last) controller_.inherit_left({.number = last->job, .name = last->name, .leaves = last->leaves});
   for (rml1::Job& job : unended_jobs(spool_, name())) {
+    plan_again(job);
     if (!last || last->job != job.number) {
       controller_.inherit(std::move(job));
     } else if (rml1::is_end(last->state)) {
@@ -58,6 +59,14 @@ void Mill::restore_jobs() {
       note(job, "", "the daemon ended", monotonic_now());
       controller_.inherit(std::move(job));
     }
+  }
+}
+
+// One that was kept without its times, or is sent otherwise now.
+void Mill::plan_again(rml1::Job& job) {
+  if (job.planned_for == planned_for(config_)) return;
+  if (const auto planned = plan_job(spool_, name(), config_, job, {}); !planned) {
+    spdlog::warn("{}: how long {} takes is not known: {}", name(), text_of(job), explain(planned.error()));
   }
 }
 

@@ -84,6 +84,7 @@ class Mill final : public Device, private rml1::MillEvents {
   void abort_requested(std::string_view by, TimePoint now) override;
 
   void restore_jobs();
+  void plan_again(rml1::Job& job);
   void keep(const rml1::Job& job);
   void note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now);
   void publish_fact(Fact fact, TimePoint now);

@@ -31,14 +31,26 @@ std::optional<rml1::WrittenRange> written_in(const Json& facts) {
   return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
 }
 
-rml1::TimeRange takes_in(const Json& part) {
-  const Json takes = part.value("takes_ns", Json::array());
-  return takes.size() == 2 ? rml1::TimeRange{Duration(takes[0]), Duration(takes[1])} : rml1::TimeRange{};
+bool are_numbers(const Json& all, std::size_t count) {
+  return all.is_array() && all.size() == count && std::ranges::all_of(all, &Json::is_number);
 }
 
-rml1::RunOn run_on_in(const Json& facts) {
-  const Json run_on = facts.value("run_on", Json::array());
-  return run_on.size() == 4 ? rml1::RunOn{run_on[0], run_on[1], Duration(run_on[2]), run_on[3]} : rml1::RunOn{};
+// One that was kept without its plan has none.
+rml1::JobPart part_in(const Json& facts) {
+  rml1::JobPart part{facts.value("tool", ""), facts.value("end", std::uint64_t{0})};
+  const Json takes = facts.value("takes_ns", Json::array()), run_on = facts.value("run_on", Json::array());
+  if (!are_numbers(takes, 2) || !are_numbers(run_on, 4)) return part;
+  part.takes = {Duration(takes[0]), Duration(takes[1])};
+  part.run_on = {run_on[0], run_on[1], Duration(run_on[2]), run_on[3]};
+  return part;
+}
+
+Json facts_of(const rml1::JobPart& part) {
+  const rml1::RunOn& run_on = part.run_on;
+  return {{"tool", part.tool},
+          {"end", part.end},
+          {"takes_ns", {part.takes.least.count(), part.takes.most.count()}},
+          {"run_on", {run_on.at_most, run_on.if_held, run_on.longest.count(), run_on.mm}}};
 }
 
 // As far as the mill may have been sent it.
@@ -85,16 +97,12 @@ tl::unexpected<Problem> no_line_named(std::string_view body, const rml1::Job& jo
 
 std::string facts_of(const rml1::Job& job) {
   Json parts = Json::array();
-  for (const rml1::JobPart& part : job.parts) {
-    parts.push_back(
-        {{"tool", part.tool}, {"end", part.end}, {"takes_ns", {part.takes.least.count(), part.takes.most.count()}}});
-  }
+  for (const rml1::JobPart& part : job.parts) parts.push_back(facts_of(part));
   Json facts{{"profile", job.setup.profile},
              {"origin", job.setup.origin},
              {"parts", parts},
              {"part", job.part},
              {"rank", job.rank},
-             {"run_on", {job.run_on.at_most, job.run_on.if_held, job.run_on.longest.count(), job.run_on.mm}},
              {"leaves",
               {{"surface", job.leaves.surface},
                {"revolutions", job.leaves.revolutions},
@@ -102,6 +110,7 @@ std::string facts_of(const rml1::Job& job) {
                {"tool", job.leaves.tool}}}};
   if (job.stock) facts["stock"] = {job.stock->x, job.stock->y, job.stock->z};
   facts["checked_for"] = job.checked_for;
+  facts["planned_for"] = job.planned_for;
   if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
   if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
   if (job.written) facts["written"] = {job.written->least, job.written->most};
@@ -121,14 +130,14 @@ rml1::Job job_of(const spool::Job& spooled) {
                 .rank = facts.value("rank", std::int64_t{0}),
                 .queued_since = to_monotonic(spooled.created)};
   for (const Json& part : facts.value("parts", Json::array())) {
-    job.parts.push_back({part.value("tool", ""), part.value("end", std::uint64_t{0}), takes_in(part)});
+    job.parts.push_back(part_in(part));
   }
   if (const auto part = facts.value("part", std::size_t{0}); part < job.parts.size()) go_to_part(job, part);
   if (const std::string streaming = facts.value("streaming", ""); !streaming.empty()) {
     job.streaming = streaming == "full" ? rml1::Streaming::full : rml1::Streaming::paced;
   }
-  job.run_on = run_on_in(facts);
   job.checked_for = facts.value("checked_for", "");
+  job.planned_for = facts.value("planned_for", "");
   const Json stock = facts.value("stock", Json::array());
   if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
     job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
@@ -182,6 +191,12 @@ std::string checked_for(const MillConfig& config, const std::string& origin) {
   return sha256.hexadecimal();
 }
 
+std::string planned_for(const MillConfig& config) {
+  const rml1::SendSettings& sending = config.sending;
+  return fmt::format("{} {} {} {} {} {} {}", static_cast<int>(sending.streaming), sending.window, sending.slack,
+                     sending.slack_as_measured, sending.buffer, sending.converter, sending.baud);
+}
+
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
                                                               const MillConfig& config, const rml1::Job& job,
                                                               const std::optional<rml1::MeasuredPace>& measured) {
@@ -209,9 +224,9 @@ Result<void> plan_job(spool::Spool& spool, const std::string& device, const Mill
     const auto prepared = prepared_job(spool, device, config, at, measured);
     if (!prepared) return tl::unexpected(prepared.error());
     job.parts[part].takes = (*prepared)->times().whole();
-    const rml1::RunOn& run_on = (*prepared)->plan().run_on;
-    if (part == job.part || run_on.at_most > job.run_on.at_most) job.run_on = run_on;
+    job.parts[part].run_on = (*prepared)->plan().run_on;
   }
+  job.planned_for = planned_for(config);
   keep_facts(spool, device, job);
   return {};
 }

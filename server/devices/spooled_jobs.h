@@ -35,6 +35,8 @@ rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);
 
 // A digest of the profile and of where that origin is: what a job is checked for.
 std::string checked_for(const MillConfig& config, const std::string& origin);
+// A text of how the jobs of that mill are sent: what the times of a job were computed for.
+std::string planned_for(const MillConfig& config);
 
 // Those below read the whole job, so not on the device's strand. not_found; internal, where the bytes are others than
 // they were; and what is said there.

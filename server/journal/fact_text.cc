@@ -273,7 +273,7 @@ struct Form<JobChanged> {
     change.job.part = json.value("part", std::size_t{0});
     for (const Json& part : json.value("parts", Json::array())) {
       const rml1::TimeRange takes{Duration(part.at(2)), Duration(part.at(3))};
-      change.job.parts.push_back({part.at(0), part.at(1), takes});
+      change.job.parts.push_back({part.at(0), part.at(1), takes, {}});
     }
     if (json.contains("sending")) change.sending = static_cast<rml1::SenderState>(json.at("sending").get<int>());
     return change;

@@ -38,16 +38,17 @@ struct MillMetrics::Families {
         buffer(gauge_family(registry, "axisgate_mill_buffer_bytes",
                             "Bytes of the job that were written and that the mill has not executed, by computation: "
                             "if it is as fast (least) or as slow (most) as its profile allows.")),
-        pace(gauge_family(registry, "axisgate_mill_pace_ratio",
-                          "Measured time of the mill by the longest of its profile, at least and at most; 0 until it "
-                          "was measured.")),
+        pace(gauge_family(
+            registry, "axisgate_mill_pace_ratio",
+            "Measured time of the mill by that of the slowest of its profile, at least and at most; 0 until it "
+            "was measured.")),
         busy(gauge_family(registry, "axisgate_mill_busy",
                           "1 when the mill has taken nothing of the job that runs for `busy_limit_s`, else 0.")),
         aborts(counter_family(registry, "axisgate_mill_aborts_total", "Aborts requested, also where no job ran.")),
         job_seconds(counter_family(registry, "axisgate_mill_job_seconds_total",
                                    "Time from the start to FED, with pauses, of the jobs that were FED.")),
         estimate(counter_family(registry, "axisgate_mill_job_estimate_seconds_total",
-                                "Time that the check computed for the same jobs, at least and at most.")) {}
+                                "Time that was computed for the same jobs at their start, at least and at most.")) {}
 
   prometheus::Family<prometheus::Gauge>& line_open;
   prometheus::Family<prometheus::Gauge>& queued_jobs;

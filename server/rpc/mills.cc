@@ -85,6 +85,7 @@ v1::Streaming to_streaming(rml1::Streaming streaming) {
 v1::Job to_proto(const api::CurrentJob& current) {
   v1::Job proto = to_proto(current.mill->name(), current.job, current.clock);
   proto.set_streaming(to_streaming(current.job.streaming.value_or(current.mill->config().sending.streaming)));
+  if (const auto run_on = rml1::run_on(current.job)) *proto.mutable_run_on() = to_proto(*run_on);
   return proto;
 }
 
@@ -95,10 +96,10 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
   proto.set_owner(job.owner);
   *proto.mutable_setup() = setup_of(job.setup);
   proto.set_bytes(static_cast<std::int64_t>(job.bytes));
-  const rml1::TimeRange takes = rml1::takes(job);
-  *proto.mutable_shortest() = to_proto(takes.least);
-  *proto.mutable_longest() = to_proto(takes.most);
-  *proto.mutable_run_on() = to_proto(job.run_on);
+  if (const rml1::TimeRange takes = rml1::takes(job); takes.most > Duration()) {
+    *proto.mutable_shortest() = to_proto(takes.least);
+    *proto.mutable_longest() = to_proto(takes.most);
+  }
   proto.set_state(to_job_state(job.state));
   if (job.confirmation) {
     proto.set_confirmed_by(job.confirmation->by);

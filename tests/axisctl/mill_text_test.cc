@@ -273,7 +273,7 @@ TEST(MillQueue, TheMeasuredPaceIsALine) {
   mill.set_name("devices/mill");
   mill.mutable_measured_pace()->set_least(1.183);
   mill.mutable_measured_pace()->set_most(1.242);
-  EXPECT_EQ(queue_lines(mill)[2], "measured: the mill takes 1.18 to 1.24 times the longest time by its profile");
+  EXPECT_EQ(queue_lines(mill)[2], "measured: the mill takes 1.18 to 1.24 times as long as the slowest of its profile");
 }
 
 TEST(MillQueue, ATable) {

@@ -64,7 +64,7 @@ class MillPace(unittest.TestCase):
         least, most = self.pace()
         self.assertGreaterEqual(most, TRUTH)
         self.assertLessEqual(most, least * 1.2)
-        self.assertIn(f"measured: the mill takes {least:.2f} to {most:.2f} times the longest time by its profile\n",
+        self.assertIn(f"measured: the mill takes {least:.2f} to {most:.2f} times as long as the slowest of its profile\n",
                       self.gateway.axisctl("mill", "queue"))
         # The mill is quicker than its profile, so the slack falls from 1.5 to 1.
         self.assertLess(self.run_on_of_a_paced_job(), 0.8 * before)

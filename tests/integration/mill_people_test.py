@@ -106,13 +106,13 @@ class TwoPeople(unittest.TestCase):
         deadline = time.monotonic() + LIMIT_S
         while "AXIS_BUSY: the mill may still do what it was sent by hand" in (said := self.type("anna", "mill start 1")[1]):
             self.assertLess(time.monotonic(), deadline)
-        self.assertRegex(said, "job 1 .* RUNNING; .* after an abort at most 64 bytes, up to .* s and \d+ mm, run on")
+        self.assertRegex(said, r"job 1 .* RUNNING; .* after an abort at most 64 bytes, up to .* s and \d+ mm, run on")
         self.refused("bert", "mill confirm 2 --yes", "WRONG_MODE: job 1 runs")
         self.refused("bert", "mill jog z=1", "WRONG_MODE: job 1 runs")
         self.well("bert", "mill pause", "job 1 is paused: .* still run.*the cutter keeps turning in the cut")
         self.well("anna", "mill resume", "job 1 is resumed")
         self.well("bert", "mill abort",
-                  "the abort was sent: at most 64 bytes of job 1, up to .* s and \d+ mm, may run on.*look at the mill")
+                  r"the abort was sent: at most 64 bytes of job 1, up to .* s and \d+ mm, may run on.*look at the mill")
         self.until("no job runs")
 
     def a_tool_change(self):

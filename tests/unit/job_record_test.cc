@@ -240,15 +240,16 @@ constexpr rml1::RunOn kRunOn{1540, 1600, std::chrono::milliseconds(1234), 12.5};
 
 TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   const rml1::Job made = job_of(spooled({.setup = {"", "mdx-20", "corner", ""},
-                                         .parts = {{"T2", 500, kTakes}},
-                                         .run_on = kRunOn,
+                                         .parts = {{"T2", 500, kTakes, kRunOn}},
                                          .leaves = {.surface = true, .tool = true}}));
   EXPECT_EQ(made.number, 3u);
   EXPECT_EQ(made.owner, "unix anna");
   EXPECT_EQ(made.setup, (rml1::JobSetup{"d", "mdx-20", "corner", "T2"}));
   EXPECT_EQ(made.bytes, 500u);
   EXPECT_EQ(made.parts.at(0).takes, kTakes);
-  EXPECT_EQ(made.run_on, kRunOn);
+  EXPECT_EQ(rml1::run_on(made), kRunOn);
+  EXPECT_EQ(rml1::run_on(job_of({.id = 5, .facts = R"({"parts":[{"tool":"T1","end":9,"takes_ns":["a",null]}]})"})),
+            std::nullopt);
   EXPECT_EQ(made.state, JobState::queued);
   EXPECT_EQ(made.leaves, (rml1::Leaves{.surface = true, .tool = true}));
   EXPECT_EQ(std::chrono::round<std::chrono::hours>(monotonic_now() - made.queued_since), std::chrono::hours(48));

@@ -41,7 +41,7 @@ struct HandWords {
   Duration longest{};  // that it takes on the slowest mill of the profile
 };
 
-// `slack`: by how much a mill may be slower than the high end of its profile (sending/README.md, "Streaming").
+// `slack`: by how much a mill may be slower than the slowest of its profile (sending/README.md, "Streaming").
 // out_of_range, where the step is too long or too short, or the height is outside of the travel; too_fast.
 Result<HandWords> words_of(const HandAct& act, const Profile& profile, double slack);
 

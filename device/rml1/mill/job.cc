@@ -106,9 +106,15 @@ TimeRange takes(const Job& job) {
   return all;
 }
 
+std::optional<RunOn> run_on(const Job& job) {
+  const bool planned = !job.parts.empty() && job.parts[job.part].run_on.at_most > 0;
+  return planned ? std::optional(job.parts[job.part].run_on) : std::nullopt;
+}
+
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on) {
-  if (!job.parts.empty()) job.parts[job.part].takes = takes;
-  job.run_on = run_on;
+  if (job.parts.empty()) return;
+  job.parts[job.part].takes = takes;
+  job.parts[job.part].run_on = run_on;
 }
 
 std::string executed_text(const Job& job) {

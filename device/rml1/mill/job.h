@@ -40,6 +40,7 @@ struct JobPart {
   std::string tool;       // a configured name
   std::uint64_t end = 0;  // the byte of the job behind its last
   TimeRange takes{};      // as it is sent; of one that is continued, what is left of it
+  RunOn run_on{};         // likewise
 
   friend bool operator==(const JobPart&, const JobPart&) = default;
 };
@@ -105,13 +106,13 @@ struct Job {
   std::optional<WrittenRange> written{};       // of one that was lost or paused, until it continues
   std::optional<PlaceRange> executed{};        // PreparedJob::executed() of one whose abort was requested
   std::vector<JobPart> parts{};          // at most kPartsAtMost; none: all of it is one, and its time is not known
-  RunOn run_on{};                        // of the part of which it is the most; of a part that runs, its own
   std::size_t part = 0;                  // runs, or is the next to
   Leaves leaves{};                       // of all parts
   std::int64_t rank = 0;                 // as is_before() has it; 0 as it was sent
   std::optional<Streaming> streaming{};  // none: as the mill has it
   std::optional<Stock> stock{};          // none: nobody has said it
   std::string checked_for{};             // a digest of the profile and the origin with which it was checked
+  std::string planned_for{};             // a text of the settings with which its times were computed
   TimePoint queued_since{};              // when it was sent, or when its last confirmation became void
 };
 
@@ -133,6 +134,8 @@ bool waits_to_begin(const Job& job);
 TimeRange takes(const Job& job);
 // The same of those behind its part alone.
 TimeRange takes_later(const Job& job);
+// Of its part, as that is sent; nothing where it has not been planned.
+std::optional<RunOn> run_on(const Job& job);
 // Of its part, as that is sent now.
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
 // What a void confirmation of it is.

@@ -2,12 +2,25 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
+#include <cmath>
 #include <string>
 #include <string_view>
 
 #include "device/rml1/mill/mill_controller.h"
+#include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
+namespace {
+
+// From the top above anywhere back to where a tool was raised: across, down, and until the spindle turns.
+Duration longest_return(const Profile& profile, double slack) {
+  const Duration across = longest_way(std::hypot(profile.x_mm, profile.y_mm), profile.speed.travel, profile, slack);
+  const Duration down = longest_way(profile.z_mm, profile.speed.z_minimum, profile, slack);
+  return across + down + std::chrono::duration_cast<Duration>(std::chrono::duration<double>(profile.spindle.spin_up_s));
+}
+
+}  // namespace
 
 // A job that was raised no longer runs: it is PAUSED in the queue.
 Result<void> MillController::check_sending(bool raise) const {
@@ -82,7 +95,9 @@ void MillController::end_raised(TimePoint now) {
   const Place from = running_->prepared->place(written);
   Job& job = **find(running_->number);
   job.setup.from = from;
-  set_plan(job, running_->prepared->times().left(written, written), job.run_on);
+  TimeRange left = running_->prepared->times().left(written, written);
+  left.most += longest_return(profile_, running_->prepared->plan().slack);
+  set_plan(job, left, running_->sender.run_on());
   job.written = WrittenRange{running_->prepared->of_body(written), running_->prepared->of_body(written)};
   end_run(JobEvent::raised, "",
           fmt::format("the tool is up; it continues at line {}, column {}", from.line, from.column), now);

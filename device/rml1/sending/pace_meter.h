@@ -11,7 +11,7 @@
 
 namespace axisgate::rml1 {
 
-// The mill takes so many times the high end of the timeline: a range.
+// The mill takes so many times as long as the slowest of its profile: a range.
 struct MeasuredPace {
   double least = 0, most = 0;
 

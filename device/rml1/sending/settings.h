@@ -12,7 +12,7 @@ enum class AtLoss { abort, leave };  // what is sent when the line is back, for 
 struct SendSettings {
   Streaming streaming = Streaming::paced;
   std::size_t window = 0;          // bytes, of paced streaming; 0: adapted to the job (window.h)
-  double slack = 1.5;              // by how much a mill may be slower than the slow end of its profile
+  double slack = 1.5;              // how many times as slow as the slowest of its profile a mill may be
   bool slack_as_measured = false;  // that, or less where the mill's pace was measured (pace_meter.h)
   std::size_t buffer = 1024;       // bytes, the mill's
   std::size_t converter = 512;     // bytes, between host and mill

@@ -21,7 +21,7 @@ std::string abort_words(const Profile& profile, bool may_rest);
 // Behind whole commands: the tool up, and then the spindle off. `may_rest`: as of abort_words().
 std::string lift_words(const Profile& profile, bool may_rest);
 
-// A way that one axis goes from stop to stop, by a mill that is `slack` times as slow as the high end of the profile.
+// A way that one axis goes from stop to stop, by a mill that is `slack` times as slow as the slowest of the profile.
 Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack);
 
 }  // namespace axisgate::rml1
