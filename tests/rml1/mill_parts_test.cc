@@ -323,5 +323,20 @@ TEST_F(MillLeavesTest, OverARestart) {
   EXPECT_THAT(after.jobs().front().setup.left, ElementsAre("job 6 (part.rml) sets Z0"));
 }
 
+TEST(JobPlan, IsThatOfItsPartAndCountsThoseBehindIt) {
+  using std::chrono::seconds;
+  Job job{.parts = {{"T1", 100, {seconds(1), seconds(2)}, {64, 100, seconds(3), 4}},
+                    {"T2", 200, {seconds(10), seconds(20)}, {128, 100, seconds(3), 4}}}};
+  EXPECT_EQ(takes(job), (TimeRange{seconds(11), seconds(22)}));
+  EXPECT_EQ(run_on(job)->at_most, 64u);
+  go_to_part(job, 1);
+  EXPECT_EQ(takes(job), (TimeRange{seconds(10), seconds(20)}));
+  EXPECT_EQ(run_on(job)->at_most, 128u);
+  set_plan(job, {seconds(5), seconds(6)}, {256, 300, seconds(7), 8});
+  EXPECT_EQ(takes(job), (TimeRange{seconds(5), seconds(6)}));
+  EXPECT_EQ(run_on(job)->if_held, 300u);
+  EXPECT_FALSE(run_on(Job{.parts = {{"T1", 100}}})) << "nobody has planned it";
+}
+
 }  // namespace
 }  // namespace axisgate::rml1
