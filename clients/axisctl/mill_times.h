@@ -17,7 +17,7 @@ struct TimeRange {
 // Queued, confirmed, in a tool change, or paused with the tool up.
 bool waits(const v1::Job& job);
 
-// Of the job that runs.
+// Returns what is left of the job that runs.
 TimeRange time_left(const v1::RunningJob& running);
 
 // For each job of the queue, in its order: after so long the mill is done with those before it, if nobody ever has to

@@ -147,7 +147,7 @@ void Check::moved(const Move& move) {
   if (moves_ != nullptr) moves_->moved(move);
 }
 
-// What comes before the last byte of its command waits for that.
+// A step waits for the last byte of its command.
 void Check::take(const StepTime& time, std::uint64_t end) {
   summary_.seconds_low = std::max(summary_.seconds_low, arrival(end)) + time.least;
   summary_.seconds_high = std::max(summary_.seconds_high, arrival(end)) + time.most;

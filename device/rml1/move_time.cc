@@ -12,7 +12,7 @@ double rest_to_rest(double mm, double speed, double acceleration) {
   return reaches ? mm / speed + speed / acceleration : 2 * std::sqrt(mm / acceleration);
 }
 
-// Of a move, in mm.
+// Returns the length that clipping cannot leave out, in mm.
 double certain_way(const Move& move, double step_mm) {
   Point way = move.to - move.from;
   way.z = std::min(move.to.z, 0.0) - std::min(move.from.z, 0.0);

@@ -13,10 +13,10 @@ struct StepTime {
   double slowest = 0;  // both: what a bound of what runs on is computed with
 };
 
-// Where it is not known how far Z0 lies below the top (`knows_z0`), clipping may leave out any way above Z0: then that
-// counts at the longer ends only.
+// Without `knows_z0` nobody knows how far Z0 lies below the top, and clipping may leave out any way above Z0. Such a
+// way then counts in `most` and `slowest` only.
 StepTime move_time(const Move& move, const Profile& profile, bool knows_z0);
-// `seconds`: as the machine has it. How long a spindle needs is assumed, so it may need no time.
+// `seconds` is the machine's figure. The time that a spindle needs is assumed, so it may need none.
 StepTime wait_time(Wait what, double seconds, const Acceleration& acceleration);
 // A mill may dwell before each point of a list (guideline 3-1 W, "when the cutting direction changes").
 StepTime dwell_between_points(double seconds);

@@ -73,8 +73,8 @@ void read_slack(ConfigTable& table, rml1::SendSettings& sending) {
   if (!sending.slack_as_measured) table.error("slack", fmt::format("\"{}\" is not known; use {}", word, kSlackRule));
 }
 
-// A paced job takes longer than the mill needs for it. Where nobody says that the line holds the host back, that is the
-// price of losing nothing; so it is where DSR does, which comes too late for what is under way.
+// A paced job takes longer than the mill needs, and loses no bytes. So it is the default where the configuration does
+// not say that the line holds the host back, and where DSR does: the command under way is sent all the same.
 rml1::Streaming usual_streaming(const ConfigTable& table, const DeviceConfig& device) {
   const auto* serial = std::get_if<SerialSettings>(&device.connection);
   const bool said = table.has("flow_control") && serial != nullptr &&

@@ -46,7 +46,7 @@ std::string planned_for(const MillConfig& config);
 Result<std::shared_ptr<const rml1::PreparedJob>> prepared_job(const spool::Spool& spool, const std::string& device,
                                                               const MillConfig& config, const rml1::Job& job,
                                                               const std::optional<rml1::MeasuredPace>& measured);
-// Sets how long its part takes, and those behind it, and what runs on after an abort; the spool keeps that.
+// Computes the time of its part and of those behind it, and what runs on after an abort, and keeps both in the spool.
 Result<void> plan_job(spool::Spool& spool, const std::string& device, const MillConfig& config, rml1::Job& job,
                       const std::optional<rml1::MeasuredPace>& measured);
 // Where the part of `job` continues, with its first command from that line and column on. What rml1::approach_to() and

@@ -39,7 +39,7 @@ struct JobSetup {
 struct JobPart {
   std::string tool;       // a configured name
   std::uint64_t end = 0;  // the byte of the job behind its last
-  TimeRange takes{};      // as it is sent; of one that is continued, what is left of it
+  TimeRange takes{};      // when it is sent; the rest alone, where it is continued
   RunOn run_on{};         // likewise
 
   friend bool operator==(const JobPart&, const JobPart&) = default;
@@ -130,13 +130,14 @@ std::uint64_t next_byte(const Job& job);
 void go_to_part(Job& job, std::size_t part);
 // Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
 bool waits_to_begin(const Job& job);
-// How long its part takes as it is sent, and those behind it, without the time of people between them.
+// Returns how long its part and those behind it take to send and execute. The time of people between them is not
+// counted.
 TimeRange takes(const Job& job);
-// The same of those behind its part alone.
+// Returns the time of the parts behind its part alone.
 TimeRange takes_later(const Job& job);
-// Of its part, as that is sent; nothing where it has not been planned.
+// Returns what runs on after an abort of its part; nothing where that has not been planned.
 std::optional<RunOn> run_on(const Job& job);
-// Of its part, as that is sent now.
+// Sets both for its part.
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
 // What a void confirmation of it is.
 JobEvent void_event(const Job& job);

@@ -43,7 +43,7 @@ struct RunningJob {
   bool busy = false;  // for MillSettings::busy_limit the mill has taken nothing
 };
 
-// Where a job continues, and what its part then takes.
+// JobRest is the place where a job continues, with the time that its part then takes.
 struct JobRest {
   Place from;
   TimeRange takes{};

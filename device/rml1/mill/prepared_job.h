@@ -38,7 +38,7 @@ class PreparedJob {
   const Timeline& timeline() const { return timeline_; }
   const SendSettings& settings() const { return settings_; }
   const SendPlan& plan() const { return plan_; }
-  // Of bytes of text().
+  // These count bytes of text().
   const JobTimes& times() const { return times_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<Place>& from() const { return from_; }
@@ -64,7 +64,8 @@ class PreparedJob {
   const JobTimes times_;
 };
 
-// What is left of one that runs. `progress`: in bytes of its text(). `measured`: by this job itself.
+// Returns how long the rest of a running job takes. `progress` is in bytes of its text(); `measured` is the pace that
+// this job itself has shown.
 TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured);
 
 }  // namespace axisgate::rml1

@@ -26,7 +26,7 @@ void arrive(Pace& pace, std::uint64_t through, TimePoint at) {
   pace.arrived(through, at);
 }
 
-// Of the bytes that move something.
+// Returns where the bytes end that move something.
 std::uint64_t end_of(const Timeline& timeline) { return timeline.steps().empty() ? 0 : timeline.steps().back().end; }
 
 }  // namespace

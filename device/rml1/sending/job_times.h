@@ -30,7 +30,7 @@ class JobTimes {
   JobTimes(std::string_view job, const Timeline& timeline, const SendSettings& settings, std::size_t window);
 
   TimeRange whole() const { return left(0, 0); }
-  // What is left where so many bytes of the job have been executed, at least and at most.
+  // Returns the time that is left when so many bytes of the job have been executed, at least and at most.
   TimeRange left(std::uint64_t executed_least, std::uint64_t executed_most) const;
 
  private:

@@ -27,7 +27,7 @@ std::size_t longest_write(std::string_view job, std::size_t window) {
   return longest;
 }
 
-// Of the steps that end in any `bytes` of the job that follow one another.
+// Returns the largest sum of `amount` over the steps that end within any `bytes` consecutive bytes of the job.
 double most_within(std::size_t bytes, const Timeline& timeline, float Step::*amount) {
   double most = 0, within = 0;
   auto first = timeline.steps().begin();

@@ -27,7 +27,7 @@ std::string abort_words(const Profile& profile, bool may_rest) {
   return "\x1B.K\x1B.K" + lift_words(profile, may_rest);
 }
 
-// As move_time() has it, at the slowest and at least.
+// This is at least the `slowest` of move_time().
 Duration longest_way(double mm, double mm_per_s, const Profile& profile, double slack) {
   const double seconds = mm / mm_per_s + mm_per_s / profile.acceleration.worst;
   return std::chrono::duration_cast<Duration>(
