@@ -216,6 +216,7 @@ void Parser::unknown(char second) {
 }
 
 void Parser::begin_command(const Row& row) {
+  begin_ = called_ ? call_place_.offset : name_place_.offset;
   called_ = row.operation == Operation::call;
   state_ = State::search;
   if (called_) {
@@ -360,7 +361,7 @@ void Parser::end_list() {
   });
 }
 
-// Plays it as if a terminator came, which the machine does not get.
+// Plays it as if a terminator came. Axisgate sends one behind each job; other programs may not.
 void Parser::end_last_command() {
   const bool in_list = state_ == State::begin_list || state_ == State::number || state_ == State::after_number ||
                        state_ == State::after_comma;
@@ -370,20 +371,20 @@ void Parser::end_last_command() {
   if (!in_list && !single) return;
   diagnostics_.add(0, Severity::warning, instruction_.place, "2-3", [this] {
     return fmt::format(
-        "the job ends within {}: without a terminator the machine waits, and takes the next job's first bytes for its "
-        "parameters",
+        "the job ends within {}: sent without a terminator, the machine waits, and takes the next job's first bytes "
+        "for its parameters",
         row_->name);
   });
 }
 
 void Parser::finish() {
+  executed_size_ = state_ == State::axes ? begin_of_open_group() : offset_;
   if (control_.cut_off()) {
     diagnostics_.error(11, escape_place_, "4-1", [] { return "the job ends within a device control sequence"; });
   }
   if (state_ == State::axes) {
     diagnostics_.add(0, Severity::warning, instruction_.place, "3-3", [] {
-      return "!ZE has no terminator: what follows its last separator is not executed, and the next job's first "
-             "bytes are taken for it";
+      return "!ZE has no terminator: what follows its last separator is neither executed nor sent";
     });
   } else {
     end_last_command();

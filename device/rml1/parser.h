@@ -41,6 +41,9 @@ class Parser {
   void finish();                 // the job ends here
 
   std::uint64_t commands() const { return commands_; }  // that exist, executed or in error
+  // After finish(): bytes of the job up to what it leaves open without executing it, which is the last group of a !ZE
+  // without a terminator; all bytes elsewhere. The next bytes on the line would have that group executed.
+  std::uint64_t executed_size() const { return executed_size_; }
 
  private:
   enum class State : std::uint8_t {
@@ -81,6 +84,8 @@ class Parser {
   void emit();
   void unknown(char second = 0);  // the name that began with first_
   void end_last_command();
+  // A group ends with the letter that begins the next one.
+  std::uint64_t begin_of_open_group() const { return emitted_ ? instruction_.end - 1 : begin_; }
 
   Diagnostics& diagnostics_;
   ParserListener& listener_;
@@ -95,6 +100,8 @@ class Parser {
   State state_ = State::search;
   bool called_ = false;  // by ^: a mode 2 name must follow
   Place call_place_;
+  std::uint64_t begin_ = 0;  // of the command, with the ^ that calls it
+  std::uint64_t executed_size_ = 0;
   char first_ = 0;    // letter of a name
   Place name_place_;  // of the name's first byte
   std::string stray_;

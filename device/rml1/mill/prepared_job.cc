@@ -5,10 +5,26 @@
 #include <utility>
 
 #include "device/rml1/characters.h"
+#include "device/rml1/parser.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
 namespace {
+
+class NoInstructions : public ParserListener {
+  void execute(const Instruction&) override {}
+  void quit() override {}
+};
+
+// Our terminator would complete what the file leaves open.
+std::string_view without_open_end(std::string_view body, const Dialect& dialect) {
+  Diagnostics diagnostics;
+  NoInstructions nothing;
+  Parser parser(dialect, diagnostics, nothing);
+  parser.feed(body);
+  parser.finish();
+  return body.substr(0, parser.executed_size());
+}
 
 std::string wrapped(std::string_view body, const Profile& profile, std::optional<Origin> origin) {
   const bool turning = Timeline(body, profile, origin).turns_at_end();
@@ -26,21 +42,27 @@ PreparedJob::PreparedJob(std::string_view body, std::string digest, const Profil
       begin_(begin),
       from_(from),
       rest_(approach.at),
+      body_size_(body.size()),
       rest_in_text_(prologue().size() + approach.words.size()),
-      rest_size_(body.size() - approach.at.offset),
-      text_(wrapped(continued(body, approach), profile, origin)),
+      rest_size_(without_open_end(body, profile.dialect).size() - approach.at.offset),
+      text_(wrapped(continued(body.substr(0, rest_.offset + rest_size_), approach), profile, origin)),
       places_(std::string_view(text_).substr(rest_in_text_, rest_size_)),
       timeline_(text_, profile, origin),
       settings_(settings),
       plan_(plan_of(text_, timeline_, settings)),
       times_(text_, timeline_, settings, plan_.window) {}
 
+std::uint64_t PreparedJob::of_rest(std::uint64_t bytes) const {
+  return bytes < rest_in_text_ ? 0 : std::min(bytes - rest_in_text_, rest_size_);
+}
+
 std::uint64_t PreparedJob::of_body(std::uint64_t bytes) const {
-  return begin_ + rest_.offset + (bytes < rest_in_text_ ? 0 : std::min(bytes - rest_in_text_, rest_size_));
+  const std::uint64_t of_part = rest_.offset + of_rest(bytes);
+  return begin_ + (of_part < rest_.offset + rest_size_ ? of_part : body_size_);
 }
 
 Place PreparedJob::place(std::uint64_t bytes) const {
-  const Place in_rest = places_.at(of_body(bytes) - begin_ - rest_.offset);
+  const Place in_rest = places_.at(of_rest(bytes));
   return {rest_.offset + in_rest.offset, rest_.line + in_rest.line - 1,
           in_rest.line > 1 ? in_rest.column : rest_.column + in_rest.column - 1};
 }

@@ -42,7 +42,8 @@ class PreparedJob {
   const JobTimes& times() const { return times_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<Place>& from() const { return from_; }
-  // So many bytes of text() reach up to this byte of the job itself, and to this place in the part.
+  // So many bytes of text() reach up to this byte of the job itself, and to this place in the part. What the part
+  // leaves open is not sent, and counts as sent with what is before it.
   std::uint64_t of_body(std::uint64_t bytes) const;
   Place place(std::uint64_t bytes) const;
   // Where what a mill executes of the part ends that has executed so many bytes of text() at least and gets no more
@@ -50,12 +51,14 @@ class PreparedJob {
   PlaceRange executed(std::uint64_t least, std::uint64_t written) const;
 
  private:
+  std::uint64_t of_rest(std::uint64_t bytes) const;
+
   const std::string digest_;
   const std::uint64_t begin_;
   const std::optional<Place> from_;
   // What is sent of the part itself: where it begins in that and in text(), and how long it is.
   const Place rest_;
-  const std::uint64_t rest_in_text_, rest_size_;
+  const std::uint64_t body_size_, rest_in_text_, rest_size_;
   const std::string text_;
   const PlaceIndex places_;  // of what is sent of the part itself: an abort waits for it
   const Timeline timeline_;
