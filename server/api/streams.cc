@@ -21,7 +21,7 @@ void OpenStream::on_cut_off(std::function<void()> then) {
 
 std::optional<StreamCut> OpenStream::cut_off() const {
   const std::lock_guard lock(mutex_);
-  return cut_;
+  return cut_ ? std::optional(*cut_) : std::nullopt;
 }
 
 void OpenStream::cut_off(StreamCut cut) {
@@ -29,7 +29,7 @@ void OpenStream::cut_off(StreamCut cut) {
   {
     const std::lock_guard lock(mutex_);
     if (cut_) return;
-    cut_ = std::move(cut);
+    cut_ = std::make_unique<const StreamCut>(std::move(cut));
     then = std::exchange(then_, nullptr);
   }
   if (then) then();

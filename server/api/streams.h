@@ -33,7 +33,7 @@ class OpenStream {
 
  private:
   mutable std::mutex mutex_;
-  std::optional<StreamCut> cut_;
+  std::unique_ptr<const StreamCut> cut_;  // null for nearly all, of which there are thousands
   std::function<void()> then_;
 };
 

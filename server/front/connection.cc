@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <array>
 #include <chrono>
 #include <utility>
 
@@ -15,6 +16,9 @@ constexpr Duration kFarewell = std::chrono::seconds(1);
 
 // A portion is judged in one go. It holds a few dozen calls, which delay a stop of others by about a millisecond.
 constexpr std::size_t kPortion = 1024;
+
+// A connection that waits keeps no buffer: there may be thousands.
+void free(std::string& buffer) { std::string().swap(buffer); }
 
 }  // namespace
 
@@ -83,11 +87,12 @@ void Connection::read_client() {
   const TimePoint now = monotonic_now();
   if (conversation_->not_before() > now) return wait_for_budget(now);
   reads_client_ = true;
-  wire_->read_some(asio::buffer(from_client_), [this, self = shared_from_this()](const Error& error, std::size_t size) {
+  wire_->read_some([this, self = shared_from_this()](const Error& error, std::string bytes) {
     reads_client_ = false;
     if (error) return close();
     active_ = monotonic_now();
-    unfed_ = {from_client_.data(), size};
+    from_client_ = std::move(bytes);
+    unfed_ = from_client_;
     feed();
   });
 }
@@ -106,6 +111,7 @@ void Connection::feed() {
   const std::string_view portion = unfed_.substr(0, kPortion);
   unfed_.remove_prefix(portion.size());
   conversation_->from_client(portion, monotonic_now());
+  if (unfed_.empty()) free(from_client_);
   move_on();
 }
 
@@ -126,6 +132,7 @@ void Connection::write_client() {
   wire_->write(asio::buffer(to_client_), [this, self = shared_from_this()](const Error& error) {
     writes_client_ = false;
     if (error) return close();
+    free(to_client_);
     move_on();
   });
 }
@@ -138,6 +145,7 @@ void Connection::connect_to_grpc() {
     grpc_.close(error);
     return conversation_->grpc_failed();
   }
+  grpc_.non_blocking(true, error);
   theirs.non_blocking(true, error);
   const int descriptor = theirs.release(error);
   around_.to_grpc(Descriptor(descriptor));
@@ -146,19 +154,23 @@ void Connection::connect_to_grpc() {
 void Connection::read_grpc() {
   if (reads_grpc_ || closed_ || grpc_left_ || !grpc_.is_open()) return;
   reads_grpc_ = true;
-  grpc_.async_read_some(asio::buffer(from_grpc_),
-                        [this, self = shared_from_this()](const Error& error, std::size_t size) {
-                          reads_grpc_ = false;
-                          if (closed_) return;
-                          if (error) {
-                            grpc_left_ = true;
-                            over_since_ = monotonic_now();  // who does not take the rest is not waited for
-                            conversation_->grpc_left();
-                          } else {
-                            conversation_->from_grpc({from_grpc_.data(), size});
-                          }
-                          move_on();
-                        });
+  grpc_.async_wait(asio::socket_base::wait_read, [this, self = shared_from_this()](const Error& error) {
+    reads_grpc_ = false;
+    if (closed_) return;
+    if (!error) take_from_grpc();
+    move_on();
+  });
+}
+
+void Connection::take_from_grpc() {
+  std::array<char, 16 * 1024> bytes;
+  Error error;
+  const std::size_t size = grpc_.read_some(asio::buffer(bytes), error);
+  if (error == asio::error::would_block) return;
+  if (!error) return conversation_->from_grpc({bytes.data(), size});
+  grpc_left_ = true;
+  over_since_ = monotonic_now();  // a client that does not take the rest is not waited for
+  conversation_->grpc_left();
 }
 
 void Connection::write_grpc() {
@@ -169,6 +181,7 @@ void Connection::write_grpc() {
   asio::async_write(grpc_, asio::buffer(to_grpc_), [this, self = shared_from_this()](const Error& error, std::size_t) {
     if (error) return;  // gRPC has closed its end: what it said before is read still, and nothing more is written
     writes_grpc_ = false;
+    free(to_grpc_);
     move_on();
   });
 }

@@ -1,7 +1,6 @@
 // The I/O of one client's connection: its bytes through a Conversation, and to gRPC where they belong there.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -59,6 +58,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void write_client();
   void connect_to_grpc();
   void read_grpc();
+  void take_from_grpc();
   void write_grpc();
   void wait_for_budget(TimePoint now);
 
@@ -72,9 +72,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::optional<Conversation> conversation_;  // none during a handshake
   boost::asio::local::stream_protocol::socket grpc_;
   boost::asio::steady_timer budget_timer_;
-  std::array<char, 16 * 1024> from_client_{};
-  std::string_view unfed_;  // of that
-  std::array<char, 16 * 1024> from_grpc_{};
+  std::string from_client_;
+  std::string_view unfed_;           // of that
   std::string to_client_, to_grpc_;  // being written
   // An operation of each kind is under way.
   bool reads_client_ = false, writes_client_ = false, reads_grpc_ = false, writes_grpc_ = false;

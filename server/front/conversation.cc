@@ -248,9 +248,10 @@ void Conversation::let_in(HeaderBlock block, const Verdict& verdict) {
 
 void Conversation::forward(HeaderBlock block, const std::string& path) {
   if (!grpc_) grpc_.emplace(client_, shared_.held);
-  // A client's own are dropped; messages reach gRPC as they were before compression.
+  // A client's own are dropped; messages reach gRPC as they were before compression. Nobody reads user-agent, and gRPC
+  // would keep it as long as the call.
   std::erase_if(block.headers, [](const Header& one) {
-    return is_own(one) || one.name == "grpc-encoding" || one.name == "content-length";
+    return is_own(one) || one.name == "grpc-encoding" || one.name == "content-length" || one.name == "user-agent";
   });
   std::ranges::find(block.headers, ":path", &Header::name)->value = path;
   block.headers.push_back({kCallerHeader, peer_.who});

@@ -85,8 +85,13 @@ class TlsWire final : public Wire {
     });
   }
 
-  void read_some(boost::asio::mutable_buffer buffer, std::function<void(Error, std::size_t)> handler) override {
-    stream_.async_read_some(buffer, std::move(handler));
+  void read_some(OnBytes handler) override {
+    bytes_.resize(kPiece);
+    stream_.async_read_some(boost::asio::buffer(bytes_),
+                            [this, handler = std::move(handler)](const Error& error, std::size_t size) {
+                              bytes_.resize(size);
+                              handler(error, std::exchange(bytes_, {}));
+                            });
   }
   void write(boost::asio::const_buffer bytes, std::function<void(Error)> handler) override {
     boost::asio::async_write(stream_, bytes,
@@ -101,6 +106,7 @@ class TlsWire final : public Wire {
  private:
   const std::shared_ptr<void> context_;
   ssl::stream<Socket> stream_;
+  std::string bytes_;  // being read
 };
 
 }  // namespace

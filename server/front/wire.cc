@@ -7,10 +7,20 @@ namespace {
 
 class PlainWire final : public Wire {
  public:
-  explicit PlainWire(Socket socket) : socket_(std::move(socket)) {}
+  explicit PlainWire(Socket socket) : socket_(std::move(socket)) {
+    Error ignored;
+    socket_.non_blocking(true, ignored);
+  }
 
-  void read_some(boost::asio::mutable_buffer buffer, std::function<void(Error, std::size_t)> handler) override {
-    socket_.async_read_some(buffer, std::move(handler));
+  void read_some(OnBytes handler) override {
+    socket_.async_wait(Socket::wait_read, [this, handler = std::move(handler)](Error error) mutable {
+      if (error) return handler(error, {});
+      std::string bytes(kPiece, '\0');
+      const std::size_t size = socket_.read_some(boost::asio::buffer(bytes), error);
+      if (error == boost::asio::error::would_block) return read_some(std::move(handler));
+      bytes.resize(size);
+      handler(error, std::move(bytes));
+    });
   }
   void write(boost::asio::const_buffer bytes, std::function<void(Error)> handler) override {
     boost::asio::async_write(socket_, bytes,

@@ -13,13 +13,18 @@ namespace axisgate::front {
 class Wire {
  public:
   using Error = boost::system::error_code;
+  using OnBytes = std::function<void(const Error&, std::string bytes)>;
 
   virtual ~Wire() = default;
 
-  virtual void read_some(boost::asio::mutable_buffer buffer, std::function<void(Error, std::size_t)> handler) = 0;
+  // Reads at most kPiece bytes, at least one without an error. A plain wire keeps no buffer while it waits.
+  virtual void read_some(OnBytes handler) = 0;
   // All of it; the bytes outlive the call of the handler.
   virtual void write(boost::asio::const_buffer bytes, std::function<void(Error)> handler) = 0;
   virtual void close() = 0;
+
+ protected:
+  static constexpr std::size_t kPiece = 16 * 1024;
 };
 
 using Socket = boost::asio::generic::stream_protocol::socket;
