@@ -212,6 +212,14 @@ int serve(const server::Config& config) {
   return exit_code;
 }
 
+void print_doubts(const server::Config& config) {
+  for (const server::DeviceConfig& device : config.devices) {
+    const auto* mill = std::get_if<server::MillConfig>(&device.family);
+    if (mill == nullptr) continue;
+    for (const std::string& doubt : mill->doubts) fmt::print("{}: {}\n", device.name, doubt);
+  }
+}
+
 int main_program(int count, char** words) {
   CLI::App program("Owns the serial lines of SHRC-203 stage controllers and shares them over gRPC.", "axisgated");
   Arguments arguments;
@@ -230,6 +238,7 @@ int main_program(int count, char** words) {
   const std::size_t devices = config->devices.size();
   fmt::print("{}: ok, {} {}\n", from_file ? arguments.config : "built-in configuration", devices,
              devices == 1 ? "device" : "devices");
+  print_doubts(*config);
   return 0;
 }
 

@@ -159,7 +159,7 @@ a line on. After an abort `mill queue` says between which places of the file wha
 draws what begins there as perhaps done.
 
 The other commands call the daemon; with several mills --device names one. `mill send` puts a job into the queue, unless
-the check finds an error, or a warning whose section, such as 5-2, is not named with --accept. A person at the mill sets up
+the check finds an error, or a warning that is not named with --accept, such as deep-pass. A person at the mill sets up
 material, tool and origin, and says so with `mill confirm`. Then `mill start` starts the job. Several files make one job:
 after each the tool is raised and the spindle off, and somebody puts in the next tool, sets Z0, and confirms that.
 

@@ -89,10 +89,7 @@ int JobFollower::follow() {
 bool JobFollower::show(const v1::Mill& mill) {
   if (session_.options.json) print_json(mill);
   if (job_.name().empty() && mill.has_running()) job_.set_name(mill.running().job());
-  if (job_.name().empty()) {
-    say_once_that_none_runs();
-    return false;
-  }
+  if (job_.name().empty()) return show_waiting(mill);
   const v1::Job* const job = find_job(mill, job_.name());
   gone_ = job == nullptr;
   if (gone_ && mill.ended().name() == job_.name()) job_ = mill.ended();
@@ -102,10 +99,13 @@ bool JobFollower::show(const v1::Mill& mill) {
   return has_run(job_.state());
 }
 
-void JobFollower::say_once_that_none_runs() {
-  if (said_none_runs_ || session_.options.json) return;
-  said_none_runs_ = true;
-  display_.fact("no job runs");
+// Reports whether there is nothing to wait for.
+bool JobFollower::show_waiting(const v1::Mill& mill) {
+  nothing_to_come_ = mill.jobs().empty();
+  const std::string text = waiting_text(mill);
+  if (text != said_ && !session_.options.json) display_.fact(text);
+  said_ = text;
+  return nothing_to_come_;
 }
 
 void JobFollower::show_progress(const v1::RunningJob& running) {
@@ -120,6 +120,7 @@ void JobFollower::show_progress(const v1::RunningJob& running) {
 }
 
 int JobFollower::report_end() const {
+  if (nothing_to_come_) return kDone;
   if (const std::string text = gone_ ? "" : halt_text(job_); !text.empty()) {
     if (!session_.options.json) print_line(text);
     return kDone;

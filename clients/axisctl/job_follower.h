@@ -15,18 +15,18 @@ int start_job(const Session& session, const v1::CallContext& context, const std:
 
 class JobFollower {
  public:
-  // `job`: Job.name, of one that was started; empty: the one that runs, or the next that does.
+  // `job`: Job.name, of one that was started; empty: the one that runs, or the next that does, if one waits.
   JobFollower(const Session& session, const std::string& job);
 
-  // Until the job is FED, or a part of it: kDone. Throws the Failure that another end is, and when the daemon reports
-  // no more of it.
+  // Until the job is FED, or a part of it, or none runs or waits: kDone. Throws the Failure that another end is, and
+  // when the daemon reports no more of it.
   int follow();
 
  private:
   // Whether the job has ended.
   bool show(const v1::Mill& mill);
   void show_progress(const v1::RunningJob& running);
-  void say_once_that_none_runs();
+  bool show_waiting(const v1::Mill& mill);
   int report_end() const;
 
   const Session& session_;
@@ -34,7 +34,8 @@ class JobFollower {
   LiveDisplay display_;
   v1::Job job_;             // as last seen; without a name: none has run
   v1::RunningJob running_;  // as last seen
-  bool gone_ = false, said_none_runs_ = false;
+  bool gone_ = false, nothing_to_come_ = false;
+  std::string said_;  // of what waits, while none has run
 };
 
 }  // namespace axisgate::axisctl

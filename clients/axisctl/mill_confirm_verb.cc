@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <boost/algorithm/string/case_conv.hpp>
+#include <boost/algorithm/string/trim.hpp>
 #include <iostream>
 #include <string>
 
@@ -33,7 +35,9 @@ void ask_person(const v1::Job& job) {
   print_line(setup_question(job));
   std::string answer;
   std::getline(std::cin, answer);
-  if (answer == "yes") return;
+  boost::algorithm::trim(answer);
+  boost::algorithm::to_lower(answer);
+  if (answer == "yes" || answer == "y") return;
   throw Failure{kFailed, "NOT_CONFIRMED", fmt::format("{} is not confirmed: the answer was not \"yes\"", job_text(job)),
                 ""};
 }

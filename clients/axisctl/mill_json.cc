@@ -41,9 +41,11 @@ ordered_json to_json(const std::vector<Section>& sections) {
 }
 
 ordered_json to_json(const Diagnostic& one) {
-  return {{"number", one.number},   {"severity", name(one.severity)}, {"offset", one.place.offset},
-          {"line", one.place.line}, {"column", one.place.column},     {"section", one.section},
-          {"text", one.text}};
+  ordered_json json{{"number", one.number},   {"severity", name(one.severity)}, {"offset", one.place.offset},
+                    {"line", one.place.line}, {"column", one.place.column},     {"section", one.section},
+                    {"text", one.text}};
+  if (one.warning) json["warning"] = name(*one.warning);
+  return json;
 }
 
 }  // namespace

@@ -15,7 +15,6 @@ void add_checks(CLI::App& mill, Options& options) {
   for (CLI::App* verb : {check, preview}) {
     verb->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
     verb->add_option("--profile", options.mill.profile, "the machine: a name, e.g. mdx-20, or the file of a profile")
-        ->required()
         ->type_name("PROFILE");
     verb->add_option("--origin", options.mill.origin,
                      "the work origin in mm: X and Y from the home corner, and how far Z0 is below the top")
@@ -62,15 +61,16 @@ void add_send(CLI::App& mill, Options& options) {
       ->type_name("HOW");
   send->add_option("--stock", job.stock, "the workpiece in mm, from the work origin, and its thickness")
       ->type_name("X,Y,Z");
-  send->add_option("--profile", job.profile,
-                   "the profile that the job was made for: refused where the mill has another")
+  send->add_option(
+          "--made-for,--profile", job.made_for,
+          "the profile that the job was made for: warns where the mill has another (default: judged by the job)")
       ->type_name("NAME");
   send->add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
   send->add_option("--accept", job.accepted,
-                   "sections of the guideline whose warnings do not keep the job from the queue, e.g. 5-1,5-2")
+                   "warnings of the check that do not keep the job from the queue, e.g. deep-pass,outside-stock")
       ->delimiter(',')
       ->allow_extra_args(false)
-      ->type_name("NUMBER");
+      ->type_name("NAME");
 }
 
 CLI::Option* add_number(CLI::App& verb, Options& options, const char* description) {
@@ -82,7 +82,8 @@ void add_starts(CLI::App& mill, Options& options) {
       add_job_verb(mill, options, Verb::mill_confirm, "confirm", "at the mill: say that all is set up for a job");
   add_number(*confirm, options, "its number (default: the first that waits)");
   confirm->add_flag("--yes", options.yes, "all is set up: do not ask");
-  confirm->add_flag("--start", options.job.start, "start the job, too");
+  CLI::Option* starts = confirm->add_flag("--start", options.job.start, "start the job, too");
+  confirm->add_flag("--follow", options.follow, "show the job until it has ended")->needs(starts);
   CLI::App* start = add_job_verb(mill, options, Verb::mill_start, "start", "start a job that is confirmed");
   add_number(*start, options, "its number (default: the first that waits)");
   start->add_flag("--follow", options.follow, "show the job until it has ended");

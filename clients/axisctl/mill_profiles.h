@@ -5,15 +5,11 @@
 #include <vector>
 
 #include "device/rml1/profile.h"
-#include "device/rml1/profile_judge.h"
 
 namespace axisgate::axisctl {
 
 // A shipped profile's name in either case, "mdx-20", or a file. Throws Failure when it is not valid, with every error
 // of the file.
 rml1::Profile mill_profile(const std::string& name);
-
-// Of all that are shipped: what a job may have been made for instead. Those that cannot be read are left out.
-std::vector<rml1::KnownMachine> known_mills();
 
 }  // namespace axisgate::axisctl

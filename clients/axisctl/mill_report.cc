@@ -61,8 +61,9 @@ void print_end(const Check& check, double step_mm, bool origin_known) {
 void print_diagnostics(const std::string& file, const Diagnostics& diagnostics) {
   for (const Diagnostic& one : diagnostics.in_order()) {
     const std::string number = one.number == 0 ? "" : fmt::format(" {}", one.number);
-    print_line(fmt::format("{}:{}:{}: {}{}: {} [{}]", file, one.place.line, one.place.column, name(one.severity),
-                           number, one.text, one.section));
+    const std::string kind = one.warning ? fmt::format(" [{}]", name(*one.warning)) : "";
+    print_line(fmt::format("{}:{}:{}: {}{}: {}{} [{}]", file, one.place.line, one.place.column, name(one.severity),
+                           number, one.text, kind, one.section));
   }
   for (const Diagnostics::Omitted& one : diagnostics.omitted()) {
     print_line(fmt::format("{}: {} more like the {} of line {}, up to line {}", file, one.count,

@@ -1,18 +1,15 @@
 // mill send: reads the files of a job whole, so that it can be sent again, and sends it into the queue of a mill.
 #include <fmt/format.h>
 
-#include <cerrno>
-#include <chrono>
 #include <cstdint>
-#include <cstdio>
-#include <cstring>
 #include <filesystem>
-#include <memory>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include "clients/axisctl/failure.h"
+#include "clients/axisctl/job_file.h"
 #include "clients/axisctl/lengths.h"
 #include "clients/axisctl/mill_calls.h"
 #include "clients/axisctl/mill_text.h"
@@ -23,24 +20,6 @@
 
 namespace axisgate::axisctl {
 namespace {
-
-// In pieces, each in a message of its own. Returns how many bytes it has.
-std::int64_t add_file(const std::string& name, std::vector<v1::SendJobRequest>& messages) {
-  const auto close = [](std::FILE* file) { return file == stdin ? 0 : std::fclose(file); };
-  errno = 0;
-  const std::unique_ptr<std::FILE, decltype(close)> file(name == "-" ? stdin : std::fopen(name.c_str(), "rb"), close);
-  std::vector<char> piece(kUploadPiece);
-  std::int64_t bytes = 0;
-  while (file) {
-    const std::size_t count = std::fread(piece.data(), 1, piece.size(), file.get());
-    if (count == 0) break;
-    messages.emplace_back().set_data(piece.data(), count);
-    bytes += static_cast<std::int64_t>(count);
-  }
-  if (!file || std::ferror(file.get()) != 0)
-    throw usage(fmt::format("{} cannot be read: {}", name, std::strerror(errno)), "name the file of a job");
-  return bytes;
-}
 
 std::string title_from_files(const std::vector<std::string>& files) {
   const std::string& first = files.front();
@@ -64,9 +43,8 @@ void check_tools(const JobOptions& job) {
 }
 
 // Without --tool the first one that the mill has; empty where it has none.
-std::string tool_of(const Session& session, const std::string& device) {
-  if (!session.options.job.tools.empty()) return session.options.job.tools.front();
-  const v1::Mill mill = mill_now(session, device);
+std::string tool_of(const JobOptions& job, const v1::Mill& mill) {
+  if (!job.tools.empty()) return job.tools.front();
   return mill.tools().empty() ? "" : mill.tools(0);
 }
 
@@ -82,11 +60,16 @@ void set_stock(const std::string& text, v1::Stock& into) {
 int mill_send(const Session& session) {
   const JobOptions& job = session.options.job;
   check_tools(job);
+  for (const std::string& file : job.files) check_job_file(file);
   const std::string device = mill_to_change(session);
+  const v1::Mill mill = mill_now(session, device);
   std::vector<v1::SendJobRequest> messages(1);
   v1::SendJobRequest header;
   for (std::size_t i = 0; i < job.files.size(); ++i) {
-    const std::int64_t bytes = add_file(job.files[i], messages);
+    // Each piece is a message of its own.
+    const std::int64_t bytes = read_job_file(job.files[i], mill.job_bytes_at_most(), [&](std::string_view piece) {
+      messages.emplace_back().set_data(piece.data(), piece.size());
+    });
     if (job.files.size() == 1) break;
     header.add_parts()->set_tool(job.tools[i]);
     header.mutable_parts()->rbegin()->set_bytes(bytes);
@@ -96,10 +79,10 @@ int mill_send(const Session& session) {
   header.set_title(title_of(job));
   header.set_origin(job.origin);
   if (job.stock) set_stock(*job.stock, *header.mutable_stock());
-  header.set_profile(job.profile);
+  header.set_made_for(job.made_for);
   if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
-  if (header.parts().empty()) header.set_tool(tool_of(session, device));
-  for (const std::string& section : job.accepted) header.add_accepted_warnings(section);
+  if (header.parts().empty()) header.set_tool(tool_of(job, mill));
+  for (const std::string& name : job.accepted) header.add_accepted_warnings(name);
   messages.front() = header;
   const v1::SendJobResponse response = session.connection.upload(
       session.connection.mills, &v1::MillService::Stub::PrepareAsyncSendJob, std::move(messages));

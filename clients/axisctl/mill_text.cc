@@ -82,14 +82,19 @@ std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
 }
 
 // ", up to 3.2 s and 14 mm,": rounded up, since it is a bound.
-std::string within_text(const v1::RunOn& run_on) {
+// To what duration_text() shows.
+google::protobuf::Duration rounded_up(const google::protobuf::Duration& duration) {
   using google::protobuf::util::TimeUtil;
+  constexpr std::int64_t kSecond = 1'000'000'000, kHour = 3600 * kSecond;
+  const std::int64_t ns = TimeUtil::DurationToNanoseconds(duration);
+  const std::int64_t shown = ns < 10 * kSecond ? kSecond / 10 : ns < kHour ? kSecond : 60 * kSecond;
+  return TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown);
+}
+
+std::string within_text(const v1::RunOn& run_on) {
   if (!run_on.has_longest()) return "";
-  const std::int64_t ns = TimeUtil::DurationToNanoseconds(run_on.longest());
-  const std::int64_t shown = ns < 10'000'000'000 ? 100'000'000 : 1'000'000'000;  // by duration_text()
   const std::string way = run_on.mm() > 0 ? fmt::format(" and {:.0f} mm", std::ceil(run_on.mm())) : "";
-  return fmt::format(", up to {}{},", duration_text(TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown)),
-                     way);
+  return fmt::format(", up to {}{},", duration_text(rounded_up(run_on.longest())), way);
 }
 
 std::string held_text(const v1::RunOn& run_on) {
@@ -141,6 +146,22 @@ std::string beginning_cell(const std::optional<TimeRange>& earliest) {
   return range == "0 s" ? "now" : "in " + range;
 }
 
+// "38.0 x 30.0 mm, 1.70 mm deep"
+std::string size_text(const v1::JobExtent& extent) {
+  if (!extent.has_cut_x()) return "cuts nothing";
+  const auto size = [](const v1::AxisExtent& axis) { return axis.most_mm() - axis.least_mm(); };
+  return fmt::format("{:.1f} x {:.1f} mm, {:.2f} mm deep", size(extent.cut_x()), size(extent.cut_y()),
+                     extent.deepest_mm());
+}
+
+// "X 0.0 to 38.0, Y 0.0 to 30.0, Z -1.70 to 2.00 mm"
+std::string reach_text(const v1::JobExtent& extent) {
+  const auto text = [](std::string_view name, const v1::AxisExtent& axis, int decimals) {
+    return fmt::format("{} {:.{}f} to {:.{}f}", name, axis.least_mm(), decimals, axis.most_mm(), decimals);
+  };
+  return fmt::format("{}, {}, {} mm", text("X", extent.x(), 1), text("Y", extent.y(), 1), text("Z", extent.z(), 2));
+}
+
 std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeRange>& earliest) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
@@ -148,6 +169,7 @@ std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeR
           state_cell(job),
           tool_cell(job),
           named_or(job.setup().origin(), "panel"),
+          job.has_extent() ? size_text(job.extent()) : "-",
           takes_text(job),
           beginning_cell(earliest),
           job.state() == v1::JOB_STATE_CONFIRMED ? confirmation_text(job) : "-"};
@@ -178,7 +200,8 @@ std::string job_text(const v1::Job& job) {
 
 std::string state_text(const v1::Job& job) {
   const std::string run_on = job.has_run_on() ? "; " + run_on_text(job.run_on()) : "";
-  return fmt::format("{} {}; takes {}{}", job_text(job), name_of(job.state()), takes_text(job), run_on);
+  const std::string size = job.has_extent() ? "; " + size_text(job.extent()) : "";
+  return fmt::format("{} {}; takes {}{}{}", job_text(job), name_of(job.state()), takes_text(job), size, run_on);
 }
 
 std::string change_text(const v1::JobChange& change) {
@@ -207,9 +230,12 @@ std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
   constexpr std::int64_t percent = 100;
   const std::string executed = range_text(whole_steps(running.executed_least(), job.bytes(), percent),
                                           begun_steps(running.executed_most(), job.bytes(), percent));
-  return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left", name_of(running.sending()),
+  // Flow control has shown that the mill has executed more than was counted as arrived.
+  const bool converter_holds_more = running.executed_least() > running.executed_most();
+  return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left{}", name_of(running.sending()),
                      bar_text(job, running), executed, running.written(), job.bytes(), running.taken(),
-                     duration_range_text(time_left(running)));
+                     duration_range_text(time_left(running)),
+                     converter_holds_more ? "; `converter` in the configuration is too small for this line" : "");
 }
 
 // Bytes that have not left this host may stay here, and the fastest mill has executed the most.
@@ -225,15 +251,25 @@ std::string paused_text(const v1::RunningJob& running) {
                      tool);
 }
 
+// An abort is no emergency stop: what the mill has received may run on.
+std::string emergency_text(const v1::RunOn& run_on) {
+  using google::protobuf::util::TimeUtil;
+  if (!run_on.has_longest()) return "in an emergency use its own emergency stop";
+  return fmt::format("it may move for up to {}: in an emergency use its own emergency stop",
+                     duration_text(rounded_up(run_on.longest())));
+}
+
 std::string aborted_text(const v1::AbortJobResponse& response) {
-  if (!response.has_running()) return "the abort was sent; no job ran; look at the mill";
   const v1::RunOn& run_on = response.running().run_on();
+  if (!response.has_running()) {
+    return fmt::format("the abort was sent; no job ran; look at the mill; {}", emergency_text(run_on));
+  }
   const std::string executed = response.has_executed() ? fmt::format("; by the mill's profile what is executed {}",
                                                                      end_text(response.executed()))
                                                        : "";
-  return fmt::format("the abort was sent: at most {} of job {}{} may run on{}{}; look at the mill",
+  return fmt::format("the abort was sent: at most {} of job {}{} may run on{}{}; look at the mill; {}",
                      bytes_text(std::to_string(run_on.at_most())), last_part(response.running().job()),
-                     within_text(run_on), held_text(run_on), executed);
+                     within_text(run_on), held_text(run_on), executed, emergency_text(run_on));
 }
 
 std::string executed_text(const v1::Job& job) {
@@ -266,11 +302,32 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
     return lines;
   }
   std::vector<std::vector<std::string>> rows{
-      {"job", "title", "owner", "state", "tool", "origin", "takes", "begins at the earliest", "confirmed"}};
+      {"job", "title", "owner", "state", "tool", "origin", "size", "takes", "begins at the earliest", "confirmed"}};
   const std::vector<std::optional<TimeRange>> beginnings = earliest_beginnings(mill);
   for (int i = 0; i < mill.jobs_size(); ++i) rows.push_back(job_cells(mill.jobs(i), beginnings[i]));
   for (const std::string& line : table_lines(rows)) lines.push_back(line);
   return lines;
+}
+
+std::string waiting_text(const v1::Mill& mill) {
+  if (mill.jobs().empty()) return "no job runs, and none waits";
+  const v1::Job& first = mill.jobs(0);
+  const std::string number(last_part(first.name()));
+  const auto text = [&](std::string_view what, std::string_view verb) {
+    return fmt::format("no job runs; {} {}: `axisctl mill {} {}`", job_text(first), what, verb, number);
+  };
+  switch (first.state()) {
+    case v1::JOB_STATE_CONFIRMED:
+      return text("is confirmed, and waits to be started", "start");
+    case v1::JOB_STATE_FED:
+      return text("waits until somebody has seen its workpiece", "done");
+    case v1::JOB_STATE_PAUSED_UNKNOWN:
+      return text("waits for a person to choose where it continues", "resume");
+    case v1::JOB_STATE_TOOL_CHANGE:
+      return text(fmt::format("waits for the tool {}", on_one_line(first.setup().tool())), "confirm");
+    default:
+      return text("waits for somebody at the mill who confirms it", "confirm");
+  }
 }
 
 std::string stock_text(const v1::Job& job) {
@@ -288,6 +345,11 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
                                  fmt::format("  takes     {}", takes_text(job)),
                                  fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
   if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
+  if (job.has_extent()) {
+    lines.push_back("  size      " + size_text(job.extent()));
+    lines.push_back("  reaches   " + reach_text(job.extent()));
+  }
+  for (const std::string& name : job.accepted_warnings()) lines.push_back("  accepted  " + on_one_line(name));
   if (job.has_run_on()) lines.push_back("  abort     " + run_on_text(job.run_on()));
   if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));

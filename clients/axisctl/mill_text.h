@@ -16,7 +16,8 @@ const v1::Job* find_job(const v1::Mill& mill, std::string_view name);
 // "job 7 (part.rml)".
 std::string job_text(const v1::Job& job);
 
-// "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s, paced; after an abort at most 64 bytes ... run on".
+// "job 7 (part.rml) QUEUED; takes 12 min 0 s to 18 min 30 s, paced; 38.0 x 30.0 mm, 1.70 mm deep; after an abort at
+// most 64 bytes ... run on".
 std::string state_text(const v1::Job& job);
 
 // "job 7 (part.rml) RUNNING: PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort was sent".
@@ -51,6 +52,9 @@ std::string aborted_text(const v1::AbortJobResponse& response);
 std::string executed_text(const v1::Job& job);
 // Which command draws the rest of it.
 std::string remains_text(const v1::Job& job);
+
+// What a mill waits for on which no job runs: "no job runs; job 7 (frame.rml) waits for ...".
+std::string waiting_text(const v1::Mill& mill);
 
 // The mill in one line, what runs in another, its measured pace and what was aborted last where there are such, and the
 // queue as a table. When a job begins is said "at the earliest", since people confirm between.

@@ -31,7 +31,7 @@ constexpr double kThinnest = 0.1, kThickest = 100;  // tools, mm
 
 CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
   CheckOptions options;
-  options.others = known_mills();
+  options.others = rml1::known_machines();
   if (asked.origin) {
     const Point p = lengths(*asked.origin, "--origin");
     if (p.z < 0 || p.z > profile.z_mm) {

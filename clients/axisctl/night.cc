@@ -44,21 +44,24 @@ std::time_t evening_before(std::time_t now) {
   return std::mktime(&evening);
 }
 
-// "23:10" of last night, "11-24 23:10" of another day.
+// "23:10" of last night, "11-24 23:10" of another day. The offset from UTC is that of the beginning, unless it is
+// shown: in the night in which the clocks are changed an hour comes twice.
 class NightClock {
  public:
-  NightClock(std::time_t from, std::time_t to) : from_(from), unambiguous_(to - from <= 24 * 3600) {}
+  NightClock(std::time_t from, std::time_t to)
+      : from_(from), offset_(local_time(from).tm_gmtoff), unambiguous_(to - from <= 24 * 3600) {}
 
   std::string text(const Timestamp& time) const {
     const std::time_t seconds = TimeUtil::TimestampToTimeT(time);
     const std::tm local = local_time(seconds);
     char text[32];
     std::strftime(text, sizeof text, unambiguous_ && seconds >= from_ ? "%H:%M" : "%m-%d %H:%M", &local);
-    return text;
+    return local.tm_gmtoff == offset_ ? text : text + utc_offset(local);
   }
 
  private:
   std::time_t from_;
+  long offset_;  // seconds east of UTC
   bool unambiguous_;
 };
 

@@ -116,9 +116,9 @@ struct JobOptions {
   std::vector<std::string> files;       // send: "-" is the standard input
   std::vector<std::string> tools;       // send: configured ones, one for each file; none: the first, of one file
   std::optional<std::string> stock;     // send: "80,50,10", mm
-  std::string profile;                  // send: that the job was made for; empty: any
+  std::string made_for;                 // send: a profile's name; empty: it is judged by the job
   std::string streaming;                // send: "paced", "full"; empty: as the mill has it
-  std::vector<std::string> accepted;    // send: sections of the guideline
+  std::vector<std::string> accepted;    // send: names of warnings
   std::optional<std::uint64_t> number;  // of the job; none: the first that waits
   bool start = false;                   // confirm: start it, too
   std::vector<std::string> distances;   // jog: "x=5", mm

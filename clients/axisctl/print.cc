@@ -322,7 +322,13 @@ std::string time_text(const google::protobuf::Timestamp& time) {
   ::localtime_r(&seconds, &local);
   char text[32];
   std::strftime(text, sizeof text, "%F %T", &local);
-  return text;
+  return text + utc_offset(local);
+}
+
+std::string utc_offset(const std::tm& local) {
+  char text[16];
+  std::strftime(text, sizeof text, "%z", &local);
+  return std::string(text).insert(3, ":");
 }
 
 std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to) {

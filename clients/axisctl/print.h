@@ -73,6 +73,7 @@ std::string link_name(v1::LinkState state);
 
 // "2026-11-21 16:00:00", the local time.
 std::string time_text(const google::protobuf::Timestamp& time);
+std::string utc_offset(const std::tm& local);  // "+01:00"
 
 // "1.5 s", "3 min 20 s", "2 h 5 min", "3 d 4 h". Of a clock that was set back in between: "0 s".
 std::string duration_text(const google::protobuf::Timestamp& from, const google::protobuf::Timestamp& to);

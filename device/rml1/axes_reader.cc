@@ -73,8 +73,8 @@ void AxesReader::end_number() {
   target_.value = std::clamp(value, kLongLowest, kLongHighest);
   target_.point = number_.has_point();
   if (target_.value != value) {
-    diagnostics_.add(0, Severity::warning, number_place_, "2-5",
-                     [] { return "a number beyond its type's range: the nearest in it is taken"; });
+    diagnostics_.warn(Warning::out_of_range, number_place_, "2-5",
+                      [] { return "a number beyond its type's range: the nearest in it is taken"; });
   }
   targets_[count_++] = target_;
   state_ = State::letter;

@@ -45,7 +45,7 @@ Check::Check(const Profile& profile, CheckOptions options, MoveListener* moves)
       machine_(profile, options_.origin, diagnostics_, *this),
       parser_(profile.dialect, diagnostics_, *this),
       judge_(profile, options_.origin.has_value(), options_.stock, options_.others, diagnostics_),
-      profile_judge_(profile, options_.others, diagnostics_),
+      profile_judge_(profile, options_.others, options_.made_for, diagnostics_),
       state_judge_(profile, diagnostics_),
       workload_(profile, options_.tool_mm) {}
 
@@ -101,13 +101,15 @@ void Check::finish() {
   if (!is_other_file()) {
     parser_.finish();
     judge_.finish(machine_, parser_.commands());
-    profile_judge_.finish();
+    profile_judge_.finish(extent());
     state_judge_.finish(machine_);
     report_no_command();
   }
   summary_.final = machine_.tool();
   summary_.commands = parser_.commands();
 }
+
+Extent Check::extent() const { return scaled({summary_.bounds, summary_.cut}, profile_.step_mm); }
 
 void Check::report_no_command() {
   if (parser_.commands() > 0 || diagnostics_.count(Severity::error) > 0) return;
@@ -138,6 +140,10 @@ void Check::moved(const Move& move) {
   if (move.cuts() && move.turning) summary_.rpm.take(machine_.rpm());
   summary_.bounds.take(first_height ? move.to : move.from);
   summary_.bounds.take(move.to);
+  if (move.cuts()) {
+    summary_.cut.take(sunk(move.from, move.to));
+    summary_.cut.take(sunk(move.to, move.from));
+  }
   const StepTime time = move_time(move, profile_, options_.origin.has_value());
   if (first_height && !options_.origin) summary_.seconds_down = time.most;
   take(time, move.end);
@@ -161,6 +167,9 @@ void Check::waited(Wait what, double seconds, std::uint64_t end) {
 void Check::commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) {
   judge_.commanded(from, target, height_alone, machine_.box(), by);
   if (!height_alone) profile_judge_.commanded(target, by);
+  if (target.z < 0) profile_judge_.deepened(target, by);
+  const bool says_height = by.row->operation != Operation::plot && !machine_.relative();
+  if (target.z > 0 && says_height) profile_judge_.lifted(target.z, by);
   if (!by.first && machine_.dwell_s() > 0) take(dwell_between_points(machine_.dwell_s()), by.end);
   if (moves_ == nullptr) return;
   find_left_out(machine_.box(), from, target, [this](const Point& a, const Point& b) { moves_->left_out(a, b); });

@@ -9,6 +9,7 @@
 
 #include "device/rml1/bounds.h"
 #include "device/rml1/diagnostic.h"
+#include "device/rml1/extent.h"
 #include "device/rml1/judge.h"
 #include "device/rml1/machine.h"
 #include "device/rml1/move_time.h"
@@ -25,12 +26,14 @@ struct CheckOptions {
   std::optional<Stock> stock;
   std::vector<KnownMachine> others;
   std::optional<double> tool_mm{};  // the diameter, above 0
+  std::string made_for{};           // the name of a machine, as its maker said; empty: it is judged by the job
 };
 
 // Steps of the workpiece system.
 struct Summary {
   Point final;    // where the tool really is
   Bounds bounds;  // of what was really driven, but for the height at which the job begins
+  Bounds cut;     // of what of that cuts
   double seconds_low = 0, seconds_high = 0;
   double seconds_down = 0;  // of seconds_high: from the height at which the job begins, where that is not known
   double distance_mm = 0, cutting_mm = 0;
@@ -48,6 +51,8 @@ class Check : private MachineListener, private ParserListener {
   // `moves` receives each real move, and what clipping leaves out. Everything referred to outlives this.
   Check(const Profile& profile, CheckOptions options, MoveListener* moves = nullptr);
 
+  // Takes over the workpiece as `before` has left it, by the tool's depths. Once, before feed().
+  void continues(Check& before) { workload_.continues(before.workload_); }
   void feed(std::string_view bytes);
   void finish();
 
@@ -59,6 +64,7 @@ class Check : private MachineListener, private ParserListener {
   const Leaves& leaves() const { return state_judge_.leaves(); }
   std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
+  Extent extent() const;  // after finish()
 
  private:
   void execute(const Instruction& instruction) override;

@@ -3,11 +3,13 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "device/rml1/place.h"
+#include "device/rml1/warning.h"
 
 namespace axisgate::rml1 {
 
@@ -20,6 +22,7 @@ struct Diagnostic {
   Place place;
   std::string_view section;  // of the guideline: "2-5"; lives as long as the program
   std::string text;
+  std::optional<Warning> warning{};  // its kind, of a warning
 };
 
 // The first ten of each kind in the order of their finding, and a count of all. Each place in the code that reports
@@ -37,14 +40,16 @@ class Diagnostics {
 
   // `text` is called only for what is kept: a job may have millions.
   template <class Text>
-  void add(int number, Severity severity, const Place& place, std::string_view section, Text&& text) {
-    static constexpr char kKind = 0;
-    ++counts_[static_cast<std::size_t>(severity)];
-    if (keeps(&kKind, place)) kept_.push_back({number, severity, place, section, std::string(text())});
+  void error(int number, const Place& place, std::string_view section, Text&& text) {
+    add(number, Severity::error, {}, place, section, text);
   }
   template <class Text>
-  void error(int number, const Place& place, std::string_view section, Text&& text) {
-    add(number, Severity::error, place, section, text);
+  void warn(Warning warning, const Place& place, std::string_view section, Text&& text) {
+    add(0, Severity::warning, warning, place, section, text);
+  }
+  template <class Text>
+  void note(const Place& place, std::string_view section, Text&& text) {
+    add(0, Severity::note, {}, place, section, text);
   }
 
   const std::vector<Diagnostic>& kept() const { return kept_; }
@@ -55,6 +60,14 @@ class Diagnostics {
   std::vector<Omitted> omitted() const;
 
  private:
+  template <class Text>
+  void add(int number, Severity severity, std::optional<Warning> warning, const Place& place, std::string_view section,
+           Text&& text) {
+    static constexpr char kKind = 0;
+    ++counts_[static_cast<std::size_t>(severity)];
+    if (keeps(&kKind, place)) kept_.push_back({number, severity, place, section, std::string(text()), warning});
+  }
+
   struct Kind {
     const void* id;
     std::size_t first;  // in kept_

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace axisgate::rml1 {
 namespace {
@@ -19,19 +20,21 @@ bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
 }  // namespace
 
 template <class Text>
-void Judge::warn_once(Cause cause, const Place& place, std::string_view section, Text&& text) {
-  if (reported_.insert(cause).second) diagnostics_.add(0, Severity::warning, place, section, text);
+void Judge::warn_once(Warning warning, const Place& place, std::string_view section, Text&& text) {
+  if (reported_.insert(warning).second) diagnostics_.warn(warning, place, section, text);
 }
 
 void Judge::moved(const Move& move) {
   last_ = move.place;
   if (move.operation == Operation::plot && !move.lowered && move.from.z <= 0 && move.from.z == move.to.z) {
-    warn_once(Cause::on_the_surface, move.place, "3-2",
-              [] { return "travels at Z2 = 0: with the tool on the surface of the workpiece"; });
+    const bool home = move.to.x == 0 && move.to.y == 0;
+    warn_once(home ? Warning::drags_home : Warning::drags_tool, move.place, "3-2", [home] {
+      return fmt::format("travels {}at Z2 = 0: with the tool on the surface of the workpiece", home ? "home " : "");
+    });
   }
   if (!move.below_surface()) return;
   if (!move.turning && !move.lifts()) {
-    warn_once(Cause::no_spindle, move.place, "5-2", [] {
+    warn_once(Warning::spindle_off, move.place, "5-2", [] {
       return "goes below the surface while the spindle is off: !MC0 forbids it, and !MC1 permits it again";
     });
   }
@@ -44,13 +47,13 @@ void Judge::judge_stock(const Move& move) {
   // The stock has no dents: what is below the surface lies inside, if both of its ends do.
   for (const Point& p : {sunk(move.from, move.to), sunk(move.to, move.from)}) {
     if (p.x < -kHalfStep || p.y < -kHalfStep || p.x > x || p.y > y) {
-      warn_once(Cause::outside_stock, move.place, "5-1", [&] {
+      warn_once(Warning::outside_stock, move.place, "5-1", [&] {
         return fmt::format("below the surface outside of the stock, towards X {:.2f} mm, Y {:.2f} mm", mm(p.x),
                            mm(p.y));
       });
     }
     if (p.z < bottom) {
-      warn_once(Cause::too_deep, move.place, "5-1", [&] {
+      warn_once(Warning::below_stock, move.place, "5-1", [&] {
         return fmt::format("{:.2f} mm deep, and the stock is {:.2f} mm thick: it cuts into what lies below", -mm(p.z),
                            stock_->z);
       });
@@ -89,12 +92,10 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
                          : profile_.holds_flat_commands ? "it cuts along the edge instead"
                                                         : "what lies outside is not cut");
     };
-    if (cuts) warn_once(Cause::cuts_outside_area, place, "5-1", text);
-    if (!cuts && reported_.insert(Cause::travels_outside_area).second) {
-      diagnostics_.add(0, Severity::note, place, "5-1", text);
-    }
+    if (cuts) warn_once(Warning::cut_outside_area, place, "5-1", text);
+    if (!cuts && !std::exchange(travel_reported_, true)) diagnostics_.note(place, "5-1", text);
   } else if (target.z < box.lowest.z) {
-    warn_once(Cause::below_bottom, place, "5-1", [&] {
+    warn_once(Warning::below_reach, place, "5-1", [&] {
       return fmt::format("{:.2f} mm below the surface, and the machine reaches {:.2f} mm: it cuts less deep",
                          -mm(target.z), -mm(box.lowest.z));
     });
@@ -103,10 +104,8 @@ void Judge::judge_area(const Point& target, const Box& box, const Place& place) 
 
 void Judge::took(double depth_mm, const Move& move) {
   if (depth_mm <= kDeepPassMm) return;
-  warn_once(Cause::deep_pass, move.place, "3-2", [&] {
-    return fmt::format(
-        "takes {:.2f} mm in one pass: with most tools a pass of this depth breaks the tool; cut in several passes",
-        depth_mm);
+  warn_once(Warning::deep_pass, move.place, "3-2", [&] {
+    return fmt::format("takes {:.2f} mm in one pass: with most tools a pass of this depth breaks the tool", depth_mm);
   });
 }
 
@@ -139,7 +138,7 @@ void Judge::judge_sizes() {
   for (const double step : steps) {
     const auto fits_then = [&](const Size& size) { return fits(size.steps, size.area_mm, step); };
     if (!first || same(step, profile_.step_mm) || !std::ranges::all_of(sizes, fits_then)) continue;
-    diagnostics_.add(0, Severity::warning, *first, "1-1", [&] {
+    diagnostics_.warn(Warning::made_for_another_mill, *first, "1-1", [&] {
       return fmt::format("it fits if a step is {} mm, and here it is {} mm: is it the right profile?", step,
                          profile_.step_mm);
     });
@@ -155,13 +154,13 @@ void Judge::judge_errors(std::uint64_t commands) {
     const std::vector<Diagnostic> all = diagnostics_.in_order();
     const auto first = std::ranges::find_if(all, is_error);
     if (first == all.end()) return;
-    diagnostics_.add(0, Severity::warning, first->place, "2-3", [&] {
+    diagnostics_.warn(Warning::damaged, first->place, "2-3", [&] {
       return fmt::format(
           "sound before line {0}, and from line {0} on {1} errors: is it damaged there, or were bytes lost?",
           first->place.line, errors);
     });
   } else if (errors > commands) {
-    diagnostics_.add(0, Severity::warning, {}, "1-2", [&] {
+    diagnostics_.warn(Warning::no_job, {}, "1-2", [&] {
       return fmt::format("more errors than commands, {} and {}: is it a job in RML-1?", errors, commands);
     });
   }
@@ -172,7 +171,7 @@ void Judge::finish(const Machine& machine, std::uint64_t commands) {
   judge_errors(commands);
   const double z = machine.tool().z;
   if (!last_ || z > 0 || (z == 0 && !machine.tool_lowered())) return;
-  diagnostics_.add(0, Severity::warning, *last_, "3-2", [&] {
+  diagnostics_.warn(Warning::tool_left_down, *last_, "3-2", [&] {
     return z == 0 ? std::string("the job ends with the tool down, on the surface")
                   : fmt::format("the job ends with the tool down, {:.2f} mm below the surface", -mm(z));
   });

@@ -28,19 +28,8 @@ class Judge {
   void finish(const Machine& machine, std::uint64_t commands);
 
  private:
-  enum class Cause {
-    outside_stock,
-    too_deep,
-    no_spindle,
-    on_the_surface,
-    cuts_outside_area,
-    travels_outside_area,
-    below_bottom,
-    deep_pass
-  };
-
   template <class Text>
-  void warn_once(Cause cause, const Place& place, std::string_view section, Text&& text);
+  void warn_once(Warning warning, const Place& place, std::string_view section, Text&& text);
   void judge_stock(const Move& move);
   void take_plane(const Point& from, const Point& target, const Place& place);
   void judge_area(const Point& target, const Box& box, const Place& place);
@@ -54,8 +43,9 @@ class Judge {
   std::optional<Stock> stock_;
   const std::vector<KnownMachine>& others_;
   Diagnostics& diagnostics_;
-  std::set<Cause> reported_;
-  Bounds asked_;  // of what was commanded; X and Y of what cuts alone, where the origin is known
+  std::set<Warning> reported_;
+  bool travel_reported_ = false;  // outside the work area
+  Bounds asked_;                  // of what was commanded; X and Y of what cuts alone, where the origin is known
   Place widest_x_, widest_y_, deepest_;
   std::optional<Place> last_;
   std::uint64_t paths_before_errors_ = 0;

@@ -167,7 +167,7 @@ void Machine::extension(const Instruction& instruction) {
       rotation = &axis;
     } else if (!other_axis_reported_) {
       other_axis_reported_ = true;
-      diagnostics_.add(0, Severity::warning, axis.place, "3-3", [&] {
+      diagnostics_.warn(Warning::no_such_axis, axis.place, "3-3", [&] {
         return fmt::format(
             "the {0} has no axis {1}: what the job says of it is ignored (where it has one, [rotary] belongs into its "
             "profile)",
@@ -197,7 +197,7 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
 void Machine::home(const Instruction& instruction) {
   const double top = box().highest.z;
   if (top > 0 && z2() <= 0) {
-    diagnostics_.add(0, Severity::warning, instruction.place, instruction.row->section, [] {
+    diagnostics_.warn(Warning::drags_home, instruction.place, instruction.row->section, [] {
       return "goes home while Z2 = 0: a machine that goes home at Z2, and not at the top, drags the tool over the "
              "surface of the workpiece";
     });
@@ -214,7 +214,7 @@ void Machine::initialize(const Instruction& instruction) {
   const bool set_to_surface = z2() <= 0;
   set_defaults();
   if (box().highest.z > 0 && (z2() <= 0 || set_to_surface)) {
-    diagnostics_.add(0, Severity::warning, instruction.place, "3-2", [certain = z2() <= 0] {
+    diagnostics_.warn(Warning::drags_home, instruction.place, "3-2", [certain = z2() <= 0] {
       return certain ? "IN takes the tool to Z2 = 0: to the surface of the workpiece"
                      : "Z2 = 0 was set: a machine that keeps it over IN takes the tool to the surface";
     });
@@ -306,8 +306,8 @@ void Machine::take_surface(double height, bool keeps_unsure) {
 }
 
 void Machine::pause(const Instruction& instruction) {
-  diagnostics_.add(0, Severity::warning, instruction.place, "3-3",
-                   [] { return "!NR pauses the machine until somebody lets it go on at its panel"; });
+  diagnostics_.warn(Warning::waits_for_person, instruction.place, "3-3",
+                    [] { return "!NR pauses the machine until somebody lets it go on at its panel"; });
 }
 
 // "ends operation of the command now being executed" (4-2): what is commanded is where the tool stands.

@@ -232,8 +232,8 @@ void Parser::begin_command(const Row& row) {
   instruction_.axes = {};
   emitted_ = false;
   if (row.beyond_guideline) {
-    diagnostics_.add(0, Severity::warning, name_place_, row.section,
-                     [&row] { return fmt::format("{} is beyond the guideline; this machine takes it", row.name); });
+    diagnostics_.warn(Warning::beyond_guideline, name_place_, row.section,
+                      [&row] { return fmt::format("{} is beyond the guideline; this machine takes it", row.name); });
   }
   switch (row.takes) {
     case Takes::nothing:
@@ -301,7 +301,7 @@ bool Parser::after_number(char c) {
 
 void Parser::end_number() {
   if (number_.sign_alone()) {
-    diagnostics_.add(0, Severity::note, number_place_, "2-5", [] { return "a sign without a number ends the list"; });
+    diagnostics_.note(number_place_, "2-5", [] { return "a sign without a number ends the list"; });
     return;
   }
   take_value(number_.value());
@@ -327,7 +327,7 @@ double Parser::in_range(const Parameter& parameter, double value, bool& good) {
     return value;
   }
   const double nearest = low ? parameter.lowest : parameter.highest;
-  diagnostics_.add(0, Severity::warning, number_place_, "2-5", [&] {
+  diagnostics_.warn(Warning::out_of_range, number_place_, "2-5", [&] {
     return fmt::format("{} takes {} to {}: {} is used instead of {}", row_->name, parameter.lowest, parameter.highest,
                        nearest, value);
   });
@@ -369,7 +369,7 @@ void Parser::end_last_command() {
   take(';');
   const bool single = commands_ != before;  // D, I or V, which waited for a second letter
   if (!in_list && !single) return;
-  diagnostics_.add(0, Severity::warning, instruction_.place, "2-3", [this] {
+  diagnostics_.warn(Warning::open_end, instruction_.place, "2-3", [this] {
     return fmt::format(
         "the job ends within {}: sent without a terminator, the machine waits, and takes the next job's first bytes "
         "for its parameters",
@@ -383,7 +383,7 @@ void Parser::finish() {
     diagnostics_.error(11, escape_place_, "4-1", [] { return "the job ends within a device control sequence"; });
   }
   if (state_ == State::axes) {
-    diagnostics_.add(0, Severity::warning, instruction_.place, "3-3", [] {
+    diagnostics_.warn(Warning::open_end, instruction_.place, "3-3", [] {
       return "!ZE has no terminator: what follows its last separator is neither executed nor sent";
     });
   } else {

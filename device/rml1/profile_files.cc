@@ -36,4 +36,14 @@ Result<fs::path> profile_file(const std::string& name) {
               known.empty() ? "name the file of a profile" : "use " + known + ", or the file of a profile");
 }
 
+std::vector<KnownMachine> known_machines() {
+  std::vector<KnownMachine> machines;
+  for (const fs::path& file : shipped_profiles()) {
+    if (const auto profile = load_profile(file.string())) {
+      machines.push_back({profile->name, profile->step_mm, profile->z_mm, profile->speed.cutting_maximum});
+    }
+  }
+  return machines;
+}
+
 }  // namespace axisgate::rml1

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "device/core/problem.h"
+#include "device/rml1/known_machine.h"
 
 namespace axisgate::rml1 {
 
@@ -15,5 +16,8 @@ std::vector<std::filesystem::path> shipped_profiles();
 // Of a shipped profile's name in either case, "mdx-20"; a path or a name ending in .toml is the file itself, which may
 // be missing. An unknown name is refused, with the known ones.
 Result<std::filesystem::path> profile_file(const std::string& name);
+
+// Of all that are shipped: what a job may have been made for instead. Those that cannot be read are left out.
+std::vector<KnownMachine> known_machines();
 
 }  // namespace axisgate::rml1

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "device/rml1/characters.h"
 
@@ -15,6 +16,12 @@ namespace {
 constexpr std::size_t kCoordinates = 8;
 // Below it every drawing has such a raster.
 constexpr std::int64_t kSmallestRaster = 4;
+// A job of fewer paths is a trial, whose depths and lifts show nothing. Assumed.
+constexpr std::uint64_t kPaths = 20;
+// By odds of 3 to 1 the job was written in the other unit. Assumed: it divides the jobs of tests/jobs.
+constexpr double kCertain = 1.1;
+// How much a lift by a whole travel says: some drivers lift by the same number of steps on all machines. Assumed.
+constexpr double kTravel = 2.5;
 
 bool same_figure(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -44,16 +51,19 @@ Place place_at(std::string_view text, std::size_t at) {
 
 }  // namespace
 
+// The first suspicion counts. What somebody has said goes before all that the job shows.
+void ProfileJudge::suspect(std::string why, const std::vector<std::string>& names, double step_mm, const Place& place) {
+  if (suspicion_ || !made_for_.empty()) return;
+  suspicion_ = Suspicion{std::move(why), fmt::format("{}", fmt::join(names, " or ")), step_mm, place};
+}
+
 void ProfileJudge::begins(std::string_view head) {
-  if (find_name(head, profile_.name) != std::string_view::npos) return;
+  named_ = find_name(head, profile_.name) != std::string_view::npos;
+  if (named_) return;
   for (const KnownMachine& other : others_) {
     const std::size_t at = find_name(head, other.name);
     if (at == std::string_view::npos) continue;
-    diagnostics_.add(0, Severity::warning, place_at(head, at), "1-1", [&] {
-      return fmt::format("the file names the {}, and is checked for the {}: is it the right profile?", other.name,
-                         profile_.name);
-    });
-    return;
+    return suspect("the file names it", {other.name}, other.step_mm, place_at(head, at));
   }
 }
 
@@ -72,7 +82,7 @@ void ProfileJudge::judge_speed(const Instruction& instruction, double highest, b
   speed_not_reached_ = std::max(speed_not_reached_.value_or(0), speed);
   if (reported) return;
   reported = true;
-  diagnostics_.add(0, Severity::warning, instruction.place, instruction.row->section, [&] {
+  diagnostics_.warn(Warning::too_fast, instruction.place, instruction.row->section, [&] {
     return fmt::format("{} sets {:g} mm/s; the {} has at most {:g} mm/s, and uses that{}", instruction.row->name, speed,
                        profile_.name, highest, machines_as_fast(speed));
   });
@@ -89,26 +99,26 @@ std::string ProfileJudge::machines_as_fast(double speed) const {
 
 // A lift by a whole travel shows the unit.
 void ProfileJudge::lifted(double steps, const Instruction& by) {
+  if (steps <= 0) return;
+  clues_.lifted(steps);
   const auto travel_of = [steps](double z_mm, double step) { return std::abs(z_mm / step - steps) <= 0.5; };
-  if (lift_reported_ || travel_of(profile_.z_mm, profile_.step_mm)) return;
-  std::vector<std::string> names;
-  double step_mm = 0;
+  own_travel_ = own_travel_ || travel_of(profile_.z_mm, profile_.step_mm);
+  if (own_travel_ || travel_) return;
   for (const KnownMachine& other : others_) {
     if (same_figure(other.step_mm, profile_.step_mm) || !travel_of(other.z_mm, other.step_mm)) continue;
-    names.push_back(other.name);
-    step_mm = other.step_mm;
+    if (!travel_) travel_ = Suspicion{fmt::format("a lift of {:g} steps is its whole travel", steps), "", 0, by.place};
+    travel_->step_mm = other.step_mm;
+    travel_->names += (travel_->names.empty() ? "" : " or ") + other.name;
   }
-  if (names.empty()) return;
-  lift_reported_ = true;
-  diagnostics_.add(0, Severity::warning, by.place, "1-1", [&] {
-    return fmt::format(
-        "a lift of {:g} steps is the whole travel of the {}, with steps of {} mm; here they are {} mm: is it the right "
-        "profile?",
-        steps, fmt::join(names, " and the "), step_mm, profile_.step_mm);
-  });
+}
+
+void ProfileJudge::deepened(const Point& target, const Instruction& by) {
+  clues_.deep(-target.z);
+  if (!deep_) deep_ = by.place;
 }
 
 void ProfileJudge::commanded(const Point& target, const Instruction& by) {
+  ++paths_;
   if (raster_ != 0 && raster_ < kSmallestRaster) return;
   if (!first_) first_ = by.place;
   take_coordinate(target.x);
@@ -121,14 +131,53 @@ void ProfileJudge::take_coordinate(double steps) {
   if (whole != 0 && different_.size() < kCoordinates) different_.insert(whole);
 }
 
+void ProfileJudge::suspect_as_said() {
+  const auto other = std::ranges::find(others_, made_for_, &KnownMachine::name);
+  if (made_for_ == profile_.name || other == others_.end()) return;
+  suspicion_ = Suspicion{"its sender says so", other->name, other->step_mm, {}};
+}
+
+// By odds, as natural logarithms.
+double ProfileJudge::odds_of(double step_mm) const {
+  const bool is_travel = travel_ && same_figure(step_mm, travel_->step_mm);
+  return clues_.odds(step_mm, profile_.step_mm) + (is_travel ? kTravel : 0) - (own_travel_ ? kTravel : 0);
+}
+
+// Depths and lifts that are usual in another unit, and are not in this one.
+void ProfileJudge::suspect_by_clues() {
+  if (named_ || (paths_ < kPaths && !travel_)) return;
+  double best = kCertain, step_mm = 0;
+  for (const KnownMachine& other : others_) {
+    if (same_figure(other.step_mm, profile_.step_mm) || odds_of(other.step_mm) <= best) continue;
+    best = odds_of(other.step_mm);
+    step_mm = other.step_mm;
+  }
+  if (travel_ && same_figure(step_mm, travel_->step_mm)) suspicion_ = suspicion_ ? suspicion_ : travel_;
+  std::vector<std::string> names;
+  for (const KnownMachine& other : others_) {
+    if (same_figure(other.step_mm, step_mm)) names.push_back(other.name);
+  }
+  if (!names.empty() && deep_) suspect("its depths and lifts are usual there", names, step_mm, *deep_);
+}
+
+void ProfileJudge::finish(const Extent& extent) {
+  made_for_.empty() ? suspect_by_clues() : suspect_as_said();
+  if (!suspicion_) return judge_raster();
+  diagnostics_.warn(Warning::made_for_another_mill, suspicion_->place, "1-1", [&] {
+    const double factor = suspicion_->step_mm / profile_.step_mm;
+    return fmt::format("made for the {}, as {}: there {}; here, as {}, {}", suspicion_->names, suspicion_->why,
+                       size_text(scaled(extent, factor)), profile_.name, size_text(extent));
+  });
+}
+
 // Coordinates that all lie on whole millimetres of another unit, and on none of this one.
-void ProfileJudge::finish() {
+void ProfileJudge::judge_raster() {
   if (raster_ < kSmallestRaster || different_.size() < kCoordinates) return;
   const auto raster = static_cast<double>(raster_);
   if (is_round(raster * profile_.step_mm)) return;
   const auto other = std::ranges::find_if(others_, [&](const auto& one) { return is_round(raster * one.step_mm); });
   if (other == others_.end()) return;
-  diagnostics_.add(0, Severity::note, *first_, "1-1", [&] {
+  diagnostics_.note(*first_, "1-1", [&] {
     return fmt::format(
         "all X and Y are multiples of {} steps: {:g} mm on the {} with steps of {} mm, {:g} mm here: is it the right "
         "profile?",

@@ -30,7 +30,7 @@ void StateJudge::executed(const Instruction& instruction) {
 void StateJudge::set_surface(const Instruction& instruction) {
   if (leaves_.surface) return;
   leaves_.surface = true;
-  diagnostics_.add(0, Severity::note, instruction.place, "3-3", [] {
+  diagnostics_.note(instruction.place, "3-3", [] {
     return "!ZO sets Z0: heights count from the new Z0, also in the next job, and the one set at the panel is lost";
   });
 }
@@ -40,7 +40,7 @@ void StateJudge::set_revolutions(const Instruction& instruction) {
   if (revolutions_reported_ || instruction.count == 0) return;
   revolutions_reported_ = true;
   leaves_.revolutions = profile_.spindle.law != Spindle::Law::fixed;
-  diagnostics_.add(0, Severity::note, instruction.place, "3-3", [this] {
+  diagnostics_.note(instruction.place, "3-3", [this] {
     return profile_.spindle.law == Spindle::Law::fixed
                ? fmt::format("!RC sets the spindle speed; the {} ignores it", profile_.name)
                : std::string("!RC sets the spindle speed: IN and DF do not reset it, and the next job begins with it");
@@ -54,18 +54,18 @@ void StateJudge::turn(const Instruction& instruction) {
 
 void StateJudge::finish(const Machine& machine) {
   if (machine.lowered_by_default()) {
-    diagnostics_.add(0, Severity::warning, *machine.lowered_by_default(), "3-3", [this] {
+    diagnostics_.warn(Warning::profile_height, *machine.lowered_by_default(), "3-3", [this] {
       return fmt::format("lowers the tool before it sets Z1: Z {:.2f} mm is from the profile, a mill may differ",
                          profile_.default_z1 * profile_.step_mm);
     });
   }
   if (machine.relative()) {
-    diagnostics_.add(0, Severity::warning, relative_, "5-3", [] {
+    diagnostics_.warn(Warning::ends_relative, relative_, "5-3", [] {
       return "the job ends in relative coordinates: the next job begins with them, unless it sends PA, H, IN or DF";
     });
   }
   if (machine.dwell_s() > 0) {
-    diagnostics_.add(0, Severity::note, dwell_, "3-3", [&] {
+    diagnostics_.note(dwell_, "3-3", [&] {
       return fmt::format("the job ends with a dwell of {:g} s: the next job waits as well, unless it sends IN or DF",
                          machine.dwell_s());
     });

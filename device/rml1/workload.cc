@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace axisgate::rml1 {
 namespace {
@@ -14,6 +15,11 @@ Workload::Workload(const Profile& profile, std::optional<double> tool_mm)
     : step_mm_(profile.step_mm),
       tool_known_(tool_mm.has_value()),
       map_(profile.steps(tool_mm.value_or(kAssumedToolMm)), profile.steps(std::hypot(profile.x_mm, profile.y_mm))) {}
+
+void Workload::continues(Workload& before) {
+  map_ = std::move(before.map_);
+  map_.change_tool();
+}
 
 double Workload::moved(const Move& move, double speed) {
   if (!move.cuts() || move.lifts()) return 0;

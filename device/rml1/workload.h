@@ -26,6 +26,8 @@ class Workload {
   // `tool_mm`: the diameter, above 0. Without it 2 mm are assumed, and no volume is given.
   Workload(const Profile& profile, std::optional<double> tool_mm);
 
+  // Takes over what the other one has removed, with a tool of the same diameter. Before moved().
+  void continues(Workload& before);
   // What the move takes in one pass, in mm; 0 where it does not cut. `speed` is the one set, in mm/s.
   double moved(const Move& move, double speed);
   // In the order of their beginnings; at most kSections.

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
+#include <map>
+#include <memory>
 #include <optional>
-#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,42 +25,56 @@ struct PartToSend {
 struct CheckedJob {
   std::vector<rml1::JobPart> parts;
   rml1::Leaves leaves;
+  rml1::Extent extent;
+  std::vector<rml1::Warning> accepted;  // in their order; each occurs in the job
 };
 
 // invalid_request, where the mill of that name has no such tool, or there are too many parts, or one without bytes.
 Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector<std::string>& tools,
                          std::string_view mill);
 
-using AcceptedWarnings = std::set<std::string, std::less<>>;  // sections of the guideline, "5-2"
+// Fails with invalid_request if one of them is no name of a rml1::Warning.
+Result<void> check_warning_names(const std::vector<std::string>& names);
 
-// Not thread safe. What both calls refuse is invalid_request: the first error of a part that has come whole, or the
-// first warning that is not accepted; a piece that cannot be cut and is longer than the mill's buffer; and bytes that
-// are more or less than those of the parts.
+// Not thread safe. What both calls refuse is invalid_request: the first error of a part that has come whole; a piece
+// that cannot be cut and is longer than the mill's buffer; and bytes that are more or less than those of the parts.
+// finish() also refuses all kinds of warnings that are not accepted, and accepted kinds that the job does not have.
 class JobCheck {
  public:
-  // All outlive this. `buffer`: of the mill, in bytes. `parts`: at least one.
+  // All outlive this. `buffer`: of the mill, in bytes. `parts`: at least one. `accepted`: names of warnings.
   JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
-           const std::vector<PartToSend>& parts, const AcceptedWarnings& accepted);
+           const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted);
 
   Result<void> feed(std::string_view bytes);
   Result<CheckedJob> finish();
 
  private:
+  // A Found is all of one kind of warning in the job.
+  struct Found {
+    std::string first;       // its place and text
+    std::uint64_t more = 0;  // places beyond the first
+    std::string last;        // of these
+  };
+
   const PartToSend& part() const { return parts_[checked_.parts.size()]; }
   Result<void> finish_part();
-  Result<void> judge() const;
+  Result<void> judge_errors() const;
+  void take_warnings();
+  Result<void> judge_warnings();
   Result<void> check_pieces() const;
+  std::string place_text(const rml1::Place& place) const;
   std::string file_text() const;
 
   const rml1::Profile& profile_;
   const rml1::CheckOptions options_;
   const std::size_t buffer_;
   const std::vector<PartToSend>& parts_;
-  const AcceptedWarnings& accepted_;
-  std::optional<rml1::Check> check_;  // of part(); none: all parts have come
-  rml1::LongestPiece pieces_;         // of part()
-  std::uint64_t begin_ = 0;           // of part(), in bytes of the job
-  std::uint64_t come_ = 0;            // bytes of part()
+  const std::vector<std::string>& accepted_;
+  std::unique_ptr<rml1::Check> check_;  // of part(); null: all parts have come
+  std::map<rml1::Warning, Found> warnings_;
+  rml1::LongestPiece pieces_;  // of part()
+  std::uint64_t begin_ = 0;    // of part(), in bytes of the job
+  std::uint64_t come_ = 0;     // bytes of part()
   CheckedJob checked_;
 };
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <boost/algorithm/string/case_conv.hpp>
 #include <boost/algorithm/string/predicate.hpp>
 #include <string>
 #include <vector>
@@ -48,14 +49,17 @@ Result<void> check_setup(const server::Mill& mill, const rml1::Job& job) {
       "cancel it, and send it again");
 }
 
-Result<void> check_profile(const server::Mill& mill, std::string_view made_for) {
-  const server::MillConfig& config = mill.config();
-  if (made_for.empty() || made_for == config.profile_name || boost::algorithm::iequals(made_for, config.profile.name))
-    return {};
-  return fail(
-      Reason::invalid_request,
-      fmt::format("the job was made for the profile {}, and {} is a {}", made_for, mill.name(), config.profile.name),
-      "make the job for that mill, or send it to another one");
+Result<std::string> machine_with_profile(const server::MillConfig& config, std::string_view profile) {
+  using boost::algorithm::iequals;
+  if (profile.empty()) return std::string();
+  if (profile == config.profile_name || iequals(profile, config.profile.name)) return config.profile.name;
+  std::vector<std::string> names;
+  for (const rml1::KnownMachine& other : config.others) {
+    if (iequals(profile, other.name)) return other.name;
+    names.push_back(boost::algorithm::to_lower_copy(other.name));
+  }
+  return fail(Reason::invalid_request, fmt::format("there is no profile \"{}\"", profile),
+              fmt::format("profiles are {}", fmt::join(names, ", ")));
 }
 
 Result<void> check_at_station(const server::Mill& mill, std::string_view who) {

@@ -1,6 +1,7 @@
 // What a job needs at the mill, and who may confirm it there.
 #pragma once
 
+#include <string>
 #include <string_view>
 
 #include "device/core/problem.h"
@@ -12,8 +13,8 @@ namespace axisgate::api {
 // stale_setpoint: the configuration may have changed since the job was sent.
 Result<void> check_setup(const server::Mill& mill, const rml1::Job& job);
 
-// invalid_request: the job was made for another profile. Empty: for any.
-Result<void> check_profile(const server::Mill& mill, std::string_view made_for);
+// Returns the name of the machine that has the profile. Empty: empty. Fails with invalid_request if there is none.
+Result<std::string> machine_with_profile(const server::MillConfig& config, std::string_view profile);
 
 // not_allowed: the caller is not at the mill's station.
 Result<void> check_at_station(const server::Mill& mill, std::string_view who);

@@ -114,7 +114,7 @@ Result<void> check_in_time(const MillTurn& turn) {
 Problem not_sent_to(const Mill& mill) {
   return {.reason = Reason::link_down,
           .message = fmt::format("the line to {} is closed: the abort is sent when it is back", mill.name()),
-          .hint = "use the mill's own switch"};
+          .hint = "use the mill's own emergency stop"};
 }
 
 JobUpload::JobUpload(const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline,
@@ -145,6 +145,8 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   spooled_->set_facts(server::facts_of({.setup = {"", mill_.config().profile.name, job_.origin, ""},
                                         .parts = checked->parts,
                                         .leaves = checked->leaves,
+                                        .extent = checked->extent,
+                                        .accepted = checked->accepted,
                                         .streaming = job_.streaming,
                                         .stock = job_.stock,
                                         .checked_for = server::checked_for(mill_.config(), job_.origin)}));
@@ -195,10 +197,14 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
         fmt::format("nothing holds the host back while the buffer of {} is full, so bytes would be lost", mill.name()),
         "send the job without a streaming of its own");
   }
-  if (const Result<void> made_for = check_profile(mill, job.profile); !made_for)
-    return tl::unexpected(made_for.error());
+  if (const Result<void> names = check_warning_names(job.accepted_warnings); !names)
+    return tl::unexpected(names.error());
+  Result<std::string> made_for = machine_with_profile(config, job.made_for);
+  if (!made_for) return tl::unexpected(made_for.error());
   rml1::CheckOptions options;
   options.stock = job.stock;
+  options.others = config.others;
+  options.made_for = *std::move(made_for);
   if (!job.origin.empty()) {
     const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
     if (origin == config.origins.end()) {

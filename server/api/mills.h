@@ -51,10 +51,10 @@ struct MillState {
 struct JobToSend {
   std::string title, origin;
   std::vector<PartToSend> parts;
-  AcceptedWarnings accepted_warnings;
+  std::vector<std::string> accepted_warnings;  // names of rml1::Warning
   std::optional<rml1::Streaming> streaming{};  // none: as the mill has it
   std::optional<rml1::Stock> stock{};
-  std::string profile{};  // that it was made for; empty: any
+  std::string made_for{};  // the name of a profile; empty: it is judged by the job
 };
 
 // In the order of the queue; not empty.
@@ -106,8 +106,8 @@ class Mills {
       : gateway_(gateway), pipeline_(pipeline), streams_(streams) {}
   ~Mills() { worker_->join(); }
 
-  // invalid_request, where there is no such tool or origin, or another profile, there are too many parts, or the
-  // line cannot stream so;
+  // invalid_request, where there is no such tool, origin or profile, or no warning of a name, there are too many parts,
+  // or the line cannot stream so;
   // queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
 

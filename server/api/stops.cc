@@ -4,8 +4,11 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <chrono>
+#include <cmath>
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "device/core/escape.h"
@@ -45,23 +48,27 @@ class Gathering {
   const Answer<std::vector<DeviceStop>> answer_;
 };
 
-StopReport report_of_abort(const Mill& mill, bool job_ran, bool sent) {
+// `running`: the job that was aborted.
+StopReport report_of_abort(const Mill& mill, const std::optional<rml1::RunningJob>& running, bool sent) {
   if (!sent) return {.axes = {}, .problem = not_sent_to(mill)};
-  if (!job_ran) return {};
+  if (!running) return {};
+  const double longest_s = std::chrono::duration<double>(running->run_on.longest).count();
   return {.axes = {},
           .problem = Problem{
               .reason = Reason::outcome_unknown,
               .message = fmt::format("the abort was sent to {}; whether it has stopped is not known", mill.name()),
-              .hint = "look at the machine"}};
+              .hint = fmt::format("look at the machine; it may move for up to {:.1f} s: in an emergency use its own "
+                                  "emergency stop",
+                                  std::ceil(longest_s * 10) / 10)}};
 }
 
 void stop_mill(Mill& mill, const stage::RequestContext& context, const std::shared_ptr<Gathering>& gathering,
                std::size_t index) {
   mill.post(
       [&mill, context, gathering, index](rml1::MillController& controller, TimePoint now) {
-        const bool job_ran = controller.running_job() != 0;
+        const std::optional<rml1::RunningJob> running = controller.running(now);
         const bool sent = controller.abort(context, now);
-        gathering->add(index, report_of_abort(mill, job_ran, sent), {});
+        gathering->add(index, report_of_abort(mill, running, sent), {});
       },
       [gathering, index] { gathering->add_too_late(index); });
 }

@@ -17,6 +17,7 @@
 #include "device/link/printer_port.h"
 #include "device/link/serial_port.h"
 #include "device/link/tcp_socket.h"
+#include "device/rml1/known_machine.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/sender.h"
 #include "device/stage/kind.h"
@@ -72,6 +73,7 @@ struct MillConfig {
   std::string profile_name;  // as the configuration has it: "mdx-20", or the absolute path of a file
   rml1::Profile profile;
   std::string profile_text;                                       // the content of its file
+  std::vector<rml1::KnownMachine> others;                         // what a job may have been made for instead
   rml1::SendSettings sending;                                     // with the device's baud
   std::vector<std::string> station{std::string(kAnybodyOnUnix)};  // who may confirm at the mill, as in Caller::who
   std::chrono::minutes confirmation{10};                          // how long a confirmation is valid
@@ -79,9 +81,10 @@ struct MillConfig {
   std::vector<NamedOrigin> origins;
   std::chrono::seconds busy_limit{600};        // after so long without a byte taken it is reported as still busy
   rml1::AtLoss at_loss = rml1::AtLoss::abort;  // what is sent when the line is back, where a job ran when it broke
-  bool holds_host_back = false;    // the line, while the mill's buffer is full: "full" streaming loses nothing
-  AtExit at_exit = AtExit::abort;  // what happens to a running job when the daemon ends
-  double slower_percent = 0;       // of a simulated mill: each motion takes so much longer than by the profile
+  std::vector<std::string> doubts;  // what may be wrong without being an error, for people who check the configuration
+  bool holds_host_back = false;     // the line, while the mill's buffer is full: "full" streaming loses nothing
+  AtExit at_exit = AtExit::abort;   // what happens to a running job when the daemon ends
+  double slower_percent = 0;        // of a simulated mill: each motion takes so much longer than by the profile
 };
 
 struct DeviceConfig {

@@ -199,6 +199,24 @@ bool has_flow_control(const DeviceConfig& device) {
   return std::holds_alternative<PrinterSettings>(device.connection);
 }
 
+// A wrong baud rate or flow control shows as a spoilt workpiece only: a mill never answers.
+std::vector<std::string> doubts_about(const ConfigTable& table, const DeviceConfig& device, const MillConfig& mill) {
+  std::vector<std::string> doubts;
+  const auto* serial = std::get_if<SerialSettings>(&device.connection);
+  if (serial == nullptr) return doubts;
+  if (!table.has("baud") && !mill.profile.baud) {
+    doubts.push_back(
+        fmt::format("no baud rate is given, and {} baud are assumed: the {} is usually connected by USB "
+                    "(connection = \"printer\"); for a serial line set `baud` as at the mill",
+                    device.baud, mill.profile.name));
+  }
+  if (serial->flow == FlowControl::none) {
+    doubts.emplace_back(
+        "no flow control: a full buffer loses bytes, and jobs are paced; set `flow_control` as at the mill");
+  }
+  return doubts;
+}
+
 }  // namespace
 
 MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<ConfigError>& errors,
@@ -210,6 +228,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   if (name) profile = read_mill_profile(table, *name, mill.profile_text, errors);
   mill.profile_name = name.value_or("");
   mill.profile = profile.value_or(rml1::Profile{});
+  mill.others = rml1::known_machines();
   const auto check = [](std::string_view option, std::string_view value) {
     return rml1::simulator::Options().set(option, value);
   };
@@ -232,6 +251,7 @@ MillConfig read_mill(ConfigTable& table, std::string_view file, std::vector<Conf
   mill.at_loss = table.choice<rml1::AtLoss>("at_loss", kMillAtLoss).value_or(mill.at_loss);
   mill.at_exit = table.choice<MillConfig::AtExit>("at_exit", kMillAtExit).value_or(mill.at_exit);
   mill.origins = read_origins(table, profile, file, errors);
+  mill.doubts = doubts_about(table, device, mill);
   return mill;
 }
 

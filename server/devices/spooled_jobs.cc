@@ -53,6 +53,28 @@ Json facts_of(const rml1::JobPart& part) {
           {"run_on", {run_on.at_most, run_on.if_held, run_on.longest.count(), run_on.mm}}};
 }
 
+Json facts_of(const rml1::Reach& reach) { return reach.any ? Json{reach.lowest, reach.highest} : Json::array(); }
+
+Json facts_of(const rml1::Bounds& bounds) { return {facts_of(bounds.x), facts_of(bounds.y), facts_of(bounds.z)}; }
+
+rml1::Reach reach_in(const Json& facts) {
+  return are_numbers(facts, 2) ? rml1::Reach{true, facts[0], facts[1]} : rml1::Reach();
+}
+
+rml1::Bounds bounds_in(const Json& facts) {
+  if (!facts.is_array() || facts.size() != 3) return {};
+  return {reach_in(facts[0]), reach_in(facts[1]), reach_in(facts[2])};
+}
+
+std::vector<rml1::Warning> accepted_in(const Json& facts) {
+  std::vector<rml1::Warning> accepted;
+  for (const Json& name : facts) {
+    const auto warning = name.is_string() ? rml1::warning_named(name.get<std::string>()) : std::nullopt;
+    if (warning) accepted.push_back(*warning);
+  }
+  return accepted;
+}
+
 // As far as the mill may have been sent it.
 std::string_view sent_of(std::string_view body, const rml1::Job& job) {
   const bool known = job.written && job.written->most >= part_begin(job);
@@ -108,6 +130,9 @@ std::string facts_of(const rml1::Job& job) {
                {"revolutions", job.leaves.revolutions},
                {"rotation", job.leaves.rotation},
                {"tool", job.leaves.tool}}}};
+  facts["driven_mm"] = facts_of(job.extent.driven);
+  facts["cut_mm"] = facts_of(job.extent.cut);
+  for (const rml1::Warning warning : job.accepted) facts["accepted"].push_back(rml1::name(warning));
   if (job.stock) facts["stock"] = {job.stock->x, job.stock->y, job.stock->z};
   facts["checked_for"] = job.checked_for;
   facts["planned_for"] = job.planned_for;
@@ -138,6 +163,8 @@ rml1::Job job_of(const spool::Job& spooled) {
   }
   job.checked_for = facts.value("checked_for", "");
   job.planned_for = facts.value("planned_for", "");
+  job.extent = {bounds_in(facts.value("driven_mm", Json())), bounds_in(facts.value("cut_mm", Json()))};
+  job.accepted = accepted_in(facts.value("accepted", Json::array()));
   const Json stock = facts.value("stock", Json::array());
   if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
     job.stock = rml1::Stock{stock[0], stock[1], stock[2]};

@@ -37,8 +37,11 @@ Result<void> JobUploadRun::take() {
     auto upload = mills_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
     if (!upload) return tl::unexpected(upload.error());
     upload_ = *std::move(upload);
+    v1::SendJobRequest header = *incoming_;
+    header.clear_data();
+    header_digest_ = digest_of(header);
   }
-  digest_ = digest_of(digest_, *incoming_);
+  data_digest_.add(incoming_->data());
   return upload_->append(incoming_->data());
 }
 
@@ -50,7 +53,10 @@ void JobUploadRun::finish() {
   if (upload_ == nullptr) {
     return end(to_status(Problem{.reason = Reason::invalid_request, .message = "the job has no message"}));
   }
-  upload_->finish(digest_, [run = shared_from_this()](const Result<api::CurrentJob>& job) { run->answer(job); });
+  v1::SendJobRequest data;
+  data.set_data(data_digest_.hexadecimal());
+  upload_->finish(digest_of(header_digest_, data),
+                  [run = shared_from_this()](const Result<api::CurrentJob>& job) { run->answer(job); });
 }
 
 void JobUploadRun::answer(const Result<api::CurrentJob>& job) {

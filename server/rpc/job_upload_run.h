@@ -13,6 +13,7 @@
 #include "server/api/mills.h"
 #include "server/rpc/half_close.h"
 #include "server/rpc/incoming.h"
+#include "server/spool/sha256.h"
 
 namespace axisgate::rpc {
 
@@ -43,7 +44,8 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
   v1::SendJobResponse* const response_;
   Incoming<v1::SendJobRequest> incoming_;
   std::unique_ptr<api::JobUpload> upload_;  // null before the first message
-  std::string digest_;                      // of all that has come
+  std::string header_digest_;               // of the first message without its data
+  server::spool::Sha256 data_digest_;       // of all data, however it is cut into messages
   std::mutex mutex_;
   bool ended_ = false;  // under mutex_
   std::shared_ptr<JobUploadRun> self_;

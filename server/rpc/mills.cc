@@ -82,10 +82,30 @@ v1::Streaming to_streaming(rml1::Streaming streaming) {
   return streaming == rml1::Streaming::full ? v1::STREAMING_FULL : v1::STREAMING_PACED;
 }
 
+v1::AxisExtent to_proto(const rml1::Reach& reach) {
+  v1::AxisExtent proto;
+  proto.set_least_mm(reach.lowest);
+  proto.set_most_mm(reach.highest);
+  return proto;
+}
+
+v1::JobExtent to_proto(const rml1::Extent& extent) {
+  v1::JobExtent proto;
+  *proto.mutable_x() = to_proto(extent.driven.x);
+  *proto.mutable_y() = to_proto(extent.driven.y);
+  *proto.mutable_z() = to_proto(extent.driven.z);
+  if (!extent.cut.z.any) return proto;
+  *proto.mutable_cut_x() = to_proto(extent.cut.x);
+  *proto.mutable_cut_y() = to_proto(extent.cut.y);
+  proto.set_deepest_mm(extent.deepest());
+  return proto;
+}
+
 v1::Job to_proto(const api::CurrentJob& current) {
   v1::Job proto = to_proto(current.mill->name(), current.job, current.clock);
   proto.set_streaming(to_streaming(current.job.streaming.value_or(current.mill->config().sending.streaming)));
   if (const auto run_on = rml1::run_on(current.job)) *proto.mutable_run_on() = to_proto(*run_on);
+  if (current.job.extent.driven.z.any) *proto.mutable_extent() = to_proto(current.job.extent);
   return proto;
 }
 
@@ -105,6 +125,7 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.set_confirmed_by(job.confirmation->by);
     *proto.mutable_confirmed_until() = to_proto(clock.at(job.confirmation->until));
   }
+  proto.set_not_confirmed_because(job.void_because);
   if (job.written) {
     proto.set_sent_least(static_cast<std::int64_t>(job.written->least));
     proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
@@ -115,6 +136,7 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.mutable_stock()->set_y_mm(job.stock->y);
     proto.mutable_stock()->set_z_mm(job.stock->z);
   }
+  for (const rml1::Warning warning : job.accepted) proto.add_accepted_warnings(std::string(rml1::name(warning)));
   add_parts(job, proto);
   return proto;
 }
@@ -174,6 +196,7 @@ v1::Mill to_proto(const api::MillState& state) {
     *proto.mutable_ended() = to_proto(api::CurrentJob{state.mill, *state.now->ended, state.now->clock});
   for (const std::string& tool : config.tools) proto.add_tools(tool);
   for (const server::NamedOrigin& origin : config.origins) proto.add_origins(origin.name);
+  proto.set_job_bytes_at_most(state.mill->spool().job_bytes_at_most());
   return proto;
 }
 
@@ -224,7 +247,7 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   api::JobToSend job{
       request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
-  job.profile = request.profile();
+  job.made_for = request.made_for();
   if (request.has_stock()) {
     const v1::Stock& stock = request.stock();
     job.stock = rml1::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};

@@ -33,6 +33,7 @@ class Spool {
   Result<std::unique_ptr<Upload>> begin(const std::string& device, NewJob fresh);
 
   std::vector<Job> list(const std::string& device) const;  // by number
+  std::int64_t job_bytes_at_most() const { return bounds_.bytes_of_one; }
 
   // The next four: not_found, where the device has no such job.
 

@@ -98,12 +98,12 @@ std::string words_to(const Prefix& prefix, const Profile& profile) {
   return words + (machine.relative() ? "^PR;" : "");
 }
 
-std::set<std::string_view> warned_sections(const std::vector<Diagnostic>& diagnostics) {
-  std::set<std::string_view> sections;
+std::set<Warning> warnings_of(const std::vector<Diagnostic>& diagnostics) {
+  std::set<Warning> found;
   for (const Diagnostic& one : diagnostics) {
-    if (one.severity == Severity::warning) sections.insert(one.section);
+    if (one.warning) found.insert(*one.warning);
   }
-  return sections;
+  return found;
 }
 
 }  // namespace
@@ -148,10 +148,9 @@ Result<void> check_continued(std::string_view body, const Approach& approach, co
     checked.finish();
     return checked.diagnostics().in_order();
   };
-  const auto accepted = warned_sections(check(body));
+  const auto accepted = warnings_of(check(body));
   for (const Diagnostic& one : check(continued(body, approach))) {
-    if (one.severity == Severity::note || (one.severity == Severity::warning && accepted.contains(one.section)))
-      continue;
+    if (one.severity == Severity::note || (one.warning && accepted.contains(*one.warning))) continue;
     return fail(Reason::invalid_request,
                 fmt::format("continued at line {}, column {}, the job has {} that it does not have as a whole: {} [{}]",
                             approach.at.line, approach.at.column,

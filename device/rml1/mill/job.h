@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "device/core/time.h"
+#include "device/rml1/extent.h"
 #include "device/rml1/leaves.h"
 #include "device/rml1/place.h"
 #include "device/rml1/sending/job_times.h"
 #include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
 #include "device/rml1/stock.h"
+#include "device/rml1/warning.h"
 
 namespace axisgate::rml1 {
 
@@ -103,17 +105,20 @@ struct Job {
   std::uint64_t bytes = 0;
   JobState state = JobState::queued;
   std::optional<Confirmation> confirmation{};  // while it is confirmed
-  std::optional<WrittenRange> written{};       // of one that was lost or paused, until it continues
-  std::optional<PlaceRange> executed{};        // PreparedJob::executed() of one whose abort was requested
-  std::vector<JobPart> parts{};          // at most kPartsAtMost; none: all of it is one, and its time is not known
-  std::size_t part = 0;                  // runs, or is the next to
-  Leaves leaves{};                       // of all parts
-  std::int64_t rank = 0;                 // as is_before() has it; 0 as it was sent
-  std::optional<Streaming> streaming{};  // none: as the mill has it
-  std::optional<Stock> stock{};          // none: nobody has said it
-  std::string checked_for{};             // a digest of the profile and the origin with which it was checked
-  std::string planned_for{};             // a text of the settings with which its times were computed
-  TimePoint queued_since{};              // when it was sent, or when its last confirmation became void
+  std::string void_because{};             // why its last confirmation does not count; empty: it does, or there was none
+  std::optional<WrittenRange> written{};  // of one that was lost or paused, until it continues
+  std::optional<PlaceRange> executed{};   // PreparedJob::executed() of one whose abort was requested
+  std::vector<JobPart> parts{};           // at most kPartsAtMost; none: all of it is one, and its time is not known
+  std::size_t part = 0;                   // runs, or is the next to
+  Leaves leaves{};                        // of all parts
+  Extent extent{};                        // of all parts
+  std::vector<Warning> accepted{};        // kinds of warnings of its check, by its sender
+  std::int64_t rank = 0;                  // as is_before() has it; 0 as it was sent
+  std::optional<Streaming> streaming{};   // none: as the mill has it
+  std::optional<Stock> stock{};           // none: nobody has said it
+  std::string checked_for{};              // a digest of the profile and the origin with which it was checked
+  std::string planned_for{};              // a text of the settings with which its times were computed
+  TimePoint queued_since{};               // when it was sent, or when its last confirmation became void
 };
 
 // Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower

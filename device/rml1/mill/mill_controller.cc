@@ -169,6 +169,7 @@ Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std
         "look at the job again, then confirm what it needs");
   }
   (*job)->confirmation = Confirmation{by, now + settings_.confirmation_lasts};
+  (*job)->void_because.clear();
   change(**job, JobEvent::confirm, by, "", now);
   return {};
 }
@@ -184,7 +185,10 @@ Result<void> MillController::check_free() const {
 Result<void> MillController::check_startable(const Job& job, TimePoint now) const {
   if (const Result<void> free = check_free(); !free) return free;
   if (job.state != JobState::confirmed || job.confirmation->until <= now) {
-    return fail(Reason::not_allowed, fmt::format("{} is not confirmed at the mill, or not any more", text_of(job)),
+    return fail(Reason::not_allowed,
+                job.void_because.empty()
+                    ? fmt::format("{} is not confirmed at the mill", text_of(job))
+                    : fmt::format("{} is no longer confirmed at the mill, since {}", text_of(job), job.void_because),
                 "somebody at the mill confirms it: `axisctl mill confirm`");
   }
   const Result<void> taken = check_taken();
@@ -247,6 +251,7 @@ Result<void> MillController::done(JobNumber job, std::string_view by, TimePoint 
 void MillController::setup_changed(std::string_view why, TimePoint now) {
   for (Job& job : jobs_) {
     if (job.state != JobState::confirmed) continue;
+    job.void_because = why;
     change(job, void_event(job), "", why, now);
   }
 }

@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+namespace axisgate::rml1 {
+
+// A machine that the job may have been made for instead.
+struct KnownMachine {
+  std::string name;
+  double step_mm = 0, z_mm = 0;
+  double fastest = 0;  // mm/s, of F VS V !VZ; 0 where it is not known
+};
+
+}  // namespace axisgate::rml1

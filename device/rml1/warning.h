@@ -1,0 +1,44 @@
+// The kinds of warnings that a check gives. Each has a name, by which people accept it, and says what to do about it.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace axisgate::rml1 {
+
+enum class Warning {
+  beyond_guideline,
+  below_reach,
+  below_stock,
+  cut_outside_area,
+  damaged,
+  deep_pass,
+  drags_home,
+  drags_tool,
+  ends_relative,
+  made_for_another_mill,
+  no_job,
+  no_such_axis,
+  open_end,
+  out_of_range,
+  outside_stock,
+  profile_height,
+  spindle_off,
+  too_fast,
+  tool_left_down,
+  waits_for_person  // last: kWarnings
+};
+inline constexpr std::size_t kWarnings = static_cast<std::size_t>(Warning::waits_for_person) + 1;
+
+// A stable name: "deep-pass".
+std::string_view name(Warning warning);
+// What a person can do about it, as the end of a sentence: "cut in several passes".
+std::string_view remedy(Warning warning);
+// nullopt: no warning has that name.
+std::optional<Warning> warning_named(std::string_view name);
+// "beyond-guideline, below-reach, ..."
+std::string all_warning_names();
+
+}  // namespace axisgate::rml1
