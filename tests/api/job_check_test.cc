@@ -16,11 +16,10 @@ using testing::HasSubstr;
 
 constexpr std::size_t kBuffer = 1024;
 
-Result<CheckedJob> check(const std::vector<std::string>& files) {
+Result<CheckedJob> check(const std::vector<std::string>& files, const std::vector<std::string>& accepted = {}) {
   const auto profile = rml1::load_profile(AXISGATE_SOURCE_DIR "/deploy/mills/mdx-540.toml");
   std::vector<PartToSend> parts;
   for (const std::string& file : files) parts.push_back({"T1", file.size()});
-  const AcceptedWarnings accepted{"5-2"};
   JobCheck job(*profile, {}, kBuffer, parts, accepted);
   for (const std::string& file : files) {
     if (const Result<void> fed = job.feed(file); !fed) return tl::unexpected(fed.error());
@@ -52,6 +51,62 @@ TEST(AJobCheck, HasNoLimitForWhatIsCut) {
   std::string list = "PA;PU";
   for (int i = 0; i < 10'000; ++i) list += "0,0,";
   EXPECT_TRUE(check({list + "0,0;!MC0;" + std::string(100'000, '\n')}));
+}
+
+// Two kinds: 11 mm in one pass, and the end in the cut.
+constexpr const char* kDeepAndDown = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\n";
+
+TEST(AJobCheck, RefusesAllKindsOfWarningsAtOnce) {
+  const auto refused = check({kDeepAndDown});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().reason, Reason::invalid_request);
+  EXPECT_EQ(
+      refused.error().message,
+      "2 kinds of warnings keep the job from the queue. deep-pass: line 2, column 1: takes 11.00 mm in one pass: with "
+      "most tools a pass of this depth breaks the tool; cut in several passes; right where the material was removed "
+      "before. tool-left-down: line 2, column 1: the job ends with the tool down, 11.00 mm below the surface; end the "
+      "job with the tool up");
+  EXPECT_EQ(refused.error().hint, "correct the job, or accept what is right: --accept deep-pass,tool-left-down");
+  const auto one = check({kDeepAndDown}, {"deep-pass"});
+  ASSERT_FALSE(one);
+  EXPECT_THAT(one.error().message,
+              testing::StartsWith("a warning keeps the job from the queue. tool-left-down: line 2"));
+}
+
+TEST(AJobCheck, KeepsWhatWasAccepted) {
+  const auto checked = check({kDeepAndDown}, {"tool-left-down", "deep-pass"});
+  ASSERT_TRUE(checked) << checked.error().message;
+  EXPECT_THAT(checked->accepted, testing::ElementsAre(rml1::Warning::deep_pass, rml1::Warning::tool_left_down));
+  EXPECT_EQ(rml1::size_text(checked->extent), "10.0 x 0.0 mm, 11.00 mm deep");
+}
+
+TEST(AJobCheck, RefusesAnAcceptedWarningThatTheJobDoesNotHave) {
+  const auto refused = check({kDeepAndDown}, {"deep-pass", "tool-left-down", "outside-stock"});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().message, "the job has no warning outside-stock; it has deep-pass, tool-left-down");
+  EXPECT_EQ(check({groups(1)}, {"damaged"}).error().message, "the job has no warning damaged; it has none");
+}
+
+TEST(AJobCheck, KnowsTheNamesOfWarnings) {
+  EXPECT_TRUE(check_warning_names({}));
+  EXPECT_TRUE(check_warning_names({"deep-pass", "drags-home"}));
+  for (const char* name : {"all", "3-2", "warnings", "9-9", ""}) {
+    const auto refused = check_warning_names({"deep-pass", name});
+    ASSERT_FALSE(refused) << name;
+    EXPECT_THAT(refused.error().hint, HasSubstr("deep-pass, drags-home"));
+  }
+}
+
+// Roughed in two passes, and finished at the whole depth: the finishing takes what the roughing has left.
+TEST(AJobCheck, CarriesWhatIsRemovedFromPartToPart) {
+  const auto along = [](int depth) {
+    return "PA;!PZ-" + std::to_string(depth) + ",200;!MC1;PU0,0;PD1000,0;PU;!MC0;\n";
+  };
+  EXPECT_TRUE(check({along(600) + along(1150), along(1200)}));
+  const auto refused = check({along(600), along(1800)});
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("deep-pass: file 2: line 1, column"));
+  EXPECT_THAT(refused.error().message, HasSubstr("takes 12.00 mm in one pass"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "tests/axisctl/cut_out.h"
 #include "tests/axisctl/executed_lines.h"
 
 namespace axisgate::axisctl {
@@ -160,16 +161,21 @@ TEST(MillTexts, WhatRunsOnHasATime) {
   *response.mutable_running()->mutable_run_on()->mutable_longest() = TimeUtil::MillisecondsToDuration(3200);
   EXPECT_EQ(paused_text(response.running()),
             "job 7 is paused: 64 bytes of it, up to 3.2 s, still run; the cutter keeps turning in the cut");
-  EXPECT_EQ(aborted_text(response),
-            "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; look at the mill");
+  EXPECT_EQ(
+      aborted_text(response),
+      "the abort was sent: at most 64 bytes of job 7, up to 3.2 s, may run on; look at the mill; it may move for up "
+      "to 3.2 s: in an emergency use its own emergency stop");
 }
 
 TEST(MillTexts, AnAbortNeverSaysThatTheMillHasStopped) {
   v1::AbortJobResponse response;
-  EXPECT_EQ(aborted_text(response), "the abort was sent; no job ran; look at the mill");
+  EXPECT_EQ(aborted_text(response),
+            "the abort was sent; no job ran; look at the mill; in an emergency use its own emergency stop");
   *response.mutable_running() = running(15'000, 12'300, 13'200);
   *response.mutable_running()->mutable_run_on() = run_on(64, 64);
-  EXPECT_EQ(aborted_text(response), "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill");
+  EXPECT_EQ(aborted_text(response),
+            "the abort was sent: at most 64 bytes of job 7 may run on; look at the mill; in an emergency use its "
+            "own emergency stop");
 }
 
 // Seen through the mill's profile: its panel may have held it.
@@ -181,7 +187,7 @@ TEST(MillTexts, WhereWhatWasExecutedEnds) {
   EXPECT_EQ(aborted_text(response),
             "the abort was sent: at most 64 bytes of job 7 may run on; by the mill's profile what is executed ends "
             "between line "
-            "8, column 1 and line 13, column 1; look at the mill");
+            "8, column 1 and line 13, column 1; look at the mill; in an emergency use its own emergency stop");
   v1::Job job = frame(7, v1::JOB_STATE_ABORTED);
   *job.mutable_executed() = executed_lines(8, 8);
   EXPECT_EQ(executed_text(job), "by the mill's profile what was executed ends at line 8, column 1");
@@ -286,16 +292,19 @@ TEST(MillQueue, ATable) {
   *mill.add_jobs() = frame(7, v1::JOB_STATE_CONFIRMED);
   mill.mutable_jobs(0)->set_confirmed_by("unix bert");
   *mill.mutable_jobs(0)->mutable_confirmed_until() = TimeUtil::SecondsToTimestamp(1'795'000'200);
+  *mill.mutable_jobs(0)->mutable_extent() = cut_out();
   *mill.add_jobs() = frame(12, v1::JOB_STATE_QUEUED);
   mill.mutable_jobs(1)->mutable_setup()->clear_tool();
   mill.mutable_jobs(1)->mutable_setup()->set_origin("vice");
-  EXPECT_EQ(queue_lines(mill), (Lines{"mill  MDX-20  line open", "no job runs",
-                                      "job  title      owner      state      tool  origin  takes                      "
-                                      "begins at the earliest        confirmed",
-                                      "7    frame.rml  unix anna  CONFIRMED  T1    panel   10 min 0 s to 16 min 40 s  "
-                                      "now                           by unix bert until 2026-11-18 11:10:00",
-                                      "12   frame.rml  unix anna  QUEUED     -     vice    10 min 0 s to 16 min 40 s  "
-                                      "in 10 min 0 s to 16 min 40 s  -"}));
+  EXPECT_EQ(queue_lines(mill),
+            (Lines{"mill  MDX-20  line open", "no job runs",
+                   "job  title      owner      state      tool  origin  size                          "
+                   "takes                      begins at the earliest        confirmed",
+                   "7    frame.rml  unix anna  CONFIRMED  T1    panel   38.0 x 30.0 mm, 1.70 mm deep  "
+                   "10 min 0 s to 16 min 40 s  now                           by unix bert until "
+                   "2026-11-18 11:10:00+00:00",
+                   "12   frame.rml  unix anna  QUEUED     -     vice    -                             "
+                   "10 min 0 s to 16 min 40 s  in 10 min 0 s to 16 min 40 s  -"}));
 }
 
 TEST(MillQueue, APartOfAJob) {
@@ -304,10 +313,10 @@ TEST(MillQueue, APartOfAJob) {
   for (const char* tool : {"T1", "T3", "T1"}) job.add_parts()->set_tool(tool);
   job.set_part(1);
   job.mutable_setup()->set_tool("T3");
-  EXPECT_EQ(
-      queue_lines(mill)[3],
-      "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   10 min 0 s to 16 min 40 s  now             "
-      "        -");
+  EXPECT_EQ(queue_lines(mill)[3],
+            "7    frame.rml  unix anna  TOOL_CHANGE  part 2 of 3, T3  panel   -     10 min 0 s to 16 min 40 s  now     "
+            "        "
+            "        -");
 }
 
 TEST(MillQueue, WhereAJobContinues) {

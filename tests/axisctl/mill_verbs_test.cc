@@ -37,10 +37,10 @@ class MillSend : public MillVerbs {
 };
 
 TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
-  options_.job.accepted = {"5-1", "5-2"};
+  options_.job.accepted = {"deep-pass", "outside-stock"};
   options_.job.streaming = "full";
   options_.job.stock = "80,50,10.5";
-  options_.job.profile = "mdx-20";
+  options_.job.made_for = "mdx-20";
   EXPECT_EQ(run(mill_send).output,
             "job 7 (frame.rml) QUEUED; takes 10 min 0 s to 16 min 40 s, paced; after an abort at most 64 bytes, up to "
             "3.2 s and 14 mm, run on\n");
@@ -50,12 +50,12 @@ TEST_F(MillSend, TheFirstMessageHasEverythingButData) {
   EXPECT_EQ(first.title(), "frame.rml");
   EXPECT_EQ(first.tool(), "T1");  // the first one of the mill
   EXPECT_EQ(first.origin(), "");
-  EXPECT_THAT(first.accepted_warnings(), ElementsAre("5-1", "5-2"));
+  EXPECT_THAT(first.accepted_warnings(), ElementsAre("deep-pass", "outside-stock"));
   EXPECT_EQ(first.streaming(), v1::STREAMING_FULL);
   EXPECT_EQ(first.stock().x_mm(), 80);
   EXPECT_EQ(first.stock().y_mm(), 50);
   EXPECT_EQ(first.stock().z_mm(), 10.5);
-  EXPECT_EQ(first.profile(), "mdx-20");
+  EXPECT_EQ(first.made_for(), "mdx-20");
   EXPECT_EQ(first.data(), "");
   EXPECT_THAT(first.context().request_id(), HasSubstr("axisctl-"));
   EXPECT_EQ(first.context().request_memory(), "since noon");
@@ -168,7 +168,7 @@ TEST_F(MillSend, AFileThatCannotBeReadIsNotSent) {
   EXPECT_THAT(ended.message, HasSubstr("missing.rml cannot be read: No such file"));
   EXPECT_THAT(mill_.sent, IsEmpty());
   options_.job.files = {folder_};
-  EXPECT_THAT(run(mill_send).message, HasSubstr("cannot be read: Is a directory"));
+  EXPECT_THAT(run(mill_send).message, HasSubstr("is no regular file"));
 }
 
 class MillConfirm : public MillVerbs {};
@@ -195,7 +195,7 @@ TEST_F(MillConfirm, NeedsATerminalOrYes) {
 
 TEST_F(MillConfirm, OnlyYesCounts) {
   add_job(v1::JOB_STATE_QUEUED);
-  for (const char* answer : {"\n", "y\n", "Yes\n", "yes please\n", "no\n"}) {
+  for (const char* answer : {"\n", "ye\n", "yes please\n", "no\n"}) {
     Terminal terminal(STDIN_FILENO);
     terminal.type(answer);
     const Ended ended = run(mill_confirm);
@@ -205,10 +205,12 @@ TEST_F(MillConfirm, OnlyYesCounts) {
                                         "the way? [yes/no]\n"));
   }
   EXPECT_THAT(mill_.confirmed, IsEmpty());
-  Terminal terminal(STDIN_FILENO);
-  terminal.type("yes\n");
-  EXPECT_EQ(run(mill_confirm).exit_code, kDone);
-  EXPECT_EQ(mill_.confirmed.size(), 1U);
+  for (const char* answer : {"yes\n", "y\n", " Yes \n", "Y\n"}) {
+    Terminal terminal(STDIN_FILENO);
+    terminal.type(answer);
+    EXPECT_EQ(run(mill_confirm).exit_code, kDone) << answer;
+  }
+  EXPECT_EQ(mill_.confirmed.size(), 4U);
 }
 
 TEST_F(MillConfirm, ALaterPartIsTheNextToConfirm) {
@@ -362,7 +364,8 @@ TEST_F(MillCalls, ALostAnswerIsRequestedAgain) {
 }
 
 TEST_F(MillCalls, NothingIsAskedBeforeAnAbort) {
-  EXPECT_EQ(run(mill_abort).output, "the abort was sent; no job ran; look at the mill\n");
+  EXPECT_EQ(run(mill_abort).output,
+            "the abort was sent; no job ran; look at the mill; in an emergency use its own emergency stop\n");
   EXPECT_THAT(mill_.calls, ElementsAre("AbortJob"));
 }
 

@@ -173,7 +173,18 @@ TEST_F(MillWatch, TheNextJobWhereNoneRuns) {
   report_end(v1::JOB_STATE_FED);
   const Ended ended = run(mill_watch);
   EXPECT_EQ(ended.exit_code, kDone);
-  EXPECT_EQ(ended.output.find("no job runs\njob 7 (frame.rml) RUNNING; "), 0U);
+  EXPECT_EQ(
+      ended.output.find("no job runs; job 7 (frame.rml) is confirmed, and waits to be started: `axisctl mill start "
+                        "7`\njob 7 (frame.rml) RUNNING; "),
+      0U);
+}
+
+TEST_F(MillWatch, EndsWhereNothingRunsOrWaits) {
+  mill_.watched.resize(1, mill_.mill);
+  mill_.watched[0].clear_jobs();
+  const Ended ended = run(mill_watch);
+  EXPECT_EQ(ended.exit_code, kDone);
+  EXPECT_EQ(ended.output, "no job runs, and none waits\n");
 }
 
 TEST_F(MillWatch, OneObjectAMessage) {

@@ -137,9 +137,9 @@ class MillJobs(unittest.TestCase):
 
     def test_a_person_answers(self):
         self.send(SMALL, "--tool", "T2")
-        self.assertEqual(self.answer(b"y\n"), 1)
+        self.assertEqual(self.answer(b"perhaps\n"), 1)
         self.assertRegex(self.run_well("queue"), " QUEUED ")
-        self.assertEqual(self.answer(b"yes\n"), 0)
+        self.assertEqual(self.answer(b"Y\n"), 0)
         self.assertRegex(self.run_well("queue"), " CONFIRMED ")
 
     def test_abort_in_the_middle(self):
@@ -169,7 +169,9 @@ class MillJobs(unittest.TestCase):
         self.assertRegex(history.stdout, rf"  mill  job {number} is QUEUED, by unix \S+")
 
     def test_abort_where_none_runs(self):
-        self.assertEqual(self.run_well("abort"), "the abort was sent; no job ran; look at the mill\n")
+        self.assertEqual(self.run_well("abort"),
+                         "the abort was sent; no job ran; look at the mill; in an emergency use its own emergency "
+                         "stop\n")
 
     def test_pause_and_resume(self):
         number = self.start_long()
@@ -198,7 +200,7 @@ class MillJobs(unittest.TestCase):
         stepped = self.run_well("jog", "x=5", "Z=-0.5mm")
         self.assertRegex(stepped, r"the step, unchecked .*, was sent; by its profile the mill has done it within \d+\.\d s\n")
         self.refused("AXIS_BUSY: the mill may still do what it was sent by hand", "jog", "y=1")
-        self.refused("NOT_ALLOWED.* is not confirmed at the mill, or not any more", "start")
+        self.refused("NOT_ALLOWED.* is no longer confirmed at the mill, since ", "start")
         self.refused("a step of 6 mm down is too long", "jog", "z=-6")
         self.refused("\"5\" is not an axis and a distance .*x=5", "jog", "5", code=2)
         self.refused("\"a=5\" is not an axis and a distance", "jog", "a=5", code=2)

@@ -14,6 +14,7 @@ import time
 import unittest
 
 from mill_jobs_test import quick_profile
+from mill_pty import send_accepting
 from programs import BIN, LIMIT_S, Daemon, Lines
 
 KILLS = int(os.environ.get("AXISGATE_MILL_KILLS", "4"))
@@ -89,6 +90,9 @@ class MillKill(unittest.TestCase):
         self.assertEqual(answer.returncode, 0, f"{words}: {answer.stdout}{answer.stderr}")
         return answer.stdout
 
+    def send(self, *words, stdin=""):
+        send_accepting(lambda *each, **more: self.daemon.run("--device", "mill", *each, **more), *words, stdin=stdin)
+
     def jobs(self):
         return json.loads(self.axisctl("--json", "mill", "queue")).get("jobs", [])
 
@@ -100,7 +104,7 @@ class MillKill(unittest.TestCase):
 
     def begin(self, run):
         self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
-        self.axisctl("mill", "send", "-", "--title", "numbers", "--accept", "5-1,5-2", stdin=job(run))
+        self.send("-", "--title", "numbers", stdin=job(run))
         self.axisctl("mill", "confirm", "--yes", "--start")
         least = self.random.randint(3, 150)
         self.await_true(lambda: len(self.numbers(run)) >= least, "the job does not run")
@@ -150,7 +154,7 @@ class MillKill(unittest.TestCase):
         is seen, the job runs still: it has as many commands as job()."""
         self.open_line()
         text = BEGINNING + "\n" + "".join(f"PU{number},1;\n" for number in range(1, COMMANDS + 1))
-        self.axisctl("mill", "send", "-", "--title", "lines", "--accept", "5-1,5-2", stdin=text)
+        self.send("-", "--title", "lines", stdin=text)
         self.axisctl("mill", "confirm", "--yes", "--start")
         least = self.random.randint(1, 30)
         self.await_true(lambda: len(self.numbers(1)) >= least, "the job does not run")
@@ -208,7 +212,7 @@ class MillKill(unittest.TestCase):
             moves = "".join(f"PU{number},1;" for number in range(first, first + 20))
             files[-1].write_text(BEGINNING + moves, encoding="ascii")
         self.await_true(lambda: "line open" in self.axisctl("mill", "queue"), "the line does not open")
-        self.axisctl("mill", "send", *map(str, files), "--tool", "T1,T1", "--accept", "5-1,5-2")
+        self.send(*map(str, files), "--tool", "T1,T1")
         self.axisctl("mill", "confirm", "--yes", "--start")
         self.await_state("TOOL_CHANGE")
         self.daemon.signal(signal.SIGKILL)

@@ -45,7 +45,7 @@ class MillPace(unittest.TestCase):
 
     def feed(self, job, *options):
         """Until the daemon says that it is executed; what ran on is in seconds, as it was said before the start."""
-        number = self.gateway.start(job, "5-1,5-2", *options)
+        number = self.gateway.start(job, *options)
         run_on = json.loads(self.gateway.axisctl("--json", "mill", "queue")).get("running", {}).get("run_on", {})
         self.daemon.wait_for_log(rf"job {number} .* is FED")
         self.gateway.axisctl("mill", "done", number)

@@ -94,12 +94,12 @@ class TwoPeople(unittest.TestCase):
         self.well("bert", "mill confirm 1 --yes", "job 1 .* is confirmed by unix")
         self.refused("bert", "mill start 2", "NOT_ALLOWED: job 2 .* is not confirmed")
         self.well("bert", "mill jog x=1", "the step, unchecked")
-        self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is not confirmed at the mill, or not any more")
+        self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is no longer confirmed at the mill, since ")
         if EXPIRE:
             self.well("bert", "mill confirm 1 --yes")
             self.show("    (a minute later)")
             self.until(r"(?m)^1 .* QUEUED ", 60 + LIMIT_S)  # `confirmation_minutes` counts real time
-            self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is not confirmed at the mill, or not any more")
+            self.refused("anna", "mill start 1", "NOT_ALLOWED: job 1 .* is no longer confirmed at the mill, since ")
 
     def a_pause_and_an_abort(self):
         self.well("bert", "mill confirm 1 --yes")

@@ -220,7 +220,7 @@ class Aborts(unittest.TestCase):
     def abort_once(self, combination, job, moment, began, tally, number):
         mill = self.mills[combination]
         gateway, first = Gateway(self.daemon, mill), len(mill.read())
-        gateway.start(job.text, "3-1,3-2,5-1,5-2")
+        gateway.start(job.text)
         mill.await_true(lambda entries: len(commands(entries[first:])) > moment.after, "the job does not run")
         time.sleep(moment.pause_s)  # the moment itself, as those below
         self.hold_before(mill, moment)

@@ -19,7 +19,7 @@ ORIGIN = ("--origin", "10,10,20")
 STOCK = ("--stock", "20,20,5")
 HEAD = "PA;!MC1;!PZ-100,200;PU0,0;"
 SHIPPED = ("mdx-15", "mdx-20", "mdx-40", "mdx-50", "mdx-540", "srm-20")
-TOLD = re.compile(r"(.+):(\d+):(\d+): (error|warning|note)(?: (\d+))?: (.+) \[(\d-\d)\]")
+TOLD = re.compile(r"(.+):(\d+):(\d+): (error|warning|note)(?: (\d+))?: (.+?)(?: \[([a-z-]+)\])? \[(\d-\d)\]")
 COUNTS = re.compile(r"(\d+) errors?, (\d+) warnings?, (\d+) notes?")
 
 
@@ -108,7 +108,7 @@ class Diagnostics(InAFolder):
                 checked = Checked(job, *ORIGIN, *STOCK)
                 self.assertEqual(shown, [("-", str(each["line"]), str(each["column"]), each["severity"],
                                           str(each["number"]) if each["number"] else None, each["text"],
-                                          each["section"]) for each in checked.told])
+                                          each.get("warning"), each["section"]) for each in checked.told])
                 counts = COUNTS.fullmatch(lines[-1]).groups()
                 self.assertEqual(counts, tuple(str(checked.summary[kind]) for kind in ("errors", "warnings", "notes")))
 
@@ -135,9 +135,10 @@ class Diagnostics(InAFolder):
     def test_shape_of_the_json(self):
         checked = Checked(HEAD + "PD800,0;PU;Q;", *ORIGIN)
         for each in checked.told:
+            name = {"warning": str} if each["severity"] == "warning" else {}
             self.assertEqual({key: type(value) for key, value in each.items()},
                              {"number": int, "severity": str, "offset": int, "line": int, "column": int,
-                              "section": str, "text": str})
+                              "section": str, "text": str} | name)
         summary = checked.summary
         self.assertEqual(summary["final"], {"x": 800, "y": 0, "z": 200})
         # All that is driven, but for the height at which the job begins.

@@ -79,6 +79,27 @@ class RpcMill : public RpcTest {
     if (sent != nullptr) *sent = response.job();
     return status;
   }
+  // One upload with an id of its own, in messages of so many bytes.
+  grpc::Status send_in_pieces(const std::string& job, std::size_t piece, const std::string& title, v1::Job* sent) {
+    grpc::ClientContext context;
+    limit(context);
+    v1::SendJobResponse response;
+    const auto writer = stub_->SendJob(&context, &response);
+    v1::SendJobRequest request;
+    request.mutable_context()->set_request_id("pieces-1");
+    request.set_device(kMill);
+    request.set_title(title);
+    request.set_tool("T1");
+    for (std::size_t at = 0; at < job.size(); at += piece) {
+      request.set_data(job.substr(at, piece));
+      writer->Write(request);
+      request.Clear();
+    }
+    writer->WritesDone();
+    const grpc::Status status = writer->Finish();
+    *sent = response.job();
+    return status;
+  }
   // Each is a tool and its bytes; `more` bytes come, or fewer.
   using Parts = std::vector<std::pair<std::string, std::string>>;
   grpc::Status send_parts(const Parts& parts, v1::Job* sent = nullptr, int more = 0, const std::string& tool = "") {

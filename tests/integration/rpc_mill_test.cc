@@ -98,10 +98,26 @@ TEST_F(RpcMill, AJobIsCheckedForItsWorkpieceAndItsProfile) {
   const grpc::Status within = send_whole(request, &job);
   EXPECT_TRUE(within.ok()) << within.error_message();
   EXPECT_EQ(job.stock().x_mm(), 60);
-  request.set_profile("mdx-40");
-  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("was made for the profile mdx-40, and mill is a MDX-20"));
-  request.set_profile("mdx-20");
+  request.set_made_for("mdx-40");
+  EXPECT_THAT(send_whole(request).error_message(),
+              HasSubstr("made-for-another-mill: line 1, column 1: made for the MDX-40"));
+  request.set_made_for("mdx-400");
+  EXPECT_THAT(send_whole(request).error_message(), HasSubstr("there is no profile \"mdx-400\""));
+  request.set_made_for("mdx-20");
   EXPECT_TRUE(send_whole(request).ok());
+}
+
+// A client that repeats an upload may cut it otherwise.
+TEST_F(RpcMill, ARepeatedUploadIsTheSameHoweverItIsCut) {
+  v1::Job first, again;
+  ASSERT_TRUE(send_in_pieces(vectors(20), 1000, "part.rml", &first).ok());
+  for (const std::size_t piece : {1, 7, 100'000}) {
+    const grpc::Status status = send_in_pieces(vectors(20), piece, "part.rml", &again);
+    ASSERT_TRUE(status.ok()) << piece << ": " << status.error_message();
+    EXPECT_EQ(again.name(), first.name()) << piece;
+  }
+  EXPECT_FALSE(send_in_pieces(vectors(21), 1000, "part.rml", &again).ok()) << "other bytes";
+  EXPECT_FALSE(send_in_pieces(vectors(20), 1000, "lid.rml", &again).ok()) << "another title";
 }
 
 TEST_F(RpcMill, TheToolIsChangedBetweenTheParts) {

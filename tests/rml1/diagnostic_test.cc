@@ -11,8 +11,15 @@ namespace {
 
 using testing::ElementsAre;
 
+template <class Text>
+void add(Diagnostics& diagnostics, Severity severity, const Place& place, Text text) {
+  if (severity == Severity::error) return diagnostics.error(1, place, "2-5", text);
+  if (severity == Severity::note) return diagnostics.note(place, "2-5", text);
+  diagnostics.warn(Warning::out_of_range, place, "2-5", text);
+}
+
 void add(Diagnostics& diagnostics, Severity severity, std::uint64_t offset) {
-  diagnostics.add(0, severity, Place{offset, 1, offset + 1}, "2-5", [] { return "text"; });
+  add(diagnostics, severity, Place{offset, 1, offset + 1}, [] { return "text"; });
 }
 
 TEST(Diagnostics, KeepWhatTheyAreTold) {
@@ -47,7 +54,7 @@ TEST(Diagnostics, OmitNothingUpToTen) {
 template <int kind>
 void add_kind(Diagnostics& diagnostics, std::uint64_t times, Severity severity = Severity::warning) {
   for (std::uint64_t offset = 0; offset < times; ++offset) {
-    diagnostics.add(0, severity, Place{offset, 1 + offset, 1}, "2-5", [] { return std::to_string(kind); });
+    add(diagnostics, severity, Place{offset, 1 + offset, 1}, [] { return std::to_string(kind); });
   }
 }
 
@@ -79,7 +86,7 @@ TEST(Diagnostics, MakeNoTextOfWhatIsNotKept) {
     Diagnostics diagnostics;
     int made = 0;
     for (int index = 0; index < 1000; ++index) {
-      diagnostics.add(1, severity, {}, "2-3", [&] {
+      add(diagnostics, severity, Place(), [&] {
         ++made;
         return "text";
       });
@@ -91,7 +98,7 @@ TEST(Diagnostics, MakeNoTextOfWhatIsNotKept) {
 TEST(Diagnostics, AreOrderedByPlaceAndTheWholeJobComesFirst) {
   Diagnostics diagnostics;
   const auto add_text = [&](int number, std::uint64_t offset, const char* text) {
-    diagnostics.add(number, Severity::error, Place{offset, 1, offset + 1}, "2-3", [text] { return text; });
+    diagnostics.error(number, Place{offset, 1, offset + 1}, "2-3", [text] { return text; });
   };
   add_text(1, 5, "third"), add_text(1, 0, "second"), add_text(0, 0, "first"), add_text(2, 5, "fourth");
   std::vector<std::string> texts;

@@ -29,7 +29,7 @@ std::vector<std::string> texts(const Check& check) {
 TEST(Lift, OfAnotherMachine) {
   const auto check = with_others("Z0,0,0;PR;Z0,0,2420;Z0,0,-2420,0,0,2420;PA;");
   EXPECT_THAT(told(check->diagnostics().kept()), ElementsAre("warning 0 at 10"));
-  EXPECT_THAT(texts(*check)[0], HasSubstr("a lift of 2420 steps is the whole travel of the MDX-20"));
+  EXPECT_THAT(texts(*check)[0], HasSubstr("made for the MDX-20, as a lift of 2420 steps is its whole travel: there"));
   EXPECT_THAT(told(with_others("@-9,2420;PU;")->diagnostics().kept()), ElementsAre("warning 0 at 0"));
   EXPECT_THAT(texts(*with_others("Z0,0,0;PR;Z0,0,6050;Z0,0,2421;PA;")), IsEmpty());
 }
@@ -79,9 +79,46 @@ TEST(Raster, ThatFitsBothUnitsIsNone) {
 
 TEST(Header, NamesAnotherMachine) {
   const auto check = with_others("PA;\n; for the mdx-20A ;PU;");
-  EXPECT_THAT(texts(*check), Contains(HasSubstr("names the MDX-20, and is checked for the test mill")));
-  EXPECT_THAT(texts(*with_others("; MDX-500")), Not(Contains(HasSubstr("names the"))));
-  EXPECT_THAT(texts(*with_others("; MDX-20 or test mill")), Not(Contains(HasSubstr("names the"))));
+  EXPECT_THAT(texts(*check), Contains(HasSubstr("made for the MDX-20, as the file names it")));
+  EXPECT_THAT(texts(*with_others("; MDX-500")), Not(Contains(HasSubstr("names it"))));
+  EXPECT_THAT(texts(*with_others("; MDX-20 or test mill")), Not(Contains(HasSubstr("made for"))));
+}
+
+// A cut-out of 1.7 mm on a machine with steps of 0.01 mm, where the tool is lifted by 2 mm.
+std::string cut_out(int rounds) {
+  std::string job = "PA;VS4;!VZ4;!PZ-170,200;!MC1;PU0,0;";
+  for (int i = 0; i < rounds; ++i) job += "PD0,0,3800,0,3800,3000,0,3000,0,0;";
+  return job + "PU;!MC0;";
+}
+
+Profile coarse_profile() {
+  Profile profile = test_profile();
+  profile.step_mm = 0.025;
+  profile.name = "MDX-20";
+  return profile;
+}
+
+TEST(MadeFor, IsShownByDepthsAndLifts) {
+  const auto check = with_others(cut_out(5), coarse_profile());
+  ASSERT_THAT(
+      texts(*check),
+      Contains("made for the MDX-50, as its depths and lifts are usual there: there 38.0 x 30.0 mm, 1.70 mm deep; "
+               "here, as MDX-20, 95.0 x 75.0 mm, 4.25 mm deep"));
+  EXPECT_THAT(texts(*with_others(cut_out(5))), Not(Contains(HasSubstr("made for"))));
+  EXPECT_THAT(texts(*with_others(cut_out(3), coarse_profile())), Not(Contains(HasSubstr("made for")))) << "a trial";
+}
+
+// What its sender says goes before what it shows.
+TEST(MadeFor, IsSaid) {
+  const auto said = [](const Profile& profile, std::string made_for) {
+    return texts(*checked(cut_out(5), profile,
+                          {.origin = kMidway, .stock = {}, .others = kOtherMills, .made_for = std::move(made_for)}));
+  };
+  EXPECT_THAT(said(coarse_profile(), "MDX-20"), Not(Contains(HasSubstr("made for"))));
+  EXPECT_THAT(said(coarse_profile(), "MDX-50"),
+              Contains(HasSubstr("made for the MDX-50, as its sender says so: there 38")));
+  EXPECT_THAT(said(test_profile(), "MDX-20"),
+              Contains(HasSubstr("made for the MDX-20, as its sender says so: there 95")));
 }
 
 }  // namespace

@@ -256,6 +256,22 @@ TEST(JobOfTheSpool, HasItsSetupAndItsTime) {
   EXPECT_EQ(job_of({.id = 4, .facts = "damaged"}).setup.tool, "");
 }
 
+TEST(JobOfTheSpool, HasItsSizeAndWhatWasAccepted) {
+  rml1::Job sent = job();
+  EXPECT_FALSE(job_of(spooled(sent)).extent.driven.z.any);
+  const rml1::Reach x{true, -1.5, 38}, y{true, 0, 30}, z{true, -1.7, 2};
+  sent.extent = {{x, y, z}, {x, y, {true, -1.7, 0}}};
+  sent.accepted = {rml1::Warning::deep_pass, rml1::Warning::tool_left_down};
+  const rml1::Job made = job_of(spooled(sent));
+  EXPECT_EQ(rml1::size_text(made.extent), "39.5 x 30.0 mm, 1.70 mm deep");
+  EXPECT_EQ(made.extent.driven.z.highest, 2);
+  EXPECT_EQ(made.accepted, sent.accepted);
+  const rml1::Job damaged =
+      job_of({.id = 4, .facts = R"({"accepted":["all",3],"cut_mm":[[1],"a",[1,"b"]],"driven_mm":7})"});
+  EXPECT_TRUE(damaged.accepted.empty());
+  EXPECT_FALSE(damaged.extent.cut.x.any || damaged.extent.driven.z.any);
+}
+
 TEST(JobOfTheSpool, KnowsHowItIsSent) {
   rml1::Job sent = job();
   EXPECT_EQ(job_of(spooled(sent)).streaming, std::nullopt);

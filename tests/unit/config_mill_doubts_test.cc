@@ -1,0 +1,54 @@
+// The examples of two mills, and what may be wrong with the line to a mill without being an error.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+
+#include "server/config/config.h"
+#include "server/kinds.h"
+
+namespace axisgate::server::config_mill_doubts_test {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr const char* kSerial =
+    "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nconnection = \"serial\"\n"
+    "path = \"/dev/ttyUSB0\"\n";
+constexpr const char* kSimulated =
+    "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"mdx-20\"\nconnection = \"simulated\"\n";
+
+MillConfig mill_in(const Config& config) { return std::get<MillConfig>(config.devices.at(0).family); }
+
+// Without a key to fill in, and without a doubt.
+TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
+  for (const char* name : {"srm-20", "mdx-20"}) {
+    const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/" + std::string(name) + ".toml", device_kinds());
+    ASSERT_TRUE(config) << to_string(config.error().front());
+    EXPECT_EQ(mill_in(*config).profile_name, name);
+    EXPECT_THAT(mill_in(*config).doubts, IsEmpty()) << name;
+    EXPECT_EQ(mill_in(*config).sending.streaming, rml1::Streaming::full) << name;
+  }
+}
+
+// None of it is an error: there are mills that are connected so.
+TEST(ConfigMills, DoubtsAreNamed) {
+  const auto doubts = [](std::string text, std::string_view profile) {
+    text.replace(text.find("mdx-20"), 6, profile);
+    return mill_in(*parse_config(text, "lab.toml", device_kinds())).doubts;
+  };
+  EXPECT_THAT(
+      doubts(kSerial, "srm-20"),
+      ElementsAre(HasSubstr("no baud rate is given, and 9600 baud are assumed: the SRM-20 is usually connected by USB"),
+                  HasSubstr("no flow control: a full buffer loses bytes")));
+  EXPECT_THAT(doubts(kSerial, "mdx-20"), ElementsAre(HasSubstr("no flow control")));
+  const std::string said = std::string(kSerial) + "baud = 9600\nflow_control = \"xonxoff\"\n";
+  EXPECT_THAT(doubts(said, "srm-20"), IsEmpty());
+  EXPECT_THAT(mill_in(*parse_config(kSimulated, "lab.toml", device_kinds())).doubts, IsEmpty());
+}
+
+}  // namespace
+}  // namespace axisgate::server::config_mill_doubts_test
