@@ -11,9 +11,10 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kLine = 18, kSwatch = 14, kEntry = 130;
-constexpr double kPad = 0.04;  // of an extent, beside it
-constexpr std::size_t kCharacters = 125, kEntriesInLine = 7;
+constexpr double kLine = 18, kSwatch = 14;
+constexpr double kCharacter = 6.6;  // the width of a figure, of text of this size
+constexpr double kPad = 0.04;       // of an extent, beside it
+constexpr std::size_t kCharacters = 125;
 constexpr std::size_t kReports = 8;
 
 Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
@@ -37,13 +38,15 @@ Bounds cut_bounds(const Strokes& strokes, bool commanded) {
   return bounds;
 }
 
-// What travels; its height only below the top, which often lies far above.
+// What travels; its height only below the top, and no further above Z0 than the cuts lie below it: what is looked at is
+// the cut, and a lift may be many times as high.
 void take_travel(Bounds& bounds, const Strokes& strokes, double top, bool plane) {
+  const double highest = bounds.z.any ? std::max(0.0, -bounds.z.lowest) : top;
   for (const Strokes::Stroke& stroke : strokes.all()) {
     if (stroke.kind != Strokes::Kind::travel) continue;
     for (const Point& p : {wide(stroke.from), wide(stroke.to)}) {
       if (plane) bounds.x.take(p.x), bounds.y.take(p.y);
-      if (p.z < std::floor(top)) bounds.z.take(p.z);
+      if (p.z < std::floor(top)) bounds.z.take(std::min(p.z, highest));
     }
   }
 }
@@ -62,7 +65,7 @@ Extents extents(const Check& check, const Profile& profile, std::optional<Stock>
   Extents all;
   all.shown = cut_bounds(strokes, true);
   take_travel(all.shown, strokes, box.highest.z, !all.shown.x.any);
-  all.shown.z.take(0);
+  all.shown.take({0, 0, 0});  // a person clamps the workpiece by the work origin
   if (stock) {
     all.stock = stock_bounds(*stock, profile);
     for (const Point& p : {Point{all.stock->x.lowest, all.stock->y.lowest, all.stock->z.lowest},
@@ -169,9 +172,13 @@ class Legend {
   void add_line(const std::string& line) { picture_.labels.push_back({kMargin, y_ += kLine, line}); }
 
   void add_swatches(const std::vector<Shades::Entry>& entries) {
+    std::size_t longest = 0;
+    for (const Shades::Entry& entry : entries) longest = std::max(longest, entry.text.size());
+    const double width = 2 * kSwatch + kCharacter * static_cast<double>(longest);
+    const auto in_line = static_cast<std::size_t>((picture_.width - 2 * kMargin) / width);
     for (std::size_t index = 0; index < entries.size(); ++index) {
-      if (index % kEntriesInLine == 0) y_ += kLine + 4;
-      const double x = kMargin + static_cast<double>(index % kEntriesInLine) * kEntry;
+      if (index % in_line == 0) y_ += kLine + 4;
+      const double x = kMargin + static_cast<double>(index % in_line) * width;
       picture_.rectangles.push_back(
           {Picture::Rectangle::Kind::swatch, x, y_ - kSwatch + 2, kSwatch, kSwatch, entries[index].shade});
       picture_.labels.push_back({x + kSwatch + 5, y_, entries[index].text});

@@ -27,16 +27,19 @@ long Shades::hundredths(double steps) const { return std::lround(steps * step_mm
 // A few depths are far apart in colour, too; a single one is in the middle.
 void Shades::set_levels(const Strokes& strokes) {
   std::set<long> depths;
-  long deepest = 0;
+  long shallowest = 0, deepest = 0;
   for (const Strokes::Stroke& stroke : strokes.all()) {
     if (stroke.kind != Strokes::Kind::cut) continue;
-    deepest = std::max(deepest, hundredths(depth(stroke)));
+    const long one = hundredths(depth(stroke));
+    shallowest = deepest == 0 ? one : std::min(shallowest, one);
+    deepest = std::max(deepest, one);
     if (depths.size() <= kDepths) depths.insert(hundredths(depth(stroke)));
   }
   ranges_ = depths.size() > kDepths;
   if (ranges_) {
-    for (int range = 0; range < kDepths; ++range) {
-      levels_.push_back({(deepest * (range + 1) + kDepths - 1) / kDepths, kShallowest + range});
+    for (int range = 1; range <= kDepths; ++range) {
+      const long deeper = (deepest - shallowest) * range;
+      levels_.push_back({shallowest + (deeper + kDepths - 1) / kDepths, kShallowest + range - 1});
     }
     return;
   }

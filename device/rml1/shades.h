@@ -15,7 +15,7 @@ inline constexpr int kDone = 0, kTravel = 1, kLeftOut = 2, kShallowest = 3, kDep
 inline constexpr int kPerhapsDone = kShallowest + kDepths, kShades = kPerhapsDone + 1;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
-// One shade for each depth where a job has few; else equal ranges of depth.
+// One shade for each depth where a job has few; else equal ranges between its shallowest and its deepest cut.
 class Shades {
  public:
   Shades(const Strokes& strokes, double step_mm);

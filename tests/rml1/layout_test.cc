@@ -74,12 +74,13 @@ TEST(Views, LieOnThePageApartFromEachOther) {
   }
 }
 
-// Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000.
-TEST(Views, EndAtTheHeightsBelowTheTop) {
+// Z2 is 200, and the job begins and ends at the top, 6050 above the assumed Z0, or 5000: a view that showed the lifts
+// would show little of a cut of 50.
+TEST(Views, ShowTheCutAndNotTheLift) {
   for (const auto& origin : {std::optional<Origin>(), std::optional<Origin>(kMidway)}) {
     const Reach z = Shown(kSquare, origin).up(1);
-    EXPECT_GE(z.highest, 200);
-    EXPECT_LE(z.highest, 220);
+    EXPECT_GE(z.highest, 50);
+    EXPECT_LE(z.highest, 60);
     EXPECT_LE(z.lowest, -50);
     EXPECT_GE(z.lowest, -70);
   }
@@ -93,11 +94,13 @@ TEST(Views, CutOffWhatLeavesThem) {
   }
 }
 
-// The cuts are 2000 x 1000 steps in an area of 60500.
-TEST(Views, ShowTheCutsAndNotTheWorkArea) {
+// The cuts are 2000 x 1000 steps in an area of 60500, and 1000 from the work origin, by which a person clamps the
+// workpiece.
+TEST(Views, ShowTheCutsAndTheWorkOriginAndNotTheWorkArea) {
   const Shown shown(kSquare, kMidway);
-  EXPECT_GE(shown.across(0).lowest, 900);
-  EXPECT_LE(shown.across(0).highest, 3100);
+  EXPECT_LT(shown.across(0).lowest, -50);
+  EXPECT_GE(shown.across(0).lowest, -200);
+  EXPECT_LE(shown.across(0).highest, 3200);
   EXPECT_GT(shown->views[0].frame.width, 400);
   EXPECT_THAT(shown.labels(), Contains(HasSubstr("work area: 605 x 605 mm")));
   const auto is_area = [](const Picture::Rectangle& one) { return one.kind == Picture::Rectangle::Kind::work_area; };
@@ -107,7 +110,7 @@ TEST(Views, ShowTheCutsAndNotTheWorkArea) {
 
 TEST(Views, ShowAFlatJobHigher) {
   const Shown shown("@-50,200;PU0,0;PD20000,0,20000,10000,0,0;PU;");
-  EXPECT_GE(shown->views[1].frame.height, 60);
+  EXPECT_GE(shown->views[1].frame.height, 50);
   EXPECT_GT(shown->views[1].stretch, 1);
   EXPECT_THAT(shown.labels(), Contains(fmt::format("front: X, Z (Z {} times as high)", shown->views[1].stretch)));
 }
@@ -132,12 +135,34 @@ TEST(Legend, HasTheDepthsThatThereAre) {
   EXPECT_THAT(Shown("PU99,0;PU0,0;").legend(), ElementsAre("travel"));
 }
 
-// Eight ranges up to 0.80 mm, of which the second to the fourth are not there.
+// Eight ranges from 0.01 to 0.80 mm, of which the second and the third are not there.
 TEST(Legend, HasTheRangesThatThereAre) {
   std::string job = "Z0,0,0;";
   for (const int z : {1, 2, 3, 4, 5, 41, 51, 61, 71, 80}) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);
-  EXPECT_THAT(Shown(job).legend(), ElementsAre("travel", "to 0.10 mm deep", "to 0.50 mm deep", "to 0.60 mm deep",
-                                               "to 0.70 mm deep", "to 0.80 mm deep"));
+  EXPECT_THAT(Shown(job).legend(), ElementsAre("travel", "to 0.11 mm deep", "to 0.41 mm deep", "to 0.51 mm deep",
+                                               "to 0.61 mm deep", "to 0.71 mm deep", "to 0.80 mm deep"));
+}
+
+// A finishing that is 9 to 11 mm deep throughout has all colours.
+TEST(Legend, DividesTheDepthsThatOccur) {
+  std::string job = "Z0,0,0;";
+  for (int z = 900; z <= 1100; z += 10) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);
+  EXPECT_THAT(Shown(job).legend(), testing::SizeIs(1 + kDepths));
+}
+
+// "to 16.00 mm deep" is wider than "0.10 mm deep".
+TEST(Legend, TextsEndBeforeTheNextSwatch) {
+  std::string job = "Z0,0,0;";
+  for (int z = 100; z <= 1600; z += 100) job += fmt::format("Z{},0,0;Z{},0,-{};Z{},0,0;", z, z, z, z);
+  const Shown shown(job);
+  double before = -1000;
+  for (const Picture::Rectangle& one : shown->rectangles) {
+    if (one.kind != Picture::Rectangle::Kind::swatch) continue;
+    if (one.x > before) {
+      EXPECT_GE(one.x - before, 14 + 5 + 16 * 6.0) << "16 figures of 6 pixels, at least";
+    }
+    before = one.x;
+  }
 }
 
 TEST(Legend, ShowsTheSpeedOfTheMachineAndOfTheJob) {
