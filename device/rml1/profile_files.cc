@@ -6,6 +6,8 @@
 #include <boost/algorithm/string/case_conv.hpp>
 #include <system_error>
 
+#include "device/rml1/profile.h"
+
 namespace axisgate::rml1 {
 
 namespace fs = std::filesystem;

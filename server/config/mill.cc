@@ -210,9 +210,10 @@ std::vector<std::string> doubts_about(const ConfigTable& table, const DeviceConf
                     "(connection = \"printer\"); for a serial line set `baud` as at the mill",
                     device.baud, mill.profile.name));
   }
-  if (serial->flow == FlowControl::none) {
-    doubts.emplace_back(
-        "no flow control: a full buffer loses bytes, and jobs are paced; set `flow_control` as at the mill");
+  if (!table.has("flow_control")) {
+    doubts.emplace_back("`flow_control` is not given: RTS/CTS is assumed, and jobs are paced; set it as at the mill");
+  } else if (serial->flow == FlowControl::none) {
+    doubts.emplace_back("no flow control: a full buffer of the mill loses bytes, and jobs are paced");
   }
   return doubts;
 }

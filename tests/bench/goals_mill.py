@@ -44,7 +44,7 @@ def _pair(plan, gateway, at_mill, series):
     words = ("execute", *gateway.targets["Unix"], *QUESTION, "--seconds", str(plan.seconds(WINDOW_S)))
     series.add("alone", measure(*words).figures["p99"])
     before = len(commands(at_mill.mill.read()))
-    at_mill.start(JOB, "5-1,5-2")
+    at_mill.start(JOB)
     at_mill.mill.await_true(lambda entries: len(commands(entries)) > before + SETTLED, "the job does not run")
     series.add("pace", _pace(at_mill.mill, lambda: time.sleep(plan.seconds(WINDOW_S))))
     series.add("pace", "asked",

@@ -250,7 +250,7 @@ class History(unittest.TestCase):
         night = self.run_well("history", "--night")
         clock = r"(\d\d-\d\d )?\d\d:\d\d"
         who = r"unix \S+"
-        self.assertRegex(night, r"^since \d{4}-\d\d-\d\d 18:00:00\n")
+        self.assertRegex(night, r"^since \d{4}-\d\d-\d\d 18:00:00[+-]\d\d:\d\d\n")
         self.assertRegex(night, rf"(?m)^{clock}( to {clock})? {who}: 3 moves \(1 FAILED\), 1 homing$")
         self.assertRegex(night, rf"(?m)^stop of stage by {who} at {clock}$")
         self.assertRegex(night, rf"(?m)^stage: link lost at {clock} for \d+(\.\d)? s$")

@@ -22,7 +22,7 @@ path = "TTY"
 idle_poll_ms = 200
 """
 CLOCK = r"(?:\d\d-\d\d )?\d\d:\d\d"  # after 18:00 the night has two dates
-DATE = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d"
+DATE = r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d[+-]\d\d:\d\d"
 BETWEEN = rf"(between {DATE} and {DATE}|at {DATE})"
 
 

@@ -73,7 +73,7 @@ class Positions(unittest.TestCase):
         self.ok("move", "x=0", "2=0")
         self.assertRegex(self.ok("positions"),
                          r"\Asample  place 1  axis x at 1\.5 mm, axis 2 at 200 um, axis 3 at 0 um  saved "
-                         r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d by "
+                         r"\d{4}-\d\d-\d\d \d\d:\d\d:\d\d[+-]\d\d:\d\d by "
                          r"\w+ \S+\n\Z")
         shown = self.ok("go", "sample")
         self.assertEqual(shown.splitlines()[-1], "done: axis x at 1.5 mm, axis 2 at 200 um, axis 3 at 0 um")

@@ -319,7 +319,7 @@ class Signals(unittest.TestCase):
             ways_back.callback(run.end)
             gateway = Gateway(run.daemon, mill)
             wait_until(lambda: "line open" in gateway.axisctl("mill", "queue"), "the line does not open")
-            gateway.start(MILL_JOB, "5-1,5-2")
+            gateway.start(MILL_JOB)
             mill.await_true(lambda entries: len(commands(entries)) > 5, "the job does not run")
             yield run, mill
 

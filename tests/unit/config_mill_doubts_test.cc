@@ -43,8 +43,10 @@ TEST(ConfigMills, DoubtsAreNamed) {
   EXPECT_THAT(
       doubts(kSerial, "srm-20"),
       ElementsAre(HasSubstr("no baud rate is given, and 9600 baud are assumed: the SRM-20 is usually connected by USB"),
-                  HasSubstr("no flow control: a full buffer loses bytes")));
-  EXPECT_THAT(doubts(kSerial, "mdx-20"), ElementsAre(HasSubstr("no flow control")));
+                  HasSubstr("`flow_control` is not given: RTS/CTS is assumed")));
+  EXPECT_THAT(doubts(kSerial, "mdx-20"), ElementsAre(HasSubstr("`flow_control` is not given")));
+  EXPECT_THAT(doubts(std::string(kSerial) + "flow_control = \"none\"\n", "mdx-20"),
+              ElementsAre(HasSubstr("no flow control: a full buffer of the mill loses bytes")));
   const std::string said = std::string(kSerial) + "baud = 9600\nflow_control = \"xonxoff\"\n";
   EXPECT_THAT(doubts(said, "srm-20"), IsEmpty());
   EXPECT_THAT(mill_in(*parse_config(kSimulated, "lab.toml", device_kinds())).doubts, IsEmpty());
