@@ -102,7 +102,10 @@ void JobRecord::begin(const rml1::Job& job) {
   content_->job = job.number;
 }
 
-void JobRecord::going_to(std::uint64_t through) { content_->through = through; }
+void JobRecord::going_to(const rml1::WrittenRange& sent) {
+  content_->sent_least = std::max<std::uint64_t>(content_->sent_least, sent.least);
+  content_->through = sent.most;
+}
 
 // Part and place come first: killed between, the daemon leaves a part that may have begun, not one that runs again.
 void JobRecord::set_state(const rml1::Job& job) {

@@ -19,7 +19,7 @@ struct LastJob {
   std::uint64_t through = 0;     // bytes of the job that may have gone to the line
   std::size_t part = 0;          // as Job::part
   std::uint64_t from = 0;        // as next_byte()
-  std::uint64_t sent_least = 0;  // of Job::written; without it as `from`
+  std::uint64_t sent_least = 0;  // of Job::written, or as it was when the last bytes were written
   std::string name{};            // as Job::name; what it leaves is said with it
   rml1::Leaves leaves{};
 };
@@ -41,8 +41,8 @@ class JobRecord {
 
   // Its next part, or the rest of that.
   void begin(const rml1::Job& job);
-  // Before these bytes are written.
-  void going_to(std::uint64_t through);
+  // Before bytes up to sent.most are written; the mill has those up to sent.least.
+  void going_to(const rml1::WrittenRange& sent);
   // Its state and its part. Of another job than the last that was begun: nothing.
   void set_state(const rml1::Job& job);
   void set_abort_waits(bool waits);

@@ -135,9 +135,9 @@ void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   if (running.busy) spdlog::warn("{}: the mill takes nothing: look at it", name());
 }
 
-void Mill::about_to_write(rml1::JobNumber, std::uint64_t through) {
-  if (record_) record_->going_to(through);
-  metrics_.count_written(through);
+void Mill::about_to_write(rml1::JobNumber, const rml1::WrittenRange& sent) {
+  if (record_) record_->going_to(sent);
+  metrics_.count_written(sent.most);
 }
 
 void Mill::written(std::string_view bytes, rml1::JobNumber job) {

@@ -76,7 +76,7 @@ class BadLine : private MillEvents {
   void sender_changed(const RunningJob& running, TimePoint) override;
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
-  void about_to_write(JobNumber, std::uint64_t through) override { noted_ = through; }
+  void about_to_write(JobNumber, const WrittenRange& sent) override { noted_ = sent.most; }
 
   static constexpr JobNumber kFirst = 1, kSecond = 2;
   static inline const stage::RequestContext kOwner{.who = "unix anna"}, kAtMill{.who = "unix bert"};

@@ -103,7 +103,7 @@ class ByHandAtTheMill : public testing::Test, protected MillEvents {
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
-  void about_to_write(JobNumber, std::uint64_t) override {}
+  void about_to_write(JobNumber, const WrittenRange&) override {}
 
   Reason reason(const HandAct& act) {
     const Result<Duration> done = mill_.operate(act, {.who = "unix anna"}, now_);

@@ -86,6 +86,20 @@ TEST_F(ExecutedPlaceTest, IsKnownWhenAnAbortIsRequestedAndSaidWhenItWasSent) {
                                       column));
 }
 
+// Somebody may have pressed VIEW: by its profile the mill would have executed more in a minute than it has. What has
+// left the host has room in its buffer.
+TEST_F(ExecutedPlaceTest, IsNotByTheProfileWhereTheLineIsStopped) {
+  begin();
+  run_for(5900ms);
+  line_.busy = true;
+  run_for(60s);
+  ASSERT_LT(line_.received.size(), settings_.sending.buffer);
+  mill_.abort({.who = "unix bert"}, now_);
+  ASSERT_TRUE(executed());
+  EXPECT_EQ(executed()->least, (Place{0, 1, 1}));
+  EXPECT_EQ(executed()->most.offset, noted_);
+}
+
 // By then the mill may have discarded what its model has executed since.
 TEST_F(ExecutedPlaceTest, TheFirstAbortCounts) {
   begin();

@@ -73,8 +73,8 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   }
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override { ++aborts_requested_; }
-  void about_to_write(JobNumber, std::uint64_t through) override {
-    noted_ = through;
+  void about_to_write(JobNumber, const WrittenRange& sent) override {
+    noted_ = sent.most;
     written_before_note_ = line_.writes.size();
   }
 

@@ -95,7 +95,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
-  void about_to_write(JobNumber, std::uint64_t through) override { noted_.push_back(through); }
+  void about_to_write(JobNumber, const WrittenRange& sent) override { noted_.push_back(sent.most); }
 
   const Profile profile_ = test_profile();
   FakeMillLine line_;

@@ -45,11 +45,12 @@ TEST_F(JobRecordTest, KeepsHowFarTheLastJobMayHaveGone) {
   {
     const auto record = open();
     record->begin(job());
-    record->going_to(40);
-    record->going_to(52);
+    record->going_to({0, 40});
+    record->going_to({21, 52});
   }
   const auto before = open()->before();
   ASSERT_TRUE(before);
+  EXPECT_EQ(before->sent_least, 21u) << "so it is known after a kill, too";
   EXPECT_EQ(before->job, 7u);
   EXPECT_EQ(before->state, JobState::running);
   EXPECT_EQ(before->through, 52u);
@@ -58,7 +59,7 @@ TEST_F(JobRecordTest, KeepsHowFarTheLastJobMayHaveGone) {
 TEST_F(JobRecordTest, ANewJobBeginsAtItsFirstByte) {
   const auto record = open();
   record->begin(job());
-  record->going_to(52);
+  record->going_to({0, 52});
   record->set_state(job(7, JobState::fed));
   record->begin(job(8));
   const auto before = open()->before();
@@ -114,7 +115,7 @@ TEST_F(JobRecordTest, ALaterPartBeginsAtItsFirstByte) {
   const auto record = open();
   rml1::Job later = job();
   record->begin(later);
-  record->going_to(300);
+  record->going_to({0, 300});
   go_to_part(later, 1);
   later.state = JobState::tool_change;
   record->set_state(later);
@@ -130,7 +131,7 @@ TEST_F(JobRecordTest, AfterABootOfTheMachineAnyByteMayHaveGone) {
   {
     const auto record = open();
     record->begin(job());
-    record->going_to(52);
+    record->going_to({0, 52});
   }
   EXPECT_EQ(open("another boot")->before()->through, kAll);
   EXPECT_EQ(open("another boot")->before()->through, kAll) << "also for the second run after it";
@@ -197,7 +198,7 @@ TEST_F(JobRecordTest, AChosenPlaceThatIsNotInTheSpoolSaysNothingOfWhatWasSent) {
   {
     const auto record = open();
     record->begin(lost);
-    record->going_to(52);
+    record->going_to({0, 52});
     lost.state = JobState::paused;
     lost.written = rml1::WrittenRange{10, 52};
     lost.setup.from = rml1::Place{40, 4, 1};

@@ -14,8 +14,8 @@ bool MillController::abort(std::string_view by, TimePoint now) {
   by_hand_until_ = now;
   if (!running_) return send_abort(now);
   running_->aborted_by = by;
-  running_->sender.abort(now);
   note_executed(now);
+  running_->sender.abort(now);
   look_at_sender(now);
   return true;
 }
@@ -25,7 +25,7 @@ void MillController::note_executed(TimePoint now) {
   Job& job = **find(running_->number);
   if (job.executed) return;
   const SendProgress progress = running_->sender.progress(now);
-  job.executed = running_->prepared->executed(progress.executed_least, progress.written);
+  job.executed = running_->prepared->executed(running_->sender.executed_for_certain(now), progress.written);
 }
 
 // Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.

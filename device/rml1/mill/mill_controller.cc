@@ -47,8 +47,10 @@ std::optional<TimePoint> sooner(std::optional<TimePoint> one, std::optional<Time
 void MillController::NotedLine::write(std::string_view bytes) {
   Running* const running = mill_.running_.get();
   if (running != nullptr && running->sender.state() == SenderState::sending) {
+    const std::uint64_t least = mill_.in_mill(running->noted - std::min<std::uint64_t>(line_.unsent(), running->noted));
     running->noted += bytes.size();
-    mill_.events_.about_to_write(running->number, running->prepared->of_body(running->noted));
+    const PreparedJob& job = *running->prepared;
+    mill_.events_.about_to_write(running->number, {job.of_body(least), job.of_body(running->noted)});
   }
   line_.write(bytes);
   mill_.events_.written(bytes, running == nullptr ? 0 : running->number);
@@ -325,11 +327,14 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
   leave_queue_if_ended(number);
 }
 
-// What had left the host may still have been in a converter, which is gone with the line.
-WrittenRange MillController::written_at_loss() {
+// What has left the host may still be in a converter, which is gone with the line.
+std::uint64_t MillController::in_mill(std::uint64_t left) const {
   const std::uint64_t converter = guarded(MillGuard::converter_in_range) ? settings_.sending.converter : 0;
-  const std::uint64_t in_converter = std::min(converter, running_->left);
-  return {running_->prepared->of_body(running_->left - in_converter), running_->prepared->of_body(running_->noted)};
+  return left - std::min(converter, left);
+}
+
+WrittenRange MillController::written_at_loss() {
+  return {running_->prepared->of_body(in_mill(running_->left)), running_->prepared->of_body(running_->noted)};
 }
 
 void MillController::inherit(Job job) {

@@ -65,8 +65,9 @@ class MillEvents {
   // By this the order of the queue outlives a restart.
   virtual void rank_changed(const Job& job) = 0;
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
-  // Bytes of the job up to `through` go to the line next. What must outlive a killed daemon is kept before it returns.
-  virtual void about_to_write(JobNumber job, std::uint64_t through) = 0;
+  // Bytes of the job up to sent.most go to the line next, and the mill has those up to sent.least. What must outlive a
+  // killed daemon is kept before it returns.
+  virtual void about_to_write(JobNumber job, const WrittenRange& sent) = 0;
   // These bytes were given to the line, for a job or, with 0, for none.
   virtual void written(std::string_view bytes, JobNumber job) = 0;
   // Also where no job runs.
@@ -207,6 +208,7 @@ class MillController : public LineMachine {
   void look_whether_busy(TimePoint now);
   void end_fed_part(TimePoint now);
   void end_raised(TimePoint now);
+  std::uint64_t in_mill(std::uint64_t left) const;
   WrittenRange written_at_loss();
   void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
   RunningJob view(TimePoint now);

@@ -248,6 +248,13 @@ TimePoint Sender::room_at() const {
   return slowest_.when(std::min<std::uint64_t>(over, cutter_.begin()));
 }
 
+std::uint64_t Sender::executed_for_certain(TimePoint now) {
+  const std::uint64_t by_profile = slowest_.executed(now);
+  if (!is_blocked()) return by_profile;
+  const std::size_t left = cutter_.begin() - std::min(line_.unsent(), cutter_.begin());
+  return std::min<std::uint64_t>(by_profile, left - std::min(left, settings_.buffer + settings_.converter));
+}
+
 SendProgress Sender::progress(TimePoint now) {
   learn(now);
   const std::uint64_t executed = slowest_.executed(now);

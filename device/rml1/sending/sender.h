@@ -57,6 +57,9 @@ class Sender {
 
   SenderState state() const { return state_; }
   SendProgress progress(TimePoint now);
+  // Bytes of the job that the mill has executed even if its panel holds it: while the line is stopped, all that has
+  // left the host but what the mill's buffer and a converter hold.
+  std::uint64_t executed_for_certain(TimePoint now);
   // Of the mill, so far. Nothing with paced streaming, or where the line was not stopped for long enough.
   std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
 
