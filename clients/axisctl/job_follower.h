@@ -15,7 +15,7 @@ int start_job(const Session& session, const v1::CallContext& context, const std:
 
 class JobFollower {
  public:
-  // `job`: Job.name, of one that was started; empty: the one that runs, or the next that does, if one waits.
+  // `job`: Job.name of a job that was started. Empty: the running job, or the next one that runs, if any job waits.
   JobFollower(const Session& session, const std::string& job);
 
   // Until the job is FED, or a part of it, or none runs or waits: kDone. Throws the Failure that another end is, and

@@ -53,7 +53,7 @@ std::string executed_text(const v1::Job& job);
 // Which command draws the rest of it.
 std::string remains_text(const v1::Job& job);
 
-// What a mill waits for on which no job runs: "no job runs; job 7 (frame.rml) waits for ...".
+// Text for a mill that runs no job: which job waits, and for what. "no job runs; job 7 (frame.rml) waits for ...".
 std::string waiting_text(const v1::Mill& mill);
 
 // The mill in one line, what runs in another, its measured pace and what was aborted last where there are such, and the

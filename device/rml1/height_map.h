@@ -24,7 +24,7 @@ class HeightMap {
   };
   // A straight path at or below the surface.
   Taken cut(const Point& from, const Point& to);
-  // What is cut from now on is another visit of each place.
+  // Starts another visit of each place: later cuts count as new passes.
   void change_tool() { path_ += kVisit; }
   // Whether something was not measured.
   bool full() const { return full_; }

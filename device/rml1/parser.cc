@@ -361,7 +361,7 @@ void Parser::end_list() {
   });
 }
 
-// Plays it as if a terminator came. Axisgate sends one behind each job; other programs may not.
+// Plays it as if a terminator came. Axisgate sends one after each job; other programs may not.
 void Parser::end_last_command() {
   const bool in_list = state_ == State::begin_list || state_ == State::number || state_ == State::after_number ||
                        state_ == State::after_comma;

@@ -38,7 +38,7 @@ Bounds cut_bounds(const Strokes& strokes, bool commanded) {
   return bounds;
 }
 
-// What travels; its height only below the top, and no further above Z0 than the cuts lie below it: what is looked at is
+// Adds the travel. Its height counts below the top, and no further above Z0 than the cuts lie below it: people look at
 // the cut, and a lift may be many times as high.
 void take_travel(Bounds& bounds, const Strokes& strokes, double top, bool plane) {
   const double highest = bounds.z.any ? std::max(0.0, -bounds.z.lowest) : top;

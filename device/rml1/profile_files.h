@@ -17,7 +17,8 @@ std::vector<std::filesystem::path> shipped_profiles();
 // be missing. An unknown name is refused, with the known ones.
 Result<std::filesystem::path> profile_file(const std::string& name);
 
-// Of all that are shipped: what a job may have been made for instead. Those that cannot be read are left out.
+// Returns the machines of all shipped profiles, for each of which a job may have been made. Unreadable profiles are
+// left out.
 std::vector<KnownMachine> known_machines();
 
 }  // namespace axisgate::rml1

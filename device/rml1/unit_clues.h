@@ -1,5 +1,4 @@
-// What a job shows of the unit in which it was written: the same numbers are a board in one unit and a relief in
-// another.
+// Clues to the unit in which a job was written: the same numbers are a board in one unit and a relief in another.
 #pragma once
 
 #include <cstddef>

@@ -32,11 +32,11 @@ enum class Warning {
 };
 inline constexpr std::size_t kWarnings = static_cast<std::size_t>(Warning::waits_for_person) + 1;
 
-// A stable name: "deep-pass".
+// Returns the kind's name, which never changes: "deep-pass".
 std::string_view name(Warning warning);
-// What a person can do about it, as the end of a sentence: "cut in several passes".
+// Returns the advice for people, as the end of a sentence: "cut in several passes".
 std::string_view remedy(Warning warning);
-// nullopt: no warning has that name.
+// Returns nullopt if no warning has that name.
 std::optional<Warning> warning_named(std::string_view name);
 // "beyond-guideline, below-reach, ..."
 std::string all_warning_names();

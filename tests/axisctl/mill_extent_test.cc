@@ -1,4 +1,4 @@
-// What axisctl says of the size of a job, and of what its sender has accepted.
+// Texts about the size of a job, and about the warnings that its sender has accepted.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

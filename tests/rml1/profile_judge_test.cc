@@ -108,7 +108,7 @@ TEST(MadeFor, IsShownByDepthsAndLifts) {
   EXPECT_THAT(texts(*with_others(cut_out(3), coarse_profile())), Not(Contains(HasSubstr("made for")))) << "a trial";
 }
 
-// What its sender says goes before what it shows.
+// The sender's word goes before the clues in the job.
 TEST(MadeFor, IsSaid) {
   const auto said = [](const Profile& profile, std::string made_for) {
     return texts(*checked(cut_out(5), profile,

@@ -327,7 +327,7 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
   leave_queue_if_ended(number);
 }
 
-// What has left the host may still be in a converter, which is gone with the line.
+// Bytes that have left the host may still be in a converter, which is gone with the line.
 std::uint64_t MillController::in_mill(std::uint64_t left) const {
   const std::uint64_t converter = guarded(MillGuard::converter_in_range) ? settings_.sending.converter : 0;
   return left - std::min(converter, left);

@@ -42,8 +42,8 @@ class PreparedJob {
   const JobTimes& times() const { return times_; }
   std::uint64_t begin() const { return begin_; }
   const std::optional<Place>& from() const { return from_; }
-  // So many bytes of text() reach up to this byte of the job itself, and to this place in the part. What the part
-  // leaves open is not sent, and counts as sent with what is before it.
+  // Returns up to which byte of the job itself, or which place in the part, so many bytes of text() reach. A group that
+  // the part leaves open is not sent, and counts as sent with what is before it.
   std::uint64_t of_body(std::uint64_t bytes) const;
   Place place(std::uint64_t bytes) const;
   // Where what a mill executes of the part ends that has executed so many bytes of text() at least and gets no more
