@@ -1,4 +1,4 @@
-// What a job makes the mill do as it is sent, beside what the check has played: nothing that is sent around a job may
+// The path of a job as it is sent equals the path that the check has played: nothing that is sent around a job may
 // complete or extend one of its commands.
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ std::vector<std::string> jobs_in(const std::filesystem::path& folder, IsJob is_j
   return jobs;
 }
 
-// Those that tests/jobs writes, whose endings are those of many programs, beside a table of them.
+// Returns the jobs that tests/jobs writes. Their names end as many programs end them; a table lies beside them.
 std::vector<std::string> written_jobs() {
   return jobs_in(AXISGATE_JOBS, [](const std::string& ending) { return ending != ".tsv"; });
 }
