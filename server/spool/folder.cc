@@ -26,7 +26,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kBytes = ".rml", kRecord = ".json";
+constexpr std::string_view kBytes = ".rml", kRecord = ".json", kUpload = "upload-";
 constexpr mode_t kMode = 0600;
 
 // The number before the first dot, or before the end of the line.
@@ -39,6 +39,13 @@ std::optional<std::uint64_t> number_in(std::string_view text) {
 }
 
 std::string file_name(std::uint64_t id, std::string_view suffix) { return fmt::format("{}{}", id, suffix); }
+
+// Reports whether these are the bytes of an upload that was cut off before or while it got its number.
+bool is_unfinished(const std::string& name, const std::set<std::string>& all) {
+  if (name.starts_with(kUpload)) return true;
+  const std::optional<std::uint64_t> id = number_in(name);
+  return id && name == file_name(*id, kBytes) && !all.contains(file_name(*id, kRecord));
+}
 
 }  // namespace
 
@@ -69,9 +76,10 @@ Result<std::vector<Job>> Folder::read() {
       Result<Job> job = read_job(*id);
       if (job) jobs.push_back(*std::move(job));
       if (!job) move_aside(*id, job.error());
-    } else if (id && name == file_name(*id, kBytes) && !names->contains(file_name(*id, kRecord))) {
+    } else if (is_unfinished(name, *names)) {
       spdlog::info("{}/{}: its upload was not finished; it is removed", path_, name);
-      if (const Result<void> removed = remove(*id); !removed) spdlog::warn("{}", explain(removed.error()));
+      const Result<void> removed = id ? remove(*id) : remove_upload(path_ + "/" + name);
+      if (!removed) spdlog::warn("{}", explain(removed.error()));
     }
   }
   return jobs;
@@ -124,11 +132,19 @@ Result<std::uint64_t> Folder::next_id() {
   return id;
 }
 
-Result<Descriptor> Folder::create(std::uint64_t id) const {
-  const std::string path = bytes_path(id);
-  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
-  if (!file.valid()) return cannot_write(path);
+std::string Folder::next_upload_path() { return fmt::format("{}/{}{}", path_, kUpload, ++uploads_); }
+
+Result<Descriptor> Folder::create(const std::string& upload) const {
+  make_state_directory(path_);
+  Descriptor file(::open(upload.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, kMode));
+  if (!file.valid()) return cannot_write(upload);
   return file;
+}
+
+Result<void> Folder::take(const std::string& upload, std::uint64_t id) const {
+  const std::string path = bytes_path(id);
+  if (::rename(upload.c_str(), path.c_str()) != 0) return cannot_write(path);
+  return {};
 }
 
 Result<void> Folder::keep(const Job& job) const { return replace_synced(file(job.id, kRecord), record_text(job)); }
@@ -159,6 +175,11 @@ Result<void> Folder::read_bytes(const Job& job, const std::function<void(std::st
   if (same) return {};
   return fail(Reason::internal, fmt::format("{} does not have the bytes that were uploaded", path),
               "upload them again");
+}
+
+Result<void> Folder::remove_upload(const std::string& upload) const {
+  if (::unlink(upload.c_str()) != 0 && errno != ENOENT) return cannot_write(upload);
+  return sync_directory(path_);
 }
 
 Result<void> Folder::remove(std::uint64_t id) const {

@@ -19,7 +19,7 @@ namespace axisgate::server::spool {
 Result<std::set<std::string>> names_in(const std::string& directory);
 
 // ID.rml has the bytes of a job, ID.json what is known of it. A job is there once its ID.json is. What is const can be
-// called by several threads at once for different jobs; only next_id() makes the directory.
+// called by several threads at once for different jobs.
 class Folder {
  public:
   explicit Folder(std::string path) : path_(std::move(path)) {}
@@ -32,8 +32,14 @@ class Folder {
   Result<std::uint64_t> next_id();
 
   std::string bytes_path(std::uint64_t id) const { return file(id, ".rml"); }
-  // For the bytes of a job that is not there yet. internal, where it cannot be made.
-  Result<Descriptor> create(std::uint64_t id) const;
+  // A file for the bytes of a job that has no number yet. Its path is another one each time.
+  std::string next_upload_path();
+  // Makes the file at such a path, and the directory. Fails with internal if the disk refuses it.
+  Result<Descriptor> create(const std::string& upload) const;
+  // Gives the bytes at such a path to a job of that number. Fails with internal if the disk refuses it.
+  Result<void> take(const std::string& upload, std::uint64_t id) const;
+  // Removes what is at such a path. Fails with internal if it may come back.
+  Result<void> remove_upload(const std::string& upload) const;
   // What is known of a job whose bytes are synced, or what has become of it. internal, where it cannot be written.
   Result<void> keep(const Job& job) const;
   // internal, where they are not the bytes that were uploaded.
@@ -49,7 +55,7 @@ class Folder {
   std::uint64_t last_on_disk() const;
 
   const std::string path_;
-  std::uint64_t last_ = 0;
+  std::uint64_t last_ = 0, uploads_ = 0;
 };
 
 }  // namespace axisgate::server::spool

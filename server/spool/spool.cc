@@ -73,19 +73,19 @@ Result<std::unique_ptr<Upload>> Spool::begin(const std::string& device, NewJob f
   make_room(fresh.identity);
   auto place = room_.take(fresh.identity);
   if (!place) return tl::unexpected(place.error());
-  const auto id = home.folder.next_id();
-  if (!id) return tl::unexpected(id.error());
-  auto file = home.folder.create(*id);
+  const std::string path = home.folder.next_upload_path();
+  auto file = home.folder.create(path);
   if (!file) return tl::unexpected(file.error());
-  Job job{.id = *id,
-          .name = *std::move(name),
+  Job job{.name = *std::move(name),
           .who = std::move(fresh.who),
           .identity = std::move(fresh.identity),
           .created = fresh.created,
           .facts = std::move(fresh.facts)};
   return std::make_unique<Upload>(
-      home.folder, *std::move(file), std::move(job), *std::move(place),
-      [this, &home](const Job& whole, std::unique_ptr<Place> held) { return keep(home, whole, std::move(held)); });
+      home.folder, path, *std::move(file), std::move(job), *std::move(place),
+      [this, &home](const Job& whole, const std::string& upload, std::unique_ptr<Place> held) {
+        return keep(home, whole, upload, std::move(held));
+      });
 }
 
 void Spool::make_room(const std::string& identity) {
@@ -110,12 +110,20 @@ bool Spool::drop_oldest_ended(const std::string* identity) {
   return oldest != nullptr && drop(*home, oldest->id).has_value();
 }
 
-Result<void> Spool::keep(Device& device, const Job& job, std::unique_ptr<Place> place) {
+// What was refused before has no number, so that people see no gaps.
+Result<Job> Spool::keep(Device& device, Job job, const std::string& upload, std::unique_ptr<Place> place) {
   const std::lock_guard writing(writing_);
-  if (Result<void> written = device.folder.keep(job); !written) return written;
+  const Result<std::uint64_t> id = device.folder.next_id();
+  if (!id) return tl::unexpected(id.error());
+  job.id = *id;
+  if (const Result<void> taken = device.folder.take(upload, job.id); !taken) return tl::unexpected(taken.error());
+  if (const Result<void> written = device.folder.keep(job); !written) {
+    (void)device.folder.remove(job.id);
+    return tl::unexpected(written.error());
+  }
   const std::lock_guard lock(mutex_);
   device.jobs.emplace(job.id, Kept{job, std::move(place)});
-  return {};
+  return job;
 }
 
 std::vector<Job> Spool::list(const std::string& device) const {
@@ -163,8 +171,12 @@ Result<void> Spool::set_facts(const std::string& device, std::uint64_t id, std::
   return change(device, id, [&facts](Job& job) { job.facts = std::move(facts); });
 }
 
-Result<void> Spool::end(const std::string& device, std::uint64_t id, std::chrono::sys_seconds now) {
-  return change(device, id, [now](Job& job) { job.ended = job.ended.value_or(now); });
+Result<void> Spool::end(const std::string& device, std::uint64_t id, std::chrono::sys_seconds now,
+                        std::optional<std::string> facts) {
+  return change(device, id, [&](Job& job) {
+    job.ended = job.ended.value_or(now);
+    if (facts) job.facts = *std::move(facts);
+  });
 }
 
 Result<void> Spool::remove(const std::string& device, std::uint64_t id) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,8 +42,10 @@ class Spool {
   Result<std::string> read(const std::string& device, std::uint64_t id) const;
   // internal, where the disk refuses it: then all is as before.
   Result<void> set_facts(const std::string& device, std::uint64_t id, std::string facts);
-  // From now on Bounds::kept is counted; a job that has ended keeps its time. internal, likewise.
-  Result<void> end(const std::string& device, std::uint64_t id, std::chrono::sys_seconds now);
+  // From now on Bounds::kept is counted; a job that has ended keeps its time. nullopt: the facts stay. internal,
+  // likewise.
+  Result<void> end(const std::string& device, std::uint64_t id, std::chrono::sys_seconds now,
+                   std::optional<std::string> facts = {});
   // internal, where it may be there again after a power cut: until it is removed again.
   Result<void> remove(const std::string& device, std::uint64_t id);
 
@@ -55,7 +58,7 @@ class Spool {
     std::unique_ptr<Place> place;
   };
   struct Device {
-    Folder folder;  // next_id() under writing_
+    Folder folder;  // next_id() and next_upload_path() under writing_
     std::map<std::uint64_t, Kept> jobs{};
   };
   struct Found {
@@ -69,7 +72,7 @@ class Spool {
   bool drop_oldest_ended(const std::string* identity);  // false: there is none
   Device& device_of(const std::string& name);
   Result<Found> find(const std::string& device, std::uint64_t id) const;
-  Result<void> keep(Device& device, const Job& job, std::unique_ptr<Place> place);
+  Result<Job> keep(Device& device, Job job, const std::string& upload, std::unique_ptr<Place> place);
   Result<void> drop(Device& device, std::uint64_t id);  // under writing_
   Result<void> change(const std::string& device, std::uint64_t id, const std::function<void(Job&)>& change);
 

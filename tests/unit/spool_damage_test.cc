@@ -144,7 +144,10 @@ TEST_F(SpoolDamage, AnUploadOfAKilledDaemonIsRemoved) {
   ASSERT_TRUE(upload("good"));
   write("7.rml", "abc");
   write("7.json.new", "{");
-  EXPECT_THAT(reopened(), HasSubstr(path("7.rml") + ": its upload was not finished; it is removed"));
+  write("upload-3", "ab");
+  const std::string log = reopened();
+  EXPECT_THAT(log, HasSubstr(path("7.rml") + ": its upload was not finished; it is removed"));
+  EXPECT_THAT(log, HasSubstr(path("upload-3") + ": its upload was not finished; it is removed"));
   EXPECT_THAT(files(), ElementsAre("1.json", "1.rml", "last"));
   EXPECT_EQ(upload("next")->id, 8u);
 }
@@ -180,7 +183,7 @@ TEST_F(SpoolDamage, ADirectoryThatCannotBeMadeRefusesUploadsOnly) {
     auto opened = spool::Spool::open(folder, {});
     ASSERT_TRUE(opened) << opened.error().message;
     EXPECT_EQ(why((*opened)->begin("mill", new_job())),
-              "INTERNAL: cannot write " + folder + "/mill/last.new: " + error);
+              "INTERNAL: cannot write " + folder + "/mill/upload-1: " + error);
   }
 }
 
@@ -225,9 +228,12 @@ class SpoolOnAFullDisk : public SpoolDamage {
   }
 };
 
-TEST_F(SpoolOnAFullDisk, NoUploadBegins) {
-  const auto begun = on_full_disk(1, [this] { return begin(); });
-  EXPECT_EQ(why(begun), "INTERNAL: cannot write " + path("last.new") + ": File too large");
+TEST_F(SpoolOnAFullDisk, NoNumberIsGiven) {
+  auto begun = begin();
+  ASSERT_TRUE((*begun)->append("0"));
+  EXPECT_EQ(why(on_full_disk(1, [&] { return (*begun)->finish(); })),
+            "INTERNAL: cannot write " + path("last.new") + ": File too large");
+  begun->reset();
   fs::remove(path("last.new"));
   expect_job_1();
 }
@@ -235,7 +241,7 @@ TEST_F(SpoolOnAFullDisk, NoUploadBegins) {
 TEST_F(SpoolOnAFullDisk, APieceIsRefused) {
   auto begun = begin();
   ASSERT_TRUE((*begun)->append("01234"));
-  const std::string refusal = "INTERNAL: cannot write " + path("2.rml") + ": File too large";
+  const std::string refusal = "INTERNAL: cannot write " + path("upload-2") + ": File too large";
   EXPECT_EQ(why(on_full_disk(8, [&] { return (*begun)->append("56789"); })), refusal);
   EXPECT_EQ(why((*begun)->append("56789")), refusal) << "the file has a part of it";
   EXPECT_EQ(why((*begun)->finish()), refusal);
