@@ -20,6 +20,7 @@ namespace {
 constexpr std::array<char, 16> kMark = {'a', 'x', 'i', 's', 'g', 'a', 't', 'e', ' ', 'j', 'o', 'b', ' ', '1', '\n', 0};
 constexpr std::size_t kNameSize = 104;  // a name of the spool, and an end
 constexpr std::uint64_t kAll = std::numeric_limits<std::uint64_t>::max();
+constexpr std::uint64_t kLostSurfaces = 1'000'000;  // more than are sent between two boots
 
 std::uint64_t bits_of(const rml1::Leaves& leaves) {
   return (leaves.surface ? 1u : 0u) | (leaves.revolutions ? 2u : 0u) | (leaves.rotation ? 4u : 0u) |
@@ -51,6 +52,7 @@ struct JobRecord::Content {
   std::atomic<std::uint64_t> job, state, through, part, from, abort_waits, leaves;
   std::array<char, kNameSize> name;       // changes while `job` is 0
   std::atomic<std::uint64_t> sent_least;  // 0 in the file of an older daemon: it is not known that anything was sent
+  std::atomic<std::uint64_t> surfaces;
 };
 
 Result<std::unique_ptr<JobRecord>> JobRecord::open(const std::string& path, std::string_view boot) {
@@ -82,8 +84,14 @@ JobRecord::JobRecord(Content* content, std::string_view boot) : content_(content
                       .leaves = leaves_of(content->leaves)};
   }
   abort_waited_ = known && content->abort_waits != 0;
-  if (!known) content->job = 0;
-  if (!same_boot) content->through = kAll;  // also for the run after this one
+  if (!known) {
+    content->job = 0;
+    content->surfaces = 0;
+  }
+  if (!same_boot) {
+    content->through = kAll;             // also for the run after this one
+    content->surfaces += kLostSurfaces;  // the last counts may not have come to the disk
+  }
   content->mark = kMark;
   set_text(content->boot, boot);
 }
@@ -115,6 +123,10 @@ void JobRecord::set_state(const rml1::Job& job) {
   content_->sent_least = job.written ? job.written->least : next_byte(job);
   content_->state = static_cast<std::uint64_t>(job.state);
 }
+
+std::uint64_t JobRecord::surfaces() const { return content_->surfaces; }
+
+void JobRecord::set_surfaces(std::uint64_t surfaces) { content_->surfaces = surfaces; }
 
 void JobRecord::set_abort_waits(bool waits) { content_->abort_waits = waits ? 1 : 0; }
 

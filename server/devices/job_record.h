@@ -38,6 +38,8 @@ class JobRecord {
   const std::optional<LastJob>& before() const { return before_; }
   // The run before had an abort that had not left this host.
   bool abort_waited() const { return abort_waited_; }
+  // MillController::surfaces() of the runs before.
+  std::uint64_t surfaces() const;
 
   // Its next part, or the rest of that.
   void begin(const rml1::Job& job);
@@ -46,6 +48,7 @@ class JobRecord {
   // Its state and its part. Of another job than the last that was begun: nothing.
   void set_state(const rml1::Job& job);
   void set_abort_waits(bool waits);
+  void set_surfaces(std::uint64_t surfaces);
 
  private:
   struct Content;

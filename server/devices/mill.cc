@@ -46,6 +46,7 @@ Mill::~Mill() { spool_thread_.join(); }
 // What had not ended when the run before ended. A confirmation is void by then.
 void Mill::restore_jobs() {
   if (record_ && record_->abort_waited()) controller_.inherit_abort();
+  if (record_) controller_.inherit_surfaces(record_->surfaces());
   const auto last = record_ ? record_->before() : std::nullopt;
   if (last) controller_.inherit_left({.number = last->job, .name = last->name, .leaves = last->leaves});
   for (rml1::Job& job : unended_jobs(spool_, name())) {
@@ -53,7 +54,8 @@ void Mill::restore_jobs() {
     if (!last || last->job != job.number) {
       controller_.inherit(std::move(job));
     } else if (rml1::is_end(last->state)) {
-      end_spooled(spool_, name(), job.number);
+      job.state = last->state;
+      end_spooled(spool_, name(), job);
     } else {
       job = as_it_was_left(std::move(job), *last);
       note(job, "", "the daemon ended", monotonic_now());
@@ -116,7 +118,7 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) keep(job);
   if (rml1::is_end(job.state)) {
     ended_ = job;
-    boost::asio::post(spool_thread_, [this, number = job.number] { end_spooled(spool_, name(), number); });
+    boost::asio::post(spool_thread_, [this, job] { end_spooled(spool_, name(), job); });
   }
 }
 
@@ -133,6 +135,10 @@ void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
     publish_fact(JobChanged{*job, running.sender, "", running.busy ? "the mill takes nothing" : ""}, now);
   }
   if (running.busy) spdlog::warn("{}: the mill takes nothing: look at it", name());
+}
+
+void Mill::surface_set(std::uint64_t surfaces) {
+  if (record_) record_->set_surfaces(surfaces);
 }
 
 void Mill::about_to_write(rml1::JobNumber, const rml1::WrittenRange& sent) {

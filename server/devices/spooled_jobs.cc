@@ -26,6 +26,8 @@ std::optional<rml1::Place> place_in(const Json& facts) {
   return from.size() == 3 ? std::optional(rml1::Place{from[0], from[1], from[2]}) : std::nullopt;
 }
 
+Json facts_of(const rml1::Place& place) { return {place.offset, place.line, place.column}; }
+
 std::optional<rml1::WrittenRange> written_in(const Json& facts) {
   const Json written = facts.value("written", Json::array());
   return written.size() == 2 ? std::optional(rml1::WrittenRange{written[0], written[1]}) : std::nullopt;
@@ -33,6 +35,14 @@ std::optional<rml1::WrittenRange> written_in(const Json& facts) {
 
 bool are_numbers(const Json& all, std::size_t count) {
   return all.is_array() && all.size() == count && std::ranges::all_of(all, &Json::is_number);
+}
+
+std::optional<rml1::PlaceRange> executed_in(const Json& facts) {
+  const Json executed = facts.value("executed", Json::array());
+  const bool known = executed.size() == 2 && are_numbers(executed[0], 3) && are_numbers(executed[1], 3);
+  if (!known) return std::nullopt;
+  const auto place = [](const Json& one) { return rml1::Place{one[0], one[1], one[2]}; };
+  return rml1::PlaceRange{place(executed[0]), place(executed[1])};
 }
 
 // One that was kept without its plan has none.
@@ -77,6 +87,7 @@ std::vector<rml1::Warning> accepted_in(const Json& facts) {
 
 // As far as the mill may have been sent it.
 std::string_view sent_of(std::string_view body, const rml1::Job& job) {
+  if (job.executed) return body.substr(0, job.executed->most.offset);
   const bool known = job.written && job.written->most >= part_begin(job);
   return known ? body.substr(0, job.written->most - part_begin(job)) : body;
 }
@@ -101,17 +112,28 @@ rml1::JobState state_as_left(const rml1::Job& job, const LastJob& last) {
   return between && job.part > 0 ? tool_change : paused_unknown;
 }
 
-// What was written of the part is a range after a loss, and known where the tool was raised.
-tl::unexpected<Problem> no_line_named(std::string_view body, const rml1::Job& job) {
+// Bytes of the part between which what the mill has executed of it ends. What it was sent, and did not lose, is
+// executed but for what its buffer may hold.
+rml1::WrittenRange executed_of(const MillConfig& config, const rml1::Job& job) {
+  if (job.executed) return {job.executed->least.offset, job.executed->most.offset};
+  const std::uint64_t begin = part_begin(job);
+  const rml1::WrittenRange sent = job.written.value_or(rml1::WrittenRange{next_byte(job), next_byte(job)});
+  if (sent.least == sent.most) return {sent.least - begin, sent.most - begin};
+  const std::uint64_t unread = config.sending.flow_control ? config.sending.buffer : sent.least;
+  return {sent.least - std::min<std::uint64_t>(unread, sent.least - begin) - begin, sent.most - begin};
+}
+
+tl::unexpected<Problem> no_line_named(std::string_view body, const MillConfig& config, const rml1::Job& job) {
   const auto text = [&](std::uint64_t byte) {
-    const rml1::Place place = rml1::place_of(body, byte - part_begin(job));
+    const rml1::Place place = rml1::place_of(body, byte);
     return fmt::format("line {}, column {}", place.line, place.column);
   };
-  const rml1::WrittenRange sent = job.written.value_or(rml1::WrittenRange{next_byte(job), next_byte(job)});
+  const rml1::WrittenRange executed = executed_of(config, job);
+  const bool exact = executed.least == executed.most;
   return fail(Reason::invalid_request,
-              fmt::format("no line is named from which {} continues: what the mill was sent of it ends at {}{}",
-                          text_of(job), text(sent.least),
-                          sent.least == sent.most ? "" : fmt::format(", or later, up to {}", text(sent.most))),
+              fmt::format("no line is named from which {} continues: what the mill has executed of it ends at {}{}",
+                          text_of(job), text(executed.least),
+                          exact ? "" : fmt::format(", or later, up to {}", text(executed.most))),
               "look at the workpiece, and name a line or a column before what is missing");
 }
 
@@ -137,8 +159,12 @@ std::string facts_of(const rml1::Job& job) {
   facts["checked_for"] = job.checked_for;
   facts["planned_for"] = job.planned_for;
   if (job.streaming) facts["streaming"] = *job.streaming == rml1::Streaming::full ? "full" : "paced";
-  if (job.setup.from) facts["from"] = {job.setup.from->offset, job.setup.from->line, job.setup.from->column};
+  if (job.setup.from) facts["from"] = facts_of(*job.setup.from);
   if (job.written) facts["written"] = {job.written->least, job.written->most};
+  if (job.executed) facts["executed"] = {facts_of(job.executed->least), facts_of(job.executed->most)};
+  if (job.continues != 0) facts["continues"] = job.continues;
+  facts["surfaces"] = job.surfaces;
+  if (is_end(job.state)) facts["ended_as"] = name(job.state);
   return facts.dump();
 }
 
@@ -169,8 +195,11 @@ rml1::Job job_of(const spool::Job& spooled) {
   if (stock.size() == 3 && std::ranges::all_of(stock, &Json::is_number)) {
     job.stock = rml1::Stock{stock[0], stock[1], stock[2]};
   }
+  job.continues = facts.value("continues", rml1::JobNumber{0});
+  job.surfaces = facts.value("surfaces", std::uint64_t{0});
   job.setup.from = place_in(facts);
   if (job.setup.from) job.written = written_in(facts);
+  if (is_fresh_rest(job)) return job;
   if (job.part > 0) job.state = rml1::JobState::tool_change;
   if (job.setup.from) job.state = rml1::JobState::paused;
   return job;
@@ -198,8 +227,28 @@ void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job&
   if (!kept) spdlog::warn("{}", explain(kept.error()));
 }
 
-void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job) {
-  if (const auto ended = spool.end(device, job, calendar_now()); !ended) spdlog::warn("{}", explain(ended.error()));
+void end_spooled(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
+  const auto ended = spool.end(device, job.number, calendar_now(), facts_of(job));
+  if (!ended) spdlog::warn("{}", explain(ended.error()));
+}
+
+Result<rml1::Job> ended_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber number) {
+  const auto jobs = spool.list(device);
+  const auto found = std::ranges::find(jobs, number, &spool::Job::id);
+  if (found == jobs.end()) {
+    return fail(Reason::not_found, fmt::format("job {} of {} is not kept", number, device),
+                "`axisctl history` shows what became of it; send its file again");
+  }
+  rml1::Job job = job_of(*found);
+  const Json facts = facts_in(*found);
+  if (!found->ended) {
+    return fail(Reason::wrong_mode, fmt::format("{} has not ended", text_of(job)),
+                "`axisctl mill queue` shows what can be done with it");
+  }
+  job.state = rml1::job_state_named(facts.value("ended_as", "")).value_or(rml1::JobState::cancelled);
+  job.written = written_in(facts);
+  job.executed = executed_in(facts);
+  return job;
 }
 
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile) {
@@ -262,7 +311,7 @@ Result<rml1::Place> chosen_rest(const spool::Spool& spool, const std::string& de
                                 const rml1::Job& job, std::uint64_t line, std::uint64_t column) {
   const Result<std::string> body = part_bytes(spool, device, job);
   if (!body) return tl::unexpected(body.error());
-  if (line == 0) return no_line_named(*body, job);
+  if (line == 0) return no_line_named(*body, config, job);
   const auto origin = check_origin(config, job);
   const auto approach = rml1::approach_to(*body, rml1::offset_of(*body, line, column), config.profile, origin);
   if (!approach) return tl::unexpected(approach.error());

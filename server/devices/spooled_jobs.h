@@ -27,8 +27,12 @@ std::vector<rml1::Job> unended_jobs(const spool::Spool& spool, const std::string
 rml1::Job as_it_was_left(rml1::Job job, const LastJob& last);
 // So that a run after this one knows where it continues and its place in the queue. What goes wrong is in the log.
 void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job);
-// It is kept for some time more. What goes wrong is in the log: the job then comes back with the next run, QUEUED.
-void end_spooled(spool::Spool& spool, const std::string& device, rml1::JobNumber job);
+// Keeps the job, as it ended, for some time more. What goes wrong is in the log: the job then comes back with the next
+// run, QUEUED.
+void end_spooled(spool::Spool& spool, const std::string& device, const rml1::Job& job);
+// Returns a job that has ended, as it ended; ABORTED and CANCELLED ones with what is known to be executed. Fails with
+// not_found if the spool no longer has it, and with wrong_mode if it has not ended.
+Result<rml1::Job> ended_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber number);
 
 // The work origin as the check of a job takes it. Without a height of its own, Z0 is where the profile has it.
 rml1::Origin origin_of(const NamedOrigin& named, const rml1::Profile& profile);

@@ -251,7 +251,7 @@ TEST_F(RpcMill, SomebodyChoosesAnotherPlace) {
   request.set_line(0);
   const grpc::Status unnamed = ask(&v1::MillService::Stub::ContinueJob, request);
   EXPECT_EQ(reason(unnamed), v1::REASON_INVALID_REQUEST);
-  EXPECT_THAT(unnamed.error_message(), HasSubstr("what the mill was sent of it ends at line "));
+  EXPECT_THAT(unnamed.error_message(), HasSubstr("what the mill has executed of it ends at line "));
   request.set_line(99);
   EXPECT_EQ(reason(ask(&v1::MillService::Stub::ContinueJob, request)), v1::REASON_INVALID_REQUEST);
   request.set_line(3);

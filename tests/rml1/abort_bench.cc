@@ -101,6 +101,7 @@ void AbortBench::end_writing() {
   const auto at = state();
   read_record();
   executed_at_end_ = at.moving || at.paused != "no" ? begun_before_ : job_begun_;
+  certain_at_end_ = sender_.executed_for_certain(mill_.now);
   job_written_ = line_.written.size();
 }
 

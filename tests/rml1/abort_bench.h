@@ -81,7 +81,10 @@ class AbortBench {
   simulator::Simulator::State state() { return mill_.mill.state(mill_.now); }
 
   std::size_t ran_on() const { return job_begun_ - executed_at_end_; }  // bytes of the job
-  bool abort_lost() const { return abort_lost_; }                       // a byte of it, with error 16
+  // Bytes of the job when writing ended: what the mill had executed, and what the sender said was certain.
+  std::size_t executed_at_end() const { return executed_at_end_; }
+  std::size_t certain_at_end() const { return certain_at_end_; }
+  bool abort_lost() const { return abort_lost_; }  // a byte of it, with error 16
   bool raise_started_spindle() const { return raise_started_spindle_; }
 
  private:
@@ -101,7 +104,8 @@ class AbortBench {
   std::size_t lost_ = 0, job_lost_ = 0;           // of these, as its buffer was full
   std::size_t begun_before_ = 0, job_begun_ = 0;  // bytes of the job: through the last but one command, and the last
   std::size_t executed_at_end_ = 0;               // bytes of the job, when writing ended
-  std::optional<std::size_t> job_written_;        // bytes of the job, likewise
+  std::size_t certain_at_end_ = 0;
+  std::optional<std::size_t> job_written_;  // bytes of the job, likewise
   bool abort_begun_ = false, abort_lost_ = false, raise_started_spindle_ = false;
 };
 

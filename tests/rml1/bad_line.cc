@@ -257,6 +257,7 @@ void BadLine::link_changed(MillLink link, std::string_view, TimePoint) {
 void BadLine::job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) {
   note(fmt::format("job {} is {} ({} {})", job.number, name(job.state), by, why));
   states_[job.number] = job.state;
+  if (job.state == JobState::paused_unknown && !range_) range_ = job.written;
   if (job.state == JobState::done && by.empty()) violate("DONE, and nobody has said so");
 }
 

@@ -73,6 +73,7 @@ class BadLine : private MillEvents {
   void link_changed(MillLink link, std::string_view, TimePoint) override;
   void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override;
   void rank_changed(const Job&) override {}
+  void surface_set(std::uint64_t) override {}
   void sender_changed(const RunningJob& running, TimePoint) override;
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

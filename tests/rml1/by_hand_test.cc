@@ -100,6 +100,7 @@ class ByHandAtTheMill : public testing::Test, protected MillEvents {
     said_ = std::string(name(job.state)) + ": " + std::string(why);
   }
   void rank_changed(const Job&) override {}
+  void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}
@@ -124,6 +125,7 @@ class ByHandAtTheMill : public testing::Test, protected MillEvents {
   TimePoint now_{1000s};
   MillSettings settings_;
   std::string said_;
+  std::uint64_t surfaces_ = 0;
   FakePermission permission_;
   MillController mill_{profile_, settings_, line_, *this, permission_};
 };
@@ -136,7 +138,7 @@ TEST_F(ByHandAtTheMill, AConfirmationIsVoidAfterEachOfThem) {
     mill.add({.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup_}, now_);
     ASSERT_TRUE(mill.confirm(1, setup_, "unix bert", now_));
     ASSERT_TRUE(mill.operate(act, {.who = "unix anna"}, now_));
-    EXPECT_EQ(said_, "QUEUED: by hand: " + text_of(act));
+    EXPECT_EQ(said_, "QUEUED: unix anna had the mill " + text_of(act));
     EXPECT_EQ(mill.jobs()[0].state, JobState::queued);
     line_.run_to(now_ += 10s);
   }
@@ -192,6 +194,27 @@ TEST_F(ByHandAtTheMill, AnAbortEndsAStep) {
   ASSERT_TRUE(mill_.operate(JogStep{50, 0, 0, {}}, {.who = "unix anna"}, now_));
   EXPECT_TRUE(mill_.abort({.who = "unix bert"}, now_));
   EXPECT_THAT(line_.writes.back(), HasSubstr("\x1B.K\x1B.K!MC0;"));
+}
+
+// 60.5 mm at 15 mm/s, by a mill that takes half as long again, are 6.05 s and more.
+TEST_F(ByHandAtTheMill, AfterAnAbortNothingThatNeedsTheToolAtRest) {
+  ASSERT_TRUE(mill_.abort({.who = "unix bert"}, now_));
+  line_.run_to(now_ += 6s);
+  mill_.advance(now_);
+  EXPECT_EQ(reason(JogStep{1, 0, 0, {}}), Reason::axis_busy) << "the tool may still rise";
+  EXPECT_EQ(reason(SetSurface{}), Reason::axis_busy);
+  EXPECT_EQ(reason(SetSurface{-800}), Reason::unspecified) << "it does not matter where the tool is";
+  line_.run_to(now_ += 60s);
+  EXPECT_EQ(reason(JogStep{1, 0, 0, {}}), Reason::unspecified);
+}
+
+TEST_F(ByHandAtTheMill, CountsHowOftenZ0IsSent) {
+  EXPECT_EQ(reason(SetSurface{-800}), Reason::unspecified);
+  EXPECT_EQ(reason(RaiseTool{}), Reason::axis_busy) << "the line has not taken it";
+  line_.run_to(now_ += 1s);
+  EXPECT_EQ(reason(RaiseTool{}), Reason::unspecified);
+  EXPECT_EQ(mill_.surfaces(), 1u);
+  EXPECT_EQ(surfaces_, 1u) << "is kept";
 }
 
 }  // namespace

@@ -73,6 +73,41 @@ TEST_F(MillContinuedTest, WhatWasSentIsExecutedThenTheToolRisesAndTheSpindleStop
   EXPECT_THAT(permission_.users, IsEmpty());
 }
 
+// "V15;VS15;" and "PU1000,0;": the second vector begins with the byte 18.
+constexpr Place kSecondVector{18, 1, 19};
+
+TEST_F(MillContinuedTest, TheRestOfAnotherJobWaitsAsAnyOther) {
+  Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  rest.setup.from = kSecondVector;
+  rest.bytes = vectors(20).size();
+  mill_.add(rest, now_);
+  add(2);
+  EXPECT_EQ(state(1), queued);
+  ASSERT_TRUE(mill_.move_first(2, Overtaken::all, "unix root", now_)) << "nothing of it has begun";
+  ASSERT_TRUE(mill_.move_first(1, Overtaken::all, "unix root", now_));
+  ASSERT_TRUE(confirm_as_shown(1));
+  mill_.setup_changed("a test", now_);
+  EXPECT_EQ(state(1), queued);
+  EXPECT_EQ(mill_.jobs()[0].setup.from, kSecondVector);
+}
+
+TEST_F(MillContinuedTest, TheRestOfAnotherJobContinuesOnceItHasBegun) {
+  Job rest{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  rest.setup.from = kSecondVector;
+  rest.bytes = vectors(20).size();
+  mill_.add(rest, now_);
+  ASSERT_TRUE(confirm_as_shown(1));
+  ASSERT_TRUE(start_rest(kSecondVector));
+  run_for(5s);
+  EXPECT_THAT(written(), HasSubstr("PU0,0;"));
+  ASSERT_TRUE(mill_.pause(true, now_));
+  run_for(60s);
+  ASSERT_EQ(state(1), paused);
+  ASSERT_TRUE(confirm_as_shown(1));
+  mill_.setup_changed("a test", now_);
+  EXPECT_EQ(state(1), paused);
+}
+
 TEST_F(MillContinuedTest, ItGoesOnBehindWhatWasSent) {
   raise();
   const std::size_t sent = std::string(";^DF;").size();

@@ -67,6 +67,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     by_[job.state] = by;
   }
   void rank_changed(const Job& job) override { ranks_[job.number] = job.rank; }
+  void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
   void sender_changed(const RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
     if (running.busy) said_.emplace_back("busy");
@@ -86,7 +87,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   std::map<JobNumber, std::int64_t> ranks_;  // that are kept
   std::vector<std::string> said_;
   std::map<JobState, std::string> by_;
-  std::uint64_t noted_ = 0;
+  std::uint64_t noted_ = 0, surfaces_ = 0;
   std::size_t written_before_note_ = 0;
   int aborts_requested_ = 0;
   FakePermission permission_;

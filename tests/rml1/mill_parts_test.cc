@@ -92,6 +92,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
     said_.push_back(std::string(name(job.state)) + (why.empty() ? "" : ": ") + std::string(why));
   }
   void rank_changed(const Job&) override {}
+  void surface_set(std::uint64_t) override {}
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

@@ -43,9 +43,26 @@ TEST_F(ChosenRest, IsNotBeforeWhatTheMillMayHaveDoneAndNothingGivesBack) {
   EXPECT_THAT(chosen(std::nullopt, 2), HasSubstr("the job sets Z0 (!ZO)"));
 }
 
-TEST_F(ChosenRest, SaysWhereWhatWasSentEnds) {
-  EXPECT_THAT(chosen({{7, 7}}, 0), HasSubstr("what the mill was sent of it ends at line 2, column 1"));
-  EXPECT_THAT(chosen({{7, 16}}, 0), HasSubstr("ends at line 2, column 1, or later, up to line 3, column 3"));
+TEST_F(ChosenRest, SaysWhereWhatWasExecutedEnds) {
+  EXPECT_THAT(chosen({{7, 7}}, 0), HasSubstr("what the mill has executed of it ends at line 2, column 1"));
+  config_.sending.flow_control = true;
+  config_.sending.buffer = 4;
+  EXPECT_THAT(chosen({{7, 16}}, 0), HasSubstr("ends at line 1, column 4, or later, up to line 3, column 3"))
+      << "of the 7 bytes that the mill was sent, 4 may be in its buffer";
+  config_.sending.buffer = 1024;
+  EXPECT_THAT(chosen({{7, 16}}, 0), HasSubstr("ends at line 1, column 1, or later, up to line 3, column 3"));
+}
+
+TEST_F(ChosenRest, NamesNothingThatAMillWithoutFlowControlMayHaveLost) {
+  config_.sending.flow_control = false;
+  config_.sending.buffer = 4;
+  EXPECT_THAT(chosen({{7, 16}}, 0), HasSubstr("ends at line 1, column 1, or later, up to line 3, column 3"));
+}
+
+TEST_F(ChosenRest, SaysWhatAnAbortHasLeft) {
+  job_.executed = rml1::PlaceRange{{7, 2, 1}, {14, 3, 1}};
+  EXPECT_THAT(chosen(std::nullopt, 0), HasSubstr("ends at line 2, column 1, or later, up to line 3, column 1"));
+  EXPECT_EQ(chosen(std::nullopt, 2), "2:1") << "Z0 was not sent";
 }
 
 }  // namespace

@@ -102,6 +102,13 @@ TEST_F(JobRecordTest, KeepsThatAnAbortWaits) {
   EXPECT_FALSE(open()->abort_waited());
 }
 
+TEST_F(JobRecordTest, KeepsHowOftenZ0WasSent) {
+  EXPECT_EQ(open()->surfaces(), 1'000'000u) << "a first boot";
+  open()->set_surfaces(7);
+  EXPECT_EQ(open()->surfaces(), 7u);
+  EXPECT_GT(open("another boot")->surfaces(), 7u) << "a count may have been lost with the machine";
+}
+
 TEST_F(JobRecordTest, StatesAreThoseOfTheLastJob) {
   const auto record = open();
   record->begin(job());
@@ -306,8 +313,19 @@ TEST(CheckedFor, IsTheProfileAndWhereTheOriginIs) {
 TEST(JobOfTheSpool, KnowsWhereItGoesOn) {
   rml1::Job left = job();
   left.setup.from = rml1::Place{20, 2, 5};
-  EXPECT_EQ(job_of(spooled(left)).state, JobState::paused);
   EXPECT_EQ(job_of(spooled(left)).setup.from, (rml1::Place{20, 2, 5}));
+  EXPECT_EQ(job_of(spooled(left)).state, JobState::queued) << "the rest of another job, which has not begun";
+  left.written = rml1::WrittenRange{20, 20};
+  EXPECT_EQ(job_of(spooled(left)).state, JobState::paused);
+}
+
+TEST(JobOfTheSpool, KnowsOnWhoseWorkpieceItGoesOn) {
+  rml1::Job sent = job();
+  EXPECT_EQ(job_of(spooled(sent)).continues, 0u);
+  sent.continues = 3;
+  sent.surfaces = 5;
+  EXPECT_EQ(job_of(spooled(sent)).continues, 3u);
+  EXPECT_EQ(job_of(spooled(sent)).surfaces, 5u);
 }
 
 TEST(JobOfTheSpool, KnowsHowFarOneThatContinuesWasSent) {

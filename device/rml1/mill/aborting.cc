@@ -1,4 +1,6 @@
 // MillController: the abort, whether a job runs or none.
+#include <fmt/format.h>
+
 #include <string_view>
 
 #include "device/rml1/guard.h"
@@ -12,6 +14,7 @@ bool MillController::abort(std::string_view by, TimePoint now) {
   events_.abort_requested(by, now);
   if (guarded(MillGuard::void_after_abort)) setup_changed("an abort", now);
   by_hand_until_ = now;
+  rises_until_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, settings_.sending.slack);
   if (!running_) return send_abort(now);
   running_->aborted_by = by;
   note_executed(now);
@@ -26,6 +29,16 @@ void MillController::note_executed(TimePoint now) {
   if (job.executed) return;
   const SendProgress progress = running_->sender.progress(now);
   job.executed = running_->prepared->executed(running_->sender.executed_for_certain(now), progress.written);
+}
+
+// A job whose abort may have been dropped may run on: it has no end that could be named.
+void MillController::end_aborted(TimePoint now) {
+  const bool unsure = running_->sender.abort_may_be_dropped();
+  const std::string_view sent =
+      unsure ? "the abort was sent, but the mill's buffer may have been full, and a full buffer drops it"
+             : "the abort was sent";
+  end_run(unsure ? JobEvent::abort_unsure : JobEvent::aborted, running_->aborted_by,
+          fmt::format("{}; {}", sent, executed_text(**find(running_->number))), now);
 }
 
 // Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <tuple>
 
@@ -17,6 +18,11 @@ constexpr std::array<std::string_view, kJobStates> kNames = {"QUEUED",      "CON
 }  // namespace
 
 std::string_view name(JobState state) { return kNames.at(static_cast<std::size_t>(state)); }
+
+std::optional<JobState> job_state_named(std::string_view name) {
+  const auto found = std::ranges::find(kNames, name);
+  return found == kNames.end() ? std::nullopt : std::optional(static_cast<JobState>(found - kNames.begin()));
+}
 
 bool is_end(JobState state) {
   return state == JobState::done || state == JobState::aborted || state == JobState::cancelled ||
@@ -40,6 +46,7 @@ std::optional<JobState> next(JobState state, JobEvent event) {
       Change{running, JobEvent::fed, fed},
       Change{running, JobEvent::raised, paused},
       Change{running, JobEvent::aborted, aborted},
+      Change{running, JobEvent::abort_unsure, paused_unknown},
       Change{running, JobEvent::lost, paused_unknown},
       Change{fed, JobEvent::done, done},
       Change{paused_unknown, JobEvent::choose_rest, paused},
@@ -77,7 +84,11 @@ bool waits_to_begin(const Job& job) {
   return job.state == JobState::queued || (job.state == JobState::confirmed && void_event(job) == JobEvent::make_void);
 }
 
+// One that was begun has a range of what was written.
+bool is_fresh_rest(const Job& job) { return job.setup.from && !job.written; }
+
 JobEvent void_event(const Job& job) {
+  if (is_fresh_rest(job)) return JobEvent::make_void;
   if (job.setup.from) return JobEvent::make_void_rest;
   return job.part == 0 ? JobEvent::make_void : JobEvent::make_void_later;
 }

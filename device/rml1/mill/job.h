@@ -64,6 +64,7 @@ enum class JobState {
 };
 inline constexpr std::size_t kJobStates = static_cast<std::size_t>(JobState::expired) + 1;
 std::string_view name(JobState state);  // "QUEUED" ...
+std::optional<JobState> job_state_named(std::string_view name);
 bool is_end(JobState state);
 
 enum class JobEvent {
@@ -73,10 +74,11 @@ enum class JobEvent {
   make_void_rest,   // of one that is continued
   start,
   raised,
-  choose_rest,  // from where on it is continued
+  choose_rest,  // the place from which it is continued
   part_fed,     // and there is another one
   fed,
   aborted,
+  abort_unsure,  // the mill may have dropped the abort
   lost,
   done,
   cancel,
@@ -116,6 +118,8 @@ struct Job {
   std::int64_t rank = 0;                  // as is_before() has it; 0 as it was sent
   std::optional<Streaming> streaming{};   // none: as the mill has it
   std::optional<Stock> stock{};           // none: nobody has said it
+  JobNumber continues = 0;                // the job whose workpiece it continues; 0: the workpiece is new
+  std::uint64_t surfaces = 0;             // MillController::surfaces() when it was started last
   std::string checked_for{};              // a digest of the profile and the origin with which it was checked
   std::string planned_for{};              // a text of the settings with which its times were computed
   TimePoint queued_since{};               // when it was sent, or when its last confirmation became void
@@ -144,6 +148,8 @@ TimeRange takes_later(const Job& job);
 std::optional<RunOn> run_on(const Job& job);
 // Sets both for its part.
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
+// Reports whether it is the rest of another job (MillController::add()), and nothing of it was sent.
+bool is_fresh_rest(const Job& job);
 // What a void confirmation of it is.
 JobEvent void_event(const Job& job);
 

@@ -109,7 +109,7 @@ void MillController::leave_queue_if_ended(JobNumber number) {
 void MillController::show_left() {
   const auto first = std::ranges::find_if(jobs_, waits);
   for (Job& job : jobs_) job.setup.left.clear();
-  if (first != jobs_.end() && first->part == 0 && !first->setup.from) first->setup.left = left_;
+  if (first != jobs_.end() && waits_to_begin(*first)) first->setup.left = left_;
 }
 
 // The workpiece of a job that ran may still be in the mill.
@@ -136,12 +136,12 @@ Result<void> MillController::check_next(const Job& job) const {
     return fail(Reason::wrong_mode, fmt::format("{} is {}", text_of(job), name(job.state)),
                 "only a job that waits can be confirmed");
   }
-  if (first->setup.from) {
+  if (first->setup.from && !waits_to_begin(*first)) {
     return fail(Reason::wrong_mode,
                 fmt::format("{} is not finished: it continues at line {}", text_of(*first), first->setup.from->line),
                 "confirm that one, or have it cancelled");
   }
-  if (first->part > 0) {
+  if (first->part > 0 && !waits_to_begin(*first)) {
     return fail(Reason::wrong_mode,
                 fmt::format("{} is not finished: its next tool is {}", text_of(*first), first->setup.tool),
                 "confirm that one, or have it cancelled");
@@ -208,7 +208,9 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if (const Result<void> startable = check_startable(**job, now); !startable) return startable;
   if (const Result<void> same = check_same(**job, *prepared); !same) return same;
   if (const Result<void> may = authorize(by, number, now); !may) return may;
-  if ((*job)->part == 0 && !(*job)->setup.from) left_ = left_by(**job);
+  if (waits_to_begin(**job)) left_ = left_by(**job);
+  if ((*job)->leaves.surface) set_surfaces(surfaces_ + 1);
+  (*job)->surfaces = surfaces_;
   (*job)->written.reset();
   (*job)->executed.reset();
   set_plan(**job, prepared->times().whole(), prepared->plan().run_on);
@@ -288,8 +290,7 @@ void MillController::look_at_sender(TimePoint now) {
   if (state == SenderState::raised) end_raised(now);
   if (state != SenderState::aborted) return;
   abort_has_left(now);
-  end_run(JobEvent::aborted, running_->aborted_by, "the abort was sent; " + executed_text(**find(running_->number)),
-          now);
+  end_aborted(now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
@@ -319,7 +320,7 @@ void MillController::end_run(JobEvent event, std::string_view by, std::string_vi
   const std::string requested_by(by);  // it may be of what runs
   const JobNumber number = running_->number;
   Job& job = **find(number);
-  if (event == JobEvent::lost) job.written = written_at_loss();
+  if (event == JobEvent::lost || event == JobEvent::abort_unsure) job.written = written_at_loss();
   running_.reset();
   permission_.end(number, now);
   if (event == JobEvent::part_fed) go_to_part(job, job.part + 1);
@@ -335,18 +336,6 @@ std::uint64_t MillController::in_mill(std::uint64_t left) const {
 
 WrittenRange MillController::written_at_loss() {
   return {running_->prepared->of_body(in_mill(running_->left)), running_->prepared->of_body(running_->noted)};
-}
-
-void MillController::inherit(Job job) {
-  if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
-  const auto place = std::ranges::upper_bound(jobs_, job, is_before);
-  jobs_.insert(place, std::move(job));
-  show_left();
-}
-
-void MillController::inherit_left(const Job& last) {
-  left_ = left_by(last);
-  show_left();
 }
 
 void MillController::link_up(TimePoint now) {

@@ -64,6 +64,8 @@ class MillEvents {
   virtual void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint now) = 0;
   // By this the order of the queue outlives a restart.
   virtual void rank_changed(const Job& job) = 0;
+  // Called whenever Z0 is sent. The new surfaces() outlives the daemon.
+  virtual void surface_set(std::uint64_t surfaces) = 0;
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
   // Bytes of the job up to sent.most go to the line next, and the mill has those up to sent.least. What must outlive a
   // killed daemon is kept before it returns.
@@ -88,7 +90,9 @@ class MillController : public LineMachine {
   void inherit_left(const Job& last);
   // An abort that the run before could not send any more. Before link_up().
   void inherit_abort() { must_abort_ = true; }
-  // Behind all others. The number ascends.
+  // surfaces() of the run before. Before link_up().
+  void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
+  // Puts the job behind all others. The numbers ascend. With JobSetup::from it is the rest of another job.
   void add(Job job, TimePoint now);
   // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
   // became of the last one is not known; link_down;
@@ -140,6 +144,8 @@ class MillController : public LineMachine {
   // By the last job that could show it, since this began.
   const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
   const MillSettings& settings() const { return settings_; }
+  // Counts how often Z0 was sent, by hand or by a job. Z0 set at the panel is not counted: nobody sees it.
+  std::uint64_t surfaces() const { return surfaces_; }
 
   void link_up(TimePoint now) override;
   void link_down(TimePoint now, std::string_view why) override;
@@ -191,6 +197,7 @@ class MillController : public LineMachine {
   Result<void> check_free() const;
   Result<void> check_taken() const;
   Result<void> check_still(TimePoint now) const;
+  Result<void> check_risen(TimePoint now) const;
   Result<void> check_operable(const HandAct& act, TimePoint now) const;
   void show_left();
   void rank_as_ordered();
@@ -205,6 +212,8 @@ class MillController : public LineMachine {
   void abort_has_left(TimePoint now);
   bool may_have_lost_abort(TimePoint now) const;
   void look_at_sender(TimePoint now);
+  void end_aborted(TimePoint now);
+  void set_surfaces(std::uint64_t surfaces);
   void look_whether_busy(TimePoint now);
   void end_fed_part(TimePoint now);
   void end_raised(TimePoint now);
@@ -226,11 +235,13 @@ class MillController : public LineMachine {
   Duration reopen_ = kReopenFirst;
   std::vector<Job> jobs_;
   std::vector<std::string> left_;  // by the job that was started last
+  std::uint64_t surfaces_ = 0;
   std::unique_ptr<Running> running_;
   std::optional<MeasuredPace> measured_pace_;
   bool must_abort_ = false;               // when the line is back
   TimePoint abort_arrives_{};             // at the mill, at the latest; in the past: it has, or none was sent
   TimePoint by_hand_until_{};             // what a person does with it ends, at the latest
+  TimePoint rises_until_{};               // the tool, after an abort that the mill obeys at once
   std::optional<TimePoint> abort_since_;  // without a job: until it has left the host
   TimePoint now_{};                       // of the last call
 };

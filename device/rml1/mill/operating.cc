@@ -23,14 +23,32 @@ Result<void> MillController::check_still(TimePoint now) const {
               fmt::format("ask again after {} s", left.count()));
 }
 
-// Steps do not add up while nobody looks.
+// The tool rises after an abort. What a mill executes before it obeys, nobody knows: the answer to the abort says so.
+Result<void> MillController::check_risen(TimePoint now) const {
+  if (rises_until_ <= now) return {};
+  const auto left = std::chrono::ceil<std::chrono::seconds>(rises_until_ - now);
+  return fail(Reason::axis_busy, "the tool may still rise after the abort",
+              fmt::format("look at the mill, and ask again after {} s", left.count()));
+}
+
+// Steps do not add up while nobody looks. Z0 behind a step is where that leads.
 Result<void> MillController::check_operable(const HandAct& act, TimePoint now) const {
   if (const Result<void> free = check_free(); !free) return free;
   if (const Result<void> taken = check_taken(); !taken) return taken;
   if (line_.held()) {
     return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
   }
-  return std::holds_alternative<JogStep>(act) ? check_still(now) : Result<void>();
+  const auto* surface = std::get_if<SetSurface>(&act);
+  const bool is_step = std::holds_alternative<JogStep>(act);
+  if (is_step || (surface != nullptr && !surface->at)) {
+    if (const Result<void> risen = check_risen(now); !risen) return risen;
+  }
+  return is_step ? check_still(now) : Result<void>();
+}
+
+void MillController::set_surfaces(std::uint64_t surfaces) {
+  surfaces_ = surfaces;
+  events_.surface_set(surfaces_);
 }
 
 Result<Duration> MillController::operate(const HandAct& act, const stage::RequestContext& by, TimePoint now) {
@@ -38,8 +56,9 @@ Result<Duration> MillController::operate(const HandAct& act, const stage::Reques
   if (!words) return tl::unexpected(words.error());
   if (const Result<void> can = check_operable(act, now); !can) return tl::unexpected(can.error());
   if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
-  setup_changed(fmt::format("by hand: {}", text_of(act)), now);
+  setup_changed(fmt::format("{} had the mill {}", by.who, text_of(act)), now);
   noted_line_.write(words->bytes);
+  if (std::holds_alternative<SetSurface>(act)) set_surfaces(surfaces_ + 1);
   by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
   return by_hand_until_ - now;
 }

@@ -25,6 +25,18 @@ std::vector<Job*> places(std::vector<Job>& jobs, const Job& moved, Overtaken ove
 
 }  // namespace
 
+void MillController::inherit(Job job) {
+  if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
+  const auto place = std::ranges::upper_bound(jobs_, job, is_before);
+  jobs_.insert(place, std::move(job));
+  show_left();
+}
+
+void MillController::inherit_left(const Job& last) {
+  left_ = left_by(last);
+  show_left();
+}
+
 Result<void> MillController::move_first(JobNumber number, Overtaken overtaken, std::string_view by, TimePoint now) {
   const Result<Job*> found = find(number);
   if (!found) return tl::unexpected(found.error());

@@ -52,7 +52,10 @@ Result<void> MillController::check_pausable(bool raise, TimePoint now) {
   const std::uint64_t written = running_->prepared->of_body(running_->sender.progress(now).written);
   const bool has_rest = written < part_end(**find(running_->number));
   if (running_->sender.state() != SenderState::finishing && (has_rest || !raise)) return {};
-  return fail(Reason::wrong_mode, "the last byte of the job has just been written", "`axisctl mill abort` ends it");
+  const bool last = is_last_part(**find(running_->number));
+  return fail(
+      Reason::wrong_mode, fmt::format("the last byte of the {} has just been written", last ? "job" : "part that runs"),
+      last ? "`axisctl mill abort` ends it" : "its tool goes up by itself, and the job then waits for the next");
 }
 
 Result<void> MillController::pause(bool raise, TimePoint now) {

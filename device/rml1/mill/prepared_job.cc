@@ -77,7 +77,10 @@ PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) con
 // A mill that shows how fast it is shows more than its profile knows. What comes may be moves of another kind, which no
 // mill makes faster than at full speed.
 TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured) {
-  if (!measured) return job.times().left(progress.executed_least, progress.executed_most);
+  if (!measured) {
+    const TimeRange left = job.times().left(progress.executed_least, progress.executed_most);
+    return {left.least, std::max(left.least, left.most)};  // behind a raise the slowest has executed what it was sent
+  }
   const auto takes = [&job](std::uint64_t executed, double pace) {
     return std::chrono::duration_cast<Duration>(
         std::chrono::duration<double>(job.timeline().slowest_after(executed) * pace));

@@ -117,6 +117,10 @@ void Sender::look_after_abort(TimePoint now) {
   }
 }
 
+bool Sender::abort_may_be_dropped() const {
+  return !settings_.flow_control && cutter_.begin() + abort_words(profile_, true).size() > settings_.buffer;
+}
+
 void Sender::advance(TimePoint now) {
   learn(now);
   if (state_ == SenderState::sending) send(now);

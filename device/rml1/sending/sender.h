@@ -60,6 +60,9 @@ class Sender {
   // Bytes of the job that the mill has executed even if its panel holds it: while the line is stopped, all that has
   // left the host but what the mill's buffer and a converter hold.
   std::uint64_t executed_for_certain(TimePoint now);
+  // Reports whether the mill's buffer may have been full when the abort came, so that the mill may have dropped it: its
+  // panel may have held it all the time. A mill with flow control stops its host while it still has room.
+  bool abort_may_be_dropped() const;
   // Of the mill, so far. Nothing with paced streaming, or where the line was not stopped for long enough.
   std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
 
