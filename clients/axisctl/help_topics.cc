@@ -183,7 +183,9 @@ administrators. A job that runs or was begun stays.
 After `mill pause --raise` the tool goes up behind what was sent, the spindle stops, and the job is PAUSED. It continues
 when it is confirmed and started again. A job is PAUSED_UNKNOWN after a broken line or a killed daemon: look at the
 workpiece, and name the line with which it continues: `mill resume JOB --from LINE`. Without --from the answer says where
-what was sent ends. The tool then goes up, above the place, and down.
+what was executed ends. The tool then goes up, above the place, and down. `mill send --rest-of JOB --from LINE` does the
+same with a job that was aborted, as a job of its own, and `mill again JOB` queues all of an ended job once more. With
+--continues a finishing is checked on the workpiece of a roughing that is DONE.
 
 While no job runs, `mill jog` moves the tool by a short step, `mill origin` sets Z0, `mill spindle` starts or stops the
 spindle, and `mill raise` raises the tool. The position of the tool is not known, so nothing checks where a step leads.
@@ -193,15 +195,13 @@ printf 'PU0,0;PD100,0;PU;\n' | axisctl mill check - --profile srm-20 --origin 10
 printf '^IN;PU0,0;PD100,0,100,100;PU;H;\n' | axisctl --json mill check - --profile srm-20
 printf '^IN;PU100,100;Z200,100,-50,100,200,-50;PU;\n' | axisctl mill preview - --profile mdx-40 -o job.svg
 printf '^IN;PU100,100;\nPD200,100;PU;\n' | axisctl mill preview - --profile mdx-40 --from 2 -o rest.svg
+axisctl mill raise
+axisctl mill abort
 printf '^IN;!PZ-50,200;PU100,100;PD200,100;PU;H;\n' | axisctl mill send - --title frame
 axisctl mill queue
 axisctl mill first 1
 axisctl mill confirm --yes
-axisctl mill start
-axisctl mill abort
-axisctl mill jog x=5 z=-0.5
-axisctl mill origin
-axisctl mill raise)"},
+axisctl mill start)"},
     {"units",
      R"(Amounts are decimals with a unit: pulse, nm, um, mm, deg. A bare number is in the unit of the axis, which the
 configuration names. A speed is an amount per second; the /s may be left out. Nothing is rounded: an amount that is not a

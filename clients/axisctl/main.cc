@@ -96,6 +96,7 @@ constexpr Row kRows[] = {
     {Verb::mill_origin, mill_origin},
     {Verb::mill_spindle, mill_spindle},
     {Verb::mill_raise, mill_raise},
+    {Verb::mill_again, mill_again},
 };
 
 constexpr bool in_order() {
@@ -104,7 +105,7 @@ constexpr bool in_order() {
   }
   return true;
 }
-static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_raise) + 1);
+static_assert(in_order() && std::size(kRows) == static_cast<std::size_t>(Verb::mill_again) + 1);
 
 int run(const Options& options) {
   const Row& row = kRows[static_cast<std::size_t>(options.verb)];

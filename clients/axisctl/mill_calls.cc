@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/mill_times.h"
 #include "clients/axisctl/print.h"
@@ -28,13 +30,31 @@ v1::Mill mill_now(const Session& session, const std::string& device) {
       .mill();
 }
 
-std::string wanted_job(const Session& session, const v1::Mill& mill) {
+namespace {
+
+// Empty: there is none, and no number was typed.
+template <class Wanted>
+std::string typed_or_first(const Session& session, const v1::Mill& mill, Wanted wanted) {
   if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);
-  for (const v1::Job& job : mill.jobs()) {
-    if (waits(job)) return job.name();
-  }
+  const auto found = std::ranges::find_if(mill.jobs(), wanted);
+  return found == mill.jobs().end() ? "" : found->name();
+}
+
+}  // namespace
+
+std::string wanted_job(const Session& session, const v1::Mill& mill) {
+  const std::string job = typed_or_first(session, mill, waits);
+  if (!job.empty()) return job;
   throw Failure{kRefused, "NOT_FOUND", fmt::format("no job waits at {}", last_part(mill.name())),
                 "send one with `axisctl mill send`"};
+}
+
+std::string fed_job(const Session& session, const v1::Mill& mill) {
+  const auto is_fed = [](const v1::Job& one) { return one.state() == v1::JOB_STATE_FED; };
+  const std::string job = typed_or_first(session, mill, is_fed);
+  if (!job.empty()) return job;
+  throw Failure{kRefused, "NOT_FOUND", fmt::format("no job of {} is FED", last_part(mill.name())),
+                "`axisctl mill queue` shows what its jobs wait for"};
 }
 
 }  // namespace axisgate::axisctl

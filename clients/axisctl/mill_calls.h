@@ -19,5 +19,7 @@ v1::Mill mill_now(const Session& session, const std::string& device);
 // "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits, is confirmed, is in a
 // tool change, or is PAUSED.
 std::string wanted_job(const Session& session, const v1::Mill& mill);
+// The same, without a number of the job that is FED.
+std::string fed_job(const Session& session, const v1::Mill& mill);
 
 }  // namespace axisgate::axisctl

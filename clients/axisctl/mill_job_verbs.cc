@@ -128,7 +128,9 @@ int mill_first(const Session& session) {
 }
 
 int mill_done(const Session& session) {
-  const auto request = job_request<v1::ReportJobDoneRequest>(session);
+  v1::ReportJobDoneRequest request;
+  request.set_job(fed_job(session, mill_now(session, mill_to_change(session))));
+  *request.mutable_context() = session.connection.new_call_context();
   const auto response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ReportJobDone, request, kQuestionLimit);
   return report_answer(session, response, fmt::format("job {} is DONE", last_part(request.job())));

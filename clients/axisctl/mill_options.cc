@@ -16,14 +16,20 @@ void add_checks(CLI::App& mill, Options& options) {
     verb->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
     verb->add_option("--profile", options.mill.profile, "the machine: a name, e.g. mdx-20, or the file of a profile")
         ->type_name("PROFILE");
-    verb->add_option("--origin", options.mill.origin,
-                     "the work origin in mm: X and Y from the home corner, and how far Z0 is below the top")
-        ->type_name("X,Y,Z");
+    verb->add_option(
+            "--origin", options.mill.origin,
+            "the work origin in mm: X and Y from the home corner, and how far Z0 is below the top; or the name "
+            "of one that the daemon has configured")
+        ->type_name("X,Y,Z|NAME");
     verb->add_option("--stock", options.mill.stock, "the workpiece in mm, from the work origin, and its thickness")
         ->type_name("X,Y,Z");
     verb->add_option("--tool", options.mill.tool_mm, "the diameter of the tool in mm: says how much is removed")
         ->type_name("MM");
   }
+  check
+      ->add_option("--made-for", options.mill.made_for,
+                   "the profile that the job was made for: warns where it is another one (default: judged by the job)")
+      ->type_name("NAME");
   preview
       ->add_option("--from", options.mill.from,
                    "draw what remains from a line, or line and column, on; what comes before is pale. Of a range, what "
@@ -44,7 +50,6 @@ void add_send(CLI::App& mill, Options& options) {
   CLI::App* send = add_job_verb(mill, options, Verb::mill_send, "send", "check a job and send it into the queue");
   send->add_option("FILE", job.files,
                    "the job; - reads the standard input; of several files the tool is changed between")
-      ->required()
       ->type_name("");
   send->add_option("--tool", job.tools,
                    "a tool of the configuration (default: its first); of several files one for each, e.g. T1,T3")
@@ -68,6 +73,24 @@ void add_send(CLI::App& mill, Options& options) {
   send->add_option("--title", job.title, "what the queue shows (default: the name of the file)")->type_name("TEXT");
   send->add_option("--accept", job.accepted,
                    "warnings of the check that do not keep the job from the queue, e.g. deep-pass,outside-stock")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  send->add_option("--continues", job.continues,
+                   "a job that is DONE, whose workpiece this one continues: the check knows what it has removed")
+      ->type_name("JOB");
+  CLI::Option* rest = send->add_option(
+      "--rest-of", job.rest_of, "instead of a file: what is left of a job that was aborted, as a job of its own");
+  rest->type_name("JOB");
+  send->add_option("--from", job.from, "the line of that job's file, or line and column, with which its rest begins")
+      ->needs(rest)
+      ->type_name("LINE[:COLUMN]");
+  CLI::App* again =
+      add_job_verb(mill, options, Verb::mill_again, "again", "queue a job that has ended once more, as a new job");
+  again->add_option("JOB", job.number, "its number")->required()->type_name("");
+  again
+      ->add_option("--accept", job.accepted,
+                   "warnings that the check finds now, beside those that were accepted for it")
       ->delimiter(',')
       ->allow_extra_args(false)
       ->type_name("NAME");
@@ -151,8 +174,7 @@ void add_mill_verbs(CLI::App& app, Options& options) {
              "its number")
       ->required();
   add_number(*add_job_verb(*mill, options, Verb::mill_done, "done", "say that the workpiece of a job was seen"),
-             options, "its number")
-      ->required();
+             options, "its number (default: the one that is FED)");
   add_hand_verbs(*mill, options);
 }
 

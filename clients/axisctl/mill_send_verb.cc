@@ -59,6 +59,8 @@ void set_stock(const std::string& text, v1::Stock& into) {
 
 int mill_send(const Session& session) {
   const JobOptions& job = session.options.job;
+  if (job.rest_of) return mill_send_rest(session);
+  if (job.files.empty()) throw usage("FILE is required", "name the file of a job, or --rest-of an ended one");
   check_tools(job);
   for (const std::string& file : job.files) check_job_file(file);
   const std::string device = mill_to_change(session);
@@ -80,6 +82,7 @@ int mill_send(const Session& session) {
   header.set_origin(job.origin);
   if (job.stock) set_stock(*job.stock, *header.mutable_stock());
   header.set_made_for(job.made_for);
+  if (job.continues) header.set_continues(fmt::format("{}/jobs/{}", device, *job.continues));
   if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
   if (header.parts().empty()) header.set_tool(tool_of(job, mill));
   for (const std::string& name : job.accepted) header.add_accepted_warnings(name);

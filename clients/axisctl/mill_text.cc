@@ -140,10 +140,20 @@ std::string end_text(const v1::JobPlaceRange& range) {
   return least == most ? fmt::format("ends at {}", least) : fmt::format("ends between {} and {}", least, most);
 }
 
-std::string beginning_cell(const std::optional<TimeRange>& earliest) {
+// "in 2 min 0 s to 4 min 30 s", "now", "when job 3 is done". `held_by`: a job before it whose end a person must tell;
+// null: none.
+std::string beginning_cell(const std::optional<TimeRange>& earliest, const v1::Job* held_by) {
   if (!earliest) return "-";
   const std::string range = duration_range_text(*earliest);
-  return range == "0 s" ? "now" : "in " + range;
+  if (range != "0 s") return "in " + range;
+  return held_by == nullptr ? "now" : fmt::format("when job {} is done", last_part(held_by->name()));
+}
+
+const v1::Job* held_by(const v1::Mill& mill) {
+  const auto found = std::ranges::find_if(mill.jobs(), [](const v1::Job& job) {
+    return job.state() == v1::JOB_STATE_FED || job.state() == v1::JOB_STATE_PAUSED_UNKNOWN;
+  });
+  return found == mill.jobs().end() ? nullptr : &*found;
 }
 
 // "38.0 x 30.0 mm, 1.70 mm deep"
@@ -162,7 +172,7 @@ std::string reach_text(const v1::JobExtent& extent) {
   return fmt::format("{}, {}, {} mm", text("X", extent.x(), 1), text("Y", extent.y(), 1), text("Z", extent.z(), 2));
 }
 
-std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeRange>& earliest) {
+std::vector<std::string> job_cells(const v1::Job& job, const std::string& begins) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
           on_one_line(job.owner()),
@@ -171,7 +181,7 @@ std::vector<std::string> job_cells(const v1::Job& job, const std::optional<TimeR
           named_or(job.setup().origin(), "panel"),
           job.has_extent() ? size_text(job.extent()) : "-",
           takes_text(job),
-          beginning_cell(earliest),
+          begins,
           job.state() == v1::JOB_STATE_CONFIRMED ? confirmation_text(job) : "-"};
 }
 
@@ -180,6 +190,13 @@ std::string running_line(const v1::Mill& mill) {
   if (job == nullptr) return fmt::format("job {} runs", last_part(mill.running().job()));
   const std::string text = fmt::format("{} {}", job_text(*job), progress_text(*job, mill.running()));
   return mill.running().busy() ? fmt::format("{}; {}", text, kBusyText) : text;
+}
+
+// ", from line 12 on, on the workpiece of job 3"
+std::string after_text(const v1::Job& job) {
+  const std::string from = job.setup().has_from() ? fmt::format(", from line {} on", job.setup().from().line()) : "";
+  return job.continues().empty() ? from
+                                 : fmt::format("{}, on the workpiece of job {}", from, last_part(job.continues()));
 }
 
 bool is_shipped(const std::string& profile) {
@@ -201,7 +218,8 @@ std::string job_text(const v1::Job& job) {
 std::string state_text(const v1::Job& job) {
   const std::string run_on = job.has_run_on() ? "; " + run_on_text(job.run_on()) : "";
   const std::string size = job.has_extent() ? "; " + size_text(job.extent()) : "";
-  return fmt::format("{} {}; takes {}{}{}", job_text(job), name_of(job.state()), takes_text(job), size, run_on);
+  return fmt::format("{} {}{}; takes {}{}{}", job_text(job), name_of(job.state()), after_text(job), takes_text(job),
+                     size, run_on);
 }
 
 std::string change_text(const v1::JobChange& change) {
@@ -304,7 +322,9 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
   std::vector<std::vector<std::string>> rows{
       {"job", "title", "owner", "state", "tool", "origin", "size", "takes", "begins at the earliest", "confirmed"}};
   const std::vector<std::optional<TimeRange>> beginnings = earliest_beginnings(mill);
-  for (int i = 0; i < mill.jobs_size(); ++i) rows.push_back(job_cells(mill.jobs(i), beginnings[i]));
+  for (int i = 0; i < mill.jobs_size(); ++i) {
+    rows.push_back(job_cells(mill.jobs(i), beginning_cell(beginnings[i], held_by(mill))));
+  }
   for (const std::string& line : table_lines(rows)) lines.push_back(line);
   return lines;
 }
@@ -352,6 +372,8 @@ std::vector<std::string> setup_lines(const v1::Job& job) {
   for (const std::string& name : job.accepted_warnings()) lines.push_back("  accepted  " + on_one_line(name));
   if (job.has_run_on()) lines.push_back("  abort     " + run_on_text(job.run_on()));
   if (setup.has_from()) lines.push_back("  continues at " + place_text(setup.from()));
+  if (!job.continues().empty())
+    lines.push_back(fmt::format("  continues the workpiece of job {}", last_part(job.continues())));
   for (const std::string& left : setup.left()) lines.push_back("  before    " + on_one_line(left));
   return lines;
 }

@@ -13,6 +13,7 @@
 #include <memory>
 #include <vector>
 
+#include "clients/axisctl/configured_origin.h"
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/job_places.h"
 #include "clients/axisctl/lengths.h"
@@ -20,6 +21,8 @@
 #include "clients/axisctl/mill_report.h"
 #include "clients/axisctl/print.h"
 #include "device/rml1/picture.h"
+#include "device/rml1/profile_files.h"
+#include "server/config/name.h"
 
 namespace axisgate::axisctl {
 namespace {
@@ -29,11 +32,24 @@ using namespace rml1;
 constexpr std::size_t kPiece = 1 << 16;
 constexpr double kThinnest = 0.1, kThickest = 100;  // tools, mm
 
-CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
+// Returns the name of the machine that has the profile. Empty: it is judged by the job.
+std::string made_for(const std::string& profile) { return profile.empty() ? "" : mill_profile(profile).name; }
+
+// "10,10,5" is a place; "vice" is the name of one.
+Origin origin_of(const Options& options) {
+  const std::string& text = *options.mill.origin;
+  if (server::is_name(text)) return configured_origin(options, text);
+  const Point p = lengths(text, "--origin");
+  return {p.x, p.y, p.z};
+}
+
+CheckOptions check_options(const Options& all, const Profile& profile) {
+  const MillOptions& asked = all.mill;
   CheckOptions options;
   options.others = rml1::known_machines();
+  options.made_for = made_for(asked.made_for);
   if (asked.origin) {
-    const Point p = lengths(*asked.origin, "--origin");
+    const Origin p = origin_of(all);
     if (p.z < 0 || p.z > profile.z_mm) {
       throw usage(fmt::format("--origin has Z0 {} mm below the top", p.z),
                   fmt::format("Z travels {} mm on the {}: use 0 to {}", profile.z_mm, profile.name, profile.z_mm));
@@ -44,7 +60,7 @@ CheckOptions check_options(const MillOptions& asked, const Profile& profile) {
                       "begins at its edge",
                       profile.name, profile.x_mm, profile.y_mm));
     }
-    options.origin = Origin{p.x, p.y, p.z};
+    options.origin = p;
   }
   if (asked.stock) options.stock = stock_of(*asked.stock);
   if (asked.tool_mm && !(*asked.tool_mm >= kThinnest && *asked.tool_mm <= kThickest)) {
@@ -83,7 +99,7 @@ bool write_text(const std::string& file, const std::string& text) {
 
 int mill_check(const Options& options) {
   const Profile profile = mill_profile(options.mill.profile);
-  const CheckOptions asked = check_options(options.mill, profile);
+  const CheckOptions asked = check_options(options, profile);
   Check check(profile, asked);
   read_job(options.mill.file, check);
   if (options.json) {
@@ -101,7 +117,7 @@ int mill_preview(const Options& options) {
   const bool svg = ending == ".svg";
   if (!svg && ending != ".png") throw usage(output + " is not a picture", "name a file that ends in .svg or .png");
   const Profile profile = mill_profile(options.mill.profile);
-  const CheckOptions asked = check_options(options.mill, profile);
+  const CheckOptions asked = check_options(options, profile);
   Strokes strokes(options.mill.from ? job_range(*options.mill.from) : PlaceRange());
   Check check(profile, asked, &strokes);
   read_job(options.mill.file, check);

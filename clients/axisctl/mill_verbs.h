@@ -1,4 +1,5 @@
-// The verbs of `axisctl mill` that ask no daemon. Each returns its exit code or throws Failure.
+// The verbs of `axisctl mill` that ask the daemon for the name of an origin at most. Each returns its exit code or
+// throws Failure.
 #pragma once
 
 #include "clients/axisctl/options.h"

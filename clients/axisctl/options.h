@@ -86,7 +86,8 @@ enum class Verb {
   mill_jog,
   mill_origin,
   mill_spindle,
-  mill_raise
+  mill_raise,
+  mill_again
 };
 
 // The way to the daemon.
@@ -102,31 +103,34 @@ struct Target {
 struct MillOptions {
   std::string file;                   // the job; "-" is the standard input
   std::string profile;                // a shipped one's name, or a file
-  std::optional<std::string> origin;  // "10,10,5", mm
+  std::optional<std::string> origin;  // "10,10,5", mm, or the name of a configured one
   std::optional<std::string> stock;   // the same
   std::optional<double> tool_mm;      // its diameter
+  std::string made_for;               // check: a profile's name; empty: it is judged by the job
   std::string output;                 // preview: the picture
   std::optional<std::string> from;    // preview: "8:1-13:1", as job_range()
 };
 
 // Of the verbs that call a mill.
 struct JobOptions {
-  std::string title;                    // send; empty: the last part of the file's name
-  std::string origin;                   // send: a configured one; empty: as it is set at the panel
-  std::vector<std::string> files;       // send: "-" is the standard input
-  std::vector<std::string> tools;       // send: configured ones, one for each file; none: the first, of one file
-  std::optional<std::string> stock;     // send: "80,50,10", mm
-  std::string made_for;                 // send: a profile's name; empty: it is judged by the job
-  std::string streaming;                // send: "paced", "full"; empty: as the mill has it
-  std::vector<std::string> accepted;    // send: names of warnings
-  std::optional<std::uint64_t> number;  // of the job; none: the first that waits
-  bool start = false;                   // confirm: start it, too
-  std::vector<std::string> distances;   // jog: "x=5", mm
-  std::optional<double> mm_per_s;       // jog
-  std::optional<std::int64_t> z;        // origin: a machine coordinate, in steps
-  std::string spindle;                  // "on", "off"
-  bool raise = false;                   // pause: the tool, and stop the spindle
-  std::optional<std::string> from;      // resume: "12", "12:40"; a line, and a column
+  std::string title;                       // send; empty: the last part of the file's name
+  std::string origin;                      // send: a configured one; empty: as it is set at the panel
+  std::vector<std::string> files;          // send: "-" is the standard input
+  std::vector<std::string> tools;          // send: configured ones, one for each file; none: the first, of one file
+  std::optional<std::string> stock;        // send: "80,50,10", mm
+  std::string made_for;                    // send: a profile's name; empty: it is judged by the job
+  std::string streaming;                   // send: "paced", "full"; empty: as the mill has it
+  std::vector<std::string> accepted;       // send: names of warnings
+  std::optional<std::uint64_t> continues;  // send: the number of the job whose workpiece it continues
+  std::optional<std::uint64_t> rest_of;    // send: the number of the job whose rest is sent
+  std::optional<std::uint64_t> number;     // of the job; none: the first that waits
+  bool start = false;                      // confirm: start it, too
+  std::vector<std::string> distances;      // jog: "x=5", mm
+  std::optional<double> mm_per_s;          // jog
+  std::optional<std::int64_t> z;           // origin: a machine coordinate, in steps
+  std::string spindle;                     // "on", "off"
+  bool raise = false;                      // pause: the tool, and stop the spindle
+  std::optional<std::string> from;         // resume, send: "12", "12:40"; a line, and a column
 };
 
 struct Options {

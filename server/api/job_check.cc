@@ -34,13 +34,16 @@ Result<void> check_warning_names(const std::vector<std::string>& names) {
 }
 
 JobCheck::JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
-                   const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted)
+                   const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted, JobPast before)
     : profile_(profile),
       options_(std::move(options)),
       buffer_(buffer),
       parts_(parts),
       accepted_(accepted),
-      check_(std::make_unique<rml1::Check>(profile_, options_)) {}
+      accepted_before_(std::move(before.accepted)),
+      check_(std::make_unique<rml1::Check>(profile_, options_)) {
+  if (before.workpiece != nullptr) check_->continues(*before.workpiece);
+}
 
 Result<void> JobCheck::feed(std::string_view bytes) {
   while (!bytes.empty()) {
@@ -121,11 +124,16 @@ void JobCheck::take_warnings() {
   }
 }
 
+bool JobCheck::is_accepted(rml1::Warning warning) const {
+  return std::ranges::find(accepted_, rml1::name(warning)) != accepted_.end() ||
+         std::ranges::find(accepted_before_, warning) != accepted_before_.end();
+}
+
 // All that keeps the job out is said at once: otherwise a person would correct and send it once for each kind.
 Result<void> JobCheck::judge_warnings() {
   std::vector<std::string> refused, names, unused;
   for (const auto& [warning, found] : warnings_) {
-    if (std::ranges::find(accepted_, rml1::name(warning)) != accepted_.end()) {
+    if (is_accepted(warning)) {
       checked_.accepted.push_back(warning);
       continue;
     }

@@ -29,6 +29,12 @@ struct CheckedJob {
   std::vector<rml1::Warning> accepted;  // in their order; each occurs in the job
 };
 
+// What came before a job that is checked.
+struct JobPast {
+  std::vector<rml1::Warning> accepted{};  // when it was sent first; it may no longer have them
+  rml1::Check* workpiece = nullptr;       // has played the jobs that have cut its workpiece; null: that is new
+};
+
 // invalid_request, where the mill of that name has no such tool, or there are too many parts, or one without bytes.
 Result<void> check_parts(const std::vector<PartToSend>& parts, const std::vector<std::string>& tools,
                          std::string_view mill);
@@ -41,9 +47,10 @@ Result<void> check_warning_names(const std::vector<std::string>& names);
 // finish() also refuses all kinds of warnings that are not accepted, and accepted kinds that the job does not have.
 class JobCheck {
  public:
-  // All outlive this. `buffer`: of the mill, in bytes. `parts`: at least one. `accepted`: names of warnings.
+  // All outlive this, but for what `before` refers to, which outlives the first feed(). `buffer`: of the mill, in
+  // bytes. `parts`: at least one. `accepted`: names of warnings.
   JobCheck(const rml1::Profile& profile, rml1::CheckOptions options, std::size_t buffer,
-           const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted);
+           const std::vector<PartToSend>& parts, const std::vector<std::string>& accepted, JobPast before = {});
 
   Result<void> feed(std::string_view bytes);
   Result<CheckedJob> finish();
@@ -60,6 +67,7 @@ class JobCheck {
   Result<void> finish_part();
   Result<void> judge_errors() const;
   void take_warnings();
+  bool is_accepted(rml1::Warning warning) const;
   Result<void> judge_warnings();
   Result<void> check_pieces() const;
   std::string place_text(const rml1::Place& place) const;
@@ -70,6 +78,7 @@ class JobCheck {
   const std::size_t buffer_;
   const std::vector<PartToSend>& parts_;
   const std::vector<std::string>& accepted_;
+  const std::vector<rml1::Warning> accepted_before_;
   std::unique_ptr<rml1::Check> check_;  // of part(); null: all parts have come
   std::map<rml1::Warning, Found> warnings_;
   rml1::LongestPiece pieces_;  // of part()

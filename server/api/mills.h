@@ -11,28 +11,16 @@
 #include <vector>
 
 #include "device/core/problem.h"
-#include "device/rml1/check.h"
 #include "device/rml1/mill/mill_controller.h"
 #include "server/api/call.h"
 #include "server/api/fair_worker.h"
-#include "server/api/job_check.h"
+#include "server/api/job_upload.h"
 #include "server/api/pipeline.h"
 #include "server/api/subscription.h"
 #include "server/devices/mill.h"
 #include "server/gateway.h"
-#include "server/spool/spool.h"
 
 namespace axisgate::api {
-
-using MillPipeline = PipelineOf<server::Mill>;
-
-// A job as it is now.
-struct CurrentJob {
-  const server::Mill* mill = nullptr;  // never null
-  rml1::Job job;
-  server::Moment clock;                 // by which its times are shown
-  std::optional<rml1::RunOn> run_on{};  // of one that runs
-};
 
 // What runs; nothing: no job.
 struct CurrentRun {
@@ -47,16 +35,6 @@ struct MillState {
   std::shared_ptr<const server::MillNow> now;  // never null
 };
 
-// What is said of a job before its bytes come.
-struct JobToSend {
-  std::string title, origin;
-  std::vector<PartToSend> parts;
-  std::vector<std::string> accepted_warnings;  // names of rml1::Warning
-  std::optional<rml1::Streaming> streaming{};  // none: as the mill has it
-  std::optional<rml1::Stock> stock{};
-  std::string made_for{};  // the name of a profile; empty: it is judged by the job
-};
-
 // In the order of the queue; not empty.
 struct CancelledJobs {
   const server::Mill* mill = nullptr;  // never null
@@ -68,28 +46,11 @@ struct LineToChoose {
   std::uint64_t line = 0, column = 1;
 };
 
-// A job whose bytes come. One thread at a time. Destroyed before finish(): nothing is left of it.
-class JobUpload {
- public:
-  JobUpload(const Call& call, const MillPipeline::Admitted& admitted, const MillPipeline& pipeline, FairWorker& worker,
-            JobToSend job, const rml1::CheckOptions& options, std::unique_ptr<server::spool::Upload> spooled);
-
-  // queue_full, where the spool has no room for more; what JobCheck::feed() refuses.
-  Result<void> append(std::string_view bytes);
-  // `digest`: of the whole request. What JobCheck::finish() refuses. What `answer` holds outlives this.
-  void finish(std::string digest, const Answer<CurrentJob>& answer);
-
- private:
-  void keep(std::string digest, const Answer<CurrentJob>& answer);
-
-  Call call_;
-  server::Mill& mill_;
-  const MillPipeline& pipeline_;
-  const std::string identity_;
-  FairWorker& worker_;
-  const JobToSend job_;
-  const std::unique_ptr<server::spool::Upload> spooled_;
-  JobCheck check_;
+// How a job that has ended is queued once more.
+struct JobToRepeat {
+  bool rest = false;                           // from a line of it on
+  LineToChoose from;                           // of the rest
+  std::vector<std::string> accepted_warnings;  // beside those that were accepted for it
 };
 
 // deadline_passed. While a request was posted or waited for the journal, its caller may have left.
@@ -107,9 +68,11 @@ class Mills {
   ~Mills() { worker_->join(); }
 
   // invalid_request, where there is no such tool, origin or profile, or no warning of a name, there are too many parts,
-  // or the line cannot stream so;
+  // or the line cannot stream so; what check_same_workpiece() refuses;
   // queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
+  // Also what server::ended_job(), server::chosen_rest() and JobUpload::finish() refuse; wrong_mode: it has no rest.
+  void repeat(const Call& call, std::string_view job, JobToRepeat how, Answer<CurrentJob> answer) const;
 
   void get(const Call& call, std::string_view device, Answer<MillState> answer) const;
   // The mill whenever it has changed.
@@ -133,6 +96,11 @@ class Mills {
   void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
 
  private:
+  Result<std::unique_ptr<JobUpload>> begin_upload(RequestKind kind, const Call& call,
+                                                  const MillPipeline::Admitted& admitted, JobToSend job,
+                                                  JobsBefore before) const;
+  Result<std::shared_ptr<JobUpload>> begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
+                                                  rml1::JobNumber number, const JobToRepeat& how) const;
   using JobAct = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
   void act_on_job(RequestKind kind, const Call& call, std::string_view job, JobAct act,
                   Answer<CurrentJob> answer) const;

@@ -60,6 +60,7 @@ constexpr std::array<Rule, kRequestKinds> kRules = {{
     {Kind::watch_motion,       "watch motion",         Role::observer,  Kept::none,         Quota::outcome, Patience::question, Use::nothing,   false},
     {Kind::cancel_motion,      "cancel motion",        Role::operator_, Kept::none,         Quota::request, Patience::stop,     Use::nothing,   false},
     {Kind::send_job,          "send job",            Role::operator_, Kept::none,         Quota::stream,  Patience::change,   Use::nothing,   true},
+    {Kind::repeat_job,        "repeat job",          Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},
     {Kind::get_mill,          "get mill",            Role::observer,  Kept::none,         Quota::request, Patience::question, Use::nothing,   false},
     {Kind::watch_mill,        "watch mill",          Role::observer,  Kept::none,         Quota::stream,  Patience::question, Use::nothing,   false},
     {Kind::confirm_job,       "confirm job",         Role::operator_, Kept::none,         Quota::request, Patience::change,   Use::nothing,   true},

@@ -58,6 +58,7 @@ enum class RequestKind {
   watch_motion,
   cancel_motion,
   send_job,
+  repeat_job,
   get_mill,
   watch_mill,
   confirm_job,

@@ -12,7 +12,7 @@ using MethodKind = std::pair<std::string_view, Kind>;
 
 constexpr std::string_view kApi = "/axisgate.v1.";
 
-constexpr std::array<MethodKind, 61> kKinds = {{
+constexpr std::array<MethodKind, 62> kKinds = {{
     {"AccessService/GetCaller", Kind::get_caller},
     {"AccessService/CreateToken", Kind::create_token},
     {"AccessService/ListTokens", Kind::list_tokens},
@@ -39,6 +39,7 @@ constexpr std::array<MethodKind, 61> kKinds = {{
     {"HistoryService/VerifyJournal", Kind::verify_journal},
     {"HistoryService/ErasePerson", Kind::erase_person},
     {"MillService/SendJob", Kind::send_job},
+    {"MillService/RepeatJob", Kind::repeat_job},
     {"MillService/GetMill", Kind::get_mill},
     {"MillService/WatchMill", Kind::watch_mill},
     {"MillService/ConfirmJob", Kind::confirm_job},

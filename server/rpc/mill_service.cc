@@ -89,13 +89,18 @@ grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* co
   return call.get();
 }
 
+grpc::ServerUnaryReactor* MillService::RepeatJob(grpc::CallbackServerContext* context,
+                                                 const v1::RepeatJobRequest* request, v1::RepeatJobResponse* response) {
+  const auto call = UnaryCall<v1::RepeatJobResponse>::start(response);
+  mills_.repeat(to_acting_call(*context, *request), request->job(), to_repeat(*request), answering_with_job(call));
+  return call.get();
+}
+
 grpc::ServerUnaryReactor* MillService::ContinueJob(grpc::CallbackServerContext* context,
                                                    const v1::ContinueJobRequest* request,
                                                    v1::ContinueJobResponse* response) {
   const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
-  const auto number = [](std::int64_t value) { return static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0)); };
-  mills_.choose_rest(to_acting_call(*context, *request), request->job(),
-                     {number(request->line()), std::max<std::uint64_t>(number(request->column()), 1)},
+  mills_.choose_rest(to_acting_call(*context, *request), request->job(), to_line(request->line(), request->column()),
                      answering_with_job(call));
   return call.get();
 }

@@ -28,6 +28,8 @@ class MillService final : public v1::MillService::CallbackService {
                                      v1::PauseJobResponse* response) override;
   grpc::ServerUnaryReactor* ResumeJob(grpc::CallbackServerContext* context, const v1::ResumeJobRequest* request,
                                       v1::ResumeJobResponse* response) override;
+  grpc::ServerUnaryReactor* RepeatJob(grpc::CallbackServerContext* context, const v1::RepeatJobRequest* request,
+                                      v1::RepeatJobResponse* response) override;
   grpc::ServerUnaryReactor* ContinueJob(grpc::CallbackServerContext* context, const v1::ContinueJobRequest* request,
                                         v1::ContinueJobResponse* response) override;
   grpc::ServerUnaryReactor* CancelJob(grpc::CallbackServerContext* context, const v1::CancelJobRequest* request,

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "server/api/names.h"
+#include "server/devices/spooled_jobs.h"
 #include "server/rpc/amounts.h"
 #include "server/rpc/to_proto.h"
 
@@ -131,6 +132,7 @@ v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Mome
     proto.set_sent_most(static_cast<std::int64_t>(job.written->most));
   }
   if (job.executed) *proto.mutable_executed() = to_proto(*job.executed);
+  if (job.continues != 0) proto.set_continues(api::job_name(mill, job.continues));
   if (job.stock) {
     proto.mutable_stock()->set_x_mm(job.stock->x);
     proto.mutable_stock()->set_y_mm(job.stock->y);
@@ -195,7 +197,14 @@ v1::Mill to_proto(const api::MillState& state) {
   if (state.now->ended)
     *proto.mutable_ended() = to_proto(api::CurrentJob{state.mill, *state.now->ended, state.now->clock});
   for (const std::string& tool : config.tools) proto.add_tools(tool);
-  for (const server::NamedOrigin& origin : config.origins) proto.add_origins(origin.name);
+  for (const server::NamedOrigin& origin : config.origins) {
+    proto.add_origins(origin.name);
+    const rml1::Origin place = server::origin_of(origin, config.profile);
+    v1::OriginPlace& shown = *proto.add_origin_places();
+    shown.set_x_mm(place.x);
+    shown.set_y_mm(place.y);
+    shown.set_z_mm(place.z);
+  }
   proto.set_job_bytes_at_most(state.mill->spool().job_bytes_at_most());
   return proto;
 }
@@ -244,10 +253,22 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request) 
   return fail(Reason::invalid_request, "the request names no act", "set step, surface, spindle or raise");
 }
 
+api::LineToChoose to_line(std::int64_t line, std::int64_t column) {
+  const auto number = [](std::int64_t value) { return static_cast<std::uint64_t>(std::max<std::int64_t>(value, 0)); };
+  return {number(line), std::max<std::uint64_t>(number(column), 1)};
+}
+
+api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request) {
+  return {request.rest(),
+          to_line(request.line(), request.column()),
+          {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
+}
+
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   api::JobToSend job{
       request.title(), request.origin(), {}, {request.accepted_warnings().begin(), request.accepted_warnings().end()}};
   job.made_for = request.made_for();
+  job.continues = request.continues();
   if (request.has_stock()) {
     const v1::Stock& stock = request.stock();
     job.stock = rml1::Stock{stock.x_mm(), stock.y_mm(), stock.z_mm()};

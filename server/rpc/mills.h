@@ -1,6 +1,7 @@
 // Mills and their jobs, as callers read them.
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 
 #include "axisgate/v1/device.pb.h"
@@ -29,5 +30,8 @@ Result<api::HandRequest> to_hand_request(const v1::OperateMillRequest& request);
 // Of the first message of a job. invalid_request, where it has both a tool and parts, an unknown streaming, or a
 // workpiece without size.
 Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
+// 0 is no line, and the first column.
+api::LineToChoose to_line(std::int64_t line, std::int64_t column);
+api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request);
 
 }  // namespace axisgate::rpc

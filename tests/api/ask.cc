@@ -131,6 +131,8 @@ Reason ask_mills(World& world, RequestKind kind, const Call& call) {
   switch (kind) {
     case RequestKind::send_job:
       return reason_of(mills.send(call, kDevice, {}));
+    case RequestKind::repeat_job:
+      return answer_of<CurrentJob>(with(&Mills::repeat), call, kJob, JobToRepeat());
     case RequestKind::get_mill:
       return answer_of<MillState>(with(&Mills::get), call, kDevice);
     case RequestKind::confirm_job:

@@ -16,11 +16,12 @@ using testing::HasSubstr;
 
 constexpr std::size_t kBuffer = 1024;
 
-Result<CheckedJob> check(const std::vector<std::string>& files, const std::vector<std::string>& accepted = {}) {
+Result<CheckedJob> check(const std::vector<std::string>& files, const std::vector<std::string>& accepted = {},
+                         JobPast before = {}) {
   const auto profile = rml1::load_profile(AXISGATE_SOURCE_DIR "/deploy/mills/mdx-540.toml");
   std::vector<PartToSend> parts;
   for (const std::string& file : files) parts.push_back({"T1", file.size()});
-  JobCheck job(*profile, {}, kBuffer, parts, accepted);
+  JobCheck job(*profile, {}, kBuffer, parts, accepted, std::move(before));
   for (const std::string& file : files) {
     if (const Result<void> fed = job.feed(file); !fed) return tl::unexpected(fed.error());
   }
@@ -55,6 +56,26 @@ TEST(AJobCheck, HasNoLimitForWhatIsCut) {
 
 // Two kinds: 11 mm in one pass, and the end in the cut.
 constexpr const char* kDeepAndDown = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\n";
+
+TEST(AJobCheck, KnowsWhatWasAcceptedBefore) {
+  const auto again = check({kDeepAndDown}, {}, {{rml1::Warning::deep_pass, rml1::Warning::tool_left_down}});
+  ASSERT_TRUE(again) << again.error().message;
+  EXPECT_EQ(again->accepted.size(), 2u);
+  const auto without = check({"PA;!PZ-100,200;!MC1;PU0,0;PD1000,0;PU0,0;!MC0;"}, {}, {{rml1::Warning::drags_home}});
+  EXPECT_TRUE(without) << "what the job no longer has is no reason to refuse it: " << without.error().message;
+}
+
+// The same 11 mm, where a job before has taken the first 5.5 mm and another the rest.
+TEST(AJobCheck, KnowsWhatAnotherJobHasRemoved) {
+  const auto profile = rml1::load_profile(AXISGATE_SOURCE_DIR "/deploy/mills/mdx-540.toml");
+  constexpr const char* kDeep = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\nPU0,0;!MC0;";
+  ASSERT_FALSE(check({kDeep}));
+  rml1::Check first(*profile, {});
+  first.feed("PA;!PZ-550,200;!MC1;PU0,0;PD1000,0;PU0,0;!PZ-1100,200;PD1000,0;PU0,0;!MC0;");
+  first.finish();
+  const auto second = check({kDeep}, {}, {{}, &first});
+  EXPECT_TRUE(second) << second.error().message;
+}
 
 TEST(AJobCheck, RefusesAllKindsOfWarningsAtOnce) {
   const auto refused = check({kDeepAndDown});

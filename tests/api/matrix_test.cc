@@ -99,6 +99,8 @@ const std::vector<Row> kRows = {
     // The device is no mill.
     {Kind::send_job, "send_job", Role::operator_, "stream", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
+    {Kind::repeat_job, "repeat_job", Role::operator_, "request", Asks::nothing, Reason::invalid_request,
+     Reason::invalid_request},
     {Kind::get_mill, "get_mill", Role::observer, "request", Asks::nothing, Reason::invalid_request,
      Reason::invalid_request},
     {Kind::watch_mill, "watch_mill", Role::observer, "stream", Asks::nothing, Reason::invalid_request,

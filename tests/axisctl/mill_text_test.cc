@@ -327,7 +327,10 @@ TEST(MillQueue, WhereAJobContinues) {
   job.set_state(v1::JOB_STATE_PAUSED_UNKNOWN);
   EXPECT_THAT(queue_lines(mill)[3], HasSubstr("unix anna  PAUSED_UNKNOWN  T1")) << "that was before the line broke";
   job.set_state(v1::JOB_STATE_PAUSED);
-  EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED; takes 10 min 0 s to 16 min 40 s");
+  EXPECT_EQ(state_text(job), "job 7 (frame.rml) PAUSED, from line 8 on; takes 10 min 0 s to 16 min 40 s");
+  job.set_continues("devices/mill/jobs/3");
+  EXPECT_EQ(state_text(job),
+            "job 7 (frame.rml) PAUSED, from line 8 on, on the workpiece of job 3; takes 10 min 0 s to 16 min 40 s");
 }
 
 // Of each job of the queue what is said of its beginning. Column by column, so that the widths are of no account.
@@ -361,13 +364,23 @@ TEST(MillQueue, OfAJobInAToolChangeWhatIsLeftCounts) {
   EXPECT_EQ(beginnings(mill), (Lines{"now", "in 6 min 40 s to 11 min 7 s"}));
 }
 
-TEST(MillQueue, WhatIsOverTakesNoTimeAndOfOtherStatesTheLongestIsKnown) {
+TEST(MillQueue, WhatIsOverTakesNoTimeButHoldsUpTheNext) {
   v1::Mill mill;
   *mill.add_jobs() = frame(6, v1::JOB_STATE_PAUSED_UNKNOWN);
   *mill.add_jobs() = frame(7, v1::JOB_STATE_FED);
   *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
-  EXPECT_EQ(beginnings(mill), (Lines{"-", "-", "now"}));
-  mill.mutable_jobs(0)->set_state(static_cast<v1::JobState>(99));
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "-", "when job 6 is done"})) << "a person must look at it first";
+  mill.mutable_jobs()->DeleteSubrange(0, 1);
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "when job 7 is done"}));
+  *mill.add_jobs() = frame(9, v1::JOB_STATE_QUEUED);
+  EXPECT_EQ(beginnings(mill), (Lines{"-", "when job 7 is done", "in 10 min 0 s to 16 min 40 s"}));
+}
+
+TEST(MillQueue, AJobInAStateThatIsNotKnownTakesItsLongestTime) {
+  v1::Mill mill;
+  *mill.add_jobs() = frame(6, static_cast<v1::JobState>(99));
+  *mill.add_jobs() = frame(7, v1::JOB_STATE_FED);
+  *mill.add_jobs() = frame(8, v1::JOB_STATE_QUEUED);
   EXPECT_EQ(beginnings(mill), (Lines{"-", "-", "in 0 s to 16 min 40 s"}));
 }
 

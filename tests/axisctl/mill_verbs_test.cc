@@ -377,6 +377,7 @@ TEST_F(MillCalls, TheOnlyMillNeedsNoName) {
 
 TEST_F(MillCalls, OneOfSeveralMillsMustBeNamed) {
   options_.device = "";
+  options_.job.files = {"-"};
   add_device("large", "rml1");
   for (const auto verb : {mill_send, mill_queue, mill_start, mill_watch, mill_pause, mill_resume, mill_abort}) {
     const Ended ended = run(verb);

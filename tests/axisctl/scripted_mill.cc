@@ -105,6 +105,14 @@ grpc::Status ScriptedMill::ContinueJob(grpc::ServerContext*, const v1::ContinueJ
   return next_status();
 }
 
+grpc::Status ScriptedMill::RepeatJob(grpc::ServerContext*, const v1::RepeatJobRequest* request,
+                                     v1::RepeatJobResponse* response) {
+  calls.emplace_back("RepeatJob");
+  repeated.push_back(*request);
+  if (mill.jobs_size() > 0) *response->mutable_job() = mill.jobs(0);
+  return next_status();
+}
+
 grpc::Status ScriptedMill::CancelJob(grpc::ServerContext*, const v1::CancelJobRequest* request,
                                      v1::CancelJobResponse*) {
   calls.emplace_back("CancelJob");

@@ -31,6 +31,7 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
   std::vector<v1::StartJobRequest> started;
   std::vector<v1::PauseJobRequest> paused;
   std::vector<v1::ContinueJobRequest> continued;
+  std::vector<v1::RepeatJobRequest> repeated;
   std::vector<std::string> cleared;        // whose jobs
   std::vector<std::string> devices, jobs;  // that were named by the other requests
 
@@ -52,6 +53,8 @@ class ScriptedMill : public v1::MillService::Service, public v1::DeviceService::
                          v1::ResumeJobResponse* response) override;
   grpc::Status AbortJob(grpc::ServerContext* context, const v1::AbortJobRequest* request,
                         v1::AbortJobResponse* response) override;
+  grpc::Status RepeatJob(grpc::ServerContext* context, const v1::RepeatJobRequest* request,
+                         v1::RepeatJobResponse* response) override;
   grpc::Status ContinueJob(grpc::ServerContext* context, const v1::ContinueJobRequest* request,
                            v1::ContinueJobResponse* response) override;
   grpc::Status CancelJob(grpc::ServerContext* context, const v1::CancelJobRequest* request,

@@ -57,8 +57,8 @@ class MillPace(unittest.TestCase):
     def test_a_long_job_shows_it(self):
         self.assertEqual(self.pace(), [0, 0])
         self.assertNotIn("measured", self.gateway.axisctl("mill", "queue"))
-        # A step each, 12 bytes: 16 times what terminal and mill hold.
-        job = "^PA;!MC0;" + "PU1001,1000;PU1000,1000;" * 14_000
+        # A step each, 12 bytes: 24 times what terminal and mill hold.
+        job = "^PA;!MC0;" + "PU1001,1000;PU1000,1000;" * 21_000
         before = self.run_on_of_a_paced_job()
         self.feed(job, "--streaming", "full")
         least, most = self.pace()
