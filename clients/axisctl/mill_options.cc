@@ -12,8 +12,11 @@ void add_checks(CLI::App& mill, Options& options) {
                              "show what a job would do, its errors, and risks to the workpiece; needs no daemon");
   CLI::App* preview =
       add_verb(mill, options, Verb::mill_preview, "preview", "draw what a job would do; needs no daemon");
+  check->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
+  preview->add_option("FILE", options.mill.files, "the job; - reads the standard input; several files are its parts")
+      ->required()
+      ->type_name("");
   for (CLI::App* verb : {check, preview}) {
-    verb->add_option("FILE", options.mill.file, "the job; - reads the standard input")->required()->type_name("");
     verb->add_option("--profile", options.mill.profile, "the machine: a name, e.g. mdx-20, or the file of a profile")
         ->type_name("PROFILE");
     verb->add_option(
@@ -23,9 +26,16 @@ void add_checks(CLI::App& mill, Options& options) {
         ->type_name("X,Y,Z|NAME");
     verb->add_option("--stock", options.mill.stock, "the workpiece in mm, from the work origin, and its thickness")
         ->type_name("X,Y,Z");
-    verb->add_option("--tool", options.mill.tool_mm, "the diameter of the tool in mm: says how much is removed")
-        ->type_name("MM");
   }
+  check->add_option("--tool", options.mill.tools_mm, "the diameter of the tool in mm: says how much is removed")
+      ->expected(1)
+      ->type_name("MM");
+  preview
+      ->add_option("--tool", options.mill.tools_mm,
+                   "the diameter of the tool in mm: cuts are drawn as wide; of several files one for each, e.g. 0.4,1")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("MM");
   check
       ->add_option("--made-for", options.mill.made_for,
                    "the profile that the job was made for: warns where it is another one (default: judged by the job)")

@@ -63,12 +63,31 @@ CheckOptions check_options(const Options& all, const Profile& profile) {
     options.origin = p;
   }
   if (asked.stock) options.stock = stock_of(*asked.stock);
-  if (asked.tool_mm && !(*asked.tool_mm >= kThinnest && *asked.tool_mm <= kThickest)) {
-    throw usage(fmt::format("--tool is {} mm", *asked.tool_mm),
+  for (const double mm : asked.tools_mm) {
+    if (mm >= kThinnest && mm <= kThickest) continue;
+    throw usage(fmt::format("--tool is {} mm", mm),
                 fmt::format("use the tool's diameter in mm, {} to {}", kThinnest, kThickest));
   }
-  options.tool_mm = asked.tool_mm;
+  if (!asked.tools_mm.empty()) options.tool_mm = asked.tools_mm.front();
   return options;
+}
+
+// "traces.rml, outline.rml"
+std::string title_of(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files) names.push_back(std::filesystem::path(file).filename().string());
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+void check_parts(const MillOptions& asked) {
+  if (asked.tools_mm.size() > 1 && asked.tools_mm.size() != asked.files.size()) {
+    throw usage(fmt::format("--tool has {} diameters for {} file{}", asked.tools_mm.size(), asked.files.size(),
+                            asked.files.size() == 1 ? "" : "s"),
+                "name one for all files, or one for each");
+  }
+  if (asked.from && asked.files.size() > 1) {
+    throw usage("--from names a line of one file", "draw what remains of each file by itself");
+  }
 }
 
 // Throws Failure when it cannot be read.
@@ -116,15 +135,27 @@ int mill_preview(const Options& options) {
   const std::string ending = boost::algorithm::to_lower_copy(std::filesystem::path(output).extension().string());
   const bool svg = ending == ".svg";
   if (!svg && ending != ".png") throw usage(output + " is not a picture", "name a file that ends in .svg or .png");
-  const Profile profile = mill_profile(options.mill.profile);
-  const CheckOptions asked = check_options(options, profile);
-  Strokes strokes(options.mill.from ? job_range(*options.mill.from) : PlaceRange());
-  Check check(profile, asked, &strokes);
-  read_job(options.mill.file, check);
-  print_diagnostics(options.mill.file, check.diagnostics());
-  if (check.is_other_file() || check.summary().commands == 0) return kFailed;
-  const std::string title = std::filesystem::path(options.mill.file).filename().string();
-  const Picture picture = make_picture(title, check, profile, asked.stock, asked.origin.has_value(), strokes);
+  const MillOptions& asked = options.mill;
+  check_parts(asked);
+  const Profile profile = mill_profile(asked.profile);
+  CheckOptions how = check_options(options, profile);
+  Strokes strokes(asked.from ? job_range(*asked.from) : PlaceRange());
+  std::vector<std::unique_ptr<Check>> checks;
+  std::vector<const Check*> parts;
+  for (std::size_t part = 0; part < asked.files.size(); ++part) {
+    if (asked.tools_mm.size() > 1) how.tool_mm = asked.tools_mm[part];
+    if (part > 0) strokes.begin_part();
+    auto check = std::make_unique<Check>(profile, how, &strokes);
+    // The heights of a workpiece are those of one tool.
+    if (part > 0 && how.tool_mm == checks.back()->tool_mm()) check->continues(*checks.back());
+    read_job(asked.files[part], *check);
+    print_diagnostics(asked.files[part], check->diagnostics());
+    if (check->is_other_file() || check->summary().commands == 0) return kFailed;
+    parts.push_back(check.get());
+    checks.push_back(std::move(check));
+  }
+  const Picture picture =
+      make_picture(title_of(asked.files), parts, profile, how.stock, how.origin.has_value(), strokes);
   errno = 0;
   const bool written = svg ? write_text(output, to_svg(picture)) : write_png(picture, output);
   if (!written) {

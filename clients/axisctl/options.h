@@ -101,11 +101,12 @@ struct Target {
 
 // Of the verbs that judge jobs for mills.
 struct MillOptions {
-  std::string file;                   // the job; "-" is the standard input
+  std::string file;                   // check: the job; "-" is the standard input
+  std::vector<std::string> files;     // preview: the same, of each part
   std::string profile;                // a shipped one's name, or a file
   std::optional<std::string> origin;  // "10,10,5", mm, or the name of a configured one
   std::optional<std::string> stock;   // the same
-  std::optional<double> tool_mm;      // its diameter
+  std::vector<double> tools_mm;       // diameters: one of all files, or one for each; none: not known
   std::string made_for;               // check: a profile's name; empty: it is judged by the job
   std::string output;                 // preview: the picture
   std::optional<std::string> from;    // preview: "8:1-13:1", as job_range()

@@ -62,6 +62,7 @@ class Check : private MachineListener, private ParserListener {
   const Summary& summary() const { return summary_; }  // after finish()
   const std::vector<Section>& sections() const { return workload_.sections(); }
   const Leaves& leaves() const { return state_judge_.leaves(); }
+  const std::optional<double>& tool_mm() const { return options_.tool_mm; }
   std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
   Extent extent() const;  // after finish()

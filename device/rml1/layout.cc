@@ -8,8 +8,9 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kWidth = 1000, kTop = 76, kBetween = 56;
-constexpr double kHighest = 560, kDeepest = 260;  // of a view of X and Y, and of one of Z
+constexpr double kWidth = 1000, kNarrowest = 640;  // of the page
+constexpr double kTop = 76, kBetween = 56;
+constexpr double kHighest = 760, kDeepest = 260;  // of a view of X and Y, and of one of Z
 constexpr double kInset = 180;
 constexpr double kTick = 4, kTicksApart = 50;
 constexpr double kFlat = 60, kStretched = 110;  // a view of Z that is lower than the one is stretched up to the other
@@ -37,19 +38,20 @@ class Layout {
  public:
   Layout(const Extents& extents, double step_mm) : extents_(extents), step_mm_(step_mm) {
     const double x = extents.shown.x.size(), y = extents.shown.y.size(), z = extents.shown.z.size();
-    const double free = kWidth - 3 * kMargin;
-    scale_ = std::min({free / (x + y), (free - kInset) / x, kHighest / y, kDeepest / z});
+    // The view from above has the views of Z below and beside it, and the work area in the corner between these.
+    const double free = kWidth - 3 * kMargin, beside = extents.area ? kInset : kStretched;
+    scale_ = std::min({(free - beside) / x, free / (x + z), kHighest / y, kDeepest / z});
     stretch_ = stretch_of(z * scale_);
-    const double right = 2 * kMargin + x * scale_;
-    const double lower = kTop + std::max(y * scale_, extents.area ? kInset : 0) + kBetween;
-    add_view(0, "top: X, Y", {0, 1}, kMargin, kTop);
+    const double deep = z * scale_ * stretch_;
+    const double right = 2 * kMargin + x * scale_, lower = kTop + y * scale_ + kBetween;
+    picture_.width = std::max(kNarrowest, right + std::max(deep, beside) + kMargin);
     const std::string stretched = stretch_ == 1 ? "" : fmt::format(" (Z {} times as high)", stretch_);
+    add_view(0, "top: X, Y", {0, 1}, kMargin, kTop);
     add_view(1, "front: X, Z" + stretched, {0, 2}, kMargin, lower);
-    add_view(2, "side: Y, Z" + stretched, {1, 2}, right, lower);
-    if (extents.area) add_inset(right, kTop);
+    add_view(2, "side: Z, Y", {2, 1}, right, kTop);
+    if (extents.area) add_inset(right, lower);
     add_scale_bar();
-    picture_.width = kWidth;
-    picture_.height = lower + z * scale_ * stretch_ + kMargin / 2;
+    picture_.height = lower + std::max(deep, extents.area ? kInset : 0) + kMargin / 2;
   }
 
   Picture picture() { return std::move(picture_); }
@@ -60,14 +62,15 @@ class Layout {
   };
 
   void add_view(std::size_t index, const std::string& title, Axes axes, double left, double top) {
-    const int stretch = axes.up == 2 ? stretch_ : 1;
     const Reach& across = reach(extents_.shown, axes.across);
     const Reach& up = reach(extents_.shown, axes.up);
     Picture::View& view = picture_.views[index];
-    view.across = axes.across, view.up = axes.up, view.scale = scale_, view.stretch = stretch;
-    view.frame = {Picture::Rectangle::Kind::frame, left, top, across.size() * scale_, up.size() * scale_ * stretch};
-    view.x = left - across.lowest * scale_;
-    view.y = top + up.highest * scale_ * stretch;
+    view.across = axes.across, view.up = axes.up, view.scale = scale_;
+    view.stretch = view.from_above() ? 1 : stretch_;
+    view.frame = {Picture::Rectangle::Kind::frame, left, top, across.size() * view.scale_across(),
+                  up.size() * view.scale_up()};
+    view.x = left - across.lowest * view.scale_across();
+    view.y = top + up.highest * view.scale_up();
     if (extents_.area) view.boxes.push_back(box(view, Picture::Rectangle::Kind::work_area, *extents_.area));
     if (extents_.stock) view.boxes.push_back(box(view, Picture::Rectangle::Kind::stock, *extents_.stock));
     picture_.labels.push_back({left, top - 8, title});
@@ -77,22 +80,21 @@ class Layout {
   static Picture::Rectangle box(const Picture::View& view, Picture::Rectangle::Kind kind, const Bounds& bounds) {
     const Reach& across = reach(bounds, view.across);
     const Reach& up = reach(bounds, view.up);
-    const double height = view.scale * view.stretch;
-    return {kind, view.x + across.lowest * view.scale, view.y - up.highest * height, across.size() * view.scale,
-            up.size() * height};
+    return {kind, view.x + across.lowest * view.scale_across(), view.y - up.highest * view.scale_up(),
+            across.size() * view.scale_across(), up.size() * view.scale_up()};
   }
 
   // In mm, along the lower and the left side.
   void add_ticks(const Picture::View& view, const Reach& across, const Reach& up) {
     const Picture::Rectangle& frame = view.frame;
     const double bottom = frame.y + frame.height;
-    each_tick(across, view.scale, [&](double steps, const std::string& text) {
-      const double x = view.x + steps * view.scale;
+    each_tick(across, view.scale_across(), [&](double steps, const std::string& text) {
+      const double x = view.x + steps * view.scale_across();
       picture_.lines.push_back({x, bottom, x, bottom + kTick});
       picture_.labels.push_back({x, bottom + kTick + 12, text, false, Picture::Anchor::middle});
     });
-    each_tick(up, view.scale * view.stretch, [&](double steps, const std::string& text) {
-      const double y = view.y - steps * view.scale * view.stretch;
+    each_tick(up, view.scale_up(), [&](double steps, const std::string& text) {
+      const double y = view.y - steps * view.scale_up();
       picture_.lines.push_back({frame.x - kTick, y, frame.x, y});
       picture_.labels.push_back({frame.x - kTick - 3, y + 4, text, false, Picture::Anchor::end});
     });
@@ -100,7 +102,7 @@ class Layout {
 
   template <class Tick>
   void each_tick(const Reach& shown, double scale, Tick tick) const {
-    const double apart = round_above(std::min(kTicksApart, shown.size() * scale / 3) / scale * step_mm_);
+    const double apart = round_above(std::min(kTicksApart, shown.size() * scale / 4) / scale * step_mm_);
     const double first = std::ceil(shown.lowest * step_mm_ / apart - 1e-9);
     const double last = std::floor(shown.highest * step_mm_ / apart + 1e-9);
     for (double number = first; number <= last; ++number) {
@@ -110,9 +112,9 @@ class Layout {
 
   void add_scale_bar() {
     const double mm = round_below(120 / scale_ * step_mm_);
-    const double left = kWidth - kMargin - mm / step_mm_ * scale_, y = kMargin * 0.6;
-    picture_.lines.push_back({left, y, kWidth - kMargin, y});
-    for (const double x : {left, kWidth - kMargin}) picture_.lines.push_back({x, y - kTick, x, y + kTick});
+    const double right = picture_.width - kMargin, left = right - mm / step_mm_ * scale_, y = kMargin * 0.6;
+    picture_.lines.push_back({left, y, right, y});
+    for (const double x : {left, right}) picture_.lines.push_back({x, y - kTick, x, y + kTick});
     picture_.labels.push_back({left - 8, y + 4, fmt::format("{:g} mm", mm), false, Picture::Anchor::end});
   }
 

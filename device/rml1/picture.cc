@@ -14,8 +14,8 @@ namespace {
 constexpr double kLine = 18, kSwatch = 14;
 constexpr double kCharacter = 6.6;  // the width of a figure, of text of this size
 constexpr double kPad = 0.04;       // of an extent, beside it
-constexpr std::size_t kCharacters = 125;
 constexpr std::size_t kReports = 8;
+constexpr double kAssumedToolMm = 2;  // of a relief; as the check of passes has it
 
 Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
@@ -59,9 +59,8 @@ void pad(Reach& reach, double least) {
   reach.take(middle + half);
 }
 
-Extents extents(const Check& check, const Profile& profile, std::optional<Stock> stock, bool origin_known,
+Extents extents(const Box& box, const Profile& profile, std::optional<Stock> stock, bool origin_known,
                 const Strokes& strokes) {
-  const Box& box = check.machine().box();
   Extents all;
   all.shown = cut_bounds(strokes, true);
   take_travel(all.shown, strokes, box.highest.z, !all.shown.x.any);
@@ -113,36 +112,70 @@ void add_remains(std::vector<std::string>& lines, const Strokes& strokes, double
   lines.push_back("remains: " + lengths_text(strokes, Strokes::Done::no, step_mm));
 }
 
-std::vector<std::string> facts(const Check& check, const Profile& profile, const Strokes& strokes, bool stock,
-                               bool area) {
+using Parts = std::vector<const Check*>;
+
+// "part 2: "; of a job without parts nothing.
+std::string part_text(const Parts& parts, std::size_t index) {
+  return parts.size() == 1 ? "" : fmt::format("part {}: ", index + 1);
+}
+
+// Of one part.
+std::string work_text(const Check& check) {
   const Summary& job = check.summary();
+  return fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; takes {}", job.commands,
+                     job.distance_mm, job.cutting_mm, time_text(job));
+}
+
+std::string speed_text(const Parts& parts, const Strokes& strokes) {
+  Reach rpm;
+  std::optional<double> not_reached;
+  for (const Check* part : parts) {
+    const Reach& one = part->summary().rpm;
+    if (one.any) rpm.take(one.lowest), rpm.take(one.highest);
+    if (part->speed_not_reached()) not_reached = std::max(not_reached.value_or(0), *part->speed_not_reached());
+  }
+  return fmt::format("cuts at {} mm/s, {} rpm{}", to_string(strokes.feeds()), rpm.any ? to_string(rpm) : "0",
+                     not_reached ? fmt::format("; the job sets up to {:g} mm/s", *not_reached) : "");
+}
+
+// How wide the cuts are drawn.
+std::string width_text(const Picture& picture, double step_mm) {
+  if (picture.diameters.empty()) return "";
+  std::vector<std::string> widths;
+  for (const double one : picture.diameters) widths.push_back(fmt::format("{:g}", one * step_mm));
+  return fmt::format("{} as a flat tool of {} mm leaves {}", picture.relief ? "; shaded" : "; cuts",
+                     fmt::join(widths, ", "), picture.relief ? "it" : "them");
+}
+
+std::vector<std::string> facts(const Parts& parts, const Profile& profile, const Picture& picture, bool stock,
+                               bool area) {
+  const Strokes& strokes = *picture.strokes;
   const Bounds cuts = cut_bounds(strokes, false);
   std::vector<std::string> lines;
-  lines.push_back(fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; takes {}", job.commands,
-                              job.distance_mm, job.cutting_mm, time_text(job)));
-  lines.push_back("time: " + time_reason(job, profile));
+  for (std::size_t index = 0; index < parts.size(); ++index) {
+    lines.push_back(part_text(parts, index) + work_text(*parts[index]));
+  }
+  lines.push_back("time: " + time_reason(parts.front()->summary(), profile));
   if (any_executed(strokes)) add_remains(lines, strokes, profile.step_mm);
   if (cuts.x.any) {
     lines.push_back(fmt::format("cuts {}, {}, {:.2f} mm deep", size_text("X", cuts.x, profile.step_mm),
                                 size_text("Y", cuts.y, profile.step_mm),
                                 std::max(0.0, -cuts.z.lowest) * profile.step_mm));
   }
-  if (strokes.feeds().any) {
-    lines.push_back(fmt::format(
-        "cuts at {} mm/s, {} rpm{}", to_string(strokes.feeds()), job.rpm.any ? to_string(job.rpm) : "0",
-        check.speed_not_reached() ? fmt::format("; the job sets up to {:g} mm/s", *check.speed_not_reached()) : ""));
-  }
-  lines.push_back(fmt::format("steps of {} mm; cross: work origin, Z0{}{}", profile.step_mm,
-                              area ? "; dashed: work area" : "", stock ? "; filled: stock" : ""));
+  if (strokes.feeds().any) lines.push_back(speed_text(parts, strokes));
+  lines.push_back(fmt::format("steps of {} mm; cross: work origin, Z0{}{}{}", profile.step_mm,
+                              area ? "; dashed: work area" : "", stock ? "; filled: stock" : "",
+                              width_text(picture, profile.step_mm)));
   return lines;
 }
 
 // At blanks, in lines that fit into the picture.
-std::vector<std::string> wrapped(std::string text) {
+std::vector<std::string> wrapped(std::string text, double width) {
+  const auto characters = static_cast<std::size_t>((width - 2 * kMargin) / kCharacter);
   std::vector<std::string> lines;
-  while (text.size() > kCharacters) {
-    const std::size_t blank = text.rfind(' ', kCharacters);
-    const std::size_t end = blank == std::string::npos || blank < 4 ? kCharacters : blank;
+  while (text.size() > characters) {
+    const std::size_t blank = text.rfind(' ', characters);
+    const std::size_t end = blank == std::string::npos || blank < 4 ? characters : blank;
     lines.push_back(text.substr(0, end));
     text = "    " + text.substr(text.find_first_not_of(' ', end));
   }
@@ -150,19 +183,34 @@ std::vector<std::string> wrapped(std::string text) {
   return lines;
 }
 
-std::vector<std::string> reports(const Diagnostics& diagnostics) {
-  const std::vector<Diagnostic> all = diagnostics.in_order();
+std::vector<std::string> reports(const Parts& parts, double width) {
   std::vector<std::string> lines;
-  std::size_t shown = 0;
-  for (; shown < all.size() && lines.size() < kReports; ++shown) {
-    const Diagnostic& one = all[shown];
-    for (std::string& line : wrapped(fmt::format("{}, line {}: {}", name(one.severity), one.place.line, one.text))) {
-      lines.push_back(std::move(line));
+  std::uint64_t more = 0;
+  for (std::size_t index = 0; index < parts.size(); ++index) {
+    const Diagnostics& diagnostics = parts[index]->diagnostics();
+    for (const Diagnostic& one : diagnostics.in_order()) {
+      if (lines.size() >= kReports) {
+        ++more;
+        continue;
+      }
+      const std::string text =
+          fmt::format("{}{}, line {}: {}", part_text(parts, index), name(one.severity), one.place.line, one.text);
+      for (std::string& line : wrapped(text, width)) lines.push_back(std::move(line));
     }
+    more += diagnostics.omitted_count();
   }
-  const std::uint64_t more = all.size() - shown + diagnostics.omitted_count();
   if (more > 0) lines.push_back(fmt::format("and {} more", more));
   return lines;
+}
+
+// In steps. Without a tool a relief has the assumed one, and other pictures have hairlines.
+std::vector<double> diameters_of(const Parts& parts, const Profile& profile, bool relief) {
+  std::vector<double> all;
+  for (const Check* part : parts) {
+    if (!part->tool_mm() && !relief) return {};
+    all.push_back(profile.steps(part->tool_mm().value_or(kAssumedToolMm)));
+  }
+  return all;
 }
 
 class Legend {
@@ -195,11 +243,22 @@ class Legend {
 
 }  // namespace
 
-Picture make_picture(const std::string& title, const Check& check, const Profile& profile, std::optional<Stock> stock,
-                     bool origin_known, const Strokes& strokes) {
-  Picture picture = lay_out(extents(check, profile, stock, origin_known, strokes), profile.step_mm);
+bool is_in_relief(const Picture& picture, const Picture::View& view, const Strokes::Stroke& stroke) {
+  return picture.relief && view.from_above() && stroke.kind == Strokes::Kind::cut;
+}
+
+double drawn_width(const Picture& picture, const Picture::View& view, std::size_t part) {
+  return view.from_above() && !picture.diameters.empty() ? std::max(1.0, picture.diameters[part] * view.scale) : 0;
+}
+
+Picture make_picture(const std::string& title, const std::vector<const Check*>& parts, const Profile& profile,
+                     std::optional<Stock> stock, bool origin_known, const Strokes& strokes) {
+  Picture picture =
+      lay_out(extents(parts.front()->machine().box(), profile, stock, origin_known, strokes), profile.step_mm);
   picture.strokes = &strokes;
   picture.shades.emplace(strokes, profile.step_mm);
+  picture.relief = picture.shades->are_ranges() && !any_executed(strokes);
+  picture.diameters = diameters_of(parts, profile, picture.relief);
   // A file's name may be of any bytes; what is no UTF-8 is left out.
   picture.labels.push_back({kMargin, kMargin * 0.7,
                             fmt::format("{}{} on the {}", boost::locale::conv::utf_to_utf<char>(title),
@@ -207,10 +266,10 @@ Picture make_picture(const std::string& title, const Check& check, const Profile
                             true});
   Legend legend(picture);
   legend.add_swatches(picture.shades->legend());
-  for (const std::string& line : facts(check, profile, strokes, stock.has_value(), origin_known)) {
-    for (const std::string& part : wrapped(line)) legend.add_line(part);
+  for (const std::string& line : facts(parts, profile, picture, stock.has_value(), origin_known)) {
+    for (const std::string& piece : wrapped(line, picture.width)) legend.add_line(piece);
   }
-  for (const std::string& line : reports(check.diagnostics())) legend.add_line(line);
+  for (const std::string& line : reports(parts, picture.width)) legend.add_line(line);
   picture.height = legend.bottom();
   return picture;
 }

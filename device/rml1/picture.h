@@ -25,8 +25,12 @@ struct Picture {
     Rectangle frame{};
     double x = 0, y = 0;             // where the work origin lies
     double scale = 1;                // pixels a step
-    int stretch = 1;                 // Z is drawn so many times as high
+    int stretch = 1;                 // Z is drawn so many times as long
     std::vector<Rectangle> boxes{};  // work area and stock
+
+    bool from_above() const { return across == 0 && up == 1; }
+    double scale_across() const { return across == 2 ? scale * stretch : scale; }
+    double scale_up() const { return up == 2 ? scale * stretch : scale; }
   };
   struct Line {
     double from_x, from_y, to_x, to_y;
@@ -46,11 +50,20 @@ struct Picture {
   std::vector<Label> labels;
   const Strokes* strokes = nullptr;
   std::optional<Shades> shades{};
+  // Diameter of the tool of each part, in steps; empty: hairlines are drawn.
+  std::vector<double> diameters{};
+  bool relief = false;  // the view from above shows the surface that the cuts leave, and not the cuts
 };
 
-// `strokes` outlives it.
-Picture make_picture(const std::string& title, const Check& check, const Profile& profile, std::optional<Stock> stock,
-                     bool origin_known, const Strokes& strokes);
+// `parts`: the checks of the job's files, each with the same stock and origin; at least one. `strokes`: of all of them;
+// outlives the picture.
+Picture make_picture(const std::string& title, const std::vector<const Check*>& parts, const Profile& profile,
+                     std::optional<Stock> stock, bool origin_known, const Strokes& strokes);
+
+// Reports whether the view shows the stroke as part of the surface that the cuts leave.
+bool is_in_relief(const Picture& picture, const Picture::View& view, const Strokes::Stroke& stroke);
+// Returns the width of the cuts of a part in that view, in pixels: the tool's, or 0 for hairlines.
+double drawn_width(const Picture& picture, const Picture::View& view, std::size_t part);
 
 std::string to_svg(const Picture& picture);
 // False when the file cannot be written.

@@ -2,10 +2,13 @@
 
 #include <array>
 #include <charconv>
+#include <cstdint>
+#include <cstring>
 #include <memory>
 #include <vector>
 
 #include "device/rml1/picture.h"
+#include "device/rml1/relief.h"
 
 namespace axisgate::rml1 {
 namespace {
@@ -48,25 +51,35 @@ void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
 
 using Shaded = std::array<std::vector<const Strokes::Stroke*>, kShades>;
 
-Shaded by_shade(const Picture& picture) {
+// Of one part in one view.
+Shaded by_shade(const Picture& picture, const Picture::View& view, std::size_t part) {
   Shaded shaded;
   for (const Strokes::Stroke& stroke : picture.strokes->all()) {
+    if (stroke.part != part || is_in_relief(picture, view, stroke)) continue;
     shaded[static_cast<std::size_t>(picture.shades->of(stroke))].push_back(&stroke);
   }
   return shaded;
 }
 
-void draw_strokes(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::View& view) {
+double line_width(std::size_t shade, double tool) {
+  if (shade == kTravel) return 0.6;
+  if (shade != kLeftOut && tool > 0) return tool;
+  return shade == kPerhapsDone ? 2 : 1;
+}
+
+// `tool`: its width in pixels; 0: it is not drawn.
+void draw_strokes(cairo_t* cairo, const Shaded& shaded, bool many, const Picture::View& view, double tool) {
   const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
   const auto point = [&](const std::array<float, 3>& p, auto to) {
-    to(cairo, view.x + p[across] * view.scale, view.y - p[up] * view.scale * view.stretch);
+    to(cairo, view.x + p[across] * view.scale_across(), view.y - p[up] * view.scale_up());
   };
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_ROUND);
   // What is a pixel apart looks the same without smooth edges, and is drawn in a fraction of the time.
   cairo_set_antialias(cairo, many ? CAIRO_ANTIALIAS_NONE : CAIRO_ANTIALIAS_DEFAULT);
   for (std::size_t shade = 0; shade < shaded.size(); ++shade) {
     static constexpr double kDots[] = {2, 2};
     set_colour(cairo, kShadeColours[shade]);
-    cairo_set_line_width(cairo, shade == kTravel ? 0.6 : shade == kPerhapsDone ? 2 : 1);
+    cairo_set_line_width(cairo, line_width(shade, tool));
     cairo_set_dash(cairo, kDots, shade == kLeftOut ? 2 : 0, 0);
     int waiting = 0;
     for (const Strokes::Stroke* stroke : shaded[shade]) {
@@ -77,7 +90,37 @@ void draw_strokes(cairo_t* cairo, const Shaded& shaded, bool many, const Picture
     cairo_stroke(cairo);
   }
   cairo_set_dash(cairo, nullptr, 0, 0);
+  cairo_set_line_cap(cairo, CAIRO_LINE_CAP_BUTT);
   cairo_set_antialias(cairo, CAIRO_ANTIALIAS_DEFAULT);
+}
+
+using Surface = std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)>;
+
+Surface surface_of(const Relief& relief) {
+  Surface surface(cairo_image_surface_create(CAIRO_FORMAT_ARGB32, static_cast<int>(relief.width()),
+                                             static_cast<int>(relief.height())),
+                  cairo_surface_destroy);
+  cairo_surface_flush(surface.get());
+  unsigned char* const bytes = cairo_image_surface_get_data(surface.get());
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(surface.get()));
+  for (std::size_t row = 0; bytes != nullptr && row < relief.height(); ++row) {
+    std::memcpy(bytes + row * stride, relief.pixels().data() + row * relief.width(),
+                relief.width() * sizeof(std::uint32_t));
+  }
+  cairo_surface_mark_dirty(surface.get());
+  return surface;
+}
+
+void draw_relief(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
+  const Relief relief(*picture.strokes, *picture.shades, picture.diameters, view);
+  const Surface surface = surface_of(relief);
+  cairo_save(cairo);
+  cairo_translate(cairo, view.frame.x, view.frame.y);
+  cairo_scale(cairo, view.frame.width / static_cast<double>(relief.width()),
+              view.frame.height / static_cast<double>(relief.height()));
+  cairo_set_source_surface(cairo, surface.get(), 0, 0);
+  cairo_paint(cairo);
+  cairo_restore(cairo);
 }
 
 void draw_holes(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
@@ -92,14 +135,19 @@ void draw_holes(cairo_t* cairo, const Picture& picture, const Picture::View& vie
   }
 }
 
-void draw_view(cairo_t* cairo, const Picture& picture, const Shaded& shaded, const Picture::View& view) {
+void draw_view(cairo_t* cairo, const Picture& picture, const Picture::View& view) {
   cairo_save(cairo);
   cairo_rectangle(cairo, view.frame.x, view.frame.y, view.frame.width, view.frame.height);
   cairo_clip(cairo);
   for (const Picture::Rectangle& one : view.boxes) draw_rectangle(cairo, one);
-  draw_strokes(cairo, shaded, picture.strokes->all().size() > kMany, view);
-  if (view.up == 1) draw_holes(cairo, picture, view);
+  if (picture.relief && view.from_above()) draw_relief(cairo, picture, view);
+  for (std::size_t part = 0; part < picture.strokes->parts(); ++part) {
+    draw_strokes(cairo, by_shade(picture, view, part), picture.strokes->all().size() > kMany, view,
+                 drawn_width(picture, view, part));
+  }
+  if (view.from_above() && !picture.relief) draw_holes(cairo, picture, view);
   set_colour(cairo, "#0060c0");
+  cairo_set_line_width(cairo, 1.5);
   cairo_move_to(cairo, view.x - 6, view.y);
   cairo_rel_line_to(cairo, 12, 0);
   cairo_move_to(cairo, view.x, view.y - 6);
@@ -120,6 +168,16 @@ void draw_label(cairo_t* cairo, const Picture::Label& label) {
 
 }  // namespace
 
+std::string png_of(const Relief& relief) {
+  std::string bytes;
+  const auto append = [](void* to, const unsigned char* data, unsigned size) {
+    static_cast<std::string*>(to)->append(reinterpret_cast<const char*>(data), size);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  cairo_surface_write_to_png_stream(surface_of(relief).get(), append, &bytes);
+  return bytes;
+}
+
 bool write_png(const Picture& picture, const std::string& file) {
   const std::unique_ptr<cairo_surface_t, decltype(&cairo_surface_destroy)> surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, static_cast<int>(picture.width * kPixels),
@@ -130,8 +188,7 @@ bool write_png(const Picture& picture, const std::string& file) {
   set_colour(cairo.get(), "#ffffff");
   cairo_paint(cairo.get());
   for (const Picture::Rectangle& one : picture.rectangles) draw_rectangle(cairo.get(), one);
-  const Shaded shaded = by_shade(picture);
-  for (const Picture::View& view : picture.views) draw_view(cairo.get(), picture, shaded, view);
+  for (const Picture::View& view : picture.views) draw_view(cairo.get(), picture, view);
   set_colour(cairo.get(), "#555555");
   cairo_set_line_width(cairo.get(), 1);
   for (const Picture::Line& line : picture.lines) {

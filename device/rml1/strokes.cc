@@ -47,7 +47,7 @@ void Strokes::add(const Point& from, const Point& to, Kind kind, Done done) {
   const auto single = [](const Point& p) {
     return std::array<float, 3>{static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(p.z)};
   };
-  all_.push_back({single(from), single(to), kind, done});
+  all_.push_back({single(from), single(to), kind, done, part_});
 }
 
 }  // namespace axisgate::rml1

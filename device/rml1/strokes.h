@@ -20,6 +20,7 @@ class Strokes : public MoveListener {
     std::array<float, 3> from, to;  // steps
     Kind kind;
     Done done;
+    std::uint8_t part;      // counts from 0
     double length() const;  // steps
   };
 
@@ -27,10 +28,13 @@ class Strokes : public MoveListener {
   // nothing.
   explicit Strokes(const PlaceRange& executed = {}) : executed_(executed) {}
 
+  // The moves that follow are of the next part of the job.
+  void begin_part() { ++part_; }
   void moved(const Move& move) override;
   void left_out(const Point& from, const Point& to) override;
 
   const std::vector<Stroke>& all() const { return all_; }
+  std::size_t parts() const { return part_ + 1U; }
   const PlaceRange& executed() const { return executed_; }
   // Whether this one is drilled: straight down, and straight up again.
   bool is_hole(std::size_t index) const;
@@ -45,6 +49,7 @@ class Strokes : public MoveListener {
   std::vector<Stroke> all_;
   Reach feeds_;
   bool any_left_out_ = false;
+  std::uint8_t part_ = 0;
 };
 
 }  // namespace axisgate::rml1

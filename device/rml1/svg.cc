@@ -3,11 +3,27 @@
 
 #include <charconv>
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include "device/rml1/picture.h"
+#include "device/rml1/relief.h"
 
 namespace axisgate::rml1 {
 namespace {
+
+std::string in_base64(const std::string& bytes) {
+  static constexpr std::string_view kDigits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  for (std::size_t at = 0; at < bytes.size(); at += 3) {
+    std::uint32_t group = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+      group = group << 8 | (at + i < bytes.size() ? static_cast<unsigned char>(bytes[at + i]) : 0U);
+    }
+    for (unsigned i = 0; i < 4; ++i) text += at + i > bytes.size() ? '=' : kDigits[group >> (18 - 6 * i) & 63U];
+  }
+  return text;
+}
 
 struct Path {
   std::string text;
@@ -73,50 +89,71 @@ void add_hole(Path& path, const Strokes::Stroke& stroke) {
   path.holes += fmt::format("M{} {}h0", std::lround(stroke.to[0]), std::lround(stroke.to[1]));
 }
 
-std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& view) {
+// Of one part.
+std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& view, std::size_t part) {
   std::array<Path, kShades> paths;
-  const auto across = static_cast<std::size_t>(view.across), up = static_cast<std::size_t>(view.up);
-  const auto high = [&](float steps) { return std::lround(steps * static_cast<float>(view.stretch)); };
+  const auto at = [&view](const std::array<float, 3>& point, int axis) {
+    const auto stretch = static_cast<float>(axis == 2 ? view.stretch : 1);
+    return std::lround(point[static_cast<std::size_t>(axis)] * stretch);
+  };
   const auto& strokes = picture.strokes->all();
   for (std::size_t index = 0; index < strokes.size(); ++index) {
     const Strokes::Stroke& stroke = strokes[index];
+    if (stroke.part != part || is_in_relief(picture, view, stroke)) continue;
     Path& path = paths[static_cast<std::size_t>(picture.shades->of(stroke))];
-    path.line(std::lround(stroke.from[across]), high(stroke.from[up]), std::lround(stroke.to[across]),
-              high(stroke.to[up]));
-    if (up == 1 && picture.strokes->is_hole(index)) add_hole(path, stroke);
+    path.line(at(stroke.from, view.across), at(stroke.from, view.up), at(stroke.to, view.across),
+              at(stroke.to, view.up));
+    if (view.from_above() && picture.strokes->is_hole(index)) add_hole(path, stroke);
   }
   return paths;
 }
 
-// How a path differs from the others of its view.
-std::string style_of(std::size_t shade, double pixel) {
+// How a path differs from the others of its view. `width`: of the tool, in steps; 0: it is not drawn.
+std::string style_of(std::size_t shade, double pixel, double width) {
   if (shade == kTravel) {
     return fmt::format("class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"", 0.6 * pixel,
                        3 * pixel, 2 * pixel);
   }
-  if (shade == kPerhapsDone) return fmt::format("class=\"perhaps\" stroke-width=\"{:.6g}\"", 2 * pixel);
-  if (shade == kDone) return "class=\"done\"";
-  if (shade != kLeftOut) return "class=\"cut\"";
+  const std::string wide =
+      width > 0 && shade != kLeftOut ? fmt::format(" stroke-width=\"{:.6g}\" stroke-linecap=\"round\"", width) : "";
+  if (shade == kPerhapsDone) {
+    return "class=\"perhaps\"" + (wide.empty() ? fmt::format(" stroke-width=\"{:.6g}\"", 2 * pixel) : wide);
+  }
+  if (shade == kDone) return "class=\"done\"" + wide;
+  if (shade != kLeftOut) return "class=\"cut\"" + wide;
   return fmt::format("class=\"left-out\" stroke-dasharray=\"{:.6g} {:.6g}\"", 2 * pixel, 2 * pixel);
 }
 
-void add_strokes(std::string& svg, const Picture& picture, const Picture::View& view) {
+void add_strokes(std::string& svg, const Picture& picture, const Picture::View& view, std::size_t part) {
   // Not every reader knows strokes that are not scaled.
   const double pixel = 1 / view.scale;
-  svg += fmt::format(
-      "<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\" stroke-width=\"{4:.6g}\">\n",
-      view.scale, -view.scale, view.x, view.y, pixel);
-  const std::array<Path, kShades> paths = paths_of(picture, view);
+  const double width = drawn_width(picture, view, part) * pixel;
+  const std::array<Path, kShades> paths = paths_of(picture, view, part);
   for (std::size_t shade = 0; shade < paths.size(); ++shade) {
     if (!paths[shade].holes.empty()) {
       svg += fmt::format("<path class=\"hole\" stroke-width=\"{:.6g}\" stroke=\"{}\" d=\"{}\"/>\n", 5 * pixel,
                          kShadeColours[shade], paths[shade].holes);
     }
     if (!paths[shade].begun) continue;
-    svg += fmt::format("<path {} stroke=\"{}\" d=\"", style_of(shade, pixel), kShadeColours[shade]);
+    svg += fmt::format("<path {} stroke=\"{}\" d=\"", style_of(shade, pixel, width), kShadeColours[shade]);
     svg += paths[shade].text;
     svg += "\"/>\n";
   }
+}
+
+void add_relief(std::string& svg, const Picture& picture, const Picture::View& view) {
+  svg += fmt::format(
+      "<image class=\"relief\" x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" "
+      "preserveAspectRatio=\"none\" href=\"data:image/png;base64,{}\"/>\n",
+      view.frame.x, view.frame.y, view.frame.width, view.frame.height,
+      in_base64(png_of(Relief(*picture.strokes, *picture.shades, picture.diameters, view))));
+}
+
+void add_all_strokes(std::string& svg, const Picture& picture, const Picture::View& view) {
+  svg += fmt::format(
+      "<g class=\"view\" transform=\"matrix({0:.6g} 0 0 {1:.6g} {2:.2f} {3:.2f})\" stroke-width=\"{4:.6g}\">\n",
+      view.scale, -view.scale, view.x, view.y, 1 / view.scale);
+  for (std::size_t part = 0; part < picture.strokes->parts(); ++part) add_strokes(svg, picture, view, part);
   svg += "</g>\n";
 }
 
@@ -126,7 +163,8 @@ void add_view(std::string& svg, const Picture& picture, std::size_t index) {
   add_rectangle(svg, view.frame);
   svg += fmt::format("</clipPath>\n<g clip-path=\"url(#view{})\">\n", index);
   for (const Picture::Rectangle& one : view.boxes) add_rectangle(svg, one);
-  add_strokes(svg, picture, view);
+  if (picture.relief && view.from_above()) add_relief(svg, picture, view);
+  add_all_strokes(svg, picture, view);
   svg += fmt::format("<path class=\"origin\" d=\"M{0:.2f} {1:.2f}m-6 0h12m-6-6v12\"/>\n</g>\n", view.x, view.y);
   add_rectangle(svg, view.frame);
 }

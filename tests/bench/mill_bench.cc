@@ -67,7 +67,7 @@ void Preview(benchmark::State& state) {
     Check check(profile, {.origin = Origin{0, 0, 30}, .stock = {}, .others = {}}, &strokes);
     check.feed(job());
     check.finish();
-    const std::string svg = to_svg(make_picture("bench", check, profile, {}, true, strokes));
+    const std::string svg = to_svg(make_picture("bench", {&check}, profile, {}, true, strokes));
     benchmark::DoNotOptimize(svg.size());
   }
   state.SetItemsProcessed(state.iterations() * kCommands);

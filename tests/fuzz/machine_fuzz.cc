@@ -87,7 +87,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   require(ordered(check.machine().box()));
   require(check.machine().box().held(summary.final) == summary.final);
   const bool known = options.origin.has_value();
-  require(!to_svg(make_picture("job", check, profile, options.stock, known, guard.strokes)).empty());
+  require(!to_svg(make_picture("job", {&check}, profile, options.stock, known, guard.strokes)).empty());
   // More kinds than there are places in the code that report something.
   require(check.diagnostics().kept().size() <= 64 * Diagnostics::kSame);
   return 0;

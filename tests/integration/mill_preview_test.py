@@ -69,6 +69,41 @@ class Previews(InAFolder):
         self.assertEqual(answer.returncode, 2)
         self.assertIn(b'"9-8" is not valid for --from: name a line', answer.stderr.replace(b" (", b": "))
 
+    def test_cuts_are_as_wide_as_the_tool(self):
+        """0.4 mm are 16 steps. From the front and from the side they stay lines."""
+        top, front, side = self.classed(self.svg(*ORIGIN, "--tool", "0.4"), "view")
+        self.assertEqual({each.get("stroke-width") for each in self.classed(top, "cut")}, {"16"})
+        for view in (front, side):
+            self.assertEqual({each.get("stroke-width") for each in self.classed(view, "cut")}, {None})
+
+    def test_two_files_are_two_parts(self):
+        second = self.file("second.rml", "PA;!MC1;!PZ-180,200;PU0,0;PD100,0;PU0,0;")
+        path = self.folder / "both.svg"
+        options = ("--profile", PROFILE, *ORIGIN, "-o", str(path))
+        first = self.file("job.rml", self.JOB)
+        answer = mill("preview", first, second, *options, "--tool", "0.4,1")
+        self.assertEqual((answer.returncode, answer.stderr), (0, b""))
+        root = xml.etree.ElementTree.parse(path).getroot()
+        words = self.words(root)
+        self.assertRegex(words, r"(?m)^job\.rml, second\.rml on the MDX-20$")
+        self.assertRegex(words, r"(?m)^part 1: 4\.50 mm deep$")
+        self.assertRegex(words, r"(?m)^part 2: 4\.50 mm deep$")
+        cuts = self.classed(self.classed(root, "view")[0], "cut")
+        self.assertEqual([each.get("stroke-width") for each in cuts], ["16", "16", "40"])
+        self.assertEqual(len({each.get("stroke") for each in cuts}), 3, "the same depth has a colour in each part")
+        for wrong in (("--tool", "0.4,1,2"), ("--from", "3")):
+            self.assertEqual(mill("preview", first, second, *options, *wrong).returncode, 2, wrong)
+
+    def test_a_relief_is_shaded(self):
+        """Nine depths: the view from above shows the surface, as a picture in the picture."""
+        job = "PA;!MC1;!ZZ0,0,200;" + "".join(f"!ZZ{i * 40},0,-{i * 4};!ZZ{i * 40},400,-{i * 4};" for i in range(1, 10)) + "!ZZ0,0,200;"
+        root = self.svg(*ORIGIN, job=job)
+        relief, = self.classed(root, "relief")
+        self.assertTrue(relief.get("href").startswith("data:image/png;base64,"))
+        top, front, side = self.classed(root, "view")
+        self.assertEqual((self.classed(top, "cut"), bool(self.classed(front, "cut"))), ([], True))
+        self.assertRegex(self.words(root), r"shaded as a flat tool of 2 mm leaves it")
+
     def test_a_legend(self):
         words = self.words(self.svg(*ORIGIN))
         self.assertRegex(words, r"\b4 mm/s")

@@ -22,7 +22,7 @@ class Shown {
       : check_(profile_, {origin, stock, {}}, &strokes_) {
     check_.feed(job);
     check_.finish();
-    picture_.emplace(make_picture("job", check_, profile_, stock, origin.has_value(), strokes_));
+    picture_.emplace(make_picture("job", {&check_}, profile_, stock, origin.has_value(), strokes_));
   }
   const Picture& operator*() const { return *picture_; }
   const Picture* operator->() const { return &*picture_; }
@@ -40,11 +40,12 @@ class Shown {
   // What a view shows, in steps.
   Reach across(std::size_t view) const {
     const Picture::View& one = picture_->views[view];
-    return {true, (one.frame.x - one.x) / one.scale, (one.frame.x + one.frame.width - one.x) / one.scale};
+    const double scale = one.scale_across();
+    return {true, (one.frame.x - one.x) / scale, (one.frame.x + one.frame.width - one.x) / scale};
   }
   Reach up(std::size_t view) const {
     const Picture::View& one = picture_->views[view];
-    const double scale = one.scale * one.stretch;
+    const double scale = one.scale_up();
     return {true, (one.y - one.frame.y - one.frame.height) / scale, (one.y - one.frame.y) / scale};
   }
 
@@ -69,7 +70,7 @@ TEST(Views, LieOnThePageApartFromEachOther) {
       for (const Picture::View& view : shown->views) EXPECT_TRUE(lies_in(*shown, view.frame)) << job;
       for (const Picture::Rectangle& one : shown->rectangles) EXPECT_TRUE(lies_in(*shown, one)) << job;
       EXPECT_LT(shown->views[0].frame.y + shown->views[0].frame.height, shown->views[1].frame.y) << job;
-      EXPECT_LT(shown->views[1].frame.x + shown->views[1].frame.width, shown->views[2].frame.x) << job;
+      EXPECT_LT(shown->views[0].frame.x + shown->views[0].frame.width, shown->views[2].frame.x) << job;
     }
   }
 }
@@ -83,6 +84,21 @@ TEST(Views, ShowTheCutAndNotTheLift) {
     EXPECT_LE(z.highest, 60);
     EXPECT_LE(z.lowest, -50);
     EXPECT_GE(z.lowest, -70);
+  }
+}
+
+// The views, and between them the margins of their scales, cover the page but for a corner: the views of Z have the
+// size that Z has, beside and below the one from above.
+TEST(Views, LeaveNoHalfOfThePageWhite) {
+  for (const char* job : {"@-50,200;PU0,0;PD3000,0,3000,3000,0,0;PU;", "@-50,200;PU0,0;PD3000,0,3000,1500,0,0;PU;",
+                          "@-50,200;PU0,0;PD1500,0,1500,3000,0,0;PU;", "@-50,200;PU0,0;PD9000,0,9000,2000,0,0;PU;"}) {
+    const Shown shown(job);
+    const Picture::Rectangle& top = shown->views[0].frame;
+    const Picture::Rectangle& side = shown->views[2].frame;
+    EXPECT_LE(shown->width - (side.x + side.width), 0.2 * shown->width) << job;
+    EXPECT_GE(top.width + side.width, 0.6 * shown->width) << job;
+    EXPECT_EQ(top.y, side.y) << job;
+    EXPECT_EQ(top.height, side.height) << "Y is at the same height in both";
   }
 }
 
@@ -120,9 +136,9 @@ TEST(Scales, AreInMillimetres) {
   EXPECT_THAT(shown.labels(), Contains("20"));
   EXPECT_THAT(shown.labels(),
               Contains(HasSubstr("cuts X 10.00 to 30.00 mm (20.00 mm), Y 10.00 to 20.00 mm (10.00 mm), 0.50 mm deep")));
-  // The bar is the first line that ends at the right margin.
-  const auto bar =
-      std::ranges::find_if(shown->lines, [](const auto& line) { return line.to_x == 948 && line.from_x < 948; });
+  const double right = shown->width - 52;  // the margin, at which the bar ends
+  const auto bar = std::ranges::find_if(
+      shown->lines, [right](const auto& line) { return line.to_x == right && line.from_x < right; });
   ASSERT_NE(bar, shown->lines.end());
   const double mm = (bar->to_x - bar->from_x) / shown->views[0].scale * 0.01;
   EXPECT_THAT(shown.labels(), Contains(fmt::format("{:g} mm", mm)));

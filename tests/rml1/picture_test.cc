@@ -33,7 +33,7 @@ class Drawn {
   explicit Drawn(const std::string& title, const PlaceRange& executed = {}) : strokes_(executed) {
     check_.feed("PU1000,1000;PD2000,1000;\nPD2000,3000;PU;");
     check_.finish();
-    picture_.emplace(make_picture(title, check_, profile_, {}, true, strokes_));
+    picture_.emplace(make_picture(title, {&check_}, profile_, {}, true, strokes_));
   }
   const Picture& picture() const { return *picture_; }
 

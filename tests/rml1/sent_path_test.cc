@@ -15,6 +15,7 @@
 #include "tests/rml1/mill.h"
 #include "tests/rml1/paragraphs.h"
 #include "tests/rml1/random_jobs.h"
+#include "tests/rml1/simulator_bench.h"
 
 namespace axisgate::rml1::sent_path_test {
 namespace {
