@@ -49,6 +49,17 @@ v1::CallContext context_of_start(const Session& session) {
   return context;
 }
 
+// What keeps the job from starting passes in most cases: the confirmation need not be given once more.
+int start_confirmed(const Session& session, const v1::Job& job) {
+  try {
+    return start_job(session, context_of_start(session), job.name());
+  } catch (Failure& failure) {
+    const std::string next = fmt::format("the job is confirmed: `axisctl mill start {}`", last_part(job.name()));
+    failure.hint = failure.hint.empty() ? next : fmt::format("{}; {}", failure.hint, next);
+    throw;
+  }
+}
+
 }  // namespace
 
 int mill_confirm(const Session& session) {
@@ -66,7 +77,7 @@ int mill_confirm(const Session& session) {
   const v1::ConfirmJobResponse response =
       session.connection.call(session.connection.mills, &v1::MillService::Stub::ConfirmJob, request, kQuestionLimit);
   options.json ? print_json(response) : print_line(confirmed_text(response.job()));
-  return options.job.start ? start_job(session, context_of_start(session), job.name()) : kDone;
+  return options.job.start ? start_confirmed(session, job) : kDone;
 }
 
 }  // namespace axisgate::axisctl

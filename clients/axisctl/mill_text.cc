@@ -124,8 +124,13 @@ std::string tool_cell(const v1::Job& job) {
   return part.empty() ? tool : fmt::format("part {}, {}", part, tool);
 }
 
+bool is_paused(const v1::Job& job, const v1::RunningJob& running) {
+  return running.job() == job.name() && running.sending() == v1::SENDING_STATE_PAUSED;
+}
+
 // "PAUSED (line 8)": of one that continues there.
-std::string state_cell(const v1::Job& job) {
+std::string state_cell(const v1::Job& job, const v1::RunningJob& running) {
+  if (is_paused(job, running)) return name_of(v1::JOB_STATE_PAUSED);
   const std::string state = name_of(job.state());
   return job.setup().has_from() && waits(job) ? fmt::format("{} (line {})", state, job.setup().from().line()) : state;
 }
@@ -172,11 +177,11 @@ std::string reach_text(const v1::JobExtent& extent) {
   return fmt::format("{}, {}, {} mm", text("X", extent.x(), 1), text("Y", extent.y(), 1), text("Z", extent.z(), 2));
 }
 
-std::vector<std::string> job_cells(const v1::Job& job, const std::string& begins) {
+std::vector<std::string> job_cells(const v1::Job& job, const v1::RunningJob& running, const std::string& begins) {
   return {std::string(last_part(job.name())),
           on_one_line(job.title()),
           on_one_line(job.owner()),
-          state_cell(job),
+          state_cell(job, running),
           tool_cell(job),
           named_or(job.setup().origin(), "panel"),
           job.has_extent() ? size_text(job.extent()) : "-",
@@ -223,8 +228,10 @@ std::string state_text(const v1::Job& job) {
 }
 
 std::string change_text(const v1::JobChange& change) {
-  std::string text = fmt::format("{} {}", job_text(change.job()), name_of(change.job().state()));
-  if (change.sending() != v1::SENDING_STATE_UNSPECIFIED) text += ": " + name_of(change.sending());
+  const bool paused = change.sending() == v1::SENDING_STATE_PAUSED;
+  std::string text =
+      fmt::format("{} {}", job_text(change.job()), paused ? name_of(change.sending()) : name_of(change.job().state()));
+  if (!paused && change.sending() != v1::SENDING_STATE_UNSPECIFIED) text += ": " + name_of(change.sending());
   if (!change.who().empty()) text += ", by " + change.who();
   return change.why().empty() ? text : text + ": " + change.why();
 }
@@ -323,7 +330,7 @@ std::vector<std::string> queue_lines(const v1::Mill& mill) {
       {"job", "title", "owner", "state", "tool", "origin", "size", "takes", "begins at the earliest", "confirmed"}};
   const std::vector<std::optional<TimeRange>> beginnings = earliest_beginnings(mill);
   for (int i = 0; i < mill.jobs_size(); ++i) {
-    rows.push_back(job_cells(mill.jobs(i), beginning_cell(beginnings[i], held_by(mill))));
+    rows.push_back(job_cells(mill.jobs(i), mill.running(), beginning_cell(beginnings[i], held_by(mill))));
   }
   for (const std::string& line : table_lines(rows)) lines.push_back(line);
   return lines;
@@ -350,21 +357,20 @@ std::string waiting_text(const v1::Mill& mill) {
   }
 }
 
-std::string stock_text(const v1::Job& job) {
-  const v1::Stock& stock = job.stock();
-  return job.has_stock() ? fmt::format(": {:g} x {:g} x {:g} mm", stock.x_mm(), stock.y_mm(), stock.z_mm()) : "";
-}
-
 std::vector<std::string> setup_lines(const v1::Job& job) {
   const v1::JobSetup& setup = job.setup();
   std::vector<std::string> lines{fmt::format("{} of {}", job_text(job), on_one_line(job.owner())),
-                                 fmt::format("  material  for {}{}", on_one_line(job.title()), stock_text(job)),
                                  fmt::format("  tool      {}", named_or(setup.tool(), "none is named")),
                                  fmt::format("  origin    {}", named_or(setup.origin(), "as it is set at the panel")),
                                  fmt::format("  profile   {}", on_one_line(setup.profile())),
                                  fmt::format("  takes     {}", takes_text(job)),
                                  fmt::format("  digest    {}...", setup.digest().substr(0, kDigestShown))};
-  if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 2, "  part      " + part);
+  if (const std::string part = part_text(job); !part.empty()) lines.insert(lines.begin() + 1, "  part      " + part);
+  if (job.has_stock()) {
+    const v1::Stock& stock = job.stock();
+    lines.insert(lines.begin() + 1,
+                 fmt::format("  material  {:g} x {:g} x {:g} mm", stock.x_mm(), stock.y_mm(), stock.z_mm()));
+  }
   if (job.has_extent()) {
     lines.push_back("  size      " + size_text(job.extent()));
     lines.push_back("  reaches   " + reach_text(job.extent()));

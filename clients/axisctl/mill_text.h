@@ -20,7 +20,8 @@ std::string job_text(const v1::Job& job);
 // most 64 bytes ... run on".
 std::string state_text(const v1::Job& job);
 
-// "job 7 (part.rml) RUNNING: PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort was sent".
+// "job 7 (part.rml) RUNNING: FINISHING", "job 7 (part.rml) PAUSED", "job 7 (part.rml) ABORTED, by unix anna: the abort
+// was sent".
 std::string change_text(const v1::JobChange& change);
 
 // Of a job that is PAUSED: where it continues, and what is to be done before.

@@ -222,9 +222,9 @@ TEST(MillTexts, HowAJobIsSentAndWhatRunsOn) {
 
 TEST(MillTexts, WhatIsSetUp) {
   v1::Job job = frame(7, v1::JOB_STATE_QUEUED);
-  EXPECT_EQ(setup_lines(job), (Lines{"job 7 (frame.rml) of unix anna", "  material  for frame.rml", "  tool      T1",
-                                     "  origin    as it is set at the panel", "  profile   MDX-20",
-                                     "  takes     10 min 0 s to 16 min 40 s", "  digest    3f5a9c001b2d..."}));
+  EXPECT_EQ(setup_lines(job),
+            (Lines{"job 7 (frame.rml) of unix anna", "  tool      T1", "  origin    as it is set at the panel",
+                   "  profile   MDX-20", "  takes     10 min 0 s to 16 min 40 s", "  digest    3f5a9c001b2d..."}));
   EXPECT_EQ(setup_question(job),
             "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
   job.mutable_setup()->set_origin("left vice");
@@ -236,12 +236,12 @@ TEST(MillTexts, WhatIsSetUp) {
 TEST(MillTexts, WhatIsSetUpForALaterPart) {
   v1::Job job = frame(7, v1::JOB_STATE_TOOL_CHANGE);
   for (const char* tool : {"T3", "T1"}) job.add_parts()->set_tool(tool);
-  EXPECT_EQ(setup_lines(job)[2], "  part      1 of 2");
+  EXPECT_EQ(setup_lines(job)[1], "  part      1 of 2");
   EXPECT_EQ(setup_question(job),
             "The material is in, the tool T1 is in, the origin is set, and nothing is in the way? [yes/no]");
   job.set_part(1);
-  EXPECT_EQ(setup_lines(job)[2], "  part      2 of 2");
-  EXPECT_EQ(setup_lines(job)[3], "  tool      T1");
+  EXPECT_EQ(setup_lines(job)[1], "  part      2 of 2");
+  EXPECT_EQ(setup_lines(job)[2], "  tool      T1");
   EXPECT_EQ(setup_question(job), "The tool T1 is in, Z0 is set, and nothing is in the way? [yes/no]");
 }
 
@@ -258,7 +258,7 @@ TEST(MillTexts, TheWorkpieceOfAJob) {
   job.mutable_stock()->set_x_mm(80);
   job.mutable_stock()->set_y_mm(50);
   job.mutable_stock()->set_z_mm(10.5);
-  EXPECT_EQ(setup_lines(job)[1], "  material  for frame.rml: 80 x 50 x 10.5 mm");
+  EXPECT_EQ(setup_lines(job)[1], "  material  80 x 50 x 10.5 mm");
 }
 
 TEST(MillTexts, WhatTheJobBeforeHasLeft) {
