@@ -48,7 +48,7 @@ class Layout {
     const std::string stretched = stretch_ == 1 ? "" : fmt::format(" (Z {} times as high)", stretch_);
     add_view(0, "top: X, Y", {0, 1}, kMargin, kTop);
     add_view(1, "front: X, Z" + stretched, {0, 2}, kMargin, lower);
-    add_view(2, "side: Z, Y", {2, 1}, right, kTop);
+    add_view(2, stretch_ == 1 ? "side: Z, Y" : fmt::format("side: Z x {}, Y", stretch_), {2, 1}, right, kTop);
     if (extents.area) add_inset(right, lower);
     add_scale_bar();
     picture_.height = lower + std::max(deep, extents.area ? kInset : 0) + kMargin / 2;

@@ -12,8 +12,8 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr double kLine = 18, kSwatch = 14;
-constexpr double kCharacter = 6.6;  // the width of a figure, of text of this size
-constexpr double kPad = 0.04;       // of an extent, beside it
+constexpr double kCharacter = 7;  // the width of a figure, of text of this size
+constexpr double kPad = 0.04;     // of an extent, beside it
 constexpr std::size_t kReports = 8;
 constexpr double kAssumedToolMm = 2;  // of a relief; as the check of passes has it
 
@@ -158,8 +158,9 @@ std::vector<std::string> facts(const Parts& parts, const Profile& profile, const
   lines.push_back("time: " + time_reason(parts.front()->summary(), profile));
   if (any_executed(strokes)) add_remains(lines, strokes, profile.step_mm);
   if (cuts.x.any) {
-    lines.push_back(fmt::format("cuts {}, {}, {:.2f} mm deep", size_text("X", cuts.x, profile.step_mm),
+    lines.push_back(fmt::format("cuts {}, {}{}, {:.2f} mm deep", size_text("X", cuts.x, profile.step_mm),
                                 size_text("Y", cuts.y, profile.step_mm),
+                                picture.diameters.empty() ? "" : " at the middle of the tool",
                                 std::max(0.0, -cuts.z.lowest) * profile.step_mm));
   }
   if (strokes.feeds().any) lines.push_back(speed_text(parts, strokes));
@@ -203,8 +204,11 @@ std::vector<std::string> reports(const Parts& parts, double width) {
   return lines;
 }
 
-// In steps. Without a tool a relief has the assumed one, and other pictures have hairlines.
-std::vector<double> diameters_of(const Parts& parts, const Profile& profile, bool relief) {
+// In steps. Without a tool a relief has the assumed one, and other pictures have hairlines. So have those of what
+// remains: passes of the tool's width would hide each other.
+std::vector<double> diameters_of(const Parts& parts, const Profile& profile, const Picture& picture) {
+  const bool relief = picture.relief;
+  if (any_executed(*picture.strokes)) return {};
   std::vector<double> all;
   for (const Check* part : parts) {
     if (!part->tool_mm() && !relief) return {};
@@ -258,7 +262,7 @@ Picture make_picture(const std::string& title, const std::vector<const Check*>& 
   picture.strokes = &strokes;
   picture.shades.emplace(strokes, profile.step_mm);
   picture.relief = picture.shades->are_ranges() && !any_executed(strokes);
-  picture.diameters = diameters_of(parts, profile, picture.relief);
+  picture.diameters = diameters_of(parts, profile, picture);
   // A file's name may be of any bytes; what is no UTF-8 is left out.
   picture.labels.push_back({kMargin, kMargin * 0.7,
                             fmt::format("{}{} on the {}", boost::locale::conv::utf_to_utf<char>(title),

@@ -129,6 +129,7 @@ TEST(Views, ShowAFlatJobHigher) {
   EXPECT_GE(shown->views[1].frame.height, 50);
   EXPECT_GT(shown->views[1].stretch, 1);
   EXPECT_THAT(shown.labels(), Contains(fmt::format("front: X, Z (Z {} times as high)", shown->views[1].stretch)));
+  EXPECT_THAT(shown.labels(), Contains(fmt::format("side: Z x {}, Y", shown->views[2].stretch)));
 }
 
 TEST(Scales, AreInMillimetres) {
