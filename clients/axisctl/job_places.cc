@@ -47,4 +47,12 @@ rml1::PlaceRange job_range(const std::string& text) {
               "name a line, e.g. 12, a line and a column, e.g. 1:340, or two of them in their order, e.g. 8:1-13:1");
 }
 
+std::string place_text(const v1::JobPlace& place) {
+  return fmt::format("line {}, column {}", place.line(), place.column());
+}
+
+std::string line_text(const v1::JobPlace& place) {
+  return place.column() > 1 ? place_text(place) : fmt::format("line {}", place.line());
+}
+
 }  // namespace axisgate::axisctl

@@ -1,9 +1,10 @@
-// Places in a job's file, as they are typed with --from.
+// Places in a job's file, as they are typed with --from, and as they are shown.
 #pragma once
 
 #include <string>
 #include <string_view>
 
+#include "axisgate/v1/mill.pb.h"
 #include "device/rml1/place.h"
 
 namespace axisgate::axisctl {
@@ -13,5 +14,10 @@ rml1::Place job_place(const std::string& text);
 
 // The same, or two of them with a hyphen between: "8:1-13:1". Alone it is both ends.
 rml1::PlaceRange job_range(const std::string& text);
+
+// "line 8, column 75"
+std::string place_text(const v1::JobPlace& place);
+// The same without the column if that is the first one: "line 8".
+std::string line_text(const v1::JobPlace& place);
 
 }  // namespace axisgate::axisctl

@@ -45,6 +45,12 @@ std::string typed_or_first(const Session& session, const v1::Mill& mill, Wanted 
 std::string wanted_job(const Session& session, const v1::Mill& mill) {
   const std::string job = typed_or_first(session, mill, waits);
   if (!job.empty()) return job;
+  if (mill.has_running()) {
+    throw Failure{
+        kRefused, "NOT_FOUND",
+        fmt::format("no job waits at {}: job {} runs", last_part(mill.name()), last_part(mill.running().job())),
+        "ask again when it has ended, or is PAUSED with its tool up"};
+  }
   throw Failure{kRefused, "NOT_FOUND", fmt::format("no job waits at {}", last_part(mill.name())),
                 "send one with `axisctl mill send`"};
 }

@@ -49,7 +49,7 @@ v1::CallContext context_of_start(const Session& session) {
   return context;
 }
 
-// What keeps the job from starting passes in most cases: the confirmation need not be given once more.
+// A refused start is tried again in most cases, and needs no second confirmation.
 int start_confirmed(const Session& session, const v1::Job& job) {
   try {
     return start_job(session, context_of_start(session), job.name());

@@ -45,7 +45,7 @@ int mill_send_rest(const Session& session) {
   }
   v1::RepeatJobRequest request = repeat_request(session, *job.rest_of);
   request.set_rest(true);
-  // Without a line the daemon's answer, a refusal, says where what was executed ends.
+  // The daemon refuses a rest without a line, and says where what was executed ends.
   if (job.from) {
     const rml1::Place from = job_place(*job.from);
     request.set_line(static_cast<std::int64_t>(from.line));

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "clients/axisctl/job_places.h"
 #include "clients/axisctl/mill_times.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/table.h"
@@ -132,11 +133,7 @@ bool is_paused(const v1::Job& job, const v1::RunningJob& running) {
 std::string state_cell(const v1::Job& job, const v1::RunningJob& running) {
   if (is_paused(job, running)) return name_of(v1::JOB_STATE_PAUSED);
   const std::string state = name_of(job.state());
-  return job.setup().has_from() && waits(job) ? fmt::format("{} (line {})", state, job.setup().from().line()) : state;
-}
-
-std::string place_text(const v1::JobPlace& place) {
-  return fmt::format("line {}, column {}", place.line(), place.column());
+  return job.setup().has_from() && waits(job) ? fmt::format("{} ({})", state, line_text(job.setup().from())) : state;
 }
 
 // "ends at line 8, column 1", "ends between line 8, column 1 and line 13, column 1"
@@ -199,7 +196,7 @@ std::string running_line(const v1::Mill& mill) {
 
 // ", from line 12 on, on the workpiece of job 3"
 std::string after_text(const v1::Job& job) {
-  const std::string from = job.setup().has_from() ? fmt::format(", from line {} on", job.setup().from().line()) : "";
+  const std::string from = job.setup().has_from() ? fmt::format(", from {} on", line_text(job.setup().from())) : "";
   return job.continues().empty() ? from
                                  : fmt::format("{}, on the workpiece of job {}", from, last_part(job.continues()));
 }

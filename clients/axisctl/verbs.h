@@ -81,7 +81,7 @@ int mill_origin(const Session& session);
 int mill_spindle(const Session& session);
 int mill_raise(const Session& session);
 int mill_again(const Session& session);
-// Of `mill send --rest-of`.
+// Runs `mill send --rest-of`.
 int mill_send_rest(const Session& session);
 
 // With --wait under a lease of its own, which is waited for.

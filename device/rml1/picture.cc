@@ -60,9 +60,13 @@ void pad(Reach& reach, double least) {
 }
 
 Extents extents(const Box& box, const Profile& profile, std::optional<Stock> stock, bool origin_known,
-                const Strokes& strokes) {
+                const Strokes& strokes, double radius) {
   Extents all;
   all.shown = cut_bounds(strokes, true);
+  if (all.shown.x.any) {
+    all.shown.take({all.shown.x.lowest - radius, all.shown.y.lowest - radius, all.shown.z.lowest});
+    all.shown.take({all.shown.x.highest + radius, all.shown.y.highest + radius, all.shown.z.lowest});
+  }
   take_travel(all.shown, strokes, box.highest.z, !all.shown.x.any);
   all.shown.take({0, 0, 0});  // a person clamps the workpiece by the work origin
   if (stock) {
@@ -119,7 +123,7 @@ std::string part_text(const Parts& parts, std::size_t index) {
   return parts.size() == 1 ? "" : fmt::format("part {}: ", index + 1);
 }
 
-// Of one part.
+// Describes one part.
 std::string work_text(const Check& check) {
   const Summary& job = check.summary();
   return fmt::format("{} commands; {:.0f} mm driven, of them {:.0f} mm cutting; takes {}", job.commands,
@@ -138,7 +142,7 @@ std::string speed_text(const Parts& parts, const Strokes& strokes) {
                      not_reached ? fmt::format("; the job sets up to {:g} mm/s", *not_reached) : "");
 }
 
-// How wide the cuts are drawn.
+// Says how wide the cuts are drawn.
 std::string width_text(const Picture& picture, double step_mm) {
   if (picture.diameters.empty()) return "";
   std::vector<std::string> widths;
@@ -204,11 +208,10 @@ std::vector<std::string> reports(const Parts& parts, double width) {
   return lines;
 }
 
-// In steps. Without a tool a relief has the assumed one, and other pictures have hairlines. So have those of what
-// remains: passes of the tool's width would hide each other.
-std::vector<double> diameters_of(const Parts& parts, const Profile& profile, const Picture& picture) {
-  const bool relief = picture.relief;
-  if (any_executed(*picture.strokes)) return {};
+// Returns diameters in steps. A relief without a tool has the assumed one; other pictures have hairlines. So have those
+// of what remains, since passes of the tool's width would hide each other.
+std::vector<double> diameters_of(const Parts& parts, const Profile& profile, const Strokes& strokes, bool relief) {
+  if (any_executed(strokes)) return {};
   std::vector<double> all;
   for (const Check* part : parts) {
     if (!part->tool_mm() && !relief) return {};
@@ -257,12 +260,16 @@ double drawn_width(const Picture& picture, const Picture::View& view, std::size_
 
 Picture make_picture(const std::string& title, const std::vector<const Check*>& parts, const Profile& profile,
                      std::optional<Stock> stock, bool origin_known, const Strokes& strokes) {
-  Picture picture =
-      lay_out(extents(parts.front()->machine().box(), profile, stock, origin_known, strokes), profile.step_mm);
+  const Shades shades(strokes, profile.step_mm);
+  const bool relief = shades.are_ranges() && !any_executed(strokes);
+  const std::vector<double> diameters = diameters_of(parts, profile, strokes, relief);
+  const double widest = diameters.empty() ? 0 : *std::ranges::max_element(diameters);
+  Picture picture = lay_out(extents(parts.front()->machine().box(), profile, stock, origin_known, strokes, widest / 2),
+                            profile.step_mm);
   picture.strokes = &strokes;
-  picture.shades.emplace(strokes, profile.step_mm);
-  picture.relief = picture.shades->are_ranges() && !any_executed(strokes);
-  picture.diameters = diameters_of(parts, profile, picture);
+  picture.shades = shades;
+  picture.relief = relief;
+  picture.diameters = diameters;
   // A file's name may be of any bytes; what is no UTF-8 is left out.
   picture.labels.push_back({kMargin, kMargin * 0.7,
                             fmt::format("{}{} on the {}", boost::locale::conv::utf_to_utf<char>(title),

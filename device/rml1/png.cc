@@ -51,7 +51,7 @@ void draw_rectangle(cairo_t* cairo, const Picture::Rectangle& one) {
 
 using Shaded = std::array<std::vector<const Strokes::Stroke*>, kShades>;
 
-// Of one part in one view.
+// Returns the strokes of one part that one view shows.
 Shaded by_shade(const Picture& picture, const Picture::View& view, std::size_t part) {
   Shaded shaded;
   for (const Strokes::Stroke& stroke : picture.strokes->all()) {

@@ -23,7 +23,7 @@ double apart(const Strokes::Stroke& stroke, double radius) {
   return stroke.from[2] == stroke.to[2] ? std::max(0.5, radius / 2) : 1;
 }
 
-// How many cells all discs have together, at one cell a pixel.
+// Returns how many cells all discs have together, at one cell a pixel.
 double work_of(const Strokes& strokes, const std::vector<double>& diameters, double scale) {
   double cells = 0;
   for (const Strokes::Stroke& stroke : strokes.all()) {

@@ -11,10 +11,10 @@
 namespace axisgate::rml1 {
 
 // In the order of drawing. kLeftOut: by clipping. Cutting has kDepths of them, from kShallowest on.
-inline constexpr int kDone = 0, kTravel = 1, kLeftOut = 2, kShallowest = 3, kDepths = 8;
+inline constexpr int kDone = 0, kTravel = 1, kLeftOut = 2, kPerhapsDone = 3, kShallowest = 4, kDepths = 8;
 // Parts take turns in two tints, each with all depths.
 inline constexpr int kTints = 2;
-inline constexpr int kPerhapsDone = kShallowest + kTints * kDepths, kShades = kPerhapsDone + 1;
+inline constexpr int kShades = kShallowest + kTints * kDepths;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
 // One shade for each depth where a job has few; else equal ranges between its shallowest and its deepest cut.

@@ -89,7 +89,7 @@ void add_hole(Path& path, const Strokes::Stroke& stroke) {
   path.holes += fmt::format("M{} {}h0", std::lround(stroke.to[0]), std::lround(stroke.to[1]));
 }
 
-// Of one part.
+// Returns the paths of one part.
 std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& view, std::size_t part) {
   std::array<Path, kShades> paths;
   const auto at = [&view](const std::array<float, 3>& point, int axis) {
@@ -108,7 +108,7 @@ std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& 
   return paths;
 }
 
-// How a path differs from the others of its view. `width`: of the tool, in steps; 0: it is not drawn.
+// Returns how a path differs from the others of its view. `width`: of the tool, in steps; 0: it is not drawn.
 std::string style_of(std::size_t shade, double pixel, double width) {
   if (shade == kTravel) {
     return fmt::format("class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"", 0.6 * pixel,

@@ -29,7 +29,7 @@ struct CheckedJob {
   std::vector<rml1::Warning> accepted;  // in their order; each occurs in the job
 };
 
-// What came before a job that is checked.
+// A JobPast is what came before a job that is checked.
 struct JobPast {
   std::vector<rml1::Warning> accepted{};  // when it was sent first; it may no longer have them
   rml1::Check* workpiece = nullptr;       // has played the jobs that have cut its workpiece; null: that is new

@@ -34,8 +34,12 @@ Result<rml1::CheckOptions> check_options(const Mill& mill, const JobToSend& job)
   if (job.origin.empty()) return options;
   const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
   if (origin == config.origins.end()) {
+    std::vector<std::string> names;
+    for (const server::NamedOrigin& one : config.origins) names.push_back(one.name);
     return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), job.origin),
-                "`axisctl mill queue` lists them; none is the one that is set at the panel");
+                names.empty()
+                    ? "name none: then it is the one that is set at the panel"
+                    : fmt::format("it has {}; none is the one that is set at the panel", fmt::join(names, ", ")));
   }
   options.origin = server::origin_of(*origin, config.profile);
   return options;

@@ -102,14 +102,15 @@ std::string JobUpload::facts(const CheckedJob& checked) const {
                            .streaming = job_.streaming,
                            .stock = job_.stock,
                            .continues = before_.continues,
+                           .surfaces = before_.surfaces.value_or(0),
                            .checked_for = server::checked_for(mill_.config(), job_.origin)});
 }
 
 // The heights of both jobs count from the Z0 with which the one before began.
-Result<void> JobUpload::check_surface(const rml1::MillController& mill) const {
-  if (!before_.surfaces || *before_.surfaces == mill.surfaces()) return {};
+Result<void> JobUpload::check_surface(std::uint64_t surfaces) const {
+  if (!before_.surfaces || *before_.surfaces == surfaces) return {};
   return fail(Reason::stale_setpoint, fmt::format("Z0 was sent to the mill since job {} began", before_.cut),
-              "send the job without the one that it continues");
+              "send the job without the one that it continues; if Z0 is still the same surface, accept deep-pass");
 }
 
 // A repeat of a request that came before is answered with the job of that one, and what came now is dropped.
@@ -121,6 +122,8 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
                        "the job sets Z0 itself, so its heights are not those of the job before",
                        "send it without the one that it continues"));
   }
+  const auto published = mill_.newest().get().value;
+  if (const Result<void> same = check_surface(published->surfaces); !same) return answer(tl::unexpected(same.error()));
   spooled_->set_facts(facts(*good));
   Result<server::spool::Job> spooled = spooled_->finish();
   if (!spooled) return answer(tl::unexpected(spooled.error()));
@@ -136,7 +139,7 @@ void JobUpload::keep(std::string digest, const Answer<CurrentJob>& answer) {
   pipeline_.act(
       {kind_, call_, Result<Mill*>(&mill_)},
       [this, text = fmt::format("{} {}", api::name(kind_), job.number), answer](const MillTurn& turn) {
-        return check_surface(turn.controller).map([&text] { return text; });
+        return check_surface(turn.controller.surfaces()).map([&text] { return text; });
       },
       [job, answer](const MillTurn& turn, const MutationPtr& mutation) {
         turn.controller.add(job, turn.now);

@@ -54,7 +54,7 @@ struct JobsBefore {
   std::size_t part = 0;
 };
 
-// One thread at a time. Destroyed before finish(): nothing is left of it.
+// A JobUpload is used by one thread at a time. If it is destroyed before finish(), nothing is left of it.
 class JobUpload {
  public:
   // `kind`: send_job, or repeat_job.
@@ -72,7 +72,7 @@ class JobUpload {
   void keep(std::string digest, const Answer<CurrentJob>& answer);
   Result<CheckedJob> checked();
   std::string facts(const CheckedJob& checked) const;
-  Result<void> check_surface(const rml1::MillController& mill) const;
+  Result<void> check_surface(std::uint64_t surfaces) const;
 
   const RequestKind kind_;
   Call call_;

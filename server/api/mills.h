@@ -46,7 +46,7 @@ struct LineToChoose {
   std::uint64_t line = 0, column = 1;
 };
 
-// How a job that has ended is queued once more.
+// A JobToRepeat says how a job that has ended is queued once more.
 struct JobToRepeat {
   bool rest = false;                           // from a line of it on
   LineToChoose from;                           // of the rest
@@ -71,7 +71,8 @@ class Mills {
   // or the line cannot stream so; what check_same_workpiece() refuses;
   // queue_full.
   Result<std::unique_ptr<JobUpload>> send(const Call& call, std::string_view device, JobToSend job) const;
-  // Also what server::ended_job(), server::chosen_rest() and JobUpload::finish() refuse; wrong_mode: it has no rest.
+  // Fails as server::ended_job(), server::chosen_rest() and JobUpload::finish() do, and with wrong_mode if it has no
+  // rest.
   void repeat(const Call& call, std::string_view job, JobToRepeat how, Answer<CurrentJob> answer) const;
 
   void get(const Call& call, std::string_view device, Answer<MillState> answer) const;

@@ -115,7 +115,8 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   note(job, by, why, now);
   if (record_ && job.state == rml1::JobState::running) record_->begin(job);
   if (record_) record_->set_state(job);
-  if (job.state == rml1::JobState::tool_change || job.state == rml1::JobState::paused) keep(job);
+  if (job.state == rml1::JobState::tool_change) keep(job);
+  if (job.state == rml1::JobState::paused) plan_rest(job);
   if (rml1::is_end(job.state)) {
     ended_ = job;
     boost::asio::post(spool_thread_, [this, job] { end_spooled(spool_, name(), job); });
@@ -124,6 +125,20 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
 
 void Mill::keep(const rml1::Job& job) {
   boost::asio::post(spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
+}
+
+// The strand knows how long the rest takes only roughly. The job is kept either way.
+void Mill::plan_rest(const rml1::Job& job) {
+  boost::asio::post(spool_thread_, [this, job] {
+    rml1::Job planned = job;
+    if (!plan_job(spool_, name(), config_, planned, newest_.get().value->measured_pace)) {
+      return keep_facts(spool_, name(), job);
+    }
+    post([this, planned](rml1::MillController& mill, TimePoint) {
+      mill.plan_rest(planned);
+      changed_ = true;
+    });
+  });
 }
 
 void Mill::when_kept(std::function<void()> then) { boost::asio::post(spool_thread_, std::move(then)); }
@@ -188,7 +203,8 @@ MillNow Mill::now(TimePoint at) {
           controller_.running(at),
           controller_.measured_pace(),
           moment_of(at),
-          ended_};
+          ended_,
+          controller_.surfaces()};
 }
 
 void Mill::wind_down(std::function<void()> done) {

@@ -31,6 +31,7 @@ struct MillNow {
   std::optional<rml1::MeasuredPace> measured_pace;
   Moment clock;                    // by which its times are shown
   std::optional<rml1::Job> ended;  // the one that left the queue last
+  std::uint64_t surfaces = 0;      // MillController::surfaces()
 };
 
 class Mill final : public Device, private rml1::MillEvents {
@@ -87,6 +88,7 @@ class Mill final : public Device, private rml1::MillEvents {
   void restore_jobs();
   void plan_again(rml1::Job& job);
   void keep(const rml1::Job& job);
+  void plan_rest(const rml1::Job& job);
   void note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now);
   void publish_fact(Fact fact, TimePoint now);
   void after_call();

@@ -110,7 +110,7 @@ bool Spool::drop_oldest_ended(const std::string* identity) {
   return oldest != nullptr && drop(*home, oldest->id).has_value();
 }
 
-// What was refused before has no number, so that people see no gaps.
+// A job gets its number last, so that people see no gaps where one was refused.
 Result<Job> Spool::keep(Device& device, Job job, const std::string& upload, std::unique_ptr<Place> place) {
   const std::lock_guard writing(writing_);
   const Result<std::uint64_t> id = device.folder.next_id();

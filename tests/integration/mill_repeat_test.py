@@ -38,9 +38,9 @@ z = -800
 """
 
 # An MDX-20 has steps of 0.025 mm: two passes of 6 mm, and one of 12 mm, which breaks most tools.
-SMALL = "^IN;!MC1;!PZ-40,200;PU100,100;PD300,100;PU0,0;!MC0;\n"
-ROUGH = "^IN;!MC1;!PZ-240,200;PU0,0;PD1000,0;PU0,0;!PZ-480,200;PD1000,0;PU0,0;!MC0;\n"
-DEEP = "^IN;!MC1;!PZ-480,200;PU0,0;PD1000,0;PU0,0;!MC0;\n"
+SMALL = "^IN;VS500;!VZ500;!MC1;!PZ-40,200;PU100,100;PD300,100;PU0,0;!MC0;\n"
+ROUGH = "^IN;VS500;!VZ500;!MC1;!PZ-240,200;PU0,0;PD1000,0;PU0,0;!PZ-480,200;PD1000,0;PU0,0;!MC0;\n"
+DEEP = "^IN;VS500;!VZ500;!MC1;!PZ-480,200;PU0,0;PD1000,0;PU0,0;!MC0;\n"
 # A line for each command, so that lines count as commands do.
 LONG = "^IN;!MC0;!PZ-40,200;\n" + "".join(f"PU{number},100;\n" for number in range(1, 2001))
 HEAD_LINES = 1
@@ -191,8 +191,13 @@ class MillRepeat(unittest.TestCase):
                              (["--stock", "50,50,5"], "had no stock, and this job has a stock of 50 x 50 x 5 mm")):
             self.refused(why, "send", "-", "--continues", rough, *options, stdin=ROUGH)
         self.refused("sets Z0 itself", "send", "-", "--continues", rough, stdin="!ZO-400;" + ROUGH)
+        number = self.send(ROUGH, "--continues", rough)
         self.run_well("origin", "vice")
+        self.refused(rf"STALE_SETPOINT: Z0 was sent to the mill since job {rough} began, and job {number} ", "confirm",
+                     "--yes")
+        self.run_well("cancel", number)
         self.refused(rf"Z0 was sent to the mill since job {rough} began", "send", "-", "--continues", rough, stdin=ROUGH)
+        self.assertEqual(self.send(SMALL), str(int(number) + 1), "what was refused has no number")
 
     def test_the_check_knows_origins_by_name(self):
         file = self.folder / "small.rml"

@@ -102,6 +102,17 @@ TEST(Views, LeaveNoHalfOfThePageWhite) {
   }
 }
 
+// The path ends at 3000, 5 mm from the edge of what a tool of 10 mm removes.
+TEST(Views, ShowCutsInTheirWidth) {
+  const Profile profile = test_profile();
+  Strokes strokes;
+  Check check(profile, {.origin = {}, .stock = {}, .others = {}, .tool_mm = 10}, &strokes);
+  check.feed(kSquare);
+  check.finish();
+  const Picture::View view = make_picture("job", {&check}, profile, {}, false, strokes).views[0];
+  EXPECT_GE((view.frame.x + view.frame.width - view.x) / view.scale, 3000 + 500);
+}
+
 TEST(Views, CutOffWhatLeavesThem) {
   const std::string svg = to_svg(*Shown(kSquare));
   for (const char* part :

@@ -73,6 +73,26 @@ TEST_F(MillContinuedTest, WhatWasSentIsExecutedThenTheToolRisesAndTheSpindleStop
   EXPECT_THAT(permission_.users, IsEmpty());
 }
 
+TEST_F(MillContinuedTest, ItsPlanIsCorrectedWhileItWaitsThere) {
+  Job sent{.number = 1, .name = "part.rml", .owner = "unix anna", .setup = setup()};
+  sent.bytes = vectors(20).size();
+  sent.parts = {{"T1", sent.bytes}};
+  mill_.add(sent, now_);
+  run_job(1);
+  run_for(3s);
+  ASSERT_TRUE(mill_.pause(true, now_));
+  run_for(60s);
+  ASSERT_EQ(state(1), paused);
+  Job planned = job(1);
+  planned.parts[0].takes = {1s, 2s};
+  mill_.plan_rest(planned);
+  EXPECT_EQ(job(1).parts[0].takes.most, 2s);
+  planned.parts[0].takes = {3s, 4s};
+  planned.setup.from->offset += 1;
+  mill_.plan_rest(planned);
+  EXPECT_EQ(job(1).parts[0].takes.most, 2s) << "that was another place";
+}
+
 // "V15;VS15;" and "PU1000,0;": the second vector begins with the byte 18.
 constexpr Place kSecondVector{18, 1, 19};
 

@@ -316,6 +316,26 @@ TEST_F(MillLeavesTest, BetweenThePartsOfAJobItsToolIsWhatIsConfirmed) {
   EXPECT_THAT(job(2).setup.left, ElementsAre("job 1 (part.rml) sets Z0"));
 }
 
+TEST_F(MillLeavesTest, NoZ0IsLeftWhereAPersonHasSetIt) {
+  MillController after(profile_, settings_, line_, *this, permission_);
+  after.inherit_left(job_that_leaves(6, {.surface = true, .revolutions = true}));
+  after.inherit(job_that_leaves(7, {}));
+  after.link_up(now_);
+  ASSERT_TRUE(after.operate(SetSurface{-800}, {.who = "unix anna"}, now_));
+  EXPECT_THAT(after.jobs().front().setup.left, ElementsAre("job 6 (part.rml) sets the spindle speed (!RC)"));
+}
+
+TEST_F(MillLeavesTest, AJobThatContinuesAWorkpieceNeedsItsZ0) {
+  Job next = job_that_leaves(2, {});
+  next.continues = 1;
+  mill_.add(next, now_);
+  ASSERT_TRUE(mill_.operate(SetSurface{-800}, {.who = "unix anna"}, now_));
+  const Result<void> confirmed = confirm(2);
+  ASSERT_FALSE(confirmed);
+  EXPECT_EQ(confirmed.error().reason, Reason::stale_setpoint);
+  EXPECT_THAT(confirmed.error().message, HasSubstr("Z0 was sent to the mill since job 1 began"));
+}
+
 TEST_F(MillLeavesTest, OverARestart) {
   MillController after(profile_, settings_, line_, *this, permission_);
   after.inherit_left(job_that_leaves(6, {.surface = true}));

@@ -109,7 +109,7 @@ void MillController::leave_queue_if_ended(JobNumber number) {
 void MillController::show_left() {
   const auto first = std::ranges::find_if(jobs_, waits);
   for (Job& job : jobs_) job.setup.left.clear();
-  if (first != jobs_.end() && waits_to_begin(*first)) first->setup.left = left_;
+  if (first != jobs_.end() && waits_to_begin(*first)) first->setup.left = left_by(last_);
 }
 
 // The workpiece of a job that ran may still be in the mill.
@@ -147,7 +147,7 @@ Result<void> MillController::check_next(const Job& job) const {
                 "confirm that one, or have it cancelled");
   }
   return fail(Reason::wrong_mode, fmt::format("{} is before {}", text_of(*first), text_of(job)),
-              "confirm that one, or have it cancelled");
+              "confirm that one, or have it cancelled; `axisctl mill first` moves a job forward");
 }
 
 Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now) {
@@ -156,6 +156,7 @@ Result<void> MillController::confirm(JobNumber number, const JobSetup& seen, std
   if (const Result<void> is_next = check_next(**job); !is_next) return is_next;
   if (link_ != MillLink::open)
     return fail(Reason::link_down, "the line to the mill is closed", "confirm when it is open");
+  if (const Result<void> same = check_surface(**job); !same) return same;
   if (seen.left != (*job)->setup.left) {
     return fail(Reason::stale_setpoint,
                 fmt::format("before {}: {}; that is not what was seen", text_of(**job),
@@ -208,7 +209,7 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   if (const Result<void> startable = check_startable(**job, now); !startable) return startable;
   if (const Result<void> same = check_same(**job, *prepared); !same) return same;
   if (const Result<void> may = authorize(by, number, now); !may) return may;
-  if (waits_to_begin(**job)) left_ = left_by(**job);
+  if (waits_to_begin(**job)) last_ = {.number = number, .name = (*job)->name, .leaves = (*job)->leaves};
   if ((*job)->leaves.surface) set_surfaces(surfaces_ + 1);
   (*job)->surfaces = surfaces_;
   (*job)->written.reset();

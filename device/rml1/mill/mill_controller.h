@@ -92,7 +92,8 @@ class MillController : public LineMachine {
   void inherit_abort() { must_abort_ = true; }
   // surfaces() of the run before. Before link_up().
   void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
-  // Puts the job behind all others. The numbers ascend. With JobSetup::from it is the rest of another job.
+  // Puts the job behind all others. The numbers ascend. With JobSetup::from it is the rest of another job. Otherwise,
+  // with Job::continues, Job::surfaces is the surfaces() with which its heights count.
   void add(Job job, TimePoint now);
   // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
   // became of the last one is not known; link_down;
@@ -129,6 +130,8 @@ class MillController : public LineMachine {
   // before; until then no job is started, and no other step. wrong_mode; link_down; axis_busy: the mill takes nothing,
   // or the step before may not be done; what Permission::authorize() and words_of() refuse.
   Result<Duration> operate(const HandAct& act, const stage::RequestContext& by, TimePoint now);
+  // Takes over the plan of a rest that was computed off the strand, if the job still continues there.
+  void plan_rest(const Job& planned);
   // What was confirmed is not so any more. `why`: for people.
   void setup_changed(std::string_view why, TimePoint now);
 
@@ -203,6 +206,7 @@ class MillController : public LineMachine {
   void rank_as_ordered();
   Result<void> check_settled() const;
   Result<void> check_next(const Job& job) const;
+  Result<void> check_surface(const Job& job) const;
   Result<void> check_sending(bool raise) const;
   Result<void> check_pausable(bool raise, TimePoint now);
   Result<void> check_startable(const Job& job, TimePoint now) const;
@@ -234,7 +238,7 @@ class MillController : public LineMachine {
   MillLink link_ = MillLink::closed;
   Duration reopen_ = kReopenFirst;
   std::vector<Job> jobs_;
-  std::vector<std::string> left_;  // by the job that was started last
+  Job last_;  // the job that was started last: its number, name, and what it leaves
   std::uint64_t surfaces_ = 0;
   std::unique_ptr<Running> running_;
   std::optional<MeasuredPace> measured_pace_;

@@ -46,6 +46,15 @@ Result<void> MillController::check_operable(const HandAct& act, TimePoint now) c
   return is_step ? check_still(now) : Result<void>();
 }
 
+// A job that continues the workpiece of another was checked with the heights of that one.
+Result<void> MillController::check_surface(const Job& job) const {
+  if (job.continues == 0 || job.setup.from || !waits_to_begin(job) || job.surfaces == surfaces_) return {};
+  return fail(Reason::stale_setpoint,
+              fmt::format("Z0 was sent to the mill since job {} began, and {} was checked on its workpiece",
+                          job.continues, text_of(job)),
+              "cancel the job, and send it without the one that it continues");
+}
+
 void MillController::set_surfaces(std::uint64_t surfaces) {
   surfaces_ = surfaces;
   events_.surface_set(surfaces_);
@@ -58,7 +67,11 @@ Result<Duration> MillController::operate(const HandAct& act, const stage::Reques
   if (const Result<void> may = authorize(by, 0, now); !may) return tl::unexpected(may.error());
   setup_changed(fmt::format("{} had the mill {}", by.who, text_of(act)), now);
   noted_line_.write(words->bytes);
-  if (std::holds_alternative<SetSurface>(act)) set_surfaces(surfaces_ + 1);
+  if (std::holds_alternative<SetSurface>(act)) {
+    set_surfaces(surfaces_ + 1);
+    last_.leaves.surface = false;
+    show_left();
+  }
   by_hand_until_ = std::max(by_hand_until_, now) + words->longest;
   return by_hand_until_ - now;
 }

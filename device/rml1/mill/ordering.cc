@@ -33,7 +33,7 @@ void MillController::inherit(Job job) {
 }
 
 void MillController::inherit_left(const Job& last) {
-  left_ = left_by(last);
+  last_ = last;
   show_left();
 }
 

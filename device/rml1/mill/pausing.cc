@@ -92,6 +92,14 @@ Result<void> MillController::choose_rest(JobNumber number, const JobRest& rest, 
   return {};
 }
 
+void MillController::plan_rest(const Job& planned) {
+  const Result<Job*> job = find(planned.number);
+  const bool same = job && (*job)->state == JobState::paused && (*job)->setup.from == planned.setup.from &&
+                    (*job)->part == planned.part && planned.part < planned.parts.size() &&
+                    planned.parts.size() == (*job)->parts.size();
+  if (same) (*job)->parts[planned.part] = planned.parts[planned.part];
+}
+
 // Its rest is confirmed as a job is: the tool is elsewhere, and somebody may have reached into the machine.
 void MillController::end_raised(TimePoint now) {
   const std::uint64_t written = running_->sender.progress(now).written;
