@@ -15,7 +15,7 @@ constexpr double kLine = 18, kSwatch = 14;
 constexpr double kCharacter = 7;  // the width of a figure, of text of this size
 constexpr double kPad = 0.04;     // of an extent, beside it
 constexpr std::size_t kReports = 8;
-constexpr double kAssumedToolMm = 2;  // of a relief; as the check of passes has it
+constexpr double kAssumedToolMm = 2;  // diameter for reliefs, the same as in the check of passes
 
 Point wide(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 

@@ -14,7 +14,7 @@ double depth(const Strokes::Stroke& stroke) { return -std::min({stroke.from[2], 
 }  // namespace
 
 const std::array<const char*, kShades> kShadeColours = {
-    "#c3cbd3", "#9aa5b1", "#e6007e", "#00a86b",  // not cut any more, or not yet
+    "#c3cbd3", "#9aa5b1", "#e6007e", "#00a86b",  // done, travel, not driven, perhaps done
     "#fdae61", "#f98e52", "#ef6548", "#d7301f", "#a50f15", "#7a0177", "#54278f", "#1f005c",  // parts 1, 3, ...
     "#a6dbe0", "#7cc8d2", "#4fb0c6", "#2e94b6", "#1f78a0", "#175d84", "#104466", "#082a44"   // parts 2, 4, ...
 };

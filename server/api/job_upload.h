@@ -26,11 +26,11 @@ using MillPipeline = PipelineOf<server::Mill>;
 struct CurrentJob {
   const server::Mill* mill = nullptr;  // never null
   rml1::Job job;
-  server::Moment clock;                 // by which its times are shown
-  std::optional<rml1::RunOn> run_on{};  // of one that runs
+  server::Moment clock;                 // converts its times for people
+  std::optional<rml1::RunOn> run_on{};  // empty unless it runs
 };
 
-// Returns the job with its newest state; of one that has just left the queue, `before`.
+// Returns the job in its newest state, or `before` if it has just left the queue.
 CurrentJob current(const TurnOf<server::Mill>& turn, const rml1::Job& before);
 
 // A JobToSend is what is said of a job before its bytes come.

@@ -10,8 +10,8 @@
 
 namespace axisgate::api {
 
-// Reports why a job of that origin and stock cannot continue the workpiece of one that has ended, or nothing. Fails
-// with wrong_mode if the ended one is not DONE, and with stale_setpoint if its heights count from another Z0.
+// Checks whether a job of that origin and stock can continue the workpiece of one that has ended. Fails with wrong_mode
+// if the ended one is not DONE, and with stale_setpoint if its heights count from another Z0.
 Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& ended, std::string_view origin,
                                   const std::optional<rml1::Stock>& stock);
 

@@ -32,7 +32,7 @@ class Seen {
     picture_.emplace(make_picture("job", {&*check_}, profile_, {}, false, strokes_));
   }
   const Picture& picture() const { return *picture_; }
-  // What is seen at a place in steps.
+  // Returns the pixel at a place in steps.
   std::uint32_t at(double x, double y) const {
     const Picture::View& view = picture_->views[0];
     const Relief relief(strokes_, *picture_->shades, picture_->diameters, view);

@@ -31,7 +31,7 @@ Result<void> MillController::check_risen(TimePoint now) const {
               fmt::format("look at the mill, and ask again after {} s", left.count()));
 }
 
-// Steps do not add up while nobody looks. Z0 behind a step is where that leads.
+// Steps do not add up while nobody looks. Z0 after a step is set where the step leads.
 Result<void> MillController::check_operable(const HandAct& act, TimePoint now) const {
   if (const Result<void> free = check_free(); !free) return free;
   if (const Result<void> taken = check_taken(); !taken) return taken;

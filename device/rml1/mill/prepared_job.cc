@@ -79,7 +79,8 @@ PlaceRange PreparedJob::executed(std::uint64_t least, std::uint64_t written) con
 TimeRange left_of(const PreparedJob& job, const SendProgress& progress, const std::optional<MeasuredPace>& measured) {
   if (!measured) {
     const TimeRange left = job.times().left(progress.executed_least, progress.executed_most);
-    return {left.least, std::max(left.least, left.most)};  // behind a raise the slowest has executed what it was sent
+    return {left.least,
+            std::max(left.least, left.most)};  // after a raise the slowest mill has executed what it was sent
   }
   const auto takes = [&job](std::uint64_t executed, double pace) {
     return std::chrono::duration_cast<Duration>(
