@@ -155,8 +155,9 @@ work origin: X and Y from the home corner, and how far Z0 is below the top of th
 checked. With --stock there is a warning for a cut beside or below the workpiece. With --tool, the diameter of the tool,
 the report says how much is removed. `mill check` exits 1 when the job has an error. `mill preview` draws the job from
 above, from the front and from the side, and reports the same errors and warnings. Cuts are drawn as wide as --tool, and
-a relief is shaded. Several files are the parts of a job, in two tints. With --from it draws what remains from a line on. After an abort `mill queue` says between which places of the file what was executed ends: --from 8:1-13:1
-draws what begins there as perhaps done.
+a relief is shaded. Several files are the parts of a job, in two tints. With --from it draws what remains from a line on.
+After an abort `mill queue` says between which places of the file what was executed ends: --from 8:1-13:1 draws what
+begins there as perhaps done.
 
 The other commands call the daemon; with several mills --device names one. `mill send` puts a job into the queue, unless
 the check finds an error, or a warning that is not named with --accept, such as deep-pass. A person at the mill sets up

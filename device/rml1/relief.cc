@@ -18,7 +18,8 @@ double radius_of(const Strokes::Stroke& stroke, const std::vector<double>& diame
   return std::max(0.5, diameters[stroke.part] * scale / 2);
 }
 
-// Discs of a level path that lie so far apart leave hardly anything between them; those of a slope would leave stairs.
+// Returns how far apart discs of the tool are cut. On a level path they leave hardly anything between them; on a slope
+// they would leave stairs.
 double apart(const Strokes::Stroke& stroke, double radius) {
   return stroke.from[2] == stroke.to[2] ? std::max(0.5, radius / 2) : 1;
 }

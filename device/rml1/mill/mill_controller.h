@@ -92,7 +92,7 @@ class MillController : public LineMachine {
   void inherit_abort() { must_abort_ = true; }
   // surfaces() of the run before. Before link_up().
   void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
-  // Puts the job behind all others. The numbers ascend. With JobSetup::from it is the rest of another job. Otherwise,
+  // Puts the job after all others. The numbers ascend. With JobSetup::from it is the rest of another job. Otherwise,
   // with Job::continues, Job::surfaces is the surfaces() with which its heights count.
   void add(Job job, TimePoint now);
   // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
