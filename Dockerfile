@@ -11,7 +11,7 @@
 FROM debian:bookworm-slim AS build
 WORKDIR /src
 COPY deploy/debian-packages.txt deploy/install-packages.sh deploy/
-RUN deploy/install-packages.sh
+RUN deploy/install-packages.sh --to-build
 COPY . .
 # Where a compiler cache is mounted, if one is: repeated builds take seconds with it.
 ARG CCACHE_DIR

@@ -1,11 +1,30 @@
 #!/usr/bin/env bash
 # Installs what is missing of deploy/debian-packages.txt. Asks nothing, and needs no network when nothing is missing.
+# usage: deploy/install-packages.sh [--to-build]     with --to-build without what only the tests need
 set -euo pipefail
 
 list="$(dirname "$(readlink -f "${BASH_SOURCE[0]}")")/debian-packages.txt"
 
+to_build=false
+
+read_arguments() {
+  case "${1-}" in
+    "") ;;
+    --to-build) to_build=true ;;
+    *)
+      printf 'install-packages: unknown argument "%s"; usage: deploy/install-packages.sh [--to-build]\n' "$1" >&2
+      return 1
+      ;;
+  esac
+}
+
+# What only the tests need is at the end of the list.
+chosen_part() {
+  if $to_build; then sed '/^# --- to test/,$d' "$list"; else cat "$list"; fi
+}
+
 listed_packages() {
-  sed 's/#.*//' "$list" | tr -s ' \t' '\n' | sed '/^$/d'
+  chosen_part | sed 's/#.*//' | tr -s ' \t' '\n' | sed '/^$/d'
 }
 
 # Multi-arch packages are answered as name:architecture when asked by pattern; the plain name is what is compared.
@@ -39,6 +58,7 @@ mask_service() {
 }
 
 main() {
+  read_arguments "$@"
   if ! command -v dpkg-query >/dev/null; then
     echo "install-packages: this is no Debian system; install by hand what $list lists" >&2
     return 1

@@ -15,6 +15,8 @@ state="$root/build/quickstart-state"
 grpc_port=50203
 metrics_port=9203
 ready_limit_s=30
+# Time of one processor for a file, or a batch of files, on average.
+compile_s=9
 end_limit_s=10
 
 once=false
@@ -33,10 +35,22 @@ read_arguments() {
   esac
 }
 
+# Says how long the build will take, by the number of files that remain to be compiled.
+announce_build() {
+  local files processors seconds
+  files="$(ninja -C build -n "${programs[@]}" | grep -c 'Building CXX' || true)"
+  ((files > 0)) || return 0
+  processors="$(nproc)"
+  seconds=$((files * compile_s / processors))
+  printf 'quickstart: compiling %d files; on %d processors this takes about %d min %d s\n' \
+    "$files" "$processors" $((seconds / 60)) $((seconds % 60))
+}
+
 build() {
   # From the root, because presets are looked up there.
   cd "$root"
   cmake --preset dev || fail "the step 'configure' failed"
+  announce_build
   cmake --build --preset dev --target "${programs[@]}" || fail "the step 'build' failed"
 }
 
@@ -162,7 +176,7 @@ stay_up() {
 
 main() {
   read_arguments "$@"
-  "$root/deploy/install-packages.sh" || fail "the step 'install packages' failed"
+  "$root/deploy/install-packages.sh" --to-build || fail "the step 'install packages' failed"
   build
   trap leave EXIT
   trap 'exit 130' INT

@@ -1,6 +1,5 @@
 // axisgated: owns the lines of the configured stage controllers and shares them over gRPC.
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -31,7 +30,7 @@
 #include "server/gateway.h"
 #include "server/journal/journal.h"
 #include "server/kinds.h"
-#include "server/logging.h"
+#include "server/log.h"
 #include "server/metrics/certificate_metrics.h"
 #include "server/metrics/journal_metrics.h"
 #include "server/rpc/server.h"
@@ -78,8 +77,8 @@ Result<std::uint32_t> start_generation(const server::StateDirectory& state) {
   const Result<server::NewGeneration> generation = server::next_generation(state.path(), now);
   if (!generation) return tl::unexpected(generation.error());
   if (!generation->kept) {
-    spdlog::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
-                 server::explain(generation->kept.error()));
+    server::log::warn("{}; only the clock distinguishes lease tokens from those of earlier runs",
+                      server::explain(generation->kept.error()));
   }
   return generation->number;
 }
@@ -135,21 +134,21 @@ std::unique_ptr<server::journal::Journal> open_journal(const server::StateDirect
   const std::string path = state.file("journal.sqlite");
   auto opened = server::journal::Journal::open(path, server::boot_id(), bounds);
   if (opened) return *std::move(opened);
-  spdlog::error("the journal could not be opened, so motions and changes are {}: {}; then restart the daemon",
-                config.act_without ? "not recorded" : "refused", server::explain(opened.error()));
+  server::log::error("the journal could not be opened, so motions and changes are {}: {}; then restart the daemon",
+                     config.act_without ? "not recorded" : "refused", server::explain(opened.error()));
   return server::journal::Journal::unopened(path, opened.error());
 }
 
 void log_what_is_served(const server::Gateway& gateway, const rpc::Server& server, int metrics_port) {
   const server::Config& config = gateway.config();
   const server::TcpAddress metrics{config.metrics.host, static_cast<std::uint16_t>(metrics_port)};
-  spdlog::info("gRPC on {} and unix:{}", to_string(server.listen()), server.socket());
-  if (config.network) spdlog::info("gRPC with TLS on {}", to_string(*server.network()));
-  spdlog::info("metrics on http://{}/metrics", to_string(metrics));
+  server::log::info("gRPC on {} and unix:{}", to_string(server.listen()), server.socket());
+  if (config.network) server::log::info("gRPC with TLS on {}", to_string(*server.network()));
+  server::log::info("metrics on http://{}/metrics", to_string(metrics));
   for (const auto& device : gateway.devices()) {
-    spdlog::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
+    server::log::info("device {}: {} on {}", device->name(), device->kind_name(), device->line_description());
   }
-  spdlog::default_logger()->flush();
+  server::log::flush();
 }
 
 // What is open before the gateway, and outlives it.
@@ -186,7 +185,7 @@ int serve(server::Gateway& gateway, const Kept& kept, server::EndSignals& end_si
 int serve(const server::Config& config) {
   using server::journal::EntryKind;
   server::EndSignals end_signals;
-  server::start_logging();
+  server::log::start();
   // Held until all that writes there has ended.
   const auto state = server::StateDirectory::hold(server::default_state_directory());
   if (!state) return complain(kExitFailed, server::explain(state.error()));

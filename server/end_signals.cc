@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 #include <pthread.h>
-#include <spdlog/spdlog.h>
 #include <string.h>
 
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "server/log.h"
 #include "server/service_manager.h"
 
 namespace axisgate::server {
@@ -94,11 +94,11 @@ void EndSignals::wait_for_next(Gateway& gateway) {
 
 void EndSignals::on_signal(Gateway& gateway, int signal) {
   if (signal == SIGTSTP) {
-    spdlog::warn(
+    log::warn(
         "SIGTSTP (Ctrl-Z) is ignored: a suspended daemon could not stop what moves (to end the daemon, press Ctrl-C or "
         "send SIGTERM)");
   } else if (signal == SIGHUP && is_service()) {
-    spdlog::warn(
+    log::warn(
         "SIGHUP is ignored: a service has no terminal, and there is nothing to reload (to apply a changed "
         "configuration, restart the service)");
   } else {
@@ -109,12 +109,12 @@ void EndSignals::on_signal(Gateway& gateway, int signal) {
 void EndSignals::advance(Gateway& gateway, int signal) {
   const bool asks = !is_repeated(signal);
   if (step_ == Step::asked && asks) {
-    spdlog::warn("ending at once: {} asks again; what moves may continue to move", name_of(signal));
+    log::warn("ending at once: {} asks again; what moves may continue to move", name_of(signal));
     return context_.stop();
   }
-  spdlog::info("{}: {}{}", step_ == Step::serving ? "ending" : "already ending", name_of(signal),
-               asks ? "; a second signal ends at once" : "");
-  spdlog::default_logger()->flush();
+  log::info("{}: {}{}", step_ == Step::serving ? "ending" : "already ending", name_of(signal),
+            asks ? "; a second signal ends at once" : "");
+  log::flush();
   if (step_ == Step::serving) wind_down(gateway);
   if (step_ != Step::asked) step_ = asks ? Step::asked : Step::ending;
 }
@@ -124,7 +124,7 @@ void EndSignals::wind_down(Gateway& gateway) {
   gateway.wind_down([this] { context_.stop(); });
   limit_.expires_after(gateway.wind_down_limit());
   limit_.async_wait([this](const boost::system::error_code&) {
-    spdlog::warn("ending although a line has not been closed: what moves may continue to move");
+    log::warn("ending although a line has not been closed: what moves may continue to move");
     context_.stop();
   });
 }

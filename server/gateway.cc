@@ -1,7 +1,6 @@
 #include "server/gateway.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <atomic>
@@ -12,6 +11,7 @@
 #include "server/devices/mill.h"
 #include "server/devices/motion_record.h"
 #include "server/explain.h"
+#include "server/log.h"
 #include "server/recording/recording_file.h"
 
 namespace axisgate::server {
@@ -33,7 +33,7 @@ Executor posting_to(boost::asio::io_context& context) {
 template <class Record>
 std::unique_ptr<Record> kept(Result<std::unique_ptr<Record>> record) {
   if (record) return *std::move(record);
-  spdlog::warn("{}", explain(record.error()));
+  log::warn("{}", explain(record.error()));
   return nullptr;
 }
 

@@ -1,10 +1,10 @@
 #include "server/watchdog.h"
 
-#include <spdlog/spdlog.h>
-
 #include <mutex>
 #include <set>
 #include <utility>
+
+#include "server/log.h"
 
 namespace axisgate::server {
 
@@ -47,8 +47,8 @@ class Watchdog::Rounds : public std::enable_shared_from_this<Rounds> {
       if (ended_) return;
       if (!silent_.empty()) {
         if (!std::exchange(named_, true)) {
-          spdlog::critical("{} does not answer: the service manager restarts the daemon if this lasts",
-                           threads_[*silent_.begin()].name);
+          log::critical("{} does not answer: the service manager restarts the daemon if this lasts",
+                        threads_[*silent_.begin()].name);
         }
         return look_later();
       }

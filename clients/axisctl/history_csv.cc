@@ -8,7 +8,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-std::string quoted(std::string_view text) {
+std::string csv_quoted(std::string_view text) {
   if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
   std::string field = "\"";
   for (const char c : text) field += c == '"' ? "\"\"" : std::string(1, c);
@@ -24,8 +24,8 @@ std::string kind_text(v1::HistoryKind kind) {
 
 std::string csv_row(const v1::HistoryEntry& entry) {
   return fmt::format("{},{},{},{},{},{},{}", entry.number(), google::protobuf::util::TimeUtil::ToString(entry.time()),
-                     kind_text(entry.kind()), quoted(last_part(entry.device())), quoted(entry.who()),
-                     last_part(entry.motion()), quoted(entry.details()));
+                     kind_text(entry.kind()), csv_quoted(last_part(entry.device())), csv_quoted(entry.who()),
+                     last_part(entry.motion()), csv_quoted(entry.details()));
 }
 
 }  // namespace axisgate::axisctl

@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-tl::unexpected<Problem> refuse(const std::string& link_path, const std::string& why, std::string hint = {}) {
+tl::unexpected<Problem> refuse_pty(const std::string& link_path, const std::string& why, std::string hint = {}) {
   return fail(Reason::link_down, fmt::format("pseudo terminal {}: {}", link_path, why), std::move(hint));
 }
 
@@ -29,7 +29,7 @@ Result<void> place_link(const std::string& device, const std::string& link_path)
   std::error_code error;
   const fs::file_status present = fs::symlink_status(link_path, error);
   if (fs::exists(present) && !fs::is_symlink(present)) {
-    return refuse(link_path, "something that is not a symbolic link is already there", "Choose another name.");
+    return refuse_pty(link_path, "something that is not a symbolic link is already there", "Choose another name.");
   }
   const std::string fresh = fmt::format("{}.{}.new", link_path, ::getpid());
   fs::create_symlink(device, fresh, error);
@@ -38,7 +38,7 @@ Result<void> place_link(const std::string& device, const std::string& link_path)
     std::error_code ignored;
     if (error) fs::remove(fresh, ignored);
   }
-  if (error) return refuse(link_path, "the symbolic link cannot be made: " + error.message());
+  if (error) return refuse_pty(link_path, "the symbolic link cannot be made: " + error.message());
   return {};
 }
 
@@ -93,7 +93,7 @@ Result<Pty> open_pty(const std::string& link_path) {
   std::array<char, 64> device{};
   if (!master.valid() || ::grantpt(master.get()) != 0 || ::unlockpt(master.get()) != 0 ||
       ::ptsname_r(master.get(), device.data(), device.size()) != 0) {
-    return refuse(link_path, "none to be had: " + error_text(errno));
+    return refuse_pty(link_path, "none to be had: " + error_text(errno));
   }
   // The master sees that nobody is there only once somebody has been.
   Descriptor(::open(device.data(), O_RDWR | O_NOCTTY | O_CLOEXEC)).reset();

@@ -12,12 +12,12 @@
 namespace axisgate {
 namespace {
 
-tl::unexpected<Problem> refuse(const std::string& path, const std::string& why, std::string hint) {
+tl::unexpected<Problem> refuse_path(const std::string& path, const std::string& why, std::string hint) {
   return fail(Reason::invalid_request, fmt::format("control socket {}: {}", path, why), std::move(hint));
 }
 
-tl::unexpected<Problem> refuse(const std::string& path, const std::string& why, int error) {
-  return refuse(path, fmt::format("{}: {}", why, std::generic_category().message(error)), "Choose another path.");
+tl::unexpected<Problem> refuse_path(const std::string& path, const std::string& why, int error) {
+  return refuse_path(path, fmt::format("{}: {}", why, std::generic_category().message(error)), "Choose another path.");
 }
 
 sockaddr_un address_of(const std::string& path) {
@@ -37,18 +37,18 @@ bool somebody_listens(const std::string& path) {
 
 Result<void> clear_path(const std::string& path) {
   if (path.size() >= sizeof(sockaddr_un::sun_path)) {
-    return refuse(path, fmt::format("longer than {} characters", sizeof(sockaddr_un::sun_path) - 1),
-                  "Choose a shorter path.");
+    return refuse_path(path, fmt::format("longer than {} characters", sizeof(sockaddr_un::sun_path) - 1),
+                       "Choose a shorter path.");
   }
   struct stat status {};
   if (path.empty() || ::lstat(path.c_str(), &status) != 0) return {};
   if (!S_ISSOCK(status.st_mode)) {
-    return refuse(path, "something that is not a socket is already there", "Choose another name.");
+    return refuse_path(path, "something that is not a socket is already there", "Choose another name.");
   }
   if (somebody_listens(path)) {
-    return refuse(path, "another process serves it", "End that one, or choose another name.");
+    return refuse_path(path, "another process serves it", "End that one, or choose another name.");
   }
-  if (::unlink(path.c_str()) != 0) return refuse(path, "the old socket cannot be removed", errno);
+  if (::unlink(path.c_str()) != 0) return refuse_path(path, "the old socket cannot be removed", errno);
   return {};
 }
 
@@ -78,12 +78,12 @@ Result<SocketFile> SocketFile::open(const std::string& path) {
   const sockaddr_un address = address_of(path);
   Descriptor socket(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (path.empty() || ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
-    return refuse(path, "it cannot be made", path.empty() ? ENOENT : errno);
+    return refuse_path(path, "it cannot be made", path.empty() ? ENOENT : errno);
   }
   // The file is there from here on, and goes with this. Nobody can connect before it listens.
   SocketFile file(path, std::move(socket));
   if (::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(file.socket_.get(), SOMAXCONN) != 0) {
-    return refuse(path, "nobody can be let in", errno);
+    return refuse_path(path, "nobody can be let in", errno);
   }
   return file;
 }

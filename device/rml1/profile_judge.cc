@@ -21,7 +21,7 @@ constexpr std::uint64_t kPaths = 20;
 // By odds of 3 to 1 the job was written in the other unit. Assumed: it divides the jobs of tests/jobs.
 constexpr double kCertain = 1.1;
 // How much a lift by a whole travel says: some drivers lift by the same number of steps on all machines. Assumed.
-constexpr double kTravel = 2.5;
+constexpr double kTravelOdds = 2.5;
 
 bool same_figure(double a, double b) { return std::abs(a - b) < 1e-9; }
 
@@ -140,7 +140,7 @@ void ProfileJudge::suspect_as_said() {
 // By odds, as natural logarithms.
 double ProfileJudge::odds_of(double step_mm) const {
   const bool is_travel = travel_ && same_figure(step_mm, travel_->step_mm);
-  return clues_.odds(step_mm, profile_.step_mm) + (is_travel ? kTravel : 0) - (own_travel_ ? kTravel : 0);
+  return clues_.odds(step_mm, profile_.step_mm) + (is_travel ? kTravelOdds : 0) - (own_travel_ ? kTravelOdds : 0);
 }
 
 // Depths and lifts that are usual in another unit, and are not in this one.

@@ -1,8 +1,7 @@
 #include "server/api/audit.h"
 
-#include <spdlog/spdlog.h>
-
 #include "device/core/escape.h"
+#include "server/log.h"
 
 namespace axisgate::api {
 namespace {
@@ -12,13 +11,13 @@ constexpr std::size_t kWhatMax = 400;
 }  // namespace
 
 void audit(RequestKind kind, std::string_view who, std::string_view what) {
-  if (rule_of(kind).audited) spdlog::info("{} {}", escaped(who), escaped(what, kWhatMax));
+  if (rule_of(kind).audited) server::log::info("{} {}", escaped(who), escaped(what, kWhatMax));
 }
 
 void audit(RequestKind kind, const server::Device& device, const stage::RequestContext& context,
            std::string_view what) {
   if (!rule_of(kind).audited) return;
-  spdlog::info("{}: {} requests: {}", device.name(), escaped(context.who), escaped(what, kWhatMax));
+  server::log::info("{}: {} requests: {}", device.name(), escaped(context.who), escaped(what, kWhatMax));
 }
 
 }  // namespace axisgate::api

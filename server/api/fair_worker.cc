@@ -1,9 +1,16 @@
 #include "server/api/fair_worker.h"
 
 #include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <utility>
 
 namespace axisgate::api {
+
+FairWorker::FairWorker() : thread_(std::make_unique<boost::asio::thread_pool>(1)) {}
+
+FairWorker::~FairWorker() { join(); }
+
+void FairWorker::join() { thread_->join(); }
 
 void FairWorker::post(const std::string& identity, Task task) {
   {
@@ -12,7 +19,7 @@ void FairWorker::post(const std::string& identity, Task task) {
     if (own.empty()) turns_.push_back(identity);
     own.push_back(std::move(task));
   }
-  boost::asio::post(thread_, [this] { run_next(); });
+  boost::asio::post(*thread_, [this] { run_next(); });
 }
 
 void FairWorker::run_next() {

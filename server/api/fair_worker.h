@@ -1,12 +1,16 @@
 // Long tasks of many people on one thread.
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <deque>
 #include <functional>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <string>
+
+namespace boost::asio {
+class thread_pool;
+}
 
 namespace axisgate::api {
 
@@ -16,10 +20,11 @@ class FairWorker {
  public:
   using Task = std::function<void()>;
 
-  ~FairWorker() { join(); }
+  FairWorker();
+  ~FairWorker();
 
   // Runs what waits. What is posted afterwards is dropped.
-  void join() { thread_.join(); }
+  void join();
 
   // `identity`: server::identity_of() whom the task is for.
   void post(const std::string& identity, Task task);
@@ -28,9 +33,9 @@ class FairWorker {
   void run_next();
 
   std::mutex mutex_;
-  std::map<std::string, std::deque<Task>> waiting_;  // by identity; none is empty
-  std::deque<std::string> turns_;                    // of those in waiting_
-  boost::asio::thread_pool thread_{1};
+  std::map<std::string, std::deque<Task>> waiting_;         // by identity; none is empty
+  std::deque<std::string> turns_;                           // of those in waiting_
+  const std::unique_ptr<boost::asio::thread_pool> thread_;  // one thread
 };
 
 }  // namespace axisgate::api

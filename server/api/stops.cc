@@ -1,7 +1,6 @@
 #include "server/api/stops.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,6 +14,7 @@
 #include "server/api/ending.h"
 #include "server/api/mills.h"
 #include "server/api/names.h"
+#include "server/log.h"
 
 namespace axisgate::api {
 namespace {

@@ -1,6 +1,6 @@
 #include "server/api/token_retry.h"
 
-#include <spdlog/spdlog.h>
+#include "server/log.h"
 
 namespace axisgate::api {
 
@@ -9,8 +9,8 @@ std::shared_ptr<TokenRetry> TokenRetry::make(server::Tokens& tokens, After after
 }
 
 void TokenRetry::start(const Problem& why) {
-  spdlog::warn("{}; the revocation holds, and writing it is tried again every {} s", why.message,
-               std::chrono::duration_cast<std::chrono::seconds>(kPause).count());
+  server::log::warn("{}; the revocation holds, and writing it is tried again every {} s", why.message,
+                    std::chrono::duration_cast<std::chrono::seconds>(kPause).count());
   try_later();
 }
 
@@ -21,7 +21,7 @@ void TokenRetry::try_later() {
     self->waiting_ = false;
     const Result<bool> written = self->tokens_.write_again();
     if (!written) self->try_later();
-    if (written && *written) spdlog::info("the revocations of tokens that could not be written are on disk now");
+    if (written && *written) server::log::info("the revocations of tokens that could not be written are on disk now");
   });
 }
 

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <spdlog/spdlog.h>
 #include <sys/socket.h>
 
 #include <cerrno>
@@ -12,6 +11,7 @@
 #include <utility>
 
 #include "server/connections/callers.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -143,7 +143,7 @@ void Acceptor::hand_over(Descriptor connection, Service service, Origin origin) 
 }
 
 void Acceptor::warn_seldom(const std::string& what) {
-  if (warning_.due()) spdlog::warn("{}; a new connection gets a stop through, nothing else", what);
+  if (warning_.due()) log::warn("{}; a new connection gets a stop through, nothing else", what);
 }
 
 void Acceptor::look_again_later() {

@@ -2,13 +2,13 @@
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
 
 #include "server/connections/certificates.h"
 #include "server/explain.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -34,7 +34,7 @@ CertificateNotice notice_of(const std::string& path, const Result<WallTime>& unt
 
 void watch_certificate(const std::string& path, Timeouts& timeouts) {
   const CertificateNotice notice = notice_of(path, expiry(path), std::chrono::system_clock::now());
-  if (!notice.text.empty()) spdlog::warn("{}", notice.text);
+  if (!notice.text.empty()) log::warn("{}", notice.text);
   timeouts.after(notice.next_look, [path, &timeouts] { watch_certificate(path, timeouts); });
 }
 

@@ -1,7 +1,6 @@
 #include "server/devices/after_crash.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -17,6 +16,7 @@
 #include "server/explain.h"
 #include "server/journal/answers.h"
 #include "server/journal/body.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -190,7 +190,7 @@ void publish_end(EventBus& bus, const FactRecord& newest, const Ending& ending) 
 
 void end_unfinished(Journal& journal, EventBus& bus, const StartedBefore& started) {
   const auto left = journal.unfinished_motions();
-  if (!left) return spdlog::warn("{}", explain(left.error()));
+  if (!left) return log::warn("{}", explain(left.error()));
   for (const journal::StoredEntry& requested : *left) {
     const journal::Entry& entry = requested.entry;
     const Ending ending = find_ending({started(entry.device)}, entry.motion,

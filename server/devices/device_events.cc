@@ -1,13 +1,13 @@
 #include "server/devices/device_events.h"
 
 #include <fmt/ranges.h>
-#include <spdlog/spdlog.h>
 
 #include <chrono>
 #include <utility>
 
 #include "device/core/escape.h"
 #include "server/explain.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -103,8 +103,8 @@ void DeviceEvents::tell(const stage::MotionChanged& change, TimePoint now) {
   if (motions_.size() > kMotionsRemembered) motions_.erase(motions_.begin());
   if (motion.state == stage::MotionState::queued || motion.state == stage::MotionState::stopping) return;
   const bool well = motion.state == stage::MotionState::running || motion.state == stage::MotionState::succeeded;
-  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: motion {} ({}, asked by {}) is {}{}", device_,
-              motion.id, named(motion), escaped(motion.who), stage::name(motion.state), because(motion.problem));
+  log::line(well ? log::Level::info : log::Level::warn, "{}: motion {} ({}, asked by {}) is {}{}", device_, motion.id,
+            named(motion), escaped(motion.who), stage::name(motion.state), because(motion.problem));
 }
 
 void DeviceEvents::tell(const stage::LinkChanged& change, TimePoint now) {
@@ -113,14 +113,14 @@ void DeviceEvents::tell(const stage::LinkChanged& change, TimePoint now) {
   link_ = change;
   publish(change, now);
   const bool well = change.link == stage::LinkState::up || change.link == stage::LinkState::connecting;
-  spdlog::log(well ? spdlog::level::info : spdlog::level::warn, "{}: link is {}{}{}", device_, stage::name(change.link),
-              change.why.empty() ? "" : ": ", change.why);
+  log::line(well ? log::Level::info : log::Level::warn, "{}: link is {}{}{}", device_, stage::name(change.link),
+            change.why.empty() ? "" : ": ", change.why);
 }
 
 void DeviceEvents::tell(const stage::StopRequested& stop, TimePoint now) {
   publish(stop, now);
-  spdlog::warn("{}: {} of {} asked by {}{}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
-               escaped(stop.who), stop.count > 1 ? fmt::format(", {} times while nothing moved", stop.count) : "");
+  log::warn("{}: {} of {} asked by {}{}", device_, stop.emergency ? "emergency stop" : "stop", to_string(stop.axes),
+            escaped(stop.who), stop.count > 1 ? fmt::format(", {} times while nothing moved", stop.count) : "");
 }
 
 // An open stop is reported only if it is late: everybody expects the others to be obeyed.
@@ -135,16 +135,16 @@ void DeviceEvents::tell(const stage::StopChanged& change, TimePoint now) {
   switch (stop.state) {
     case stage::StopState::asked:
     case stage::StopState::written:
-      return spdlog::warn("{}: the {} by {} stays open: nobody has seen the axes obey it, and it is repeated", device_,
-                          title_of(stop), who);
+      return log::warn("{}: the {} by {} stays open: nobody has seen the axes obey it, and it is repeated", device_,
+                       title_of(stop), who);
     case stage::StopState::confirmed:
-      return spdlog::info("{}: the {} by {} is confirmed after {:.3f} s{}", device_, title_of(stop), who,
-                          seconds(stop.ended - stop.asked), places_text(stop));
+      return log::info("{}: the {} by {} is confirmed after {:.3f} s{}", device_, title_of(stop), who,
+                       seconds(stop.ended - stop.asked), places_text(stop));
     case stage::StopState::replaced:
-      return spdlog::info("{}: the {} by {} is replaced by stop {}", device_, title_of(stop), who, stop.replaced_by);
+      return log::info("{}: the {} by {} is replaced by stop {}", device_, title_of(stop), who, stop.replaced_by);
     case stage::StopState::withdrawn:
-      return spdlog::warn("{}: the {} by {} was withdrawn by {}; nobody has seen the axes obey it", device_,
-                          title_of(stop), who, escaped(stop.withdrawn_by));
+      return log::warn("{}: the {} by {} was withdrawn by {}; nobody has seen the axes obey it", device_,
+                       title_of(stop), who, escaped(stop.withdrawn_by));
   }
 }
 
@@ -152,24 +152,23 @@ void DeviceEvents::tell(const stage::EmergencyLatchChanged& change, TimePoint no
   due_(Due::state_at_once);
   publish(change, now);
   if (change.latch) {
-    spdlog::warn("{}: latched by the emergency stop of {}: nothing moves until the errors of all axes are cleared",
-                 device_, escaped(change.who));
+    log::warn("{}: latched by the emergency stop of {}: nothing moves until the errors of all axes are cleared",
+              device_, escaped(change.who));
   } else {
-    spdlog::info("{}: the latch of the emergency stop was lifted by {}", device_, escaped(change.who));
+    log::info("{}: the latch of the emergency stop was lifted by {}", device_, escaped(change.who));
   }
 }
 
 void DeviceEvents::tell(const stage::ForeignMotion& motion, TimePoint now) {
   publish(motion, now);
-  spdlog::warn(
-      "{}: FOREIGN_MOTION: {} moves, and nobody here requested it: the front panel, or a gateway before this one",
-      device_, to_string(motion.axes));
+  log::warn("{}: FOREIGN_MOTION: {} moves, and nobody here requested it: the front panel, or a gateway before this one",
+            device_, to_string(motion.axes));
 }
 
 void DeviceEvents::tell(const stage::ConditionChanged& change, TimePoint now) {
   bus_.publish(device_, change, to_wall(now), moment_of(now));
-  spdlog::log(change.begun ? spdlog::level::warn : spdlog::level::info, "{}: {}", device_,
-              stage::words(change.condition, change.axes, change.begun, escaped(change.value)));
+  log::line(change.begun ? log::Level::warn : log::Level::info, "{}: {}", device_,
+            stage::words(change.condition, change.axes, change.begun, escaped(change.value)));
 }
 
 void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
@@ -177,45 +176,44 @@ void DeviceEvents::tell(const stage::UnfinishedJudged& judged, TimePoint) {
   const std::string whose = fmt::format("{}: the daemon ended during {}", device_, judged.motions);
   switch (judged.what) {
     case What::not_ours:
-      return spdlog::warn(
+      return log::warn(
           "{}; another controller answers now, or another program has used the line since: nothing is stopped, check "
           "{}",
           whose, to_string(judged.axes));
     case What::stopped:
-      return spdlog::warn("{}; stopping {}", whose, to_string(judged.axes));
+      return log::warn("{}; stopping {}", whose, to_string(judged.axes));
     case What::finishes:
-      return spdlog::warn("{}; letting {} finish (at_exit)", whose, to_string(judged.axes));
+      return log::warn("{}; letting {} finish (at_exit)", whose, to_string(judged.axes));
     case What::stationary:
-      return spdlog::warn("{}; {} stationary now, outcome unknown: check the position", whose, to_string(judged.axes));
+      return log::warn("{}; {} stationary now, outcome unknown: check the position", whose, to_string(judged.axes));
   }
 }
 
 void DeviceEvents::tell(const stage::SwitchesChanged& change, TimePoint now) {
   publish(change, now);
   for (const auto& one : change.changes) {
-    spdlog::warn("{}: memory switch {} of item {} is {} for good, and was {} (MS:, by {})", device_, one.number,
-                 one.item, escaped(one.after), escaped(one.before), escaped(change.who));
+    log::warn("{}: memory switch {} of item {} is {} for good, and was {} (MS:, by {})", device_, one.number, one.item,
+              escaped(one.after), escaped(one.before), escaped(change.who));
   }
   if (!change.unknown) return;
-  spdlog::warn("{}: memory switches may have changed permanently, and it is unknown which (MS:, by {}): compare them",
-               device_, escaped(change.who));
+  log::warn("{}: memory switches may have changed permanently, and it is unknown which (MS:, by {}): compare them",
+            device_, escaped(change.who));
 }
 
 void DeviceEvents::tell(const stage::ProgramNotice& notice, TimePoint now) {
   publish(notice, now);
-  if (notice.kind == stage::ProgramNotice::Kind::ended) spdlog::info("{}: a program has ended (COMP)", device_);
+  if (notice.kind == stage::ProgramNotice::Kind::ended) log::info("{}: a program has ended (COMP)", device_);
 }
 
 void DeviceEvents::tell(const stage::PathProgress& progress, TimePoint now) {
   publish(progress, now);
   if (progress.step != stage::PathProgress::Step::underrun) return;
-  spdlog::warn(
-      "{}: motion {}: underrun before segment {}: the chain had ended, and the path continues from a standstill",
-      device_, progress.motion, progress.segment);
+  log::warn("{}: motion {}: underrun before segment {}: the chain had ended, and the path continues from a standstill",
+            device_, progress.motion, progress.segment);
 }
 
 void DeviceEvents::tell(const stage::BarrierEntered& barrier, TimePoint) {
-  spdlog::warn("{}: replies cannot be trusted until the barrier has passed: {}", device_, barrier.why);
+  log::warn("{}: replies cannot be trusted until the barrier has passed: {}", device_, barrier.why);
 }
 
 void DeviceEvents::tell(const stage::UnexpectedLine& line, TimePoint now) {
@@ -223,14 +221,14 @@ void DeviceEvents::tell(const stage::UnexpectedLine& line, TimePoint now) {
     ++unexpected_lines_unlogged_;
     return;
   }
-  spdlog::warn("{}: dropped a line that nothing waited for: \"{}\" ({} more since the last such message)", device_,
-               escaped(line.text), unexpected_lines_unlogged_);
+  log::warn("{}: dropped a line that nothing waited for: \"{}\" ({} more since the last such message)", device_,
+            escaped(line.text), unexpected_lines_unlogged_);
   next_unexpected_line_ = now + kUnexpectedLinePause;
   unexpected_lines_unlogged_ = 0;
 }
 
 void DeviceEvents::tell(const stage::IllegalTransition& fault, TimePoint) {
-  spdlog::error(
+  log::error(
       "{}: INTERNAL: {} while the {} was {}, which is impossible; everything is stopped and the line is opened again. "
       "Please "
       "report it with the device's recording of this moment: axisctl record --device {}, axisctl support",

@@ -1,7 +1,6 @@
 #include "server/devices/line.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <utility>
 #include <variant>
@@ -14,6 +13,7 @@
 #include "device/link/tcp_socket.h"
 #include "device/rml1/simulator/control.h"
 #include "device/rml1/simulator/simulator.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -39,7 +39,7 @@ class OutsideLine final : public Line {
 OpenedLine open(const SerialSettings& settings) {
   const Result<int> port = open_serial(settings);
   if (!port) return tl::unexpected(port.error());
-  if (const auto warning = ask_for_low_latency(*port, settings.path)) spdlog::warn("{}", *warning);
+  if (const auto warning = ask_for_low_latency(*port, settings.path)) log::warn("{}", *warning);
   return Descriptor(*port);
 }
 

@@ -1,15 +1,15 @@
 #include "server/devices/mill.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <boost/asio/post.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <utility>
 
 #include "device/link/clock.h"
 #include "server/devices/spooled_jobs.h"
 #include "server/explain.h"
 #include "server/journal/job_entries.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -36,12 +36,13 @@ Mill::Mill(const DeviceConfig& device, const MillConfig& config, const JobsConfi
       journal_(journal),
       newest_(readers),
       metrics_(*metrics.registry(), device.name),
-      controller_(config.profile, settings_of(config, jobs), runner(), *this, leases()) {
+      controller_(config.profile, settings_of(config, jobs), runner(), *this, leases()),
+      spool_thread_(std::make_unique<boost::asio::thread_pool>(1)) {
   restore_jobs();
   runner().attach(controller_, [this] { after_call(); });
 }
 
-Mill::~Mill() { spool_thread_.join(); }
+Mill::~Mill() { spool_thread_->join(); }
 
 // What had not ended when the run before ended. A confirmation is void by then.
 void Mill::restore_jobs() {
@@ -68,13 +69,13 @@ void Mill::restore_jobs() {
 void Mill::plan_again(rml1::Job& job) {
   if (job.planned_for == planned_for(config_)) return;
   if (const auto planned = plan_job(spool_, name(), config_, job, {}); !planned) {
-    spdlog::warn("{}: how long {} takes is not known: {}", name(), text_of(job), explain(planned.error()));
+    log::warn("{}: how long {} takes is not known: {}", name(), text_of(job), explain(planned.error()));
   }
 }
 
 void Mill::drop_spooled(rml1::JobNumber job) {
-  boost::asio::post(spool_thread_, [this, job] {
-    if (const auto removed = spool_.remove(name(), job); !removed) spdlog::warn("{}", explain(removed.error()));
+  boost::asio::post(*spool_thread_, [this, job] {
+    if (const auto removed = spool_.remove(name(), job); !removed) log::warn("{}", explain(removed.error()));
   });
 }
 
@@ -85,8 +86,8 @@ void Mill::publish_fact(Fact fact, TimePoint now) {
 
 // For people who follow, in the log and in the journal.
 void Mill::note(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
-  spdlog::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
-               why.empty() ? "" : ": ", why);
+  log::info("{}: {} is {}{}{}{}{}", name(), text_of(job), rml1::name(job.state), by.empty() ? "" : ", by ", by,
+            why.empty() ? "" : ": ", why);
   publish_fact(JobChanged{job, {}, std::string(by), std::string(why)}, now);
   if (journal_ != nullptr) journal_->append({journal::entry_of(job, by, why, name(), now)});
 }
@@ -105,8 +106,8 @@ void Mill::link_changed(rml1::MillLink link, std::string_view why, TimePoint now
   link_ = change;
   recorder().on_event(change, now);
   publish_fact(change, now);
-  if (open) return spdlog::info("{}: the line is open", name());
-  spdlog::warn("{}: the line is closed: {}", name(), why);
+  if (open) return log::info("{}: the line is open", name());
+  log::warn("{}: the line is closed: {}", name(), why);
 }
 
 void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) {
@@ -119,17 +120,17 @@ void Mill::job_changed(const rml1::Job& job, std::string_view by, std::string_vi
   if (job.state == rml1::JobState::paused) plan_rest(job);
   if (rml1::is_end(job.state)) {
     ended_ = job;
-    boost::asio::post(spool_thread_, [this, job] { end_spooled(spool_, name(), job); });
+    boost::asio::post(*spool_thread_, [this, job] { end_spooled(spool_, name(), job); });
   }
 }
 
 void Mill::keep(const rml1::Job& job) {
-  boost::asio::post(spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
+  boost::asio::post(*spool_thread_, [this, job] { keep_facts(spool_, name(), job); });
 }
 
 // The strand knows how long the rest takes only roughly. The job is kept either way.
 void Mill::plan_rest(const rml1::Job& job) {
-  boost::asio::post(spool_thread_, [this, job] {
+  boost::asio::post(*spool_thread_, [this, job] {
     rml1::Job planned = job;
     if (!plan_job(spool_, name(), config_, planned, newest_.get().value->measured_pace)) {
       return keep_facts(spool_, name(), job);
@@ -141,7 +142,7 @@ void Mill::plan_rest(const rml1::Job& job) {
   });
 }
 
-void Mill::when_kept(std::function<void()> then) { boost::asio::post(spool_thread_, std::move(then)); }
+void Mill::when_kept(std::function<void()> then) { boost::asio::post(*spool_thread_, std::move(then)); }
 
 void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   changed_ = true;
@@ -149,7 +150,7 @@ void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   if (job != controller_.jobs().end() && !is_end(running.sender)) {
     publish_fact(JobChanged{*job, running.sender, "", running.busy ? "the mill takes nothing" : ""}, now);
   }
-  if (running.busy) spdlog::warn("{}: the mill takes nothing: look at it", name());
+  if (running.busy) log::warn("{}: the mill takes nothing: look at it", name());
 }
 
 void Mill::surface_set(std::uint64_t surfaces) {
@@ -174,8 +175,8 @@ void Mill::abort_requested(std::string_view by, TimePoint now) {
   metrics_.count_abort();
   const bool runs = controller_.running_job() != 0;
   for (const auto& stop : repeated_stops_.add({.axes = {}, .who = std::string(by), .moved = runs}, now)) {
-    spdlog::warn("{}: abort requested by {}{}", name(), stop.who,
-                 stop.count > 1 ? fmt::format(", {} times while no job ran", stop.count) : "");
+    log::warn("{}: abort requested by {}{}", name(), stop.who,
+              stop.count > 1 ? fmt::format(", {} times while no job ran", stop.count) : "");
     publish_fact(stop, now);
   }
 }
@@ -220,7 +221,7 @@ void Mill::look_whether_wound_down(TimePoint now) {
   if (controller_.is_idle()) {
     const auto done = std::exchange(wound_down_, {});
     shutdown();
-    spdlog::info("{}: the line is closed", name());
+    log::info("{}: the line is closed", name());
     return done();
   }
   const auto running = controller_.running(now);

@@ -1,7 +1,6 @@
 // A mill: a device that is sent jobs and never answers. Its controller, and what others may see of its state.
 #pragma once
 
-#include <boost/asio/thread_pool.hpp>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -20,6 +19,10 @@
 #include "server/journal/journal.h"
 #include "server/metrics/mill_metrics.h"
 #include "server/spool/spool.h"
+
+namespace boost::asio {
+class thread_pool;
+}
 
 namespace axisgate::server {
 
@@ -109,9 +112,9 @@ class Mill final : public Device, private rml1::MillEvents {
   std::optional<rml1::Job> ended_;          // as MillNow::ended
   std::uint64_t writes_ = 0;                // recorded, each by itself
   TimePoint published_{};
-  TimePoint abort_at_{};                      // while the daemon ends: the job has run for long enough
-  std::function<void()> wound_down_;          // empty: nobody waits
-  boost::asio::thread_pool spool_thread_{1};  // last: its tasks use the spool
+  TimePoint abort_at_{};              // while the daemon ends: the job has run for long enough
+  std::function<void()> wound_down_;  // empty: nobody waits
+  const std::unique_ptr<boost::asio::thread_pool> spool_thread_;  // one thread; last: its tasks use the spool
 };
 
 }  // namespace axisgate::server

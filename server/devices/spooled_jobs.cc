@@ -1,13 +1,12 @@
 #include "server/devices/spooled_jobs.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "server/events/wall_time.h"
 #include "server/explain.h"
+#include "server/log.h"
 #include "server/spool/sha256.h"
 
 namespace axisgate::server {
@@ -224,12 +223,12 @@ rml1::Job as_it_was_left(rml1::Job job, const LastJob& last) {
 
 void keep_facts(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const auto kept = spool.set_facts(device, job.number, facts_of(job));
-  if (!kept) spdlog::warn("{}", explain(kept.error()));
+  if (!kept) log::warn("{}", explain(kept.error()));
 }
 
 void end_spooled(spool::Spool& spool, const std::string& device, const rml1::Job& job) {
   const auto ended = spool.end(device, job.number, calendar_now(), facts_of(job));
-  if (!ended) spdlog::warn("{}", explain(ended.error()));
+  if (!ended) log::warn("{}", explain(ended.error()));
 }
 
 Result<rml1::Job> ended_job(const spool::Spool& spool, const std::string& device, rml1::JobNumber number) {

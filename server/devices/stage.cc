@@ -1,13 +1,12 @@
 #include "server/devices/stage.h"
 
-#include <spdlog/spdlog.h>
-
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "device/link/clock.h"
 #include "server/explain.h"
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -63,7 +62,7 @@ void Stage::inherit() {
 void Stage::number_motions_after(const journal::Journal& journal) {
   const stage::MotionId on_record = record_ ? record_->last_motion() : 0;
   const Result<stage::MotionId> last = journal.last_motion(profile_.name);
-  if (!last) spdlog::warn("{}: motions may be numbered from 1 again: {}", profile_.name, explain(last.error()));
+  if (!last) log::warn("{}: motions may be numbered from 1 again: {}", profile_.name, explain(last.error()));
   controller_->number_motions_after(std::max(last.value_or(0), on_record));
 }
 
@@ -95,9 +94,9 @@ Duration Stage::wind_down_limit() const {
 void Stage::on_wound_down(const stage::WindDownReport& report) {
   on_due(DeviceEvents::Due::state_at_once);
   shutdown();
-  if (report.problem) spdlog::warn("{}: {}", name(), explain(*report.problem));
-  spdlog::info("{}: the line is closed; motions that were running: {}", name(),
-               report.motions.empty() ? "none" : count_by_outcome(report.motions));
+  if (report.problem) log::warn("{}: {}", name(), explain(*report.problem));
+  log::info("{}: the line is closed; motions that were running: {}", name(),
+            report.motions.empty() ? "none" : count_by_outcome(report.motions));
 }
 
 // An event must not call back into the controller, and many come at once: what they leave to do is done once, behind

@@ -14,7 +14,7 @@ using Json = nlohmann::json;
 using stage::Stop;
 using std::chrono::microseconds;
 
-constexpr std::size_t kNameMax = 160;
+constexpr std::size_t kCallerMax = 160;
 constexpr int kFormat = 1;
 
 // Times are of the calendar: a boot of the machine begins the other clock again.
@@ -25,7 +25,7 @@ TimePoint from_file(std::int64_t time) { return to_monotonic(WallTime(microsecon
 
 Json to_json(const Stop& stop) {
   Json callers = Json::array();
-  for (const std::string& who : stop.callers) callers.push_back(who.substr(0, kNameMax));
+  for (const std::string& who : stop.callers) callers.push_back(who.substr(0, kCallerMax));
   return {{"id", stop.id},
           {"emergency", stop.kind == stage::StopKind::emergency},
           {"axes", stop.axes.list()},
@@ -117,7 +117,7 @@ void StopRecord::write() {
   Json open = Json::array();
   for (const auto& [id, stop] : open_) open.push_back(to_json(stop));
   Json latch;
-  if (latch_) latch = {{"who", latch_->who.substr(0, kNameMax)}, {"at", to_file(latch_->at)}};
+  if (latch_) latch = {{"who", latch_->who.substr(0, kCallerMax)}, {"at", to_file(latch_->at)}};
   const Json json{{"format", kFormat}, {"last", last_}, {"open", std::move(open)}, {"latch", std::move(latch)}};
   file_->replace(json.dump(-1, ' ', true, Json::error_handler_t::replace));
   {

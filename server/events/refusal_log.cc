@@ -1,11 +1,11 @@
 #include "server/events/refusal_log.h"
 
-#include <spdlog/spdlog.h>
-
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <utility>
+
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -28,7 +28,7 @@ class RefusalLog::Windows {
     Window& window = entry->second;
     if (window.lines < kLines) {
       ++window.lines;
-      spdlog::warn("{}", line);
+      log::warn("{}", line);
     } else {
       ++window.left_out;
     }
@@ -49,8 +49,8 @@ class RefusalLog::Windows {
 
   static void say_left_out(const std::string& source, const Window& window) {
     if (window.left_out == 0) return;
-    spdlog::warn("left out {} more refusals of {} in the last {} s", window.left_out, source,
-                 std::chrono::duration_cast<std::chrono::seconds>(kWindow).count());
+    log::warn("left out {} more refusals of {} in the last {} s", window.left_out, source,
+              std::chrono::duration_cast<std::chrono::seconds>(kWindow).count());
   }
 
   std::mutex mutex_;

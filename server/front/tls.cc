@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <openssl/ssl.h>
 #include <openssl/x509.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include "device/link/asio_tls.h"
 #include "server/access/access.h"
+#include "server/log.h"
 
 namespace axisgate::front {
 namespace {
@@ -125,8 +125,8 @@ std::shared_ptr<TlsFiles::Context> TlsFiles::newest() {
     context_ = std::make_shared<Context>(network_);
     seen_ = std::move(seen);
   } catch (const boost::system::system_error& error) {
-    spdlog::warn("the certificate files of [network] cannot be used ({}); replace key and certificate together",
-                 error.what());
+    server::log::warn("the certificate files of [network] cannot be used ({}); replace key and certificate together",
+                      error.what());
   }
   return context_;
 }

@@ -1,7 +1,6 @@
 #include "server/journal/journal.h"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <chrono>
@@ -13,6 +12,7 @@
 
 #include "device/link/clock.h"
 #include "server/explain.h"
+#include "server/log.h"
 
 namespace axisgate::server::journal {
 namespace {
@@ -45,7 +45,7 @@ Result<void> move_aside(const std::string& path) {
                   fmt::format("journal {}: damaged, and it cannot be moved aside: {}", path, error.message()));
     }
   }
-  spdlog::error("journal {}: it is damaged, and was moved to {}; a new one begins", path, kept);
+  log::error("journal {}: it is damaged, and was moved to {}; a new one begins", path, kept);
   return {};
 }
 
@@ -232,7 +232,7 @@ bool Journal::write(Batch batch) {
     if (!written) note_failure(batch, written.error());
     std::unique_lock lock(mutex_);
     if (written) {
-      if (failure_) spdlog::info("journal {}: it is written again", path_);
+      if (failure_) log::info("journal {}: it is written again", path_);
       failure_.reset();
       last_commit_ = monotonic_now() - *std::exchange(writing_since_, {});
       lock.unlock();
@@ -261,7 +261,7 @@ void Journal::note_failure(Batch& batch, const Problem& problem) {
   {
     const std::lock_guard lock(mutex_);
     if (!failure_) {
-      spdlog::error("{}", explain(problem));
+      log::error("{}", explain(problem));
       batch.records.push_back({{journal_failed()}, {}});
     }
     failure_ = problem;

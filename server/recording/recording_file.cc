@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -11,6 +10,8 @@
 #include <cstdio>
 #include <cstring>
 #include <utility>
+
+#include "server/log.h"
 
 namespace axisgate::server {
 namespace {
@@ -103,14 +104,14 @@ bool RecordingFile::write_due() {
     due_.erase(0, static_cast<std::size_t>(written));
     size_ += static_cast<std::uint64_t>(written);
   }
-  if (!complaint_.empty()) spdlog::info("the recording {} is written again", path_);
+  if (!complaint_.empty()) log::info("the recording {} is written again", path_);
   complaint_.clear();
   return true;
 }
 
 void RecordingFile::complain(const char* what) {
   std::string complaint = fmt::format("the recording {} cannot be {}: {}", path_, what, std::strerror(errno));
-  if (complaint != complaint_) spdlog::warn("{}; trying again", complaint);
+  if (complaint != complaint_) log::warn("{}; trying again", complaint);
   complaint_ = std::move(complaint);
 }
 

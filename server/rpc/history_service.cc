@@ -153,7 +153,7 @@ v1::DaemonStart message_of(const server::journal::DaemonStart& start) {
   return proto;
 }
 
-void fill(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer) {
+void fill_summary(v1::SummarizeHistoryResponse& proto, const api::HistorySummary& answer) {
   const server::journal::Summary& summary = answer.summary;
   proto.set_own_only(answer.own_only);
   for (const auto& person : summary.persons.items) *proto.add_persons() = message_of(person);
@@ -269,7 +269,8 @@ grpc::ServerUnaryReactor* HistoryService::SummarizeHistory(grpc::CallbackServerC
                                                            const v1::SummarizeHistoryRequest* request,
                                                            v1::SummarizeHistoryResponse* response) {
   const auto call = UnaryCall<v1::SummarizeHistoryResponse>::start(response);
-  history_.summarize(to_call(*context), to_span(gateway_, *request), answering<api::HistorySummary>(call, fill));
+  history_.summarize(to_call(*context), to_span(gateway_, *request),
+                     answering<api::HistorySummary>(call, fill_summary));
   return call.get();
 }
 

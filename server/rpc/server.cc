@@ -6,7 +6,6 @@
 #include <grpcpp/ext/proto_server_reflection_plugin.h>
 #include <grpcpp/server.h>
 #include <grpcpp/server_builder.h>
-#include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
@@ -18,6 +17,7 @@
 #include "server/api/api.h"
 #include "server/connections/listener.h"
 #include "server/front/front.h"
+#include "server/log.h"
 #include "server/metrics/connection_metrics.h"
 #include "server/rpc/access_service.h"
 #include "server/rpc/command_service.h"
@@ -45,7 +45,7 @@ namespace {
 constexpr auto kShutdownWait = std::chrono::milliseconds(500);
 
 // gRPC's own lines tell nothing that ours do not, and would stand among them unasked.
-void log_quietly(gpr_log_func_args* line) { spdlog::debug("gRPC: {}", line->message); }
+void log_quietly(gpr_log_func_args* line) { server::log::debug("gRPC: {}", line->message); }
 
 }  // namespace
 

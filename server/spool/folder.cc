@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -18,6 +17,7 @@
 #include "server/access/synced_file.h"
 #include "server/events/wall_time.h"
 #include "server/explain.h"
+#include "server/log.h"
 #include "server/spool/record.h"
 #include "server/spool/sha256.h"
 
@@ -77,9 +77,9 @@ Result<std::vector<Job>> Folder::read() {
       if (job) jobs.push_back(*std::move(job));
       if (!job) move_aside(*id, job.error());
     } else if (is_unfinished(name, *names)) {
-      spdlog::info("{}/{}: its upload was not finished; it is removed", path_, name);
+      log::info("{}/{}: its upload was not finished; it is removed", path_, name);
       const Result<void> removed = id ? remove(*id) : remove_upload(path_ + "/" + name);
-      if (!removed) spdlog::warn("{}", explain(removed.error()));
+      if (!removed) log::warn("{}", explain(removed.error()));
     }
   }
   return jobs;
@@ -91,8 +91,8 @@ std::uint64_t Folder::last_on_disk() const {
   if (text && text->empty()) return 0;
   const auto last = text ? number_in(*text) : std::nullopt;
   if (!last) {
-    spdlog::error("{}; the next job has the number after the highest in that directory",
-                  text ? fmt::format("{} has no number", path) : text.error().message);
+    log::error("{}; the next job has the number after the highest in that directory",
+               text ? fmt::format("{} has no number", path) : text.error().message);
   }
   return last.value_or(0);
 }
@@ -110,11 +110,11 @@ Result<Job> Folder::read_job(std::uint64_t id) const {
 
 void Folder::move_aside(std::uint64_t id, const Problem& why) const {
   const auto stamp = calendar_now().time_since_epoch().count();
-  spdlog::error("{}; job {} is not used, and its files are renamed to *.damaged-{}; upload it again", why.message, id,
-                stamp);
+  log::error("{}; job {} is not used, and its files are renamed to *.damaged-{}; upload it again", why.message, id,
+             stamp);
   for (const std::string& path : {file(id, kRecord), bytes_path(id)}) {
     if (::rename(path.c_str(), fmt::format("{}.damaged-{}", path, stamp).c_str()) != 0 && errno != ENOENT) {
-      spdlog::error("{}", explain(cannot_write(path).value()));
+      log::error("{}", explain(cannot_write(path).value()));
     }
   }
 }

@@ -177,7 +177,7 @@ v1::RunPathRequest header() {
   return part;
 }
 
-v1::RunPathRequest segment(const std::string& um) {
+v1::RunPathRequest segment_request(const std::string& um) {
   v1::RunPathRequest part;
   part.mutable_segment()->set_relative(true);
   part.mutable_segment()->mutable_single()->set_axis(1);
@@ -190,7 +190,7 @@ TEST_F(RpcTest, APathTellsEveryStepAndItsOutcome) {
   limit(context);
   const auto stream = stage_->RunPath(&context);
   stream->Write(header());
-  for (const char* um : {"50", "-20", "30"}) stream->Write(segment(um));
+  for (const char* um : {"50", "-20", "30"}) stream->Write(segment_request(um));
   stream->WritesDone();
   std::vector<int> sent;
   std::vector<int> done;
@@ -213,8 +213,8 @@ TEST_F(RpcTest, ABadSegmentIsNamed) {
   limit(context);
   const auto stream = stage_->RunPath(&context);
   stream->Write(header());
-  stream->Write(segment("50"));
-  stream->Write(segment("fast"));
+  stream->Write(segment_request("50"));
+  stream->Write(segment_request("fast"));
   stream->WritesDone();
   v1::RunPathResponse response;
   EXPECT_FALSE(stream->Read(&response));
@@ -229,7 +229,7 @@ TEST_F(RpcTest, InputsStartNothing) {
   limit(context);
   const auto stream = stage_->RunPath(&context);
   stream->Write(header());
-  v1::RunPathRequest waits = segment("50");
+  v1::RunPathRequest waits = segment_request("50");
   waits.mutable_segment()->set_inputs(0);
   stream->Write(waits);
   stream->WritesDone();
@@ -246,7 +246,7 @@ TEST_F(RpcTest, AClientThatBreaksOffAPathStartsNothing) {
     grpc::ClientContext context;
     const auto stream = stage_->RunPath(&context);
     stream->Write(header());
-    stream->Write(segment("50"));
+    stream->Write(segment_request("50"));
     context.TryCancel();
     EXPECT_EQ(stream->Finish().error_code(), grpc::CANCELLED);
   }

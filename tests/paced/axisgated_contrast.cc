@@ -15,7 +15,7 @@
 #include "server/devices/saved_positions.h"
 #include "server/end_signals.h"
 #include "server/gateway.h"
-#include "server/logging.h"
+#include "server/log.h"
 #include "server/rpc/server.h"
 
 namespace axisgate {
@@ -69,7 +69,7 @@ int serve(const char* config_path) {
     return 2;
   }
   server::EndSignals end_signals;
-  server::start_logging();
+  server::log::start();
   const auto positions = *server::SavedPositions::open("");
   server::Access access({}, server::caller_name(::geteuid()), *server::Tokens::open(""));
   server::Gateway gateway(*config, 1);

@@ -20,14 +20,6 @@ using std::chrono::seconds;
 using testing::HasSubstr;
 using testing::IsEmpty;
 
-constexpr AxisSet kOne = AxisSet::of(1);
-
-Setup with(Permission& permission) {
-  auto setup = quiet();
-  setup.permission = &permission;
-  return setup;
-}
-
 class HazardOfSharing : public testing::Test {
  protected:
   HazardOfSharing() { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
@@ -69,7 +61,7 @@ class HazardOfSharing : public testing::Test {
 
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
-  World world{with(leases)};
+  World world{shared_by(leases)};
   std::string told;
 };
 

@@ -15,14 +15,6 @@ using server::Lease;
 using server::LeaseToken;
 using std::chrono::seconds;
 
-constexpr AxisSet kOne = AxisSet::of(1), kTwo = AxisSet::of(2);
-
-Setup with(Permission& permission) {
-  auto setup = quiet();
-  setup.permission = &permission;
-  return setup;
-}
-
 class HazardOfSettings : public testing::Test {
  protected:
   HazardOfSettings() { EXPECT_TRUE(world.run_until_up()) << world.replay(); }
@@ -62,7 +54,7 @@ class HazardOfSettings : public testing::Test {
 
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
-  World world{with(leases)};
+  World world{shared_by(leases)};
 };
 
 // D: of a lease's holder, and what the next one finds.
@@ -114,7 +106,7 @@ TEST_F(HazardOfSettings, H52_SpeedsEndWithTheDaemon) {
 TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
-  auto setup = with(leases);
+  auto setup = shared_by(leases);
   setup.profile.busy_scope = setup.profile.prebuffer_scope = Scope::axis;
   for (const char* option : {"busy_scope", "prebuffer_scope"}) ASSERT_TRUE(setup.options.set(option, "axis"));
   World world(setup);
@@ -138,7 +130,7 @@ TEST(Hazard, H28_SpeedsSetWhileAPathRuns) {
 TEST(Hazard, H52_SpeedsStayWhereTheyAreToBeKept) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
-  auto setup = with(leases);
+  auto setup = shared_by(leases);
   setup.profile.settings_at_lease_end = AtLeaseEnd::kept;
   World world(setup);
   ASSERT_TRUE(world.run_until_up()) << world.replay();
@@ -242,7 +234,7 @@ TEST_F(HazardOfSettings, H52_OutputsWaitForNoMotion) {
 TEST(Hazard, H28_OriginSpeedsThatNoAxisCanHave) {
   server::LeaseTokens tokens{1};
   server::Leases leases{tokens};
-  World world(with(leases));
+  World world(shared_by(leases));
   bool once = false;
   world.wire().set_script([&once](LineKind kind, const std::string& line) -> Scripted {
     if (once || kind != LineKind::reply || !line.starts_with("S5000F500000R100,")) return {};

@@ -16,6 +16,12 @@ Setup quiet() {
   return setup;
 }
 
+Setup shared_by(Permission& permission) {
+  auto setup = quiet();
+  setup.permission = &permission;
+  return setup;
+}
+
 MoveRequest move_of(const World& world, const Ways& ways, bool relative) {
   MoveRequest request;
   request.relative = relative;

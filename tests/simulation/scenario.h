@@ -11,6 +11,10 @@ namespace axisgate::simulation {
 
 // A perfect line at 38400 baud and the simulator's usual readings.
 Setup quiet();
+// The same, with `permission` to decide who may move what.
+Setup shared_by(stage::Permission& permission);
+
+inline constexpr stage::AxisSet kOne = stage::AxisSet::of(1), kTwo = stage::AxisSet::of(2);
 
 using Ways = std::vector<std::pair<int, std::int64_t>>;  // axis, pulses
 stage::MoveRequest move_of(const World& world, const Ways& ways, bool relative);

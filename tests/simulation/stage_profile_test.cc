@@ -77,10 +77,10 @@ TEST_F(StageOfProfile, AnotherOneIsMovedByNothing) {
         controller.return_to_origin({first, context}, now, std::move(told));
       }};
   for (const auto& ask : requests) EXPECT_EQ(refused(ask), Reason::identity_mismatch);
-  using Lines = std::vector<std::string>;
-  for (const Lines& lines : {Lines{"M:1+P100", "G:1"}, Lines{"AP:1+P100", "G:1"}, Lines{"K:A+P100+P100", "G:A"},
-                             Lines{"E:0A0+P100+P100", "G:A"}, Lines{"HRT:1"}, Lines{"H:W"}, Lines{"ZRT:1"},
-                             Lines{"WT:1,1", "G:1"}, Lines{"SLEEP:1"}, Lines{"P:R", "P:P1", "P:S", "P:H"}}) {
+  using Sent = std::vector<std::string>;
+  for (const Sent& lines : {Sent{"M:1+P100", "G:1"}, Sent{"AP:1+P100", "G:1"}, Sent{"K:A+P100+P100", "G:A"},
+                            Sent{"E:0A0+P100+P100", "G:A"}, Sent{"HRT:1"}, Sent{"H:W"}, Sent{"ZRT:1"},
+                            Sent{"WT:1,1", "G:1"}, Sent{"SLEEP:1"}, Sent{"P:R", "P:P1", "P:S", "P:H"}}) {
     EXPECT_EQ(execute(*world, lines).back(), "IDENTITY_MISMATCH") << lines.front();
   }
   EXPECT_EQ(motion_lines(*world, before), 0) << world->replay();

@@ -20,17 +20,10 @@ using server::LeaseToken;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr AxisSet kOne = AxisSet::of(1);
 constexpr std::int64_t kWay = 20'000, kWayUnderLease = 10'000;  // a second, half a second
 constexpr std::array<const char*, 4> kRareQuestions = {"?:AXIS", "?:BEEP", "I:", "Q:"};
 constexpr int kAskers = 16;  // of each question
 constexpr Duration kLongest = seconds(5);
-
-Setup shared_by(Permission& permission) {
-  auto setup = quiet();
-  setup.permission = &permission;
-  return setup;
-}
 
 class TurnsAmidMotions : public testing::Test {
  protected:

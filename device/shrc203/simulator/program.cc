@@ -8,7 +8,6 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-constexpr std::int64_t kCoordinateMax = 999'999'999;
 constexpr std::int64_t kWaitMax = 2560;
 constexpr std::int64_t kTriggerMinimum = 2;
 constexpr std::int64_t kTriggerPulsesMax = 30'000;

@@ -2,6 +2,7 @@
 // text is in upper case and has no blanks.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -10,6 +11,9 @@
 #include "device/shrc203/simulator/units.h"
 
 namespace axisgate::shrc203::simulator {
+
+// Farthest coordinate that a command can name, in pulses, in either direction.
+inline constexpr std::int64_t kCoordinateMax = 999'999'999;
 
 // Sign, unit letter, number: "+P1000". Without a sign it is positive, without a unit pulses.
 struct Amount {

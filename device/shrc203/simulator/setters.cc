@@ -8,7 +8,6 @@ namespace {
 
 constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s
 constexpr std::int64_t kRampMax = 1000;        // ms
-constexpr std::int64_t kCoordinateMax = 999'999'999;
 constexpr std::string_view kLengthUnits = "PNUMD";
 constexpr std::string_view kSpeedUnits = "FNUMD";
 

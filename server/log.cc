@@ -1,15 +1,17 @@
-#include "server/logging.h"
+#include "server/log.h"
 
 #include <spdlog/cfg/env.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
 #include <memory>
 #include <mutex>
 
-namespace axisgate::server {
+namespace axisgate::server::log {
 namespace {
 
 // spdlog's own sinks for standard error flush every line, which costs five times as much as writing it.
@@ -26,9 +28,12 @@ class BufferedStandardError final : public spdlog::sinks::base_sink<std::mutex> 
   void flush_() override { std::fflush(stderr); }
 };
 
+constexpr std::array kLevels = {spdlog::level::debug, spdlog::level::info, spdlog::level::warn, spdlog::level::err,
+                                spdlog::level::critical};
+
 }  // namespace
 
-void start_logging() {
+void start() {
   auto logger = std::make_shared<spdlog::logger>("axisgated", std::make_shared<BufferedStandardError>());
   logger->set_pattern("%Y-%m-%d %H:%M:%S.%e %l %v");
   logger->flush_on(spdlog::level::warn);
@@ -37,4 +42,11 @@ void start_logging() {
   spdlog::cfg::load_env_levels();
 }
 
-}  // namespace axisgate::server
+void flush() { spdlog::default_logger()->flush(); }
+
+void write(Level level, fmt::string_view format, fmt::format_args arguments) {
+  const auto its = kLevels.at(static_cast<std::size_t>(level));
+  if (spdlog::should_log(its)) spdlog::log(its, fmt::vformat(format, arguments));
+}
+
+}  // namespace axisgate::server::log
