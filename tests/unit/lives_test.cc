@@ -9,6 +9,7 @@
 #include "device/shrc203/state/non_host.h"
 #include "device/shrc203/state/segment_life.h"
 #include "device/shrc203/state/stop_life.h"
+#include "tests/unit/reported.h"
 #include "tests/unit/transition_table.h"
 
 namespace axisgate::shrc203::lives_test {
@@ -76,14 +77,6 @@ TEST(NonHostTable, EachPairLeadsWhereThePageSays) {
       [](NonHostPhase phase, NonHostEvent event) { return next(phase, event); });
   EXPECT_EQ(illegal, 8);
 }
-
-class Reported : public Violations {
- public:
-  void illegal(std::string_view machine, std::string_view state, std::string_view event) override {
-    all.push_back(std::string(machine) + " " + std::string(state) + " " + std::string(event));
-  }
-  std::vector<std::string> all;
-};
 
 TEST(NonHost, AnIllegalEventIsReportedAndChangesNothing) {
   Reported reported;

@@ -14,6 +14,7 @@
 #include <string>
 
 #include "device/core/tasks.h"
+#include "device/core/violations.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/motion/prebuffer.h"
 #include "device/shrc203/motion/segment_halt.h"
@@ -25,7 +26,6 @@
 #include "device/shrc203/session/explainer.h"
 #include "device/shrc203/state/motions.h"
 #include "device/shrc203/state/segment_life.h"
-#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "device/core/tasks.h"
+#include "device/core/violations.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/session/ending.h"
 #include "device/shrc203/session/handshake.h"
@@ -20,7 +21,6 @@
 #include "device/shrc203/state/registers.h"
 #include "device/shrc203/state/rights.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 

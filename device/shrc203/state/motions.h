@@ -10,13 +10,13 @@
 
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
+#include "device/core/violations.h"
 #include "device/shrc203/line/line.h"
 #include "device/shrc203/state/live_motion.h"
 #include "device/shrc203/state/motion_gate.h"
 #include "device/shrc203/state/registers.h"
 #include "device/shrc203/state/rights.h"
 #include "device/shrc203/state/state_store.h"
-#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 

@@ -7,8 +7,8 @@
 #include <string_view>
 
 #include "device/core/problem.h"
+#include "device/core/violations.h"
 #include "device/shrc203/command/command_table.h"
-#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 

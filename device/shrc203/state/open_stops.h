@@ -8,10 +8,10 @@
 
 #include "device/core/problem.h"
 #include "device/core/tasks.h"
+#include "device/core/violations.h"
 #include "device/shrc203/stage.h"
 #include "device/shrc203/state/state_store.h"
 #include "device/shrc203/state/stop_life.h"
-#include "device/shrc203/state/violations.h"
 
 namespace axisgate::shrc203 {
 

@@ -3,7 +3,7 @@
 
 #include <string_view>
 
-namespace axisgate::shrc203 {
+namespace axisgate {
 
 class Violations {
  public:
@@ -12,4 +12,4 @@ class Violations {
   virtual void illegal(std::string_view machine, std::string_view state, std::string_view event) = 0;
 };
 
-}  // namespace axisgate::shrc203
+}  // namespace axisgate
