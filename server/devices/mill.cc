@@ -153,6 +153,10 @@ void Mill::sender_changed(const rml1::RunningJob& running, TimePoint now) {
   if (running.busy) log::warn("{}: the mill takes nothing: look at it", name());
 }
 
+void Mill::internal_error(std::string_view what, TimePoint) {
+  log::error("{}: {}; the mill is aborted, and its line opened again", name(), what);
+}
+
 void Mill::surface_set(std::uint64_t surfaces) {
   if (record_) record_->set_surfaces(surfaces);
 }

@@ -83,6 +83,7 @@ class Mill final : public Device, private rml1::MillEvents {
   void job_changed(const rml1::Job& job, std::string_view by, std::string_view why, TimePoint now) override;
   void rank_changed(const rml1::Job& job) override { keep(job); }
   void surface_set(std::uint64_t surfaces) override;
+  void internal_error(std::string_view what, TimePoint now) override;
   void sender_changed(const rml1::RunningJob& running, TimePoint now) override;
   void about_to_write(rml1::JobNumber job, const rml1::WrittenRange& sent) override;
   void written(std::string_view bytes, rml1::JobNumber job) override;

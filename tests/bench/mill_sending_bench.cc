@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "tests/rml1/fed_mill.h"
+#include "tests/rml1/sender_line.h"
 #include "tests/rml1/short_vectors.h"
 
 namespace axisgate::rml1 {
@@ -94,7 +95,8 @@ void cost(const Job& job, Streaming streaming) {
   const double planned = cpu_s();
   Drain line;
   const SendSettings settings{.streaming = streaming, .flow_control = streaming == Streaming::full};
-  Sender sender(text, timeline, profile, settings, plan_of(text, timeline, settings), line);
+  SenderLine beside(profile, settings, line);
+  Sender sender(text, timeline, profile, settings, plan_of(text, timeline, settings), beside.mill());
   const double ready = cpu_s();
   double most = allocated_mib();
   TimePoint end{};
@@ -132,7 +134,8 @@ void progress(const Job& job, const Pair& pair, SendSettings settings) {
   const Timeline timeline(text, pair.profile, kAtHome);
   const double begin = cpu_s();
   FedMill line(text, setup_of(pair), settings.baud);
-  Sender sender(text, timeline, pair.profile, settings, plan_of(text, timeline, settings), line);
+  SenderLine beside(pair.profile, settings, line);
+  Sender sender(text, timeline, pair.profile, settings, plan_of(text, timeline, settings), beside.mill());
   Width width;
   feed_all(sender, line, kMinute, [&](TimePoint now) { width.take(sender.progress(now), line.executed()); });
   const auto part = [&](double bytes) { return bytes / static_cast<double>(text.size()) * 100; };
@@ -145,7 +148,8 @@ void progress(const Job& job, const Pair& pair, SendSettings settings) {
 double seconds(const std::string& job, const Pair& pair, SendSettings settings) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, setup_of(pair), settings.baud);
-  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
+  SenderLine beside(pair.profile, settings, line);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), beside.mill());
   feed_all(sender, line, kMinute, [](TimePoint) {});
   return line.seconds();
 }

@@ -74,7 +74,8 @@ AbortBench::AbortBench(std::string_view job, const Timeline& timeline, simulator
                        LineToMill::Setup line, std::string_view before)
     : mill_(std::move(mill)),
       line_(mill_, line),
-      sender_(job, timeline, profile_, settings, plan_of(job, timeline, settings), line_) {
+      beside_(profile_, settings, line_),
+      sender_(job, timeline, profile_, settings, plan_of(job, timeline, settings), beside_.mill()) {
   mill_.send(before);
   mill_.finish();
   lines_read_ = mill_.lines.size();

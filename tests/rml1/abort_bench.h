@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "device/rml1/sending/sender.h"
+#include "tests/rml1/sender_line.h"
 #include "tests/rml1/simulator_bench.h"
 
 namespace axisgate::rml1 {
@@ -98,6 +99,7 @@ class AbortBench {
   const Profile profile_ = test_profile();
   simulator::MillBench mill_;
   LineToMill line_;
+  SenderLine beside_;
   Sender sender_;
   std::size_t lines_read_ = 0;                    // of the record
   std::size_t delivered_ = 0;                     // bytes, to the mill

@@ -188,6 +188,7 @@ bool BadLine::step(TimePoint until) {
   line_.take_flow_control();
   line_.pump(bench_.now);
   mill_.advance(bench_.now);
+  if (const std::string broken = mill_.broken_invariant(); !broken.empty()) violate(broken);
   return any;
 }
 

@@ -74,6 +74,7 @@ class BadLine : private MillEvents {
   void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint) override;
   void rank_changed(const Job&) override {}
   void surface_set(std::uint64_t) override {}
+  void internal_error(std::string_view what, TimePoint) override { violate(std::string(what)); }
   void sender_changed(const RunningJob& running, TimePoint) override;
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

@@ -95,12 +95,14 @@ TEST(ByHand, TheModelGoesWhereTheStepLeads) {
 class ByHandAtTheMill : public testing::Test, protected MillEvents {
  protected:
   void SetUp() override { mill_.link_up(now_); }
+  void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
   void link_changed(MillLink, std::string_view, TimePoint) override {}
   void job_changed(const Job& job, std::string_view, std::string_view why, TimePoint) override {
     said_ = std::string(name(job.state)) + ": " + std::string(why);
   }
   void rank_changed(const Job&) override {}
   void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
+  void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

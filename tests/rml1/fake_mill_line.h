@@ -28,7 +28,7 @@ class FakeMillLine : public FlowLink {
     writes.emplace_back(bytes);
     queue_ += bytes;
   }
-  void reopen(Duration) override {}
+  void reopen(Duration) override { ++reopened; }
   std::size_t unsent() const override { return queue_.size(); }
   bool held() const override { return busy; }
   void ignore_flow_control(bool ignored) override { ignores = ignored; }
@@ -37,6 +37,7 @@ class FakeMillLine : public FlowLink {
   bool busy = false, ignores = false;
   std::string received;             // by the mill
   std::vector<std::string> writes;  // as they came
+  int reopened = 0;
 
  private:
   bool may_leave() const { return !busy || ignores; }

@@ -17,6 +17,7 @@
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile_files.h"
 #include "tests/rml1/fed_mill.h"
+#include "tests/rml1/sender_line.h"
 #include "tests/rml1/short_vectors.h"
 #include "tests/rml1/simulator_bench.h"
 
@@ -40,7 +41,8 @@ double driven_s(const PreparedJob& job, const Way& way) {
   setup.profile = way.profile;
   setup.flow = simulator::Flow::rts;
   FedMill line(job.text(), setup, job.settings().baud);
-  Sender sender(job.text(), job.timeline(), way.profile, job.settings(), job.plan(), line);
+  SenderLine beside(way.profile, job.settings(), line);
+  Sender sender(job.text(), job.timeline(), way.profile, job.settings(), job.plan(), beside.mill());
   feed_all(sender, line, kForever, [](TimePoint) {});
   return line.seconds();
 }

@@ -20,6 +20,7 @@ namespace axisgate::rml1 {
 class MillControllerTest : public testing::Test, protected MillEvents {
  protected:
   void SetUp() override { mill_.link_up(now_); }
+  void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
 
   // Moves of 10 mm at 15 mm/s: 0.7 to 0.9 s each by the profile.
   static std::string vectors(int count) {
@@ -45,6 +46,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
     for (const TimePoint end = now_ + time; now_ < end; now_ += std::chrono::milliseconds(1)) {
       line_.run_to(now_);
       if (const auto due = mill_.next_deadline(); due && *due <= now_) mill_.advance(now_);
+      ASSERT_EQ(mill_.broken_invariant(), "");
     }
   }
   JobState state(JobNumber number) const {
@@ -68,6 +70,7 @@ class MillControllerTest : public testing::Test, protected MillEvents {
   }
   void rank_changed(const Job& job) override { ranks_[job.number] = job.rank; }
   void surface_set(std::uint64_t surfaces) override { surfaces_ = surfaces; }
+  void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const RunningJob& running, TimePoint) override {
     said_.emplace_back(name(running.sender));
     if (running.busy) said_.emplace_back("busy");

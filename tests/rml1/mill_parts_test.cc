@@ -30,6 +30,7 @@ constexpr std::string_view kPrologueBytes = ";^DF;", kEpilogueBytes = ";^PA;!VZ1
 class MillPartsTest : public testing::Test, protected MillEvents {
  protected:
   void SetUp() override { mill_.link_up(now_); }
+  void TearDown() override { EXPECT_EQ(mill_.broken_invariant(), ""); }
 
   static Job job_in_parts(JobNumber number) {
     return {.number = number,
@@ -93,6 +94,7 @@ class MillPartsTest : public testing::Test, protected MillEvents {
   }
   void rank_changed(const Job&) override {}
   void surface_set(std::uint64_t) override {}
+  void internal_error(std::string_view what, TimePoint) override { ADD_FAILURE() << what; }
   void sender_changed(const RunningJob&, TimePoint) override {}
   void written(std::string_view, JobNumber) override {}
   void abort_requested(std::string_view, TimePoint) override {}

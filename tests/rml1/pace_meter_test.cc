@@ -10,6 +10,7 @@
 #include "tests/rml1/fed_mill.h"
 #include "tests/rml1/measured_by.h"
 #include "tests/rml1/mill_controller_fixture.h"
+#include "tests/rml1/sender_line.h"
 #include "tests/rml1/short_vectors.h"
 
 namespace axisgate::rml1::pace_meter_test {
@@ -154,7 +155,8 @@ double paced_seconds(const std::string& job, const simulator::MillSetup& mill, S
   setup.profile = test_profile();
   const Timeline timeline(job, setup.profile, kAtHome);
   FedMill line(job, setup, settings.baud);
-  Sender sender(job, timeline, setup.profile, settings, plan_of(job, timeline, settings), line);
+  SenderLine beside(setup.profile, settings, line);
+  Sender sender(job, timeline, setup.profile, settings, plan_of(job, timeline, settings), beside.mill());
   feed_all(sender, line, seconds(1), [](TimePoint) {});
   EXPECT_EQ(line.executed(), job.size());
   return line.seconds();

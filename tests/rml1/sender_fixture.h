@@ -6,10 +6,12 @@
 #include <chrono>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "device/rml1/sending/sender.h"
 #include "tests/rml1/fake_mill_line.h"
 #include "tests/rml1/mill.h"
+#include "tests/rml1/sender_line.h"
 
 namespace axisgate::rml1 {
 
@@ -24,7 +26,7 @@ class SenderTest : public testing::Test {
   void begin(const std::string& job, SendSettings settings = {}) {
     job_ = job;
     timeline_.emplace(job_, profile_, std::nullopt);
-    sender_.emplace(job_, *timeline_, profile_, settings, plan_of(job_, *timeline_, settings), line_);
+    sender_.emplace(job_, *timeline_, profile_, settings, plan_of(job_, *timeline_, settings), beside_.mill());
     sender_->start(now_);
   }
   void run_for(Duration time) {
@@ -33,6 +35,7 @@ class SenderTest : public testing::Test {
       sender_->advance(now_);
     }
   }
+  void TearDown() override { EXPECT_EQ(beside_.reported.all, std::vector<std::string>()); }
   SendProgress progress() { return sender_->progress(now_); }
   std::string written() const {
     std::string all;
@@ -42,6 +45,7 @@ class SenderTest : public testing::Test {
 
   const Profile profile_ = test_profile();
   FakeMillLine line_;
+  SenderLine beside_{profile_, {}, line_};
   TimePoint now_{std::chrono::seconds(1000)};
   std::string job_;
   std::optional<Timeline> timeline_;

@@ -270,7 +270,7 @@ TEST_F(SenderTest, TheTableOfStates) {
         run_for(std::chrono::seconds(60));
         break;
       case ready:
-        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, plan_of(job_, *timeline_, {}), line_);
+        sender_.emplace(job_, *timeline_, profile_, SendSettings{}, plan_of(job_, *timeline_, {}), beside_.mill());
     }
     ASSERT_EQ(sender_->state(), state);
   };

@@ -7,6 +7,7 @@
 
 #include "device/rml1/sending/window.h"
 #include "tests/rml1/fed_mill.h"
+#include "tests/rml1/sender_line.h"
 #include "tests/rml1/short_vectors.h"
 #include "tests/rml1/simulator_bench.h"
 
@@ -51,7 +52,8 @@ simulator::MillSetup mill_of(const Pair& pair) {
 Sent sent(const std::string& job, const Pair& pair, SendSettings settings, Duration period = seconds(1)) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, mill_of(pair), settings.baud);
-  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
+  SenderLine beside(pair.profile, settings, line);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), beside.mill());
   Sent found;
   found.at_most = sender.run_on().at_most;
   feed_all(sender, line, period, [&](TimePoint now) {
@@ -78,7 +80,8 @@ struct Paused {
 Paused paused(const std::string& job, const Pair& pair, SendSettings settings) {
   const Timeline timeline(job, pair.profile, kAtHome);
   FedMill line(job, mill_of(pair), settings.baud);
-  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), line);
+  SenderLine beside(pair.profile, settings, line);
+  Sender sender(job, timeline, pair.profile, settings, plan_of(job, timeline, settings), beside.mill());
   Paused found{.shown_s = std::chrono::duration<double>(sender.run_on().longest).count()};
   const Duration between =
       std::chrono::duration_cast<Duration>(std::chrono::duration<double>(timeline.slowest_s() / 20));

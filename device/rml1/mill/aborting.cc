@@ -5,7 +5,6 @@
 
 #include "device/rml1/guard.h"
 #include "device/rml1/mill/mill_controller.h"
-#include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {
@@ -41,38 +40,46 @@ void MillController::end_aborted(TimePoint now) {
           fmt::format("{}; {}", sent, executed_text(**find(running_->number))), now);
 }
 
-// Where no job runs the mill may still execute one. With a closed line it is sent when the line is back.
+// A mill may still execute a job that no longer runs here.
 bool MillController::send_abort(TimePoint now) {
-  must_abort_ = link_ != MillLink::open;
-  if (must_abort_) return false;
-  noted_line_.write(abort_words(profile_, true));
-  abort_since_ = now;
+  if (link_ != MillLink::open) {
+    abort_.postpone();
+    return false;
+  }
+  abort_.write(true, now);
   return true;
 }
 
-// As Sender does it.
-void MillController::look_after_abort(TimePoint now) {
-  if (!abort_since_) return;
-  const bool gone = line_.unsent() == 0;
-  if (gone || now - *abort_since_ >= Sender::kHeldBeforeIgnored) line_.ignore_flow_control(!gone);
-  if (!gone) return;
-  abort_since_.reset();
-  abort_has_left(now);
+void MillController::illegal(std::string_view machine, std::string_view state, std::string_view event) {
+  if (!internal_error_.empty()) return;
+  internal_error_ = fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event);
 }
 
-// The host. A converter may still have it.
-void MillController::abort_has_left(TimePoint now) {
-  abort_arrives_ = now + transmit_time(settings_.sending.converter, settings_.sending.baud);
+// Nobody knows what the mill does: it is stopped, and a person looks at the workpiece.
+void MillController::recover(TimePoint now) {
+  events_.internal_error(internal_error_, now);
+  if (running_) {
+    Job& job = **find(running_->number);
+    job.written = written_at_loss();
+    running_.reset();
+    permission_.end(job.number, now);
+    job.state = JobState::paused_unknown;
+    job.confirmation.reset();
+    show_left();
+    events_.job_changed(job, "", internal_error_, now);
+  }
+  if (send_abort(now)) link_down(now, internal_error_);
+  internal_error_.clear();
 }
 
-bool MillController::abort_waits() const {
-  return must_abort_ || abort_since_ || (running_ && running_->sender.state() == SenderState::aborting);
-}
-
-// What somebody requested, whatever is sent for a job that was lost.
-bool MillController::may_have_lost_abort(TimePoint now) const {
-  const bool under_way = running_ && running_->sender.state() == SenderState::aborting;
-  return under_way || abort_since_ || abort_arrives_ > now;
+std::string MillController::broken_invariant() const {
+  for (const Job& job : jobs_) {
+    if (is_end(job.state)) return fmt::format("{} has ended, and is in the queue", text_of(job));
+    if ((job.state == JobState::running) != (job.number == running_job())) {
+      return fmt::format("{} is {}, and job {} runs", text_of(job), name(job.state), running_job());
+    }
+  }
+  return "";
 }
 
 }  // namespace axisgate::rml1

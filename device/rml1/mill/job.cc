@@ -14,10 +14,15 @@ namespace {
 constexpr std::array<std::string_view, kJobStates> kNames = {"QUEUED",      "CONFIRMED", "RUNNING",        "FED",
                                                              "DONE",        "ABORTED",   "PAUSED_UNKNOWN", "CANCELLED",
                                                              "TOOL_CHANGE", "PAUSED",    "EXPIRED"};
+constexpr std::array<std::string_view, kJobEvents> kEventNames = {
+    "confirm", "void",    "void, later part", "void, rest", "start", "raised", "choose rest", "part fed",
+    "fed",     "aborted", "abort unsure",     "lost",       "done",  "cancel", "expire"};
 
 }  // namespace
 
 std::string_view name(JobState state) { return kNames.at(static_cast<std::size_t>(state)); }
+
+std::string_view name(JobEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
 
 std::optional<JobState> job_state_named(std::string_view name) {
   const auto found = std::ranges::find(kNames, name);
@@ -78,6 +83,11 @@ void go_to_part(Job& job, std::size_t part) {
   job.setup.tool = job.parts[part].tool;
   job.setup.from.reset();
   job.written.reset();
+}
+
+bool is_waiting(const Job& job) {
+  return job.state == JobState::queued || job.state == JobState::confirmed || job.state == JobState::tool_change ||
+         job.state == JobState::paused;
 }
 
 bool waits_to_begin(const Job& job) {

@@ -82,9 +82,11 @@ enum class JobEvent {
   lost,
   done,
   cancel,
-  expire
+  expire  // last: kJobEvents
 };
-// The state after the event; nothing where the table has none.
+inline constexpr std::size_t kJobEvents = static_cast<std::size_t>(JobEvent::expire) + 1;
+std::string_view name(JobEvent event);  // "confirm", as in README.md
+// Returns the state after the event; nullopt if the table has none.
 std::optional<JobState> next(JobState state, JobEvent event);
 
 // A range of what was written, in bytes of the job.
@@ -137,6 +139,8 @@ bool is_last_part(const Job& job);
 std::uint64_t next_byte(const Job& job);
 // Another part is the next, with its tool, from its beginning.
 void go_to_part(Job& job, std::size_t part);
+// Reports whether the job can be confirmed, or is.
+bool is_waiting(const Job& job);
 // Reports whether the job waits and nothing of it was sent: no workpiece of it is in the mill.
 bool waits_to_begin(const Job& job);
 // Returns how long its part and those behind it take to send and execute. The time of people between them is not

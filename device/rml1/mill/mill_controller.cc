@@ -63,7 +63,8 @@ MillController::MillController(const Profile& profile, const MillSettings& setti
       line_(line),
       noted_line_(*this, line),
       events_(events),
-      permission_(permission) {}
+      permission_(permission),
+      abort_(profile, settings_.sending, noted_line_, *this) {}
 
 void MillController::add(Job job, TimePoint now) {
   job.state = JobState::queued;
@@ -81,7 +82,9 @@ Result<Job*> MillController::find(JobNumber number) {
 }
 
 void MillController::change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
-  job.state = *next(job.state, event);
+  const auto to = next(job.state, event);
+  if (!to) return illegal("job", name(job.state), name(event));
+  job.state = *to;
   if (job.state != JobState::confirmed) job.confirmation.reset();
   if (job.state == JobState::queued) job.queued_since = now;
   show_left();
@@ -218,9 +221,10 @@ Result<void> MillController::start(JobNumber number, std::shared_ptr<const Prepa
   change(**job, JobEvent::start, by.who, "", now);
   permission_.begin(use_of(by, number), occupation_by(**job, by.who, now), now);
   const PreparedJob& it = *prepared;
-  running_.reset(new Running{number, std::move(prepared), now,
-                             Sender(it.text(), it.timeline(), profile_, it.settings(), it.plan(), noted_line_),
-                             SenderState::ready, 0, 0, now, false, ""});
+  running_.reset(
+      new Running{number, std::move(prepared), now,
+                  Sender(it.text(), it.timeline(), profile_, it.settings(), it.plan(), {noted_line_, abort_, *this}),
+                  SenderState::ready, 0, 0, now, false, ""});
   running_->sender.start(now);
   look_at_sender(now);
   return {};
@@ -289,9 +293,7 @@ void MillController::look_at_sender(TimePoint now) {
   if (std::exchange(running_->seen, state) != state) events_.sender_changed(view(now), now);
   if (state == SenderState::fed) end_fed_part(now);
   if (state == SenderState::raised) end_raised(now);
-  if (state != SenderState::aborted) return;
-  abort_has_left(now);
-  end_aborted(now);
+  if (state == SenderState::aborted) end_aborted(now);
 }
 
 // A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
@@ -344,7 +346,7 @@ void MillController::link_up(TimePoint now) {
   link_ = MillLink::open;
   reopen_ = kReopenFirst;
   events_.link_changed(link_, "", now);
-  if (must_abort_ && guarded(MillGuard::abort_after_loss)) send_abort(now);
+  if (abort_.phase() == AbortPhase::waits && guarded(MillGuard::abort_after_loss)) send_abort(now);
 }
 
 void MillController::link_down(TimePoint now, std::string_view why) {
@@ -352,9 +354,8 @@ void MillController::link_down(TimePoint now, std::string_view why) {
   link_ = MillLink::closed;
   events_.link_changed(link_, why, now);
   if (guarded(MillGuard::void_after_loss)) setup_changed("the line was lost", now);
-  must_abort_ |= may_have_lost_abort(now) || (running_ && settings_.at_loss == AtLoss::abort);
-  abort_since_.reset();
-  abort_arrives_ = {};
+  abort_.line_lost(now);
+  if (running_ && settings_.at_loss == AtLoss::abort) abort_.postpone();
   if (running_) {
     running_->sender.line_lost(now);
     end_run(JobEvent::lost, "", why, now);
@@ -365,10 +366,11 @@ void MillController::link_down(TimePoint now, std::string_view why) {
 
 void MillController::advance(TimePoint now) {
   now_ = now;
+  if (!internal_error_.empty()) recover(now);
   follow_leases(now);
   if (const auto until = confirmed_until(); until && *until <= now) setup_changed(kExpired, now);
   expire_jobs(now);
-  look_after_abort(now);
+  abort_.advance(now);
   if (!running_) return;
   running_->sender.advance(now);
   look_at_sender(now);
@@ -380,7 +382,8 @@ std::optional<TimePoint> MillController::confirmed_until() const {
 }
 
 std::optional<TimePoint> MillController::next_deadline() const {
-  if (abort_since_) return now_ + Sender::kLook;
+  if (!internal_error_.empty()) return now_;
+  if (abort_.phase() == AbortPhase::leaves) return now_ + Abort::kLook;
   const auto lease = permission_.next_deadline();
   if (!running_) return sooner(sooner(confirmed_until(), next_expiry()), lease);
   const TimePoint look = now_ + kLook;

@@ -12,10 +12,12 @@
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/core/violations.h"
 #include "device/rml1/mill/by_hand.h"
 #include "device/rml1/mill/job.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/sending/abort.h"
 #include "device/rml1/sending/sender.h"
 #include "device/stage/permission.h"
 #include "device/stage/requests.h"
@@ -74,10 +76,12 @@ class MillEvents {
   virtual void written(std::string_view bytes, JobNumber job) = 0;
   // Also where no job runs.
   virtual void abort_requested(std::string_view by, TimePoint now) = 0;
+  // A state machine of the mill had an event that its table does not have: an error of the gateway's own.
+  virtual void internal_error(std::string_view what, TimePoint now) = 0;
 };
 
 // Not thread safe: lives on its device's strand. Where a request is refused nothing has changed.
-class MillController : public LineMachine {
+class MillController : public LineMachine, private Violations {
  public:
   // All outlive this.
   MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
@@ -89,7 +93,7 @@ class MillController : public LineMachine {
   // The job that was begun last in the runs before, whatever has become of it. Before link_up().
   void inherit_left(const Job& last);
   // An abort that the run before could not send any more. Before link_up().
-  void inherit_abort() { must_abort_ = true; }
+  void inherit_abort() { abort_.postpone(); }
   // surfaces() of the run before. Before link_up().
   void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
   // Puts the job after all others. The numbers ascend. With JobSetup::from it is the rest of another job. Otherwise,
@@ -139,16 +143,21 @@ class MillController : public LineMachine {
   const std::vector<Job>& jobs() const { return jobs_; }
   std::optional<RunningJob> running(TimePoint now);
   JobNumber running_job() const { return running_ ? running_->number : 0; }
-  // No job runs, and no abort is on its way to the line.
-  bool is_idle() const { return !running_ && !abort_since_; }
-  // One is to be sent, or has not left this host.
-  bool abort_waits() const;
+  // Reports whether no job runs, and no abort leaves this host.
+  bool is_idle() const { return !running_ && abort_.phase() != AbortPhase::leaves; }
+  // Reports whether an abort is to be sent, or has not left this host.
+  bool abort_waits() const { return abort_.waits(); }
   MillLink link() const { return link_; }
   // By the last job that could show it, since this began.
   const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
   const MillSettings& settings() const { return settings_; }
   // Counts how often Z0 was sent, by hand or by a job. Z0 set at the panel is not counted: nobody sees it.
   std::uint64_t surfaces() const { return surfaces_; }
+  // Where the mill's state machines report an event that their table does not have: the mill is aborted, its line
+  // opened again, and the job that runs is PAUSED_UNKNOWN.
+  Violations& violations() { return *this; }
+  // Text of the first invariant that does not hold; empty if all do.
+  std::string broken_invariant() const;
 
   void link_up(TimePoint now) override;
   void link_down(TimePoint now, std::string_view why) override;
@@ -212,9 +221,8 @@ class MillController : public LineMachine {
   Result<void> check_startable(const Job& job, TimePoint now) const;
   bool send_abort(TimePoint now);
   void note_executed(TimePoint now);
-  void look_after_abort(TimePoint now);
-  void abort_has_left(TimePoint now);
-  bool may_have_lost_abort(TimePoint now) const;
+  void illegal(std::string_view machine, std::string_view state, std::string_view event) override;
+  void recover(TimePoint now);
   void look_at_sender(TimePoint now);
   void end_aborted(TimePoint now);
   void set_surfaces(std::uint64_t surfaces);
@@ -242,12 +250,11 @@ class MillController : public LineMachine {
   std::uint64_t surfaces_ = 0;
   std::unique_ptr<Running> running_;
   std::optional<MeasuredPace> measured_pace_;
-  bool must_abort_ = false;               // when the line is back
-  TimePoint abort_arrives_{};             // at the mill, at the latest; in the past: it has, or none was sent
-  TimePoint by_hand_until_{};             // what a person does with it ends, at the latest
-  TimePoint rises_until_{};               // the tool, after an abort that the mill obeys at once
-  std::optional<TimePoint> abort_since_;  // without a job: until it has left the host
-  TimePoint now_{};                       // of the last call
+  Abort abort_;
+  std::string internal_error_;  // that advance() has not recovered from yet; empty: none
+  TimePoint by_hand_until_{};   // what a person does with it ends, at the latest
+  TimePoint rises_until_{};     // the tool, after an abort that the mill obeys at once
+  TimePoint now_{};             // of the last call
 };
 
 }  // namespace axisgate::rml1

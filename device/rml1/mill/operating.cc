@@ -10,7 +10,7 @@
 namespace axisgate::rml1 {
 
 Result<void> MillController::check_taken() const {
-  if (!abort_since_ && line_.unsent() == 0) return {};
+  if (abort_.phase() != AbortPhase::leaves && line_.unsent() == 0) return {};
   return fail(Reason::axis_busy, "the mill has not taken what it was sent before",
               "look at the mill: its panel may hold it, or it is off");
 }

@@ -26,7 +26,7 @@ std::vector<Job*> places(std::vector<Job>& jobs, const Job& moved, Overtaken ove
 }  // namespace
 
 void MillController::inherit(Job job) {
-  if (job.state == JobState::paused_unknown) must_abort_ = settings_.at_loss == AtLoss::abort;
+  if (job.state == JobState::paused_unknown && settings_.at_loss == AtLoss::abort) abort_.postpone();
   const auto place = std::ranges::upper_bound(jobs_, job, is_before);
   jobs_.insert(place, std::move(job));
   show_left();

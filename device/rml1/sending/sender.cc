@@ -13,12 +13,16 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, 10> kNames = {"READY",    "SENDING", "PAUSED", "FINISHING", "FED",
-                                                     "ABORTING", "ABORTED", "LOST",   "RAISING",   "RAISED"};
+constexpr std::array<std::string_view, kSenderStates> kNames = {"READY",    "SENDING", "PAUSED", "FINISHING", "FED",
+                                                                "ABORTING", "ABORTED", "LOST",   "RAISING",   "RAISED"};
+constexpr std::array<std::string_view, kSendEvents> kEventNames = {
+    "start", "pause", "resume", "raise", "all_written", "all_executed", "abort", "abort_left", "line_lost"};
 
 }  // namespace
 
 std::string_view name(SenderState state) { return kNames.at(static_cast<std::size_t>(state)); }
+
+std::string_view name(SendEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
 
 bool is_end(SenderState state) {
   return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost ||
@@ -26,66 +30,68 @@ bool is_end(SenderState state) {
 }
 
 Sender::Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
-               const SendPlan& plan, FlowLink& line)
+               const SendPlan& plan, const MillLine& mill)
     : job_(job),
       timeline_(timeline),
       profile_(profile),
       settings_(settings),
       plan_(plan),
-      line_(line),
+      line_(mill.line),
+      abort_(mill.abort),
+      violations_(mill.violations),
       slowest_(timeline, &Step::slowest_s, plan.slack),
       fastest_(timeline, &Step::least_s, 1),
       meter_(timeline, settings.buffer + settings.converter),
       cutter_(job, plan.window) {}
 
-bool Sender::change(Event event) {
+std::optional<SenderState> next(SenderState state, SendEvent event) {
   using enum SenderState;
-  using Change = Transition<SenderState, Event>;
+  using Change = Transition<SenderState, SendEvent>;
   static constexpr std::array kTable = {
-      Change{ready, Event::start, sending},
-      Change{sending, Event::pause, paused},
-      Change{paused, Event::resume, sending},
-      Change{sending, Event::raise, raising},
-      Change{paused, Event::raise, raising},
-      Change{raising, Event::all_executed, raised},
-      Change{sending, Event::all_written, finishing},
-      Change{finishing, Event::all_executed, fed},
-      Change{sending, Event::abort, aborting},
-      Change{paused, Event::abort, aborting},
-      Change{finishing, Event::abort, aborting},
-      Change{raising, Event::abort, aborting},
-      Change{aborting, Event::abort_written, aborted},
-      Change{ready, Event::line_lost, lost},
-      Change{sending, Event::line_lost, lost},
-      Change{paused, Event::line_lost, lost},
-      Change{finishing, Event::line_lost, lost},
-      Change{raising, Event::line_lost, lost},
-      Change{aborting, Event::line_lost, lost},
+      Change{ready, SendEvent::start, sending},           Change{sending, SendEvent::pause, paused},
+      Change{paused, SendEvent::resume, sending},         Change{sending, SendEvent::raise, raising},
+      Change{paused, SendEvent::raise, raising},          Change{raising, SendEvent::all_executed, raised},
+      Change{sending, SendEvent::all_written, finishing}, Change{finishing, SendEvent::all_executed, fed},
+      Change{sending, SendEvent::abort, aborting},        Change{paused, SendEvent::abort, aborting},
+      Change{finishing, SendEvent::abort, aborting},      Change{raising, SendEvent::abort, aborting},
+      Change{aborting, SendEvent::abort_left, aborted},   Change{ready, SendEvent::line_lost, lost},
+      Change{sending, SendEvent::line_lost, lost},        Change{paused, SendEvent::line_lost, lost},
+      Change{finishing, SendEvent::line_lost, lost},      Change{raising, SendEvent::line_lost, lost},
+      Change{aborting, SendEvent::line_lost, lost},
   };
-  const auto next = next_in(kTable, state_, event);
-  if (next) state_ = *next;
-  return next.has_value();
+  return next_in(kTable, state, event);
+}
+
+// A request of somebody, which the state need not allow.
+bool Sender::request(SendEvent event) {
+  const auto to = next(state_, event);
+  if (to) state_ = *to;
+  return to.has_value();
+}
+
+void Sender::change(SendEvent event) {
+  if (!request(event)) violations_.illegal("sender", name(state_), name(event));
 }
 
 void Sender::start(TimePoint now) {
-  if (change(Event::start)) send(now);
+  if (request(SendEvent::start)) send(now);
 }
 
 void Sender::pause(TimePoint now) {
   advance(now);
-  change(Event::pause);
+  request(SendEvent::pause);
 }
 
 void Sender::resume(TimePoint now) {
   learn(now);
-  if (!change(Event::resume)) return;
+  if (!request(SendEvent::resume)) return;
   meter_.interrupted();
   send(now);
 }
 
 void Sender::raise(TimePoint now) {
   advance(now);
-  if (change(Event::raise)) line_.write(lift_words(profile_, rests_behind_written()));
+  if (request(SendEvent::raise)) line_.write(lift_words(profile_, rests_behind_written()));
 }
 
 // The spindle, when the mill has executed all that was written.
@@ -95,26 +101,14 @@ bool Sender::rests_behind_written() const {
   return next == steps.begin() || !std::prev(next)->turning;
 }
 
-void Sender::line_lost(TimePoint) { change(Event::line_lost); }
+void Sender::line_lost(TimePoint) { request(SendEvent::line_lost); }
 
 // Behind what was written of the job, which is whole commands.
 void Sender::abort(TimePoint now) {
   learn(now);
   const bool rests = may_rest(now);
-  if (guarded(MillGuard::abort_ends_job) && !change(Event::abort)) return;
-  line_.write(abort_words(profile_, rests));
-  abort_since_ = now;
-}
-
-void Sender::look_after_abort(TimePoint now) {
-  if (line_.unsent() == 0) {
-    line_.ignore_flow_control(false);
-    return static_cast<void>(change(Event::abort_written));
-  }
-  // XOFF shows only as bytes that do not leave.
-  if (guarded(MillGuard::abort_is_not_held) && now - abort_since_ >= kHeldBeforeIgnored) {
-    line_.ignore_flow_control(true);
-  }
+  if (guarded(MillGuard::abort_ends_job) && !request(SendEvent::abort)) return;
+  abort_.write(rests, now);
 }
 
 bool Sender::abort_may_be_dropped() const {
@@ -124,9 +118,12 @@ bool Sender::abort_may_be_dropped() const {
 void Sender::advance(TimePoint now) {
   learn(now);
   if (state_ == SenderState::sending) send(now);
-  if (state_ == SenderState::aborting) look_after_abort(now);
-  if (state_ == SenderState::finishing && all_is_executed(now)) change(Event::all_executed);
-  if (state_ == SenderState::raising && has_raised(now)) change(Event::all_executed);
+  if (state_ == SenderState::aborting) {
+    abort_.advance(now);
+    if (!abort_.waits()) change(SendEvent::abort_left);
+  }
+  if (state_ == SenderState::finishing && all_is_executed(now)) change(SendEvent::all_executed);
+  if (state_ == SenderState::raising && has_raised(now)) change(SendEvent::all_executed);
 }
 
 // The mill begins to raise the tool when it has executed what was sent of the job.
@@ -154,7 +151,7 @@ void Sender::send(TimePoint now) {
     if (guarded(MillGuard::window) && !has_room(now)) return;
     write(now);
   }
-  change(Event::all_written);
+  change(SendEvent::all_written);
 }
 
 void Sender::write(TimePoint now) {

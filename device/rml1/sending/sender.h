@@ -8,7 +8,9 @@
 
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
+#include "device/core/violations.h"
 #include "device/rml1/profile.h"
+#include "device/rml1/sending/abort.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/pace.h"
 #include "device/rml1/sending/pace_meter.h"
@@ -31,17 +33,31 @@ struct SendProgress {
   std::uint64_t executed_most = 0;   // by the fastest
 };
 
+enum class SendEvent { start, pause, resume, raise, all_written, all_executed, abort, abort_left, line_lost };
+std::string_view name(SendEvent event);  // "start", as in README.md
+inline constexpr std::size_t kSenderStates = 10, kSendEvents = 9;
+
+// Returns the state after the event; nullopt if the table has none.
+std::optional<SenderState> next(SenderState state, SendEvent event);
+
+// What a sender shares with whatever else writes to the mill.
+struct MillLine {
+  FlowLink& line;
+  Abort& abort;
+  Violations& violations;
+};
+
 // Not thread safe. Each call may change the state; `now` never goes back.
 class Sender {
  public:
-  // `job`: with prologue and epilogue, checked. `plan`: of the job and the settings. All that is referred to outlives
-  // this.
+  // `job`: with prologue and epilogue, checked. `plan`: of the job and the settings. The referenced objects must
+  // outlive this one.
   Sender(std::string_view job, const Timeline& timeline, const Profile& profile, const SendSettings& settings,
-         const SendPlan& plan, FlowLink& line);
+         const SendPlan& plan, const MillLine& mill);
 
   RunOn run_on() const { return plan_.run_on; }
 
-  // What the present state does not have changes nothing.
+  // A call that the present state does not allow has no effect.
   void start(TimePoint now);
   void pause(TimePoint now);
   void resume(TimePoint now);
@@ -66,14 +82,12 @@ class Sender {
   // Of the mill, so far. Nothing with paced streaming, or where the line was not stopped for long enough.
   std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
 
-  // Flow control that forbids an abort is ignored after that time.
-  static constexpr Duration kHeldBeforeIgnored = std::chrono::milliseconds(200);
   // Between two looks at a line that has something to send, or is held, at most.
   static constexpr Duration kLook = std::chrono::milliseconds(5);
 
  private:
-  enum class Event { start, pause, resume, raise, all_written, all_executed, abort, abort_written, line_lost };
-  bool change(Event event);
+  bool request(SendEvent event);
+  void change(SendEvent event);
   void send(TimePoint now);
   void write(TimePoint now);
   bool has_room(TimePoint now);
@@ -88,7 +102,6 @@ class Sender {
   Duration until_next_look() const;
   TimePoint look_before(TimePoint due, TimePoint now) const;
   TimePoint room_at() const;
-  void look_after_abort(TimePoint now);
   bool may_rest(TimePoint now);
 
   const std::string_view job_;
@@ -97,14 +110,15 @@ class Sender {
   const SendSettings settings_;
   const SendPlan plan_;
   FlowLink& line_;
+  Abort& abort_;
+  Violations& violations_;
   Pace slowest_, fastest_;
   PaceMeter meter_;
   SenderState state_ = SenderState::ready;
   Cutter cutter_;  // written up to its begin()
   std::uint64_t taken_ = 0;
-  TimePoint leaves_{};   // the last of them, the host, if nothing stops the line
-  TimePoint arrives_{};  // likewise, at the mill: a converter may hold what has left the host
-  TimePoint abort_since_{};
+  TimePoint leaves_{};                  // the last of them, the host, if nothing stops the line
+  TimePoint arrives_{};                 // likewise, at the mill: a converter may hold what has left the host
   std::optional<TimePoint> raised_at_;  // at the latest; nothing: what was sent of the job may not have been executed
 };
 

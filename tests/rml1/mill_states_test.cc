@@ -1,0 +1,142 @@
+// The state machines of a mill: every state with every event, typed from the tables in device/rml1/mill/README.md and
+// device/rml1/sending/README.md; and what an event does that a table does not have.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "device/rml1/sending/abort.h"
+#include "device/rml1/sending/words.h"
+#include "tests/rml1/mill_controller_fixture.h"
+#include "tests/unit/reported.h"
+#include "tests/unit/transition_table.h"
+
+namespace axisgate::rml1::mill_states_test {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing_tables::illegal_pairs;
+using testing_tables::Table;
+
+TEST(JobTable, EachPairLeadsWhereThePageSays) {
+  const std::string e = "-";
+  const Table table = {
+      {"QUEUED", {"CONFIRMED", e, e, e, e, e, e, e, e, e, e, e, e, "CANCELLED", "EXPIRED"}},
+      {"CONFIRMED",
+       {"CONFIRMED", "QUEUED", "TOOL_CHANGE", "PAUSED", "RUNNING", e, e, e, e, e, e, e, e, "CANCELLED", e}},
+      {"RUNNING",
+       {e, e, e, e, e, "PAUSED", e, "TOOL_CHANGE", "FED", "ABORTED", "PAUSED_UNKNOWN", "PAUSED_UNKNOWN", e, e, e}},
+      {"TOOL_CHANGE", {"CONFIRMED", e, e, e, e, e, e, e, e, e, e, e, e, "CANCELLED", e}},
+      {"PAUSED", {"CONFIRMED", e, e, e, e, e, "PAUSED", e, e, e, e, e, e, "CANCELLED", e}},
+      {"FED", {e, e, e, e, e, e, e, e, e, e, e, e, "DONE", e, e}},
+      {"PAUSED_UNKNOWN", {e, e, e, e, e, e, "PAUSED", e, e, e, e, e, e, "CANCELLED", e}},
+      {"DONE", std::vector<std::string>(15, e)},
+      {"ABORTED", std::vector<std::string>(15, e)},
+      {"CANCELLED", std::vector<std::string>(15, e)},
+      {"EXPIRED", std::vector<std::string>(15, e)},
+  };
+  const int illegal = illegal_pairs<JobState, JobEvent>(
+      table, kJobStates,
+      {"confirm", "void", "void, later part", "void, rest", "start", "raised", "choose rest", "part fed", "fed",
+       "aborted", "abort unsure", "lost", "done", "cancel", "expire"},
+      [](JobState state, JobEvent event) { return next(state, event); });
+  EXPECT_EQ(illegal, 142);
+}
+
+TEST(AbortTable, EachPairLeadsWhereThePageSays) {
+  const Table table = {
+      {"none", {"waits", "leaves", "-", "-", "none"}},
+      {"waits", {"waits", "leaves", "-", "-", "waits"}},
+      {"leaves", {"-", "leaves", "travels", "-", "waits"}},
+      {"travels", {"-", "leaves", "-", "none", "waits"}},
+  };
+  const int illegal = illegal_pairs<AbortPhase, AbortEvent>(
+      table, kAbortPhases, {"postponed", "written", "left", "arrived", "line_lost"},
+      [](AbortPhase phase, AbortEvent event) { return next(phase, event); });
+  EXPECT_EQ(illegal, 8);
+}
+
+TEST(SenderTable, EachPairLeadsWhereThePageSays) {
+  const std::string e = "-";
+  const Table table = {
+      {"READY", {"SENDING", e, e, e, e, e, e, e, "LOST"}},
+      {"SENDING", {e, "PAUSED", e, "RAISING", "FINISHING", e, "ABORTING", e, "LOST"}},
+      {"PAUSED", {e, e, "SENDING", "RAISING", e, e, "ABORTING", e, "LOST"}},
+      {"FINISHING", {e, e, e, e, e, "FED", "ABORTING", e, "LOST"}},
+      {"RAISING", {e, e, e, e, e, "RAISED", "ABORTING", e, "LOST"}},
+      {"ABORTING", {e, e, e, e, e, e, e, "ABORTED", "LOST"}},
+      {"FED", std::vector<std::string>(9, e)},
+      {"RAISED", std::vector<std::string>(9, e)},
+      {"ABORTED", std::vector<std::string>(9, e)},
+      {"LOST", std::vector<std::string>(9, e)},
+  };
+  const int illegal = illegal_pairs<SenderState, SendEvent>(
+      table, kSenderStates,
+      {"start", "pause", "resume", "raise", "all_written", "all_executed", "abort", "abort_left", "line_lost"},
+      [](SenderState state, SendEvent event) { return next(state, event); });
+  EXPECT_EQ(illegal, 71);
+}
+
+TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
+  Reported reported;
+  FakeMillLine line;
+  const Profile profile = test_profile();
+  const SendSettings settings;
+  Abort abort(profile, settings, line, reported);
+  abort.write(true, TimePoint{1000s});
+  abort.postpone();
+  EXPECT_THAT(reported.all, ElementsAre("abort leaves postponed"));
+  EXPECT_EQ(abort.phase(), AbortPhase::leaves);
+}
+
+// Nobody knows then what the mill does.
+class InternalErrorAtAMill : public MillControllerTest {
+ protected:
+  void internal_error(std::string_view what, TimePoint) override { errors_.emplace_back(what); }
+  void report() { mill_.violations().illegal("job", "QUEUED", "fed"); }
+
+  std::vector<std::string> errors_;
+};
+
+TEST_F(InternalErrorAtAMill, AbortsTheJobAndOpensTheLineAgain) {
+  add(1);
+  run_job(1);
+  run_for(100ms);
+  line_.writes.clear();
+  report();
+  ASSERT_TRUE(mill_.next_deadline());
+  EXPECT_LE(*mill_.next_deadline(), now_) << "at once";
+  mill_.advance(now_);
+  EXPECT_THAT(errors_, ElementsAre("an internal error: job in state QUEUED cannot have the event fed"));
+  EXPECT_EQ(state(1), JobState::paused_unknown);
+  EXPECT_EQ(mill_.running_job(), 0u);
+  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(line_.reopened, 1);
+  EXPECT_TRUE(mill_.abort_waits()) << "it may have been lost with the line";
+  mill_.link_up(now_);
+  EXPECT_EQ(line_.writes.back(), abort_words(profile_, true));
+  run_for(1s);
+  EXPECT_TRUE(mill_.cancel(1, "unix bert", now_)) << "a person has looked";
+}
+
+TEST_F(InternalErrorAtAMill, WithTheLineClosedTheAbortWaits) {
+  mill_.link_down(now_, "unplugged");
+  report();
+  mill_.advance(now_);
+  EXPECT_EQ(errors_.size(), 1u);
+  EXPECT_EQ(line_.reopened, 1) << "once, for the loss";
+  mill_.link_up(now_);
+  EXPECT_EQ(written(), abort_words(profile_, true));
+}
+
+TEST_F(InternalErrorAtAMill, TheFirstOfSeveralIsReported) {
+  report();
+  mill_.violations().illegal("abort", "none", "left");
+  mill_.advance(now_);
+  EXPECT_THAT(errors_, ElementsAre("an internal error: job in state QUEUED cannot have the event fed"));
+}
+
+}  // namespace
+}  // namespace axisgate::rml1::mill_states_test

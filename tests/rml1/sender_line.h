@@ -1,0 +1,26 @@
+// What a sender needs beside its line, for tests that have no controller.
+#pragma once
+
+#include "device/rml1/sending/abort.h"
+#include "device/rml1/sending/sender.h"
+#include "tests/unit/reported.h"
+
+namespace axisgate::rml1 {
+
+class SenderLine {
+ public:
+  // The profile and the line must outlive this object.
+  SenderLine(const Profile& profile, const SendSettings& settings, FlowLink& line)
+      : settings_(settings), line_(line), abort_(profile, settings_, line, reported) {}
+
+  MillLine mill() { return {line_, abort_, reported}; }
+
+  Reported reported;  // must stay empty
+
+ private:
+  const SendSettings settings_;
+  FlowLink& line_;
+  Abort abort_;
+};
+
+}  // namespace axisgate::rml1
