@@ -4,9 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "device/rml1/sending/abort.h"
+#include "device/rml1/mill/job_queue.h"
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/mill_controller_fixture.h"
 #include "tests/unit/reported.h"
@@ -17,6 +18,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing_tables::illegal_pairs;
 using testing_tables::Table;
 
@@ -79,6 +81,25 @@ TEST(SenderTable, EachPairLeadsWhereThePageSays) {
   EXPECT_EQ(illegal, 71);
 }
 
+class Silent : public QueueEvents {
+ public:
+  void job_changed(const Job&, std::string_view, std::string_view, TimePoint) override {}
+  void rank_changed(const Job&) override {}
+};
+
+TEST(JobQueue, AnIllegalEventIsReportedAndChangesNothing) {
+  Reported reported;
+  Silent silent;
+  const SetupLeft left;
+  JobQueue queue(left, std::chrono::days(14), silent, reported);
+  const TimePoint now{1000s};
+  queue.add({.number = 1, .name = "part.rml"}, now);
+  queue.change(queue.at(1), JobEvent::fed, "", "", now);
+  EXPECT_THAT(reported.all, ElementsAre("job QUEUED fed"));
+  EXPECT_EQ(queue.at(1).state, JobState::queued);
+  EXPECT_EQ(queue.broken_invariant(), "");
+}
+
 TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
   Reported reported;
   FakeMillLine line;
@@ -89,6 +110,33 @@ TEST(Abort, AnIllegalEventIsReportedAndChangesNothing) {
   abort.postpone();
   EXPECT_THAT(reported.all, ElementsAre("abort leaves postponed"));
   EXPECT_EQ(abort.phase(), AbortPhase::leaves);
+}
+
+// Each invariant is seen when it does not hold.
+TEST(JobQueue, ItsInvariantsSayWhatDoesNotHold) {
+  Reported reported;
+  Silent silent;
+  const SetupLeft left;
+  const auto broken = [&](std::vector<Job> jobs) {
+    JobQueue queue(left, std::chrono::days(14), silent, reported);
+    for (Job& job : jobs) {
+      const JobState state = std::exchange(job.state, JobState::queued);
+      queue.add(job, TimePoint{1000s});
+      queue.at(job.number).state = state;
+    }
+    return queue.broken_invariant();
+  };
+  const Confirmation confirmation{"unix bert", TimePoint{2000s}};
+  EXPECT_EQ(broken({{.number = 1, .state = JobState::running}, {.number = 2}}), "");
+  EXPECT_THAT(broken({{.number = 1, .state = JobState::done}}), HasSubstr("has ended, and is in the queue"));
+  EXPECT_THAT(broken({{.number = 1, .state = JobState::confirmed}}), HasSubstr("CONFIRMED and has no confirmation"));
+  EXPECT_THAT(broken({{.number = 1, .confirmation = confirmation}}), HasSubstr("QUEUED and has a confirmation"));
+  EXPECT_EQ(broken({{.number = 1, .state = JobState::confirmed, .confirmation = confirmation},
+                    {.number = 2, .state = JobState::confirmed, .confirmation = confirmation}}),
+            "two jobs are confirmed");
+  EXPECT_EQ(broken({{.number = 1, .state = JobState::running}, {.number = 2, .state = JobState::running}}),
+            "two jobs run");
+  EXPECT_THAT(broken({{.number = 1}, {.number = 2, .state = JobState::fed}}), HasSubstr("order of is_before()"));
 }
 
 // Nobody knows then what the mill does.

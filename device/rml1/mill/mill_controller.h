@@ -15,6 +15,7 @@
 #include "device/core/violations.h"
 #include "device/rml1/mill/by_hand.h"
 #include "device/rml1/mill/job.h"
+#include "device/rml1/mill/job_queue.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/abort.h"
@@ -52,20 +53,10 @@ struct JobRest {
   RunOn run_on{};
 };
 
-// Whose QUEUED jobs another one is moved before.
-enum class Overtaken { all, of_its_owner };
-
 // What others see of what happens. Called from within the controller's members; must not call back.
-class MillEvents {
+class MillEvents : public QueueEvents {
  public:
-  virtual ~MillEvents() = default;
-
   virtual void link_changed(MillLink link, std::string_view why, TimePoint now) = 0;
-  // It was added, has another state, or was moved. `by`: who requested that; empty: nobody. `why`: for people; may be
-  // empty.
-  virtual void job_changed(const Job& job, std::string_view by, std::string_view why, TimePoint now) = 0;
-  // By this the order of the queue outlives a restart.
-  virtual void rank_changed(const Job& job) = 0;
   // Called whenever Z0 is sent. The new surfaces() outlives the daemon.
   virtual void surface_set(std::uint64_t surfaces) = 0;
   virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;

@@ -1,0 +1,47 @@
+// What a person at the mill says before a job begins: the material and the tool are in, the origin is set, nothing is
+// in the way. README.md says for how long that counts.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/core/time.h"
+#include "device/rml1/mill/job.h"
+#include "device/rml1/mill/job_queue.h"
+#include "device/rml1/mill/setup_left.h"
+
+namespace axisgate::rml1 {
+
+// Not thread safe.
+class Confirmations {
+ public:
+  // The referenced objects must outlive this one. `lasts`: time for which a confirmation counts.
+  Confirmations(JobQueue& queue, const SetupLeft& left, Duration lasts) : queue_(queue), left_(left), lasts_(lasts) {}
+
+  // Fails with not_found, or with wrong_mode if the job is not the next one, or if what became of the last one is not
+  // known. Call it while no job runs.
+  Result<void> check_next(JobNumber number) const;
+  // Confirms a job for which check_next() has passed. Fails with stale_setpoint if `seen` is not what the job needs, or
+  // not what the jobs before have left.
+  Result<void> confirm(JobNumber number, const JobSetup& seen, std::string by, TimePoint now);
+  // Fails with not_allowed if the job is not, or no longer, confirmed.
+  Result<void> check(const Job& job, TimePoint now) const;
+  // Voids the confirmation, if there is one. `why`: for people.
+  void make_void(std::string_view why, TimePoint now);
+  // Voids a confirmation that has expired.
+  void advance(TimePoint now);
+  // When the confirmation expires; nullopt if no job is confirmed.
+  std::optional<TimePoint> until() const;
+
+ private:
+  Result<void> check_settled() const;
+  Result<void> check_surface(const Job& job) const;
+
+  JobQueue& queue_;
+  const SetupLeft& left_;
+  const Duration lasts_;
+};
+
+}  // namespace axisgate::rml1

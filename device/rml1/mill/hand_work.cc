@@ -1,0 +1,69 @@
+#include "device/rml1/mill/hand_work.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <variant>
+
+#include "device/rml1/sending/words.h"
+
+namespace axisgate::rml1 {
+namespace {
+
+long long seconds_until(TimePoint end, TimePoint now) {
+  return std::chrono::ceil<std::chrono::seconds>(end - now).count();
+}
+
+}  // namespace
+
+Result<void> HandWork::check_taken() const {
+  if (abort_.phase() != AbortPhase::leaves && line_.unsent() == 0) return {};
+  return fail(Reason::axis_busy, "the mill has not taken what it was sent before",
+              "look at the mill: its panel may hold it, or it is off");
+}
+
+// A mill executes what it is sent in this order. But a pace is computed from where nothing else moves.
+Result<void> HandWork::check_still(TimePoint now) const {
+  if (done_at_ <= now) return {};
+  return fail(Reason::axis_busy, "the mill may still do what it was sent by hand",
+              fmt::format("ask again after {} s", seconds_until(done_at_, now)));
+}
+
+// The tool rises after an abort. What a mill executes before it obeys, nobody knows: the answer to the abort says so.
+Result<void> HandWork::check_risen(TimePoint now) const {
+  if (risen_at_ <= now) return {};
+  return fail(Reason::axis_busy, "the tool may still rise after the abort",
+              fmt::format("look at the mill, and ask again after {} s", seconds_until(risen_at_, now)));
+}
+
+Result<void> HandWork::check_idle(TimePoint now) const {
+  return check_taken().and_then([&] { return check_still(now); });
+}
+
+// Steps do not add up while nobody looks. Z0 after a step is set where the step leads.
+Result<void> HandWork::check(const HandAct& act, TimePoint now) const {
+  if (const Result<void> taken = check_taken(); !taken) return taken;
+  if (line_.held()) {
+    return fail(Reason::axis_busy, "the mill takes nothing", "look at the mill: its panel may hold it, or it is off");
+  }
+  const auto* surface = std::get_if<SetSurface>(&act);
+  const bool is_step = std::holds_alternative<JogStep>(act);
+  if (is_step || (surface != nullptr && !surface->at)) {
+    if (const Result<void> risen = check_risen(now); !risen) return risen;
+  }
+  return is_step ? check_still(now) : Result<void>();
+}
+
+Duration HandWork::write(const HandWords& words, TimePoint now) {
+  line_.write(words.bytes);
+  done_at_ = std::max(done_at_, now) + words.longest;
+  return done_at_ - now;
+}
+
+void HandWork::abort_requested(TimePoint now) {
+  done_at_ = now;
+  risen_at_ = now + longest_way(profile_.z_mm, profile_.speed.z_maximum, profile_, slack_);
+}
+
+}  // namespace axisgate::rml1
