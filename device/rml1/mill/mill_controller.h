@@ -1,12 +1,13 @@
-// One mill: its queue, its confirmation, and the job that runs. README.md says what each state means.
+// One mill: wires its queue, confirmations, running job, abort and work by hand to a line. README.md says what each
+// state means.
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "device/core/line_machine.h"
@@ -14,12 +15,17 @@
 #include "device/core/time.h"
 #include "device/core/violations.h"
 #include "device/rml1/mill/by_hand.h"
+#include "device/rml1/mill/confirmations.h"
+#include "device/rml1/mill/hand_work.h"
 #include "device/rml1/mill/job.h"
 #include "device/rml1/mill/job_queue.h"
+#include "device/rml1/mill/job_run.h"
 #include "device/rml1/mill/prepared_job.h"
+#include "device/rml1/mill/rights.h"
+#include "device/rml1/mill/setup_left.h"
 #include "device/rml1/profile.h"
 #include "device/rml1/sending/abort.h"
-#include "device/rml1/sending/sender.h"
+#include "device/rml1/sending/settings.h"
 #include "device/stage/permission.h"
 #include "device/stage/requests.h"
 
@@ -28,23 +34,12 @@ namespace axisgate::rml1 {
 struct MillSettings {
   SendSettings sending;
   Duration confirmation_lasts = std::chrono::minutes(10);
-  Duration busy_limit = std::chrono::minutes(10);  // so long without a byte taken, and the mill is said to be busy
+  Duration busy_limit = std::chrono::minutes(10);  // a mill that has taken no byte for so long is reported as busy
   AtLoss at_loss = AtLoss::abort;
   Duration queued_at_most = std::chrono::days(14);  // a job that nobody has confirmed by then ends EXPIRED
 };
 
 enum class MillLink { closed, open };
-
-// The job that runs.
-struct RunningJob {
-  JobNumber number = 0;
-  SenderState sender = SenderState::ready;
-  SendProgress progress;  // in bytes of the job itself
-  RunOn run_on;
-  TimeRange left;  // of the job, as takes() counts
-  TimePoint started{};
-  bool busy = false;  // for MillSettings::busy_limit the mill has taken nothing
-};
 
 // JobRest is the place where a job continues, with the time that its part then takes.
 struct JobRest {
@@ -53,97 +48,93 @@ struct JobRest {
   RunOn run_on{};
 };
 
-// What others see of what happens. Called from within the controller's members; must not call back.
-class MillEvents : public QueueEvents {
+// Listens to a mill. Called from within the controller's members; must not call back.
+class MillEvents : public QueueEvents, public RunEvents {
  public:
   virtual void link_changed(MillLink link, std::string_view why, TimePoint now) = 0;
-  // Called whenever Z0 is sent. The new surfaces() outlives the daemon.
+  // Z0 is sent. The new surfaces() must be kept: it outlives the daemon.
   virtual void surface_set(std::uint64_t surfaces) = 0;
-  virtual void sender_changed(const RunningJob& running, TimePoint now) = 0;
-  // Bytes of the job up to sent.most go to the line next, and the mill has those up to sent.least. What must outlive a
-  // killed daemon is kept before it returns.
-  virtual void about_to_write(JobNumber job, const WrittenRange& sent) = 0;
-  // These bytes were given to the line, for a job or, with 0, for none.
+  // The bytes were given to the line, for a job or, with 0, for none.
   virtual void written(std::string_view bytes, JobNumber job) = 0;
-  // Also where no job runs.
+  // Also if no job runs.
   virtual void abort_requested(std::string_view by, TimePoint now) = 0;
   // A state machine of the mill had an event that its table does not have: an error of the gateway's own.
   virtual void internal_error(std::string_view what, TimePoint now) = 0;
 };
 
-// Not thread safe: lives on its device's strand. Where a request is refused nothing has changed.
+// Not thread safe: lives on its device's strand. A request that is refused has no effect.
 class MillController : public LineMachine, private Violations {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   MillController(const Profile& profile, const MillSettings& settings, FlowLink& line, MillEvents& events,
                  stage::Permission& permission);
 
-  // A job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, PAUSED, FED, or PAUSED_UNKNOWN with what is
-  // known to be `written`; with its queued_since. It has the place that is_before() gives it. Before link_up().
+  // Takes over a job of the run of the daemon before this one: QUEUED, TOOL_CHANGE, PAUSED, FED, or PAUSED_UNKNOWN with
+  // what is known to be `written`; with its queued_since. It has the place that is_before() gives it. Call it, and the
+  // other three, before link_up().
   void inherit(Job job);
-  // The job that was begun last in the runs before, whatever has become of it. Before link_up().
+  // Takes over the job that was begun last in the runs before, whatever has become of it.
   void inherit_left(const Job& last);
-  // An abort that the run before could not send any more. Before link_up().
+  // Takes over an abort that the run before could not send any more.
   void inherit_abort() { abort_.postpone(); }
-  // surfaces() of the run before. Before link_up().
-  void inherit_surfaces(std::uint64_t surfaces) { surfaces_ = surfaces; }
+  // Takes over surfaces() of the run before.
+  void inherit_surfaces(std::uint64_t surfaces) { left_.inherit_surfaces(surfaces); }
+
   // Puts the job after all others. The numbers ascend. With JobSetup::from it is the rest of another job. Otherwise,
   // with Job::continues, Job::surfaces is the surfaces() with which its heights count.
-  void add(Job job, TimePoint now);
-  // By somebody at the mill. not_found; wrong_mode: it is not the next one, another one runs, or what
-  // became of the last one is not known; link_down;
-  // stale_setpoint: `seen` is not what the job needs, or not what the one before has left.
+  void add(Job job, TimePoint now) { queue_.add(std::move(job), now); }
+  // Confirms a job for somebody at the mill. Fails with link_down; wrong_mode if a job runs; and as
+  // Confirmations::confirm() does.
   Result<void> confirm(JobNumber job, const JobSetup& seen, std::string by, TimePoint now);
-  // What start() refuses, as far as it needs neither the bytes nor the right to the mill: not_found; wrong_mode;
-  // not_allowed, where it is not confirmed any more; link_down.
+  // Fails as start() does, as far as that needs neither the bytes nor the right to the mill: not_found; wrong_mode;
+  // not_allowed if it is no longer confirmed; link_down; axis_busy.
   Result<void> check_startable(JobNumber job, TimePoint now);
-  // Its first byte goes out, if the mill takes it. `prepared` is of the bytes of its next part. What check_startable()
-  // and Permission::authorize() refuse.
+  // Starts a job: its first byte goes out if the mill takes it. `prepared` is of the bytes of its next part. Fails as
+  // check_startable() and Permission::authorize() do.
   Result<void> start(JobNumber job, std::shared_ptr<const PreparedJob> prepared, const stage::RequestContext& by,
                      TimePoint now);
-  // Of the running job; wrong_mode where none runs, or not so. `raise`: behind what was sent the tool is raised and the
-  // spindle stops, and the job is then PAUSED.
-  Result<void> pause(bool raise, TimePoint now);
-  // Also what Permission::authorize() refuses.
+  // Pauses the running job. Fails as JobRun::pause() does.
+  Result<void> pause(bool raise, TimePoint now) { return run_.pause(raise, now); }
+  // Fails with wrong_mode if no job is paused with the tool in the cut, and as Permission::authorize() does.
   Result<void> resume(const stage::RequestContext& by, TimePoint now);
-  // Of a job that is PAUSED_UNKNOWN or PAUSED: it continues at that place of its part, when it is confirmed and
-  // started. not_found; wrong_mode.
+  // Lets a job that is PAUSED_UNKNOWN or PAUSED continue at that place of its part, once it is confirmed and started.
+  // Fails with not_found; wrong_mode.
   Result<void> choose_rest(JobNumber job, const JobRest& rest, std::string_view by, TimePoint now);
-  // Nothing of the job is written after it. Where none runs the mill is sent the abort all the same. False: the line is
-  // closed, and it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns, may start
-  // another one before they rearm.
-  bool abort(const stage::RequestContext& by, TimePoint now);
-  // The same without that, by what ends the job and is no stop.
-  bool abort(std::string_view by, TimePoint now);
-  // not_found; wrong_mode, where the job's state does not have it.
-  Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
-  Result<void> done(JobNumber job, std::string_view by, TimePoint now);
-  // Takes the place of the first QUEUED one of those that it may be before; each of these takes that of the next one.
-  // The places of all others stay. not_found; wrong_mode: it is not QUEUED.
-  Result<void> move_first(JobNumber job, Overtaken overtaken, std::string_view by, TimePoint now);
-  // While no job runs. What was confirmed is void. The answer: after that time it is done, with all that was sent
-  // before; until then no job is started, and no other step. wrong_mode; link_down; axis_busy: the mill takes nothing,
-  // or the step before may not be done; what Permission::authorize() and words_of() refuse.
-  Result<Duration> operate(const HandAct& act, const stage::RequestContext& by, TimePoint now);
   // Takes over the plan of a rest that was computed off the strand, if the job still continues there.
   void plan_rest(const Job& planned);
-  // What was confirmed is not so any more. `why`: for people.
-  void setup_changed(std::string_view why, TimePoint now);
+  // Aborts: nothing of the running job is written after it. The mill is sent the abort even if none runs. Returns false
+  // if the line is closed; then it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns,
+  // may start another one before they rearm.
+  bool abort(const stage::RequestContext& by, TimePoint now);
+  // The same without that: it ends the job and is no stop.
+  bool abort(std::string_view by, TimePoint now);
+  // Fails with not_found; wrong_mode if the job's state does not have it.
+  Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
+  Result<void> done(JobNumber job, std::string_view by, TimePoint now);
+  // Moves a job forward. Fails as JobQueue::move_first() does.
+  Result<void> move_first(JobNumber job, Overtaken overtaken, std::string_view by, TimePoint now) {
+    return queue_.move_first(job, overtaken, by, now);
+  }
+  // Does an act by hand while no job runs; what was confirmed is void. Returns the time after which the mill has done
+  // it, and all that was sent before; until then no job is started, and no other step. Fails with wrong_mode;
+  // link_down; axis_busy; and as Permission::authorize() and words_of() do.
+  Result<Duration> operate(const HandAct& act, const stage::RequestContext& by, TimePoint now);
+  // Voids what was confirmed. `why`: for people.
+  void setup_changed(std::string_view why, TimePoint now) { confirmations_.make_void(why, now); }
 
-  // Those without an end, in the order of the queue; the one that runs is among them.
-  const std::vector<Job>& jobs() const { return jobs_; }
-  std::optional<RunningJob> running(TimePoint now);
-  JobNumber running_job() const { return running_ ? running_->number : 0; }
+  // Jobs that have not ended, in the order of the queue; the one that runs is among them.
+  const std::vector<Job>& jobs() const { return queue_.jobs(); }
+  std::optional<RunningJob> running(TimePoint now) { return run_.view(now); }
+  JobNumber running_job() const { return run_.number(); }  // 0: none
   // Reports whether no job runs, and no abort leaves this host.
-  bool is_idle() const { return !running_ && abort_.phase() != AbortPhase::leaves; }
+  bool is_idle() const { return run_.number() == 0 && abort_.phase() != AbortPhase::leaves; }
   // Reports whether an abort is to be sent, or has not left this host.
   bool abort_waits() const { return abort_.waits(); }
   MillLink link() const { return link_; }
-  // By the last job that could show it, since this began.
-  const std::optional<MeasuredPace>& measured_pace() const { return measured_pace_; }
+  const std::optional<MeasuredPace>& measured_pace() const { return run_.measured_pace(); }
   const MillSettings& settings() const { return settings_; }
-  // Counts how often Z0 was sent, by hand or by a job. Z0 set at the panel is not counted: nobody sees it.
-  std::uint64_t surfaces() const { return surfaces_; }
+  // As SetupLeft::surfaces().
+  std::uint64_t surfaces() const { return left_.surfaces(); }
   // Where the mill's state machines report an event that their table does not have: the mill is aborted, its line
   // opened again, and the job that runs is PAUSED_UNKNOWN.
   Violations& violations() { return *this; }
@@ -156,14 +147,11 @@ class MillController : public LineMachine, private Violations {
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
 
-  // Between two attempts to open the line: the first, doubled each time up to the last.
+  // Time between two attempts to open the line: the first, doubled each time up to the last.
   static constexpr Duration kReopenFirst = std::chrono::milliseconds(250), kReopenLast = std::chrono::seconds(5);
 
-  // At a job that runs, so that others see its progress.
-  static constexpr Duration kLook = std::chrono::milliseconds(500);
-
  private:
-  // Passes on what is written, behind the note of it.
+  // Passes on what is written, after it was noted.
   class NotedLine : public FlowLink {
    public:
     NotedLine(MillController& mill, FlowLink& line) : mill_(mill), line_(line) {}
@@ -177,75 +165,29 @@ class MillController : public LineMachine, private Violations {
     MillController& mill_;
     FlowLink& line_;
   };
-  struct Running {
-    JobNumber number;
-    std::shared_ptr<const PreparedJob> prepared;
-    TimePoint started;
-    Sender sender;
-    SenderState seen = SenderState::ready;
-    std::uint64_t noted = 0;  // bytes of the text that were given to the line
-    std::uint64_t left = 0;   // bytes of it that have left the host, at `left_at`
-    TimePoint left_at{};
-    bool busy = false;
-    std::string aborted_by;
-  };
 
-  Result<void> authorize(const stage::RequestContext& by, JobNumber job, TimePoint now);
-  void follow_leases(TimePoint now);
-
-  Result<Job*> find(JobNumber number);
-  Result<void> change(JobNumber number, JobEvent event, std::string_view by, TimePoint now);
-  void change(Job& job, JobEvent event, std::string_view by, std::string_view why, TimePoint now);
-  void leave_queue_if_ended(JobNumber number);
-  Result<void> check_free() const;
-  Result<void> check_taken() const;
-  Result<void> check_still(TimePoint now) const;
-  Result<void> check_risen(TimePoint now) const;
-  Result<void> check_operable(const HandAct& act, TimePoint now) const;
-  void show_left();
-  void rank_as_ordered();
-  Result<void> check_settled() const;
-  Result<void> check_next(const Job& job) const;
-  Result<void> check_surface(const Job& job) const;
-  Result<void> check_sending(bool raise) const;
-  Result<void> check_pausable(bool raise, TimePoint now);
-  Result<void> check_startable(const Job& job, TimePoint now) const;
-  bool send_abort(TimePoint now);
-  void note_executed(TimePoint now);
   void illegal(std::string_view machine, std::string_view state, std::string_view event) override;
+  Result<void> check_open() const;
+  Result<void> check_no_job_runs(std::string_view hint) const;
+  Result<void> check_startable(const Job& job, TimePoint now) const;
+  void count_surface();
+  bool send_abort(TimePoint now);
   void recover(TimePoint now);
-  void look_at_sender(TimePoint now);
-  void end_aborted(TimePoint now);
-  void set_surfaces(std::uint64_t surfaces);
-  void look_whether_busy(TimePoint now);
-  void end_fed_part(TimePoint now);
-  void end_raised(TimePoint now);
-  std::uint64_t in_mill(std::uint64_t left) const;
-  WrittenRange written_at_loss();
-  void end_run(JobEvent event, std::string_view by, std::string_view why, TimePoint now);
-  RunningJob view(TimePoint now);
-  std::optional<TimePoint> confirmed_until() const;
-  void expire_jobs(TimePoint now);
-  std::optional<TimePoint> next_expiry() const;
 
-  const Profile& profile_;
   const MillSettings settings_;
-  FlowLink& line_;
-  NotedLine noted_line_;
+  NotedLine line_;
   MillEvents& events_;
-  stage::Permission& permission_;
+  Rights rights_;
+  SetupLeft left_;
+  JobQueue queue_;
+  Confirmations confirmations_;
+  Abort abort_;
+  HandWork hand_;
+  JobRun run_;
   MillLink link_ = MillLink::closed;
   Duration reopen_ = kReopenFirst;
-  std::vector<Job> jobs_;
-  Job last_;  // the job that was started last: its number, name, and what it leaves
-  std::uint64_t surfaces_ = 0;
-  std::unique_ptr<Running> running_;
-  std::optional<MeasuredPace> measured_pace_;
-  Abort abort_;
   std::string internal_error_;  // that advance() has not recovered from yet; empty: none
-  TimePoint by_hand_until_{};   // what a person does with it ends, at the latest
-  TimePoint rises_until_{};     // the tool, after an abort that the mill obeys at once
-  TimePoint now_{};             // of the last call
+  TimePoint now_{};             // of the last call of a LineMachine's functions
 };
 
 }  // namespace axisgate::rml1
