@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The proofs that take too long for every change: seeds never run before, the journal's log damaged at
-# every byte, a paced path of ten minutes, both fuzzers.
+# The proofs that take too long for every change: seeds never run before, all the seeds of which tests/run.sh takes a
+# sample, the journal's log damaged at every byte, a paced path of ten minutes, both fuzzers.
 # usage: tests/long.sh [HOURS]     virtual hours of hostile seeds, 100 without
 set -euo pipefail
 
@@ -20,6 +20,8 @@ main() {
   printf '== seeds from %s on\n' "$first"
   build/bin/axisgate-explore --seed "$first" --seeds "$((hours * 6))" --hours "$hours"
   build/bin/axisgate-explore --seed "$((first + 5000))" --seeds "$((hours * 2))" --hours "$((hours / 3))" --shapes
+  AXISGATE_SEEDS=1000 /usr/bin/python3 tests/run_cases.py build simulation
+  AXISGATE_SEEDS=20000 build/bin/rml1_tests --gtest_filter='*MillSeeds.*'
   AXISGATE_EVERY_BYTE=1 build/bin/unit_tests --gtest_filter='JournalDamage.ALog*'
   "$root/tests/paced-path.sh" "$paced_segments"
   "$root/tests/fuzz.sh" "$fuzz_seconds"

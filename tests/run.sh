@@ -78,6 +78,9 @@ main() {
   if [[ "$preset" == tsan ]]; then
     # A seed runs on one thread, where there is nothing to race with, and 25 times slower than without the sanitizer.
     export AXISGATE_SEEDS="${AXISGATE_SEEDS:-20}"
+  else
+    # A sample; tests/long.sh runs all.
+    export AXISGATE_SEEDS="${AXISGATE_SEEDS:-400}"
   fi
   stage "packages" require "$root/deploy/install-packages.sh"
   stage "build of the preset $preset" build_all

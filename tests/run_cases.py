@@ -18,7 +18,7 @@ import tempfile
 import time
 
 # Parts of a program: many, where cases take long, so that the last one is not waited for alone.
-PARTS = {"simulation": 24, "guards": 24, "integration": 12, "refusals": 4, "interleavings": 6, "unit": 6, "stress": 2}
+PARTS = {"simulation": 24, "guards": 24, "integration": 12, "refusals": 4, "interleavings": 6, "unit": 6, "stress": 2, "rml1": 6}
 ARGUMENTS = {"guards": ["--gtest_filter=Guard*"]}
 PART_SECONDS_MAX = 1200
 
@@ -88,7 +88,8 @@ def main():
     arguments = parser.parse_args()
     parts = parts_of(arguments.build, arguments.programs, arguments.filter)
     seconds, passed, failed, skipped = {}, 0, 0, 0
-    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count()) as pool:
+    # Those of integration mostly wait for what they have started.
+    with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() + 1) as pool:
         for part in concurrent.futures.as_completed([pool.submit(part.run) for part in parts]):
             done = part.result()
             seconds[done.name] = seconds.get(done.name, 0) + done.seconds

@@ -8,18 +8,14 @@
 #include <cstdlib>
 #include <string>
 
+#include "tests/simulation/seed_count.h"
+
 namespace axisgate::simulation {
 namespace {
 
 constexpr int kRetrySeeds = 1000;
 constexpr int kRetrySeedsACase = 10;
 constexpr Duration kActing = std::chrono::seconds(20);
-
-// AXISGATE_SEEDS: fewer, as where they are slow.
-int retry_seeds() {
-  const char* limit = std::getenv("AXISGATE_SEEDS");
-  return limit ? std::atoi(limit) : kRetrySeeds;
-}
 
 RetryTerms terms_of(std::uint64_t seed) {
   static const char* const kProfiles[] = {"quiet", "mild", "rough", "hostile"};
@@ -42,12 +38,13 @@ TEST_P(RetrySeeds, NothingMovesTwice) {
     return;
   }
   const int first = GetParam() * kRetrySeedsACase;
-  for (int seed = first; seed < std::min(first + kRetrySeedsACase, retry_seeds()) && !HasFatalFailure(); ++seed) {
+  for (int seed = first; seed < std::min(first + kRetrySeedsACase, seed_count(kRetrySeeds)) && !HasFatalFailure();
+       ++seed) {
     hold(static_cast<std::uint64_t>(seed));
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ordinary, RetrySeeds, testing::Range(0, kRetrySeeds / kRetrySeedsACase));
+INSTANTIATE_TEST_SUITE_P(Ordinary, RetrySeeds, testing::Range(0, seed_cases(kRetrySeeds, kRetrySeedsACase)));
 
 // So that the seeds above show something: all that can happen to a request does.
 TEST(RetrySeedsShow, EverythingHappens) {

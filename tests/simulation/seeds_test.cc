@@ -12,6 +12,7 @@
 
 #include "tests/simulation/callers.h"
 #include "tests/simulation/scenario.h"
+#include "tests/simulation/seed_count.h"
 #include "tests/simulation/trial.h"
 
 namespace axisgate::simulation {
@@ -19,11 +20,6 @@ namespace {
 
 constexpr int kSeeds = 1000;
 constexpr int kSeedsACase = 10, kShapedSeedsACase = 3, kStoppedSeedsACase = 3;
-
-int seeds() {
-  const char* limit = std::getenv("AXISGATE_SEEDS");
-  return limit ? std::atoi(limit) : kSeeds;
-}
 
 void hold(const Trial& trial) {
   const TrialResult result = run(trial);
@@ -39,7 +35,7 @@ TEST_P(Seeds, NothingIsMixedUp) {
     return;
   }
   const int first = GetParam() * kSeedsACase;
-  for (int seed = first; seed < std::min(first + kSeedsACase, seeds()) && !HasFatalFailure(); ++seed) {
+  for (int seed = first; seed < std::min(first + kSeedsACase, seed_count(kSeeds)) && !HasFatalFailure(); ++seed) {
     hold({.seed = static_cast<std::uint64_t>(seed)});
   }
 }
@@ -51,7 +47,6 @@ TEST_P(Seeds, NorWithStopsAtEachFault) {
     if (GetParam() == 0) hold(stopped(std::strtoull(only, nullptr, 10)));
     return;
   }
-  if (GetParam() * kSeedsACase >= seeds()) return;
   const auto first = static_cast<std::uint64_t>(8'000'000 + GetParam() * kStoppedSeedsACase);
   for (std::uint64_t seed = first; seed < first + kStoppedSeedsACase && !HasFatalFailure(); ++seed) hold(stopped(seed));
 }
@@ -67,7 +62,6 @@ TEST_P(Seeds, NorWithShapes) {
     if (GetParam() == 0) hold(shaped(std::strtoull(only, nullptr, 10)));
     return;
   }
-  if (GetParam() * kSeedsACase >= seeds()) return;
   const auto first = static_cast<std::uint64_t>(5'000'000 + GetParam() * kShapedSeedsACase);
   for (std::uint64_t seed = first; seed < first + kShapedSeedsACase && !HasFatalFailure(); ++seed) hold(shaped(seed));
 }
@@ -121,7 +115,7 @@ TEST(SeedsThatOnceFailed, StayMendedWithStopsAtEachFault) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Ordinary, Seeds, testing::Range(0, kSeeds / kSeedsACase));
+INSTANTIATE_TEST_SUITE_P(Ordinary, Seeds, testing::Range(0, seed_cases(kSeeds, kSeedsACase)));
 
 }  // namespace
 }  // namespace axisgate::simulation
