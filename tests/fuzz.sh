@@ -60,7 +60,7 @@ fuzz() {
 
 cd "$root"
 mkdir -p "$build"
-jobs=(device/rml1/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/{grammar,relief_png}.cc)
+jobs=(device/rml1/*.cc device/rml1/picture/*.cc device/config/*.cc tests/rml1/mill.cc tests/fuzz/grammar.cc)
 front=(server/front/{conversation,grpc_side,own_calls,http2_session,request_body,headers,spending,replies,budget}.cc
   tests/http2/{frames,header_codec}.cc)
 
@@ -69,13 +69,10 @@ build_and_fuzz() {
   local target="$1" objects=() source
   shift
   for source in "$@" "tests/fuzz/$target.cc"; do
-    # Pictures as PNG are cairo's.
-    if [[ "$source" != device/rml1/png.cc ]]; then
-      compile "$source"
-      objects+=("$(object_of "$source")")
-    fi
+    compile "$source"
+    objects+=("$(object_of "$source")")
   done
-  clang++-19 "${flags[@]}" -fsanitize=fuzzer "${objects[@]}" -lfmt -lnghttp2 -lz -lcrypto -o "$build/$target"
+  clang++-19 "${flags[@]}" -fsanitize=fuzzer "${objects[@]}" -lfmt -lnghttp2 -lpng -lz -lcrypto -o "$build/$target"
   fuzz "$target"
 }
 

@@ -94,7 +94,7 @@ call() {
 check_job() {
   in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' | axisctl mill check - --profile mdx-20" &&
     in_container sh -c "printf 'PA;PU100,100;PD200,100;PU;' |
-      axisctl mill preview - --profile srm-20 --output /run/axisgate/job.png && test -s /run/axisgate/job.png"
+      axisctl mill preview - --profile srm-20 --output /run/axisgate/job.svg && test -s /run/axisgate/job.svg"
 }
 
 check_user() {

@@ -45,7 +45,7 @@ void add_checks(CLI::App& mill, Options& options) {
                    "draw what remains from a line, or line and column, on; what comes before is pale. Of a range, what "
                    "begins in it is perhaps done")
       ->type_name("LINE[:COLUMN][-LINE[:COLUMN]]");
-  preview->add_option("-o,--output", options.mill.output, "an .svg or a .png file")->required()->type_name("FILE");
+  preview->add_option("-o,--output", options.mill.output, "an .svg file")->required()->type_name("FILE");
 }
 
 // `watch` and `cancel` have help texts as commands of their own, which are not about mills.

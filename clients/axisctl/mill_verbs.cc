@@ -20,7 +20,7 @@
 #include "clients/axisctl/mill_profiles.h"
 #include "clients/axisctl/mill_report.h"
 #include "clients/axisctl/print.h"
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 #include "device/rml1/profile_files.h"
 #include "server/config/name.h"
 
@@ -133,8 +133,7 @@ int mill_check(const Options& options) {
 int mill_preview(const Options& options) {
   const std::string& output = options.mill.output;
   const std::string ending = boost::algorithm::to_lower_copy(std::filesystem::path(output).extension().string());
-  const bool svg = ending == ".svg";
-  if (!svg && ending != ".png") throw usage(output + " is not a picture", "name a file that ends in .svg or .png");
+  if (ending != ".svg") throw usage(output + " is not an SVG picture", "name a file that ends in .svg");
   const MillOptions& asked = options.mill;
   check_parts(asked);
   const Profile profile = mill_profile(asked.profile);
@@ -157,8 +156,7 @@ int mill_preview(const Options& options) {
   const Picture picture =
       make_picture(title_of(asked.files), parts, profile, how.stock, how.origin.has_value(), strokes);
   errno = 0;
-  const bool written = svg ? write_text(output, to_svg(picture)) : write_png(picture, output);
-  if (!written) {
+  if (!write_text(output, to_svg(picture))) {
     throw usage(fmt::format("{} cannot be written: {}", output, std::strerror(errno)),
                 "name a file in a folder that you can write to");
   }

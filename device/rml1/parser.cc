@@ -24,10 +24,6 @@ std::vector<Row> rows_of(const Dialect& dialect, std::span<const Row> more) {
 
 }  // namespace
 
-bool Dialect::tolerates(std::string_view name) const {
-  return std::find(tolerated.begin(), tolerated.end(), name) != tolerated.end();
-}
-
 Parser::Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener, std::span<const Row> more)
     : diagnostics_(diagnostics),
       listener_(listener),

@@ -11,18 +11,11 @@
 #include "device/rml1/axes_reader.h"
 #include "device/rml1/device_control.h"
 #include "device/rml1/diagnostic.h"
+#include "device/rml1/dialect.h"
 #include "device/rml1/instruction.h"
 #include "device/rml1/number_reader.h"
 
 namespace axisgate::rml1 {
-
-// What machines differ in.
-struct Dialect {
-  std::vector<std::string> tolerated;  // of "J", "!0", "!1" (2-2: "depending on the model")
-  std::vector<std::string> apart;      // "YA": axes that cannot move in one group of !ZE
-
-  bool tolerates(std::string_view name) const;
-};
 
 class ParserListener : public InstructionListener {
  public:

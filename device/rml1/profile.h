@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "device/config/config_error.h"
-#include "device/rml1/parser.h"
+#include "device/rml1/dialect.h"
 
 namespace axisgate::rml1 {
 

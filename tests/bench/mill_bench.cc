@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 #include "tests/rml1/mill.h"
 
 namespace axisgate::rml1 {

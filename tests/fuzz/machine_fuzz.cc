@@ -4,7 +4,7 @@
 #include <random>
 #include <string_view>
 
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/fuzz/require.h"
 #include "tests/rml1/mill.h"

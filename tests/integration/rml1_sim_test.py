@@ -58,6 +58,15 @@ class Person:
             time.sleep(0.002)  # between two looks; the limit above decides
 
 
+class LinkLine(unittest.TestCase):
+    def test_it_has_no_parser_of_the_gateway(self):
+        """Or a mistake of the check would agree with itself."""
+        names = subprocess.run(["nm", "--demangle", PROGRAM], capture_output=True, text=True, check=True).stdout
+        self.assertIn("rml1::simulator::Reader::", names, "nm shows what is linked")
+        for part in ("Parser", "Machine", "Clip", "AxesReader"):
+            self.assertNotIn(f" axisgate::rml1::{part}::", names)
+
+
 class Terminal:
     """The mill's terminal, raw, with or without XON/XOFF; writes do not wait."""
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 #include "tests/rml1/trace.h"
 
 namespace axisgate::rml1 {

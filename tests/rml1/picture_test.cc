@@ -1,13 +1,9 @@
 // The picture of a job as a file: what the title may hold, what of it is done, and whether it was written.
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -99,17 +95,6 @@ TEST(WhatRemains, OfAListOfCoordinates) {
   ASSERT_FALSE(strokes.all().empty());
   EXPECT_EQ(strokes.all().front().done, Strokes::Done::yes);
   EXPECT_EQ(strokes.all().back().done, Strokes::Done::no);
-}
-
-TEST(Png, SaysWhetherItWasWritten) {
-  const Drawn drawn("job");
-  const std::string file = testing::TempDir() + "axisgate-picture-" + std::to_string(::getpid()) + ".png";
-  EXPECT_TRUE(write_png(drawn.picture(), file));
-  std::ifstream written(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(written), {}};
-  EXPECT_THAT(bytes, StartsWith("\x89PNG\r\n"));
-  std::filesystem::remove(file);
-  EXPECT_FALSE(write_png(drawn.picture(), "/no/such/folder/job.png"));
 }
 
 }  // namespace

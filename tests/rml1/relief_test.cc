@@ -1,5 +1,5 @@
 // The surface that cuts leave, seen from above: where it is cut, in which colour, and how the light falls.
-#include "device/rml1/relief.h"
+#include "device/rml1/picture/relief.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

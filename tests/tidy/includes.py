@@ -14,7 +14,8 @@ _DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
 _SIMULATOR = "device/shrc203/simulator/"
 _MILL_SIMULATOR = "device/rml1/simulator/"
 # Of the gateway's side the simulated mill knows the figures of machines alone.
-_MILL_DATA = ("device/rml1/profile.h", "device/rml1/profile_files.h")
+_MILL_DATA = ("device/rml1/profile.h", "device/rml1/profile_files.h", "device/rml1/known_machine.h",
+              "device/rml1/dialect.h")
 _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
@@ -93,7 +94,27 @@ def check(file, files):
                                f'write #include "{beside}"')
             target = beside
         yield from _check_target(file, number, posixpath.normpath(target))
+        yield from _check_what_it_includes(file, number, posixpath.normpath(target), files)
     yield from _check_clock(file)
+
+
+def _reached_from(target, files):
+    """The project files that an include of `target` brings along."""
+    by_path = {file.path: file for file in files}
+    reached, waiting = set(), [target]
+    while waiting:
+        path = waiting.pop()
+        if path in by_path and path not in reached:
+            reached.add(path)
+            waiting += [posixpath.normpath(name) for _, in_quotes, name in includes_of(by_path[path]) if in_quotes]
+    return reached - {target}
+
+
+def _check_what_it_includes(file, number, target, files):
+    if file.path.startswith(_MILL_SIMULATOR) and not target.startswith(_MILL_SIMULATOR):
+        for path in sorted(filter(_is_of_the_check, _reached_from(target, files))):
+            yield file.finding(number, "simulator-apart", f"{target} brings {path} into the simulated mill",
+                               "let it include what is no part of the check")
 
 
 def _check_target(file, number, target):

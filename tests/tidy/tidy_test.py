@@ -174,6 +174,12 @@ class SimulatorApart(Tree):
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/profile.h")
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/simulator/machine.h")
 
+    def test_nor_through_what_they_include(self):
+        self.write("device/rml1/dialect.h", '#pragma once\n#include "device/rml1/parser.h"\n')
+        self.write("device/rml1/profile.h", '#pragma once\n#include "device/rml1/dialect.h"\n')
+        self.write("device/rml1/parser.h", "#pragma once\n")
+        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/profile.h", "simulator-apart")
+
     def test_the_simulator_does_not_know_the_table(self):
         for target in ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h"):
             self.assert_include("device/shrc203/simulator/a.cc", target, "simulator-apart")

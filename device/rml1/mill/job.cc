@@ -11,22 +11,23 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, kJobStates> kNames = {"QUEUED",      "CONFIRMED", "RUNNING",        "FED",
-                                                             "DONE",        "ABORTED",   "PAUSED_UNKNOWN", "CANCELLED",
-                                                             "TOOL_CHANGE", "PAUSED",    "EXPIRED"};
-constexpr std::array<std::string_view, kJobEvents> kEventNames = {
+constexpr std::array<std::string_view, kJobStates> kJobStateNames = {
+    "QUEUED",         "CONFIRMED", "RUNNING",     "FED",    "DONE",   "ABORTED",
+    "PAUSED_UNKNOWN", "CANCELLED", "TOOL_CHANGE", "PAUSED", "EXPIRED"};
+constexpr std::array<std::string_view, kJobEvents> kJobEventNames = {
     "confirm", "void",    "void, later part", "void, rest", "start", "raised", "choose rest", "part fed",
     "fed",     "aborted", "abort unsure",     "lost",       "done",  "cancel", "expire"};
 
 }  // namespace
 
-std::string_view name(JobState state) { return kNames.at(static_cast<std::size_t>(state)); }
+std::string_view name(JobState state) { return kJobStateNames.at(static_cast<std::size_t>(state)); }
 
-std::string_view name(JobEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
+std::string_view name(JobEvent event) { return kJobEventNames.at(static_cast<std::size_t>(event)); }
 
 std::optional<JobState> job_state_named(std::string_view name) {
-  const auto found = std::ranges::find(kNames, name);
-  return found == kNames.end() ? std::nullopt : std::optional(static_cast<JobState>(found - kNames.begin()));
+  const auto found = std::ranges::find(kJobStateNames, name);
+  return found == kJobStateNames.end() ? std::nullopt
+                                       : std::optional(static_cast<JobState>(found - kJobStateNames.begin()));
 }
 
 bool is_end(JobState state) {

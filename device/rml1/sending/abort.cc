@@ -10,14 +10,14 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, kAbortPhases> kPhaseNames = {"none", "waits", "leaves", "travels"};
-constexpr std::array<std::string_view, kAbortEvents> kEventNames = {"postponed", "written", "left", "arrived",
-                                                                    "line_lost"};
+constexpr std::array<std::string_view, kAbortPhases> kAbortPhaseNames = {"none", "waits", "leaves", "travels"};
+constexpr std::array<std::string_view, kAbortEvents> kAbortEventNames = {"postponed", "written", "left", "arrived",
+                                                                         "line_lost"};
 
 }  // namespace
 
-std::string_view name(AbortPhase phase) { return kPhaseNames.at(static_cast<std::size_t>(phase)); }
-std::string_view name(AbortEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
+std::string_view name(AbortPhase phase) { return kAbortPhaseNames.at(static_cast<std::size_t>(phase)); }
+std::string_view name(AbortEvent event) { return kAbortEventNames.at(static_cast<std::size_t>(event)); }
 
 std::optional<AbortPhase> next(AbortPhase phase, AbortEvent event) {
   using enum AbortPhase;

@@ -13,16 +13,16 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr std::array<std::string_view, kSenderStates> kNames = {"READY",    "SENDING", "PAUSED", "FINISHING", "FED",
-                                                                "ABORTING", "ABORTED", "LOST",   "RAISING",   "RAISED"};
-constexpr std::array<std::string_view, kSendEvents> kEventNames = {
+constexpr std::array<std::string_view, kSenderStates> kSenderStateNames = {
+    "READY", "SENDING", "PAUSED", "FINISHING", "FED", "ABORTING", "ABORTED", "LOST", "RAISING", "RAISED"};
+constexpr std::array<std::string_view, kSendEvents> kSendEventNames = {
     "start", "pause", "resume", "raise", "all_written", "all_executed", "abort", "abort_left", "line_lost"};
 
 }  // namespace
 
-std::string_view name(SenderState state) { return kNames.at(static_cast<std::size_t>(state)); }
+std::string_view name(SenderState state) { return kSenderStateNames.at(static_cast<std::size_t>(state)); }
 
-std::string_view name(SendEvent event) { return kEventNames.at(static_cast<std::size_t>(event)); }
+std::string_view name(SendEvent event) { return kSendEventNames.at(static_cast<std::size_t>(event)); }
 
 bool is_end(SenderState state) {
   return state == SenderState::fed || state == SenderState::aborted || state == SenderState::lost ||

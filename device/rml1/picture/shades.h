@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/strokes.h"
+#include "device/rml1/picture/strokes.h"
 
 namespace axisgate::rml1 {
 

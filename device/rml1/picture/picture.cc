@@ -1,4 +1,4 @@
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 #include <boost/locale/encoding_utf.hpp>
 #include <cmath>
 
-#include "device/rml1/layout.h"
+#include "device/rml1/picture/layout.h"
 
 namespace axisgate::rml1 {
 namespace {

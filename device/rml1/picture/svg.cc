@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "device/rml1/picture.h"
-#include "device/rml1/relief.h"
+#include "device/rml1/picture/picture.h"
+#include "device/rml1/picture/relief.h"
 
 namespace axisgate::rml1 {
 namespace {

@@ -1,4 +1,4 @@
-// Three views of what a job drives, ready to be written as SVG or PNG.
+// Three views of what a job drives, ready to be written as SVG.
 #pragma once
 
 #include <array>
@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "device/rml1/check.h"
-#include "device/rml1/shades.h"
-#include "device/rml1/strokes.h"
+#include "device/rml1/picture/shades.h"
+#include "device/rml1/picture/strokes.h"
 
 namespace axisgate::rml1 {
 
@@ -66,7 +66,5 @@ bool is_in_relief(const Picture& picture, const Picture::View& view, const Strok
 double drawn_width(const Picture& picture, const Picture::View& view, std::size_t part);
 
 std::string to_svg(const Picture& picture);
-// False when the file cannot be written.
-bool write_png(const Picture& picture, const std::string& file);
 
 }  // namespace axisgate::rml1

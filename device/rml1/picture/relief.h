@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 
 namespace axisgate::rml1 {
 
@@ -18,7 +18,7 @@ class Relief {
 
   std::size_t width() const { return width_; }
   std::size_t height() const { return height_; }
-  // Row by row from above; 0xaarrggbb, premultiplied. 0: nothing is cut there.
+  // Row by row from above; 0xffrrggbb; 0 if nothing is cut there.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
 
  private:

@@ -1,4 +1,4 @@
-#include "device/rml1/layout.h"
+#include "device/rml1/picture/layout.h"
 
 #include <fmt/format.h>
 

@@ -1,4 +1,4 @@
-#include "device/rml1/shades.h"
+#include "device/rml1/picture/shades.h"
 
 #include <fmt/format.h>
 

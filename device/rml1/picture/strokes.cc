@@ -1,4 +1,4 @@
-#include "device/rml1/strokes.h"
+#include "device/rml1/picture/strokes.h"
 
 #include <cmath>
 #include <tuple>

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "device/rml1/bounds.h"
-#include "device/rml1/picture.h"
+#include "device/rml1/picture/picture.h"
 
 namespace axisgate::rml1 {
 

@@ -1,4 +1,4 @@
-#include "device/rml1/relief.h"
+#include "device/rml1/picture/relief.h"
 
 #include <algorithm>
 #include <charconv>
