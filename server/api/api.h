@@ -10,8 +10,7 @@
 #include "server/api/history.h"
 #include "server/api/jogs.h"
 #include "server/api/leases.h"
-#include "server/api/mill_operation.h"
-#include "server/api/mills.h"
+#include "server/api/mill_subjects.h"
 #include "server/api/motions.h"
 #include "server/api/paths.h"
 #include "server/api/pipeline.h"
@@ -50,8 +49,7 @@ class Api {
         diagnostics(gateway, admission, device_pipeline, streams),
         simulators(gateway, pipeline),
         tokens(gateway, access, admission, streams),
-        mills(gateway, mill_pipeline, streams),
-        mill_operation(gateway, mill_pipeline) {}
+        mill(gateway, mill_pipeline, streams) {}
 
   Admission admission;
   Streams streams;
@@ -73,8 +71,7 @@ class Api {
   const Diagnostics diagnostics;
   const Simulators simulators;
   const Tokens tokens;
-  const Mills mills;
-  const MillOperation mill_operation;
+  const MillSubjects mill;
 };
 
 }  // namespace axisgate::api

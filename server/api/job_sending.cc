@@ -1,11 +1,11 @@
-// Mills: jobs that come from a caller, and ended jobs that are queued once more.
+#include "server/api/job_sending.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "server/api/job_setup.h"
-#include "server/api/mills.h"
 #include "server/api/names.h"
 #include "server/api/workpiece.h"
 #include "server/devices/spooled_jobs.h"
@@ -75,9 +75,9 @@ Result<void> check_has_rest(const rml1::Job& job) {
 
 }  // namespace
 
-Result<std::unique_ptr<JobUpload>> Mills::begin_upload(RequestKind kind, const Call& call,
-                                                       const MillPipeline::Admitted& admitted, JobToSend job,
-                                                       JobsBefore before) const {
+Result<std::unique_ptr<JobUpload>> JobSending::begin_upload(RequestKind kind, const Call& call,
+                                                            const MillPipeline::Admitted& admitted, JobToSend job,
+                                                            JobsBefore before) const {
   Mill& mill = *admitted.device;
   if (const Result<void> parts = check_parts(job.parts, mill.config().tools, mill.name()); !parts)
     return tl::unexpected(parts.error());
@@ -95,7 +95,7 @@ Result<std::unique_ptr<JobUpload>> Mills::begin_upload(RequestKind kind, const C
                                      *options, *std::move(spooled));
 }
 
-Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_view device, JobToSend job) const {
+Result<std::unique_ptr<JobUpload>> JobSending::send(const Call& call, std::string_view device, JobToSend job) const {
   const auto admitted = pipeline_.admit({RequestKind::send_job, call, find_mill(gateway_, device)});
   if (!admitted) return tl::unexpected(admitted.error());
   JobsBefore before;
@@ -116,8 +116,8 @@ Result<std::unique_ptr<JobUpload>> Mills::send(const Call& call, std::string_vie
   return begin_upload(RequestKind::send_job, call, *admitted, std::move(job), std::move(before));
 }
 
-Result<std::shared_ptr<JobUpload>> Mills::begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
-                                                       rml1::JobNumber number, const JobToRepeat& how) const {
+Result<std::shared_ptr<JobUpload>> JobSending::begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
+                                                            rml1::JobNumber number, const JobToRepeat& how) const {
   Mill& mill = *admitted.device;
   const Result<rml1::Job> ended = server::ended_job(mill.spool(), mill.name(), number);
   if (!ended) return tl::unexpected(ended.error());
@@ -142,7 +142,7 @@ Result<std::shared_ptr<JobUpload>> Mills::begin_repeat(const Call& call, const M
 }
 
 // The end of a job comes into the spool a moment after it left the queue.
-void Mills::repeat(const Call& call, std::string_view name, JobToRepeat how, Answer<CurrentJob> answer) const {
+void JobSending::repeat(const Call& call, std::string_view name, JobToRepeat how, Answer<CurrentJob> answer) const {
   const Result<JobName> found = find_job_name(gateway_, name);
   const auto admitted = pipeline_.admit({RequestKind::repeat_job, call, device_of(found)});
   if (!admitted) return answer(tl::unexpected(admitted.error()));

@@ -1,11 +1,11 @@
-// Mills: what reads a whole job before it acts.
+#include "server/api/job_starts.h"
+
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <utility>
 
 #include "server/api/job_setup.h"
-#include "server/api/mills.h"
 #include "server/api/names.h"
 #include "server/devices/spooled_jobs.h"
 
@@ -44,15 +44,15 @@ Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToCho
 
 // It is posted to the mill first: what is published then is no older than what the caller was answered before.
 template <class Read, class Act>
-void Mills::read_and_act(RequestKind kind, const Call& call, std::string_view name, Read read, Act act,
-                         Answer<CurrentJob> answer) const {
+void JobStarts::read_and_act(RequestKind kind, const Call& call, std::string_view name, Read read, Act act,
+                             Answer<CurrentJob> answer) const {
   const Result<JobName> found = find_job_name(gateway_, name);
   const auto admitted = pipeline_.admit({kind, call, device_of(found)});
   if (!admitted) return answer(tl::unexpected(admitted.error()));
   const auto on_worker = [this, kind, call, name = std::string(name), read, act, answer, &mill = *admitted->device,
                           number = found->number] {
     const auto came = published_job(mill, number).and_then([&](const rml1::Job& job) { return read(mill, job); });
-    act_on_job(
+    acts_.act(
         kind, call, name,
         [came, act](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn) {
           return act(controller, it, turn, came);
@@ -63,7 +63,7 @@ void Mills::read_and_act(RequestKind kind, const Call& call, std::string_view na
                              rml1::MillController&, TimePoint) { worker->post(identity, on_worker); });
 }
 
-void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
+void JobStarts::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
   using Prepared = Result<std::shared_ptr<const rml1::PreparedJob>>;
   read_and_act(
       RequestKind::start_job, call, name,
@@ -82,7 +82,8 @@ void Mills::start(const Call& call, std::string_view name, Answer<CurrentJob> an
       std::move(answer));
 }
 
-void Mills::choose_rest(const Call& call, std::string_view name, LineToChoose from, Answer<CurrentJob> answer) const {
+void JobStarts::choose_rest(const Call& call, std::string_view name, LineToChoose from,
+                            Answer<CurrentJob> answer) const {
   const auto can_be_chosen = [](const rml1::Job& job) {
     return rml1::next(job.state, rml1::JobEvent::choose_rest).has_value();
   };

@@ -7,7 +7,7 @@
 #include "device/core/time.h"
 #include "device/rml1/mill/by_hand.h"
 #include "server/api/call.h"
-#include "server/api/mills.h"
+#include "server/api/job_acts.h"
 #include "server/gateway.h"
 
 namespace axisgate::api {

@@ -15,9 +15,9 @@ constexpr const char* kSendJobMethod = "/axisgate.v1.MillService/SendJob";
 
 }  // namespace
 
-JobUploadRun* JobUploadRun::start(const api::Mills& mills, const grpc::CallbackServerContext& context,
+JobUploadRun* JobUploadRun::start(const api::JobSending& sending, const grpc::CallbackServerContext& context,
                                   const HalfClose& half_close, v1::SendJobResponse* response) {
-  const std::shared_ptr<JobUploadRun> run(new JobUploadRun(mills, context, half_close, response));
+  const std::shared_ptr<JobUploadRun> run(new JobUploadRun(sending, context, half_close, response));
   run->self_ = run;
   run->StartRead(run->incoming_.marked());
   return run.get();
@@ -34,7 +34,7 @@ Result<void> JobUploadRun::take() {
   if (upload_ == nullptr) {
     Result<api::JobToSend> job = to_job(*incoming_);
     if (!job) return tl::unexpected(job.error());
-    auto upload = mills_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
+    auto upload = sending_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
     if (!upload) return tl::unexpected(upload.error());
     upload_ = *std::move(upload);
     v1::SendJobRequest header = *incoming_;

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "axisgate/v1/mill.pb.h"
-#include "server/api/mills.h"
+#include "server/api/job_sending.h"
 #include "server/rpc/half_close.h"
 #include "server/rpc/incoming.h"
 #include "server/spool/sha256.h"
@@ -21,7 +21,7 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
                            public std::enable_shared_from_this<JobUploadRun> {
  public:
   // `context` and `response` are gRPC's and live as long as the call; the others outlive this.
-  static JobUploadRun* start(const api::Mills& mills, const grpc::CallbackServerContext& context,
+  static JobUploadRun* start(const api::JobSending& sending, const grpc::CallbackServerContext& context,
                              const HalfClose& half_close, v1::SendJobResponse* response);
 
   void OnReadDone(bool ok) override;
@@ -29,16 +29,16 @@ class JobUploadRun final : public grpc::ServerReadReactor<v1::SendJobRequest>,
   void OnDone() override { self_.reset(); }
 
  private:
-  JobUploadRun(const api::Mills& mills, const grpc::CallbackServerContext& context, const HalfClose& half_close,
+  JobUploadRun(const api::JobSending& sending, const grpc::CallbackServerContext& context, const HalfClose& half_close,
                v1::SendJobResponse* response)
-      : mills_(mills), context_(context), half_close_(half_close), response_(response) {}
+      : sending_(sending), context_(context), half_close_(half_close), response_(response) {}
 
   Result<void> take();
   void finish();
   void end(const grpc::Status& status);
   void answer(const Result<api::CurrentJob>& job);
 
-  const api::Mills& mills_;
+  const api::JobSending& sending_;
   const grpc::CallbackServerContext& context_;
   const HalfClose& half_close_;
   v1::SendJobResponse* const response_;

@@ -35,23 +35,23 @@ api::Answer<api::CurrentRun> answering_with_run(std::shared_ptr<UnaryCall<Respon
 
 grpc::ServerReadReactor<v1::SendJobRequest>* MillService::SendJob(grpc::CallbackServerContext* context,
                                                                   v1::SendJobResponse* response) {
-  return JobUploadRun::start(mills_, *context, half_close_, response);
+  return JobUploadRun::start(mill_.sending, *context, half_close_, response);
 }
 
 grpc::ServerUnaryReactor* MillService::GetMill(grpc::CallbackServerContext* context, const v1::GetMillRequest* request,
                                                v1::GetMillResponse* response) {
   const auto call = UnaryCall<v1::GetMillResponse>::start(response);
-  mills_.get(to_call(*context), request->device(),
-             answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
-               *answer.mutable_mill() = to_proto(state);
-             }));
+  mill_.mills.get(to_call(*context), request->device(),
+                  answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
+                    *answer.mutable_mill() = to_proto(state);
+                  }));
   return call.get();
 }
 
 grpc::ServerWriteReactor<v1::WatchMillResponse>* MillService::WatchMill(grpc::CallbackServerContext* context,
                                                                         const v1::WatchMillRequest* request) {
   return serve<v1::WatchMillResponse>(
-      mills_.watch(to_call(*context), request->device()),
+      mill_.mills.watch(to_call(*context), request->device()),
       [](v1::WatchMillResponse& response, const api::MillState& state) { *response.mutable_mill() = to_proto(state); });
 }
 
@@ -59,40 +59,41 @@ grpc::ServerUnaryReactor* MillService::ConfirmJob(grpc::CallbackServerContext* c
                                                   const v1::ConfirmJobRequest* request,
                                                   v1::ConfirmJobResponse* response) {
   const auto call = UnaryCall<v1::ConfirmJobResponse>::start(response);
-  mills_.confirm(to_acting_call(*context, *request), request->job(), to_setup(request->seen()),
-                 answering_with_job(call));
+  mill_.waiting.confirm(to_acting_call(*context, *request), request->job(), to_setup(request->seen()),
+                        answering_with_job(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* MillService::StartJob(grpc::CallbackServerContext* context,
                                                 const v1::StartJobRequest* request, v1::StartJobResponse* response) {
   const auto call = UnaryCall<v1::StartJobResponse>::start(response);
-  mills_.start(to_acting_call(*context, *request), request->job(),
-               answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
-                 *answer.mutable_job() = to_proto(job);
-                 if (job.run_on) *answer.mutable_run_on() = to_proto(*job.run_on);
-               }));
+  mill_.starts.start(to_acting_call(*context, *request), request->job(),
+                     answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
+                       *answer.mutable_job() = to_proto(job);
+                       if (job.run_on) *answer.mutable_run_on() = to_proto(*job.run_on);
+                     }));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* MillService::PauseJob(grpc::CallbackServerContext* context,
                                                 const v1::PauseJobRequest* request, v1::PauseJobResponse* response) {
   const auto call = UnaryCall<v1::PauseJobResponse>::start(response);
-  mills_.pause(to_acting_call(*context, *request), request->device(), request->raise(), answering_with_run(call));
+  mill_.mills.pause(to_acting_call(*context, *request), request->device(), request->raise(), answering_with_run(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* context,
                                                  const v1::ResumeJobRequest* request, v1::ResumeJobResponse* response) {
   const auto call = UnaryCall<v1::ResumeJobResponse>::start(response);
-  mills_.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
+  mill_.mills.resume(to_acting_call(*context, *request), request->device(), answering_with_run(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* MillService::RepeatJob(grpc::CallbackServerContext* context,
                                                  const v1::RepeatJobRequest* request, v1::RepeatJobResponse* response) {
   const auto call = UnaryCall<v1::RepeatJobResponse>::start(response);
-  mills_.repeat(to_acting_call(*context, *request), request->job(), to_repeat(*request), answering_with_job(call));
+  mill_.sending.repeat(to_acting_call(*context, *request), request->job(), to_repeat(*request),
+                       answering_with_job(call));
   return call.get();
 }
 
@@ -100,16 +101,16 @@ grpc::ServerUnaryReactor* MillService::ContinueJob(grpc::CallbackServerContext* 
                                                    const v1::ContinueJobRequest* request,
                                                    v1::ContinueJobResponse* response) {
   const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
-  mills_.choose_rest(to_acting_call(*context, *request), request->job(), to_line(request->line(), request->column()),
-                     answering_with_job(call));
+  mill_.starts.choose_rest(to_acting_call(*context, *request), request->job(),
+                           to_line(request->line(), request->column()), answering_with_job(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* MillService::CancelJob(grpc::CallbackServerContext* context,
                                                  const v1::CancelJobRequest* request, v1::CancelJobResponse* response) {
   const auto call = UnaryCall<v1::CancelJobResponse>::start(response);
-  mills_.cancel(to_acting_call(*context, *request), request->job(),
-                answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
+  mill_.waiting.cancel(to_acting_call(*context, *request), request->job(),
+                       answering<api::CurrentJob>(call, [](v1::CancelJobResponse&, const api::CurrentJob&) {}));
   return call.get();
 }
 
@@ -117,7 +118,7 @@ grpc::ServerUnaryReactor* MillService::CancelJobs(grpc::CallbackServerContext* c
                                                   const v1::CancelJobsRequest* request,
                                                   v1::CancelJobsResponse* response) {
   const auto call = UnaryCall<v1::CancelJobsResponse>::start(response);
-  mills_.cancel_all(
+  mill_.waiting.cancel_all(
       to_acting_call(*context, *request), request->device(), request->who(),
       answering<api::CancelledJobs>(call, [](v1::CancelJobsResponse& answer, const api::CancelledJobs& cancelled) {
         for (const rml1::JobNumber job : cancelled.jobs) {
@@ -130,7 +131,7 @@ grpc::ServerUnaryReactor* MillService::CancelJobs(grpc::CallbackServerContext* c
 grpc::ServerUnaryReactor* MillService::MoveJob(grpc::CallbackServerContext* context, const v1::MoveJobRequest* request,
                                                v1::MoveJobResponse* response) {
   const auto call = UnaryCall<v1::MoveJobResponse>::start(response);
-  mills_.move_first(to_acting_call(*context, *request), request->job(), answering_with_job(call));
+  mill_.waiting.move_first(to_acting_call(*context, *request), request->job(), answering_with_job(call));
   return call.get();
 }
 
@@ -138,8 +139,8 @@ grpc::ServerUnaryReactor* MillService::ReportJobDone(grpc::CallbackServerContext
                                                      const v1::ReportJobDoneRequest* request,
                                                      v1::ReportJobDoneResponse* response) {
   const auto call = UnaryCall<v1::ReportJobDoneResponse>::start(response);
-  mills_.done(to_acting_call(*context, *request), request->job(),
-              answering<api::CurrentJob>(call, [](v1::ReportJobDoneResponse&, const api::CurrentJob&) {}));
+  mill_.waiting.done(to_acting_call(*context, *request), request->job(),
+                     answering<api::CurrentJob>(call, [](v1::ReportJobDoneResponse&, const api::CurrentJob&) {}));
   return call.get();
 }
 
@@ -147,10 +148,10 @@ grpc::ServerUnaryReactor* MillService::OperateMill(grpc::CallbackServerContext* 
                                                    const v1::OperateMillRequest* request,
                                                    v1::OperateMillResponse* response) {
   const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
-  operation_.operate(to_acting_call(*context, *request), request->device(), to_hand_request(*request),
-                     answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
-                       *answer.mutable_longest() = to_proto(longest);
-                     }));
+  mill_.operation.operate(to_acting_call(*context, *request), request->device(), to_hand_request(*request),
+                          answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
+                            *answer.mutable_longest() = to_proto(longest);
+                          }));
   return call.get();
 }
 

@@ -2,17 +2,15 @@
 #pragma once
 
 #include "axisgate/v1/mill.grpc.pb.h"
-#include "server/api/mill_operation.h"
-#include "server/api/mills.h"
+#include "server/api/mill_subjects.h"
 #include "server/rpc/half_close.h"
 
 namespace axisgate::rpc {
 
 class MillService final : public v1::MillService::CallbackService {
  public:
-  // All outlive this.
-  MillService(const api::Mills& mills, const api::MillOperation& operation, const HalfClose& half_close)
-      : mills_(mills), operation_(operation), half_close_(half_close) {}
+  // The referenced objects must outlive this one.
+  MillService(const api::MillSubjects& mill, const HalfClose& half_close) : mill_(mill), half_close_(half_close) {}
 
   grpc::ServerReadReactor<v1::SendJobRequest>* SendJob(grpc::CallbackServerContext* context,
                                                        v1::SendJobResponse* response) override;
@@ -44,8 +42,7 @@ class MillService final : public v1::MillService::CallbackService {
                                         v1::OperateMillResponse* response) override;
 
  private:
-  const api::Mills& mills_;
-  const api::MillOperation& operation_;
+  const api::MillSubjects& mill_;
   const HalfClose& half_close_;
 };
 

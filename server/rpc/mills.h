@@ -7,8 +7,7 @@
 #include "axisgate/v1/device.pb.h"
 #include "axisgate/v1/mill.pb.h"
 #include "device/core/problem.h"
-#include "server/api/mill_operation.h"
-#include "server/api/mills.h"
+#include "server/api/mill_subjects.h"
 
 namespace axisgate::rpc {
 

@@ -113,7 +113,7 @@ std::unique_ptr<Answer> OwnAnswers::abort_job(const v1::AbortJobRequest& request
   };
   const api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
   return one_answer<api::CurrentRun>(asked.served, asked.wake, fill, [&](api::Answer<api::CurrentRun> answer) {
-    api_.mills.abort(call, request.device(), std::move(answer));
+    api_.mill.mills.abort(call, request.device(), std::move(answer));
   });
 }
 

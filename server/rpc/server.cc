@@ -113,7 +113,7 @@ Server::Services::Services(server::Gateway& gateway, server::Access& access, ser
       settings_(api_.settings),
       simulators_(api_.simulators),
       positions_(api_.positions),
-      mills_(api_.mills, api_.mill_operation, half_close_),
+      mills_(api_.mill, half_close_),
       diagnostics_(api_.diagnostics),
       control_(api_.leases),
       known_callers_(api_.tokens),

@@ -126,41 +126,41 @@ Reason ask_motion(World& world, RequestKind kind, const Call& call) {
 // Of the stage that there is.
 Reason ask_mills(World& world, RequestKind kind, const Call& call) {
   constexpr const char* kJob = "devices/turn/jobs/1";
-  const Mills& mills = world.api->mills;
-  const auto with = [&](auto member) { return [&mills, member](const auto&... all) { (mills.*member)(all...); }; };
+  const MillSubjects& mill = world.api->mill;
+  const auto with = [](const auto& of, auto act) { return [&of, act](const auto&... all) { (of.*act)(all...); }; };
   switch (kind) {
     case RequestKind::send_job:
-      return reason_of(mills.send(call, kDevice, {}));
+      return reason_of(mill.sending.send(call, kDevice, {}));
     case RequestKind::repeat_job:
-      return answer_of<CurrentJob>(with(&Mills::repeat), call, kJob, JobToRepeat());
+      return answer_of<CurrentJob>(with(mill.sending, &JobSending::repeat), call, kJob, JobToRepeat());
     case RequestKind::get_mill:
-      return answer_of<MillState>(with(&Mills::get), call, kDevice);
+      return answer_of<MillState>(with(mill.mills, &Mills::get), call, kDevice);
     case RequestKind::confirm_job:
-      return answer_of<CurrentJob>(with(&Mills::confirm), call, kJob, rml1::JobSetup());
+      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::confirm), call, kJob, rml1::JobSetup());
     case RequestKind::start_job:
-      return answer_of<CurrentJob>(with(&Mills::start), call, kJob);
+      return answer_of<CurrentJob>(with(mill.starts, &JobStarts::start), call, kJob);
     case RequestKind::pause_job:
-      return answer_of<CurrentRun>(with(&Mills::pause), call, kDevice, false);
+      return answer_of<CurrentRun>(with(mill.mills, &Mills::pause), call, kDevice, false);
     case RequestKind::resume_job:
-      return answer_of<CurrentRun>(with(&Mills::resume), call, kDevice);
+      return answer_of<CurrentRun>(with(mill.mills, &Mills::resume), call, kDevice);
     case RequestKind::continue_job:
-      return answer_of<CurrentJob>(with(&Mills::choose_rest), call, kJob, LineToChoose());
+      return answer_of<CurrentJob>(with(mill.starts, &JobStarts::choose_rest), call, kJob, LineToChoose());
     case RequestKind::abort_job:
-      return answer_of<CurrentRun>(with(&Mills::abort), call, kDevice);
+      return answer_of<CurrentRun>(with(mill.mills, &Mills::abort), call, kDevice);
     case RequestKind::cancel_job:
-      return answer_of<CurrentJob>(with(&Mills::cancel), call, kJob);
+      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::cancel), call, kJob);
     case RequestKind::cancel_jobs:
-      return answer_of<CancelledJobs>(with(&Mills::cancel_all), call, kDevice, std::string("unix anna"));
+      return answer_of<CancelledJobs>(with(mill.waiting, &WaitingJobs::cancel_all), call, kDevice,
+                                      std::string("unix anna"));
     case RequestKind::move_job:
-      return answer_of<CurrentJob>(with(&Mills::move_first), call, kJob);
+      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::move_first), call, kJob);
     case RequestKind::report_job_done:
-      return answer_of<CurrentJob>(with(&Mills::done), call, kJob);
-    case RequestKind::operate_mill: {
-      const auto operate = [&world](const auto&... all) { world.api->mill_operation.operate(all...); };
-      return answer_of<Duration>(operate, call, kDevice, HandRequest{rml1::RaiseTool()});
-    }
+      return answer_of<CurrentJob>(with(mill.waiting, &WaitingJobs::done), call, kJob);
+    case RequestKind::operate_mill:
+      return answer_of<Duration>(with(mill.operation, &MillOperation::operate), call, kDevice,
+                                 HandRequest{rml1::RaiseTool()});
     default:
-      return reason_of(mills.watch(call, kDevice));
+      return reason_of(mill.mills.watch(call, kDevice));
   }
 }
 

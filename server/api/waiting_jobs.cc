@@ -1,11 +1,13 @@
-// Mills: what the owner of a job, or an administrator, does with it while it waits.
-#include <fmt/format.h>
+#include "server/api/waiting_jobs.h"
 
-#include <string_view>
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <optional>
 #include <utility>
 
 #include "server/access/access.h"
-#include "server/api/mills.h"
+#include "server/api/job_setup.h"
 #include "server/api/names.h"
 #include "server/journal/answers.h"
 
@@ -37,8 +39,29 @@ Result<std::vector<rml1::JobNumber>> waiting_jobs_of(const std::string& who, con
 
 }  // namespace
 
-void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
-  act_on_job(
+void WaitingJobs::confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen,
+                          Answer<CurrentJob> answer) const {
+  acts_.act(
+      RequestKind::confirm_job, call, job,
+      [seen](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
+        if (const Result<void> there = check_at_station(turn.device, turn.caller.who); !there) return there;
+        const Result<void> fits = check_setup(turn.device, it);
+        return fits ? mill.confirm(it.number, seen, turn.caller.who, turn.now) : fits;
+      },
+      std::move(answer));
+}
+
+void WaitingJobs::done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
+  acts_.act(
+      RequestKind::report_job_done, call, job,
+      [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) {
+        return mill.done(it.number, turn.caller.who, turn.now);
+      },
+      std::move(answer));
+}
+
+void WaitingJobs::cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
+  acts_.act(
       RequestKind::cancel_job, call, job,
       [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
         const Result<void> may = check_owner(turn, it, "cancel");
@@ -48,7 +71,8 @@ void Mills::cancel(const Call& call, std::string_view job, Answer<CurrentJob> an
 }
 
 // What the journal has of the request names no person: the entries of the jobs say by whom each was cancelled.
-void Mills::cancel_all(const Call& call, std::string_view device, std::string who, Answer<CancelledJobs> answer) const {
+void WaitingJobs::cancel_all(const Call& call, std::string_view device, std::string who,
+                             Answer<CancelledJobs> answer) const {
   std::optional<Problem> fault;
   if (who.empty()) {
     fault = Problem{
@@ -77,8 +101,8 @@ void Mills::cancel_all(const Call& call, std::string_view device, std::string wh
       });
 }
 
-void Mills::move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
-  act_on_job(
+void WaitingJobs::move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const {
+  acts_.act(
       RequestKind::move_job, call, job,
       [](rml1::MillController& mill, const rml1::Job& it, const MillTurn& turn) -> Result<void> {
         const Result<void> may = check_owner(turn, it, "move");
