@@ -79,8 +79,8 @@ std::string way_down(const Prefix& prefix) {
   return fmt::format("{}!ZZ{},{},{};", lowered ? "^PD;" : "", decimal(there.x), decimal(there.y), decimal(there.z));
 }
 
-// In a list of coordinates the name of its command comes again. ^ is for the names of mode 2, whichever mode the mill
-// speaks (guideline 3-1 ^).
+// The name of a command comes again in the middle of its list of coordinates. ^ is for the names of mode 2, whichever
+// mode the mill speaks (guideline 3-1 ^).
 std::string before_next(const Prefix& prefix) {
   const auto& [begins, name, first] = *prefix.next();
   const std::string call = name.size() == 2 ? "^" : "";

@@ -1,5 +1,5 @@
-// What a person does with a mill besides jobs. The mill never says where its tool is, so steps are relative and short,
-// and nothing checks where they lead.
+// Acts by hand, as bytes: what a person does with a mill besides jobs. The mill never says where its tool is, so steps
+// are relative and short, and nothing checks where they lead.
 #pragma once
 
 #include <cstdint>

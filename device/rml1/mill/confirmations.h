@@ -1,5 +1,5 @@
-// What a person at the mill says before a job begins: the material and the tool are in, the origin is set, nothing is
-// in the way. README.md says for how long that counts.
+// Confirmations: before a job begins, a person at the mill says that the material and the tool are in, that the origin
+// is set, and that nothing is in the way. README.md says for how long that counts.
 #pragma once
 
 #include <optional>
@@ -32,7 +32,7 @@ class Confirmations {
   void make_void(std::string_view why, TimePoint now);
   // Voids a confirmation that has expired.
   void advance(TimePoint now);
-  // When the confirmation expires; nullopt if no job is confirmed.
+  // Time at which the confirmation expires; nullopt if no job is confirmed.
   std::optional<TimePoint> until() const;
 
  private:

@@ -1,4 +1,4 @@
-// What a person does with a mill besides jobs, and for how long the mill may still move after it.
+// Work by hand: when a person may do something besides jobs, and for how long the mill may still move after it.
 #pragma once
 
 #include "device/core/line_machine.h"

@@ -22,16 +22,16 @@ namespace axisgate::rml1 {
 
 using JobNumber = std::uint64_t;  // of one mill; 0: none
 
-// What a person sets up at the mill for a job. A confirmation counts for exactly this.
+// A JobSetup is what a person sets up at the mill for a job. A confirmation counts for exactly this.
 struct JobSetup {
   std::string digest;   // of its bytes: PreparedJob::digest()
   std::string profile;  // its name
   std::string origin;   // the name of a configured origin; empty: as it is set at the panel
   std::string tool;     // a configured name; of a job in parts, that of Job::part
-  // What the job before has left that nothing gives back, for people: left_by(). Of the first job that waits alone, and
-  // not between its parts.
+  // Settings of the job before that no command can undo, as text: left_by(). Only the first job that waits has them,
+  // and not between its parts.
   std::vector<std::string> left{};
-  // Where it is continued, in its file or that of the part; nothing: it begins at its beginning.
+  // Place where it continues, in its file or that of the part; nullopt if it begins at its beginning.
   std::optional<Place> from{};
 
   friend bool operator==(const JobSetup&, const JobSetup&) = default;
@@ -127,8 +127,8 @@ struct Job {
   TimePoint queued_since{};               // when it was sent, or when its last confirmation became void
 };
 
-// Whether `one` is before `other` in the queue: what was begun or is confirmed is before what is QUEUED; then the lower
-// rank; then the lower number.
+// Reports whether `one` is before `other` in the queue: jobs that were begun or are confirmed are before those that are
+// QUEUED; then the lower rank counts; then the lower number.
 bool is_before(const Job& one, const Job& other);
 
 // Bytes of the job: where Job::part begins and ends.
@@ -154,7 +154,7 @@ std::optional<RunOn> run_on(const Job& job);
 void set_plan(Job& job, const TimeRange& takes, const RunOn& run_on);
 // Reports whether it is the rest of another job (MillController::add()), and nothing of it was sent.
 bool is_fresh_rest(const Job& job);
-// What a void confirmation of it is.
+// Returns the event of a confirmation that becomes void.
 JobEvent void_event(const Job& job);
 
 // "job 7 (part.rml) sets Z0": what the jobs after it find, for people.

@@ -85,7 +85,7 @@ void JobQueue::abandon(Job& job, std::string_view why, TimePoint now) {
   events_.job_changed(job, "", why, now);
 }
 
-// In the middle of a job a person confirms the tool and Z0 in any case.
+// A person who confirms the middle of a job confirms the tool and Z0 in any case.
 void JobQueue::show_left() {
   for (Job& job : jobs_) job.setup.left.clear();
   const auto first = std::ranges::find_if(jobs_, is_waiting);
@@ -111,7 +111,8 @@ Result<void> JobQueue::move_first(JobNumber number, Overtaken overtaken, std::st
   return {};
 }
 
-// From the last job forward, so that no rank is above 0: a job that is sent later has 0, and is after all of them.
+// Ranks are given from the last job forward, so that none is above 0: a job that is sent later has 0, and is after all
+// of them.
 void JobQueue::rank_as_ordered() {
   for (std::size_t place = jobs_.size() - 1; place > 0; --place) {
     Job& job = jobs_[place - 1];

@@ -13,7 +13,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-// From the top above anywhere back to where a tool was raised: across, down, and until the spindle turns.
+// Returns the longest time from the top above anywhere back to the place where a tool was raised: across, down, and
+// until the spindle turns.
 Duration longest_return(const Profile& profile, double slack) {
   const Duration across = longest_way(std::hypot(profile.x_mm, profile.y_mm), profile.speed.travel, profile, slack);
   const Duration down = longest_way(profile.z_mm, profile.speed.z_minimum, profile, slack);
@@ -103,7 +104,7 @@ void JobRun::abort(std::string_view by, TimePoint now) {
   follow_sender(now);
 }
 
-// What has left the model of the mill since an abort was requested first may have been discarded.
+// Only the first abort counts: bytes that left the model of the mill after it may have been discarded.
 void JobRun::note_executed(TimePoint now) {
   if (job().executed) return;
   const SendProgress progress = run_->sender.progress(now);

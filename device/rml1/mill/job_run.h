@@ -72,7 +72,7 @@ class JobRun {
   void abort(std::string_view by, TimePoint now);
   // The job, if one runs, is PAUSED_UNKNOWN. `why`: for people.
   void line_lost(std::string_view why, TimePoint now);
-  // The same after an internal error, whatever the job's state.
+  // Ends the job in the same way after an internal error, whatever its state.
   void abandon(std::string_view why, TimePoint now);
 
   // Called before so many bytes are written, while the host still has `unsent` ones.

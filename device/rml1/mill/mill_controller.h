@@ -56,7 +56,7 @@ class MillEvents : public QueueEvents, public RunEvents {
   virtual void surface_set(std::uint64_t surfaces) = 0;
   // The bytes were given to the line, for a job or, with 0, for none.
   virtual void written(std::string_view bytes, JobNumber job) = 0;
-  // Also if no job runs.
+  // Somebody requested an abort, whether a job runs or none.
   virtual void abort_requested(std::string_view by, TimePoint now) = 0;
   // A state machine of the mill had an event that its table does not have: an error of the gateway's own.
   virtual void internal_error(std::string_view what, TimePoint now) = 0;
@@ -106,7 +106,7 @@ class MillController : public LineMachine, private Violations {
   // if the line is closed; then it is sent when the line is back. Nobody whose job it ends, or whose lease it concerns,
   // may start another one before they rearm.
   bool abort(const stage::RequestContext& by, TimePoint now);
-  // The same without that: it ends the job and is no stop.
+  // Aborts without holding anybody back: it ends the job and is no stop.
   bool abort(std::string_view by, TimePoint now);
   // Fails with not_found; wrong_mode if the job's state does not have it.
   Result<void> cancel(JobNumber job, std::string_view by, TimePoint now);
@@ -133,10 +133,10 @@ class MillController : public LineMachine, private Violations {
   MillLink link() const { return link_; }
   const std::optional<MeasuredPace>& measured_pace() const { return run_.measured_pace(); }
   const MillSettings& settings() const { return settings_; }
-  // As SetupLeft::surfaces().
+  // Returns SetupLeft::surfaces().
   std::uint64_t surfaces() const { return left_.surfaces(); }
-  // Where the mill's state machines report an event that their table does not have: the mill is aborted, its line
-  // opened again, and the job that runs is PAUSED_UNKNOWN.
+  // Takes the events that a state machine of the mill does not have in its table: the mill is aborted, its line opened
+  // again, and the job that runs is PAUSED_UNKNOWN.
   Violations& violations() { return *this; }
   // Text of the first invariant that does not hold; empty if all do.
   std::string broken_invariant() const;

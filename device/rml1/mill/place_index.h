@@ -9,13 +9,13 @@
 
 namespace axisgate::rml1 {
 
-// Immutable. Reads the text once; after that a place takes no longer where the text is longer.
+// Immutable. Reads the text once; after that, the time to find a place does not depend on the length of the text.
 class PlaceIndex {
  public:
   // The text outlives this.
   explicit PlaceIndex(std::string_view text);
 
-  // Of that byte; behind the end: where the text ends.
+  // Returns the place of a byte, or the end of the text for a byte after it.
   Place at(std::uint64_t offset) const;
 
  private:

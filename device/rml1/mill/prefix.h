@@ -1,4 +1,4 @@
-// What of a job comes before the place where it is continued: played, so that its state there is known.
+// Plays the part of a job before the place where it continues, so that the state there is known.
 #pragma once
 
 #include <cstdint>
@@ -16,15 +16,15 @@ namespace axisgate::rml1 {
 
 class Prefix : private ParserListener, private MachineListener {
  public:
-  // The first command, or set of coordinates of one, at the byte `from` of the job or behind it.
+  // First command, or set of its coordinates, at the byte `from` of the job or after it.
   struct Next {
     Place begins;
     std::string_view name;  // of the command
     bool first = true;      // of the command's sets: it begins with its name
   };
-  // What the height of the tool was commanded by: without an origin no other can be converted.
+  // Coordinate by which the tool's height was commanded. Without an origin it cannot be converted into another.
   enum class Height { workpiece, machine, top, unknown };
-  // What was set since the last DF or IN; !RC, which these keep, in the whole job.
+  // Modes set since the last DF or IN; !RC, which these keep, in the whole job.
   struct Modes {
     std::optional<double> plane_speed{}, height_speed{}, dwell_ms{}, z1{}, z2{}, revolutions{};
   };

@@ -33,7 +33,7 @@ class PreparedJob {
   PreparedJob& operator=(const PreparedJob&) = delete;
 
   const std::string& digest() const { return digest_; }
-  // With prologue and epilogue.
+  // Bytes of the job with prologue and epilogue.
   const std::string& text() const { return text_; }
   const Timeline& timeline() const { return timeline_; }
   const SendSettings& settings() const { return settings_; }
@@ -46,8 +46,9 @@ class PreparedJob {
   // the part leaves open is not sent, and counts as sent with what is before it.
   std::uint64_t of_body(std::uint64_t bytes) const;
   Place place(std::uint64_t bytes) const;
-  // Where what a mill executes of the part ends that has executed so many bytes of text() at least and gets no more
-  // than those written. What begins before the one place is executed; what begins at the other or behind it is not.
+  // Returns the range in which the mill stops executing the part, if it has executed at least `least` bytes of text()
+  // and gets no more than those written. Commands that begin before the first place are executed; those that begin at
+  // the second place or after it are not.
   PlaceRange executed(std::uint64_t least, std::uint64_t written) const;
 
  private:
@@ -56,7 +57,7 @@ class PreparedJob {
   const std::string digest_;
   const std::uint64_t begin_;
   const std::optional<Place> from_;
-  // What is sent of the part itself: where it begins in that and in text(), and how long it is.
+  // Bytes that are sent of the part itself: where they begin in it and in text(), and how many they are.
   const Place rest_;
   const std::uint64_t body_size_, rest_in_text_, rest_size_;
   const std::string text_;

@@ -1,4 +1,4 @@
-// Who may use a mill, which is used as a whole: the requests of a controller to the keeper of leases.
+// Rights to a mill, which is leased as a whole: the requests of its controller to the keeper of leases.
 #pragma once
 
 #include <functional>

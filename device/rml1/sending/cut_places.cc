@@ -12,7 +12,7 @@ namespace {
 
 bool ends_command(char c) { return is_delimiter(c) && !is_blank(c); }
 
-// How many numbers make a set of the command that this ends with, in capitals; 0: it takes no list of sets (guideline
+// Returns how many numbers make a set of the command with that name, in capitals; 0 if it takes no list (guideline
 // 5-1).
 std::size_t set_of(std::string_view name) {
   struct Row {

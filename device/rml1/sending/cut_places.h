@@ -1,4 +1,4 @@
-// Behind which bytes a job may be cut: a number that is cut in two would be executed as another one, if an abort came
+// Places at which a job may be cut. A number that is cut in two would be executed as another number if an abort came
 // between.
 #pragma once
 
@@ -7,11 +7,11 @@
 
 namespace axisgate::rml1 {
 
-// Where a set of a list is complete. A command may follow another without a delimiter, and a blank may divide numbers
-// (guideline 2-2, 2-3).
+// A SetReader finds the ends of the sets in a list of coordinates. A command may follow another without a delimiter,
+// and a blank may divide numbers (guideline 2-2, 2-3).
 class SetReader {
  public:
-  // Whether this is the comma behind a complete set. A command is over with its terminator: then end() is called.
+  // Reports whether this comma follows a complete set. The terminator ends the command through end().
   bool take(char c);
   void end() { numbers_ = 0; }
 
@@ -31,10 +31,10 @@ class CutPlaces {
  public:
   enum class Cut {
     no,
-    in_list,          // behind the comma of a complete set of coordinates
-    between_commands  // behind a terminator, or another delimiter behind one
+    in_list,          // after the comma of a complete set of coordinates
+    between_commands  // after a terminator, or another delimiter after it
   };
-  // What a cut behind this byte is.
+  // Returns the kind of a cut after this byte.
   Cut take(char c);
 
  private:

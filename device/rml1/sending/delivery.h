@@ -1,4 +1,4 @@
-// A job on its way to a mill of one speed: when its commands arrive there, and when they have been executed.
+// Models a job on its way to a mill of one speed: when its commands arrive, and when they have been executed.
 #pragma once
 
 #include <cstddef>
@@ -10,19 +10,20 @@
 
 namespace axisgate::rml1 {
 
-// With start bit and stop bit.
+// Returns the time of so many bytes on the line, each with start bit and stop bit.
 Duration transmit_time(std::size_t bytes, int baud);
 
 class Delivery {
  public:
-  // Each step takes the mill its `duration`, times `slower`. `window`: so many bytes may be ahead of what it has
-  // executed; nothing: all that the line takes.
+  // Each step takes the mill its `duration`, times `slower`. `window`: number of bytes that may be ahead of what it has
+  // executed; nullopt if the line alone limits them.
   Delivery(const Timeline& timeline, float Step::*duration, double slower, int baud, std::optional<std::size_t> window)
       : pace_(timeline, duration, slower), baud_(baud), window_(window) {}
 
-  // The next command leaves when the one before has left, and the window has room. When it arrives, since the start.
+  // Sends the next command, which leaves once the command before has left and the window has room. Returns when it
+  // arrives, counted from the start.
   TimePoint send(std::size_t begin, std::size_t end);
-  // When all that was sent has been executed.
+  // Returns when all that was sent has been executed.
   TimePoint executed() const { return pace_.when(sent_); }
 
  private:

@@ -1,4 +1,5 @@
-// How long a job takes as it is sent, and what is left of it. A mill never says how fast it is, so both are ranges.
+// Computes how long a job takes as it is sent, and how long its rest takes. A mill never says how fast it is, so both
+// are ranges.
 #pragma once
 
 #include <cstddef>

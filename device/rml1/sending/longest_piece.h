@@ -1,4 +1,4 @@
-// What of a job is one write, however small the window is.
+// Finds the longest piece of a job that must be one write, however small the window is.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +18,7 @@ class LongestPiece {
   };
 
   void take(std::string_view bytes);
-  // Of what was taken, the longest piece without a place to cut it; the first of several.
+  // Returns the longest piece of the bytes taken that cannot be cut; the first of several.
   const Piece& longest() const { return longest_; }
 
  private:

@@ -12,7 +12,7 @@ void Pace::arrived(std::uint64_t through, TimePoint at) {
     const std::chrono::duration<double> takes(steps[next_].*duration_ * slower_);
     add(steps[next_].end, at, std::chrono::duration_cast<Duration>(takes));
   }
-  // What moves nothing is over with what was before it.
+  // A step that moves nothing ends with the step before it.
   add(through, at, {});
 }
 

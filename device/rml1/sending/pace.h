@@ -1,4 +1,4 @@
-// When a mill of one speed has executed what it was sent.
+// Computes when a mill of one speed has executed the bytes that it was sent.
 #pragma once
 
 #include <cstdint>
@@ -15,18 +15,18 @@ class Pace {
   Pace(const Timeline& timeline, float Step::*duration, double slower)
       : timeline_(timeline), duration_(duration), slower_(slower) {}
 
-  // The job's bytes up to `through` have arrived then. Both ascend.
+  // Notes that the job's bytes up to `through` arrive at that time. Both ascend.
   void arrived(std::uint64_t through, TimePoint at);
-  // What is behind so many bytes has not arrived by `now`: each byte of it takes `a_byte` from then on, at least.
-  // `now` ascends.
+  // Notes that the bytes after the first `behind` ones have not arrived by `now`: each of them takes at least `a_byte`
+  // from then on. `now` ascends.
   void not_arrived(std::uint64_t behind, Duration a_byte, TimePoint now);
-  // So many bytes have left the mill's buffer by now, whatever its speed is: the command that they end with may be
-  // under way, and those before it have been executed. `now` ascends.
+  // Notes that so many bytes have left the mill's buffer by now, whatever its speed is: their last command may be in
+  // progress, and those before it have been executed. `now` ascends.
   void has_read(std::uint64_t bytes, TimePoint now);
 
-  // How many bytes of the job it has executed. `now` ascends.
+  // Returns the number of bytes of the job that it has executed. `now` ascends.
   std::uint64_t executed(TimePoint now);
-  // When it will have executed so many of those that have arrived.
+  // Returns when it will have executed so many of the bytes that have arrived.
   TimePoint when(std::uint64_t bytes) const;
 
  private:

@@ -40,7 +40,8 @@ std::optional<MeasuredPace> PaceMeter::pace() const {
   return before_ && width(*before_) <= width(*now) ? before_ : now;
 }
 
-// What certainly was executed between the two took no longer than that time, and what may have been took no less.
+// The steps that were certainly executed between the two took no longer than that time, and all that may have been took
+// no less.
 std::optional<MeasuredPace> PaceMeter::between_stops() const {
   if (!first_) return std::nullopt;
   const double seconds = std::chrono::duration<double>(last_->at - first_->at).count();
@@ -57,7 +58,7 @@ std::uint64_t PaceMeter::begun(std::uint64_t left) const {
   return next == steps.begin() ? 0 : std::prev(next)->end;
 }
 
-// Of the steps that end there, `to` excluded.
+// Returns the time of the steps that end there, `to` excluded.
 double PaceMeter::slowest_s(std::uint64_t from, std::uint64_t to) const {
   return std::max(0.0, timeline_.slowest_until(std::max<std::uint64_t>(to, 1) - 1) -
                            timeline_.slowest_until(std::max<std::uint64_t>(from, 1) - 1));

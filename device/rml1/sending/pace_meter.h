@@ -1,4 +1,5 @@
-// How slow a mill is, from how fast a line that it stops takes the bytes of a job. README.md says what that can show.
+// Measures how slow a mill is by how fast a line that it stops takes the bytes of a job. README.md says what that can
+// show.
 #pragma once
 
 #include <cstddef>
@@ -18,24 +19,24 @@ struct MeasuredPace {
   friend bool operator==(const MeasuredPace&, const MeasuredPace&) = default;
 };
 
-// By how much what follows may be slower or faster than what was measured.
+// Factor by which the rest of a job may be slower or faster than its measured part.
 inline constexpr double kUnsteady = 1.1;
 
-// Where `slack_as_measured`, with that slack.
+// Returns the settings with the measured slack, if they say `slack_as_measured`.
 SendSettings with_pace(SendSettings settings, const std::optional<MeasuredPace>& measured);
 
-// Of one job. Not thread safe.
+// A PaceMeter measures by one job. Not thread safe.
 class PaceMeter {
  public:
   // `unread`: bytes that have left the host and that the mill has not read, at most. `timeline` outlives this.
   PaceMeter(const Timeline& timeline, std::size_t unread) : timeline_(timeline), unread_(unread) {}
 
-  // The mill stops the line, and so many bytes of the job have left the host by then. Both ascend.
+  // Notes that the mill stops the line when so many bytes of the job have left the host. Both ascend.
   void stopped(std::uint64_t left, TimePoint now);
-  // From here on the mill may have waited for bytes.
+  // Notes that the mill may wait for bytes from here on.
   void interrupted();
 
-  // Nothing where the line was not stopped over enough of the job to have the range within a fifth.
+  // Returns nullopt if the line was not stopped over enough of the job to know the range within a fifth.
   std::optional<MeasuredPace> pace() const;
 
  private:

@@ -11,7 +11,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// Without flow control the mill loses what its buffer has no room for.
+// The mill loses what its buffer has no room for if there is no flow control.
 std::size_t window_of(std::string_view job, const Timeline& timeline, const SendSettings& settings) {
   if (settings.window > 0) return settings.window;
   if (settings.streaming == Streaming::full) return kWindows[0];

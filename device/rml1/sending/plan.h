@@ -1,4 +1,4 @@
-// What is computed of a job before it is sent. It reads the whole job, so not on a device's strand.
+// The plan of a job, computed before it is sent. That reads the whole job: do it off the device's strand.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,15 @@
 
 namespace axisgate::rml1 {
 
-// What may be executed after an abort, in bytes of the job.
+// A RunOn bounds what a mill may still execute after an abort, in bytes of the job.
 struct RunOn {
-  // Of a mill that executes, takes no longer than SendPlan::slack says, and began at the top above the work origin.
+  // For a mill that executes, takes no longer than SendPlan::slack says, and began at the top above the work origin.
   std::size_t at_most = 0;
-  // Of one that its panel holds, for when it is released.
+  // For a mill that its panel holds, once it is released.
   std::size_t if_held = 0;
-  // Within which the slowest mill has executed any `at_most` bytes of the job.
+  // Longest time that the slowest mill needs for any `at_most` bytes of the job.
   Duration longest{};
-  // How far its tool moves meanwhile, at most.
+  // Longest distance that its tool moves in that time.
   double mm = 0;
 
   friend bool operator==(const RunOn&, const RunOn&) = default;

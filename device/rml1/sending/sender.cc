@@ -103,7 +103,7 @@ bool Sender::rests_behind_written() const {
 
 void Sender::line_lost(TimePoint) { request(SendEvent::line_lost); }
 
-// Behind what was written of the job, which is whole commands.
+// The abort comes after what was written of the job, which is whole commands.
 void Sender::abort(TimePoint now) {
   learn(now);
   const bool rests = may_rest(now);
@@ -170,8 +170,8 @@ bool Sender::has_room(TimePoint now) {
   return executed == cutter_.begin() || cutter_.end() - executed <= plan_.window;
 }
 
-// What has left the host and has been read by the mill fits neither into its buffer nor between the two. So says flow
-// control alone: without it a mill loses what it has no room for.
+// Bytes that have left the host, and fit neither into the mill's buffer nor between the two, have been read by the
+// mill. Only flow control proves that: without it a mill loses what it has no room for.
 void Sender::learn(TimePoint now) {
   learn_what_waits(now);
   measure(now);
@@ -197,7 +197,7 @@ void Sender::measure(TimePoint now) {
   meter_.stopped(cutter_.begin() - std::min(unsent, cutter_.begin()), now);
 }
 
-// On this side of a line that is held: in the host, and perhaps in a converter.
+// Bytes wait on this side of a line that is held: in the host, and perhaps in a converter.
 void Sender::learn_what_waits(TimePoint now) {
   if (!guarded(MillGuard::counted_from_arrival) || !is_blocked()) return;
   const std::size_t waits = line_.unsent() + (line_.held() ? settings_.converter : 0);
@@ -205,7 +205,7 @@ void Sender::learn_what_waits(TimePoint now) {
   arrives_ = std::max(arrives_, now + transmit_time(waits, settings_.baud));
 }
 
-// Before, in or after any of the steps in which the mill may be when the abort reaches it.
+// Looks at each step in which the mill may be when the abort reaches it.
 bool Sender::may_rest(TimePoint now) {
   const auto& steps = timeline_.steps();
   const auto next = std::ranges::upper_bound(steps, slowest_.executed(now), {}, &Step::end);

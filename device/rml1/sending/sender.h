@@ -1,4 +1,4 @@
-// From the first byte of a job to the last; pause and abort. The table of its states: README.md.
+// Sends a job from its first byte to its last, with pause and abort. README.md has the table of its states.
 #pragma once
 
 #include <cstdint>
@@ -40,7 +40,7 @@ inline constexpr std::size_t kSenderStates = 10, kSendEvents = 9;
 // Returns the state after the event; nullopt if the table has none.
 std::optional<SenderState> next(SenderState state, SendEvent event);
 
-// What a sender shares with whatever else writes to the mill.
+// A MillLine is what a sender shares with everything else that writes to the mill.
 struct MillLine {
   FlowLink& line;
   Abort& abort;
@@ -68,7 +68,7 @@ class Sender {
   void line_lost(TimePoint now);
 
   void advance(TimePoint now);
-  // When to call advance() again; nothing: not before another call.
+  // Returns when to call advance() again; nullopt: not before another call.
   std::optional<TimePoint> next_deadline(TimePoint now) const;
 
   SenderState state() const { return state_; }
@@ -79,7 +79,8 @@ class Sender {
   // Reports whether the mill's buffer may have been full when the abort came, so that the mill may have dropped it: its
   // panel may have held it all the time. A mill with flow control stops its host while it still has room.
   bool abort_may_be_dropped() const;
-  // Of the mill, so far. Nothing with paced streaming, or where the line was not stopped for long enough.
+  // Measured pace of the mill. nullopt with paced streaming, or before the line has been stopped long enough to measure
+  // it.
   std::optional<MeasuredPace> measured_pace() const { return meter_.pace(); }
 
   // Between two looks at a line that has something to send, or is held, at most.

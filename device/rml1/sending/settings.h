@@ -1,4 +1,4 @@
-// How the jobs of a mill are sent.
+// Settings by which the jobs of a mill are sent.
 #pragma once
 
 #include <cstddef>

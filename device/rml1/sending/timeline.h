@@ -23,15 +23,15 @@ struct Step {
 
 class Timeline {
  public:
-  // Of a job that was checked: what is wrong in it is passed over, as a mill would. `origin`: as of the check.
+  // The job was checked: errors in it are passed over, as by a mill. `origin`: as of the check.
   Timeline(std::string_view job, const Profile& profile, std::optional<Origin> origin);
 
   const std::vector<Step>& steps() const { return steps_; }
   double slowest_s() const { return slowest_s_; }
-  // Of the steps that end with so many bytes, or before.
+  // Returns the time of the steps that end with so many bytes, or before.
   double slowest_until(std::uint64_t end) const;
   double slowest_after(std::uint64_t executed) const { return slowest_s_ - slowest_until(executed); }
-  // The spindle.
+  // Reports whether the spindle turns at the end.
   bool turns_at_end() const { return turns_at_end_; }
 
  private:

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kHardlyLonger = 1.01;
 
-// Until the last byte has been executed.
+// Returns the time until the last byte has been executed.
 Duration job_time(std::string_view job, const Timeline& timeline, double slower, int baud, std::size_t window) {
   Delivery delivery(timeline, &Step::slowest_s, slower, baud, window);
   for (Cutter cutter(job, window); cutter.begin() < job.size(); cutter.next()) {

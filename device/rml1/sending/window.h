@@ -1,4 +1,4 @@
-// How many bytes a mill is given ahead of what it has executed.
+// Chooses how many bytes a mill is given ahead of those that it has executed.
 #pragma once
 
 #include <cstddef>

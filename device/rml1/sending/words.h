@@ -1,4 +1,4 @@
-// What is written around a job, so that its modes do not reach the next one, and to abort it.
+// Bytes that are written around a job, so that its modes do not reach the next one, and to abort it.
 #pragma once
 
 #include <string>
@@ -18,7 +18,7 @@ std::string raise(const Profile& profile);
 // README.md says why in this order. `may_rest`: the spindle may not be turning, and be permitted to.
 std::string abort_words(const Profile& profile, bool may_rest);
 
-// Behind whole commands: the tool up, and then the spindle off. `may_rest`: as of abort_words().
+// The tool up, and then the spindle off; sent after whole commands. `may_rest`: as of abort_words().
 std::string lift_words(const Profile& profile, bool may_rest);
 
 // A way that one axis goes from stop to stop, by a mill that is `slack` times as slow as the slowest of the profile.
