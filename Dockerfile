@@ -22,7 +22,7 @@ FROM debian:bookworm-slim
 # is fixed, so that a mounted folder or a tmpfs for the socket can be given to it.
 RUN apt-get update --quiet \
  && apt-get install --quiet --yes --no-install-recommends \
-      libfmt9 libgrpc++1.51 libnghttp2-14 libprometheus-cpp-core1.0 \
+      libfmt9 libgrpc++1.51 libnghttp2-14 libpng16-16 libprometheus-cpp-core1.0 \
       libprotobuf32 libspdlog1.10 libsqlite3-0 libssl3 libsystemd0 libtomlplusplus3 zlib1g \
  && rm -rf /var/lib/apt/lists/* \
  && useradd --system --uid 203 --no-create-home --groups dialout axisgate \
