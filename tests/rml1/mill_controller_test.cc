@@ -327,6 +327,16 @@ TEST_F(MillControllerTest, AtLossLeaveSendsNothing) {
   EXPECT_THAT(line_.writes, IsEmpty());
 }
 
+// `leave` is about jobs whose line was lost, not about what somebody requested.
+TEST_F(MillControllerTest, AtLossLeaveSendsAnAbortThatTheRunBeforeCouldNotSend) {
+  settings_.at_loss = AtLoss::leave;
+  MillController other(profile_, settings_, line_, *this, permission_);
+  other.inherit_abort();
+  other.inherit({.number = 7, .name = "part.rml", .owner = "unix anna", .setup = setup(), .state = paused_unknown});
+  other.link_up(now_);
+  EXPECT_EQ(written(), abort_words(profile_, true));
+}
+
 TEST_F(MillControllerTest, AMillThatTakesNothingIsBusyAndNotGone) {
   add(1);
   run_job(1, 200);

@@ -154,17 +154,19 @@ TEST_F(InternalErrorAtAMill, AbortsTheJobAndOpensTheLineAgain) {
   run_for(100ms);
   line_.writes.clear();
   report();
+  EXPECT_FALSE(mill_.is_idle());
+  EXPECT_TRUE(mill_.abort_waits()) << "a daemon that ends now keeps it for the next run";
   ASSERT_TRUE(mill_.next_deadline());
   EXPECT_LE(*mill_.next_deadline(), now_) << "at once";
   mill_.advance(now_);
   EXPECT_THAT(errors_, ElementsAre("an internal error: job in state QUEUED cannot have the event fed"));
   EXPECT_EQ(state(1), JobState::paused_unknown);
   EXPECT_EQ(mill_.running_job(), 0u);
-  EXPECT_EQ(written(), abort_words(profile_, true));
   EXPECT_EQ(line_.reopened, 1);
-  EXPECT_TRUE(mill_.abort_waits()) << "it may have been lost with the line";
+  EXPECT_EQ(written(), "") << "it would be lost with the line";
+  EXPECT_TRUE(mill_.abort_waits());
   mill_.link_up(now_);
-  EXPECT_EQ(line_.writes.back(), abort_words(profile_, true));
+  EXPECT_EQ(written(), abort_words(profile_, true));
   run_for(1s);
   EXPECT_TRUE(mill_.cancel(1, "unix bert", now_)) << "a person has looked";
 }
@@ -177,6 +179,17 @@ TEST_F(InternalErrorAtAMill, WithTheLineClosedTheAbortWaits) {
   EXPECT_EQ(line_.reopened, 1) << "once, for the loss";
   mill_.link_up(now_);
   EXPECT_EQ(written(), abort_words(profile_, true));
+}
+
+TEST_F(InternalErrorAtAMill, WithoutAJobTheMillIsAbortedToo) {
+  report();
+  EXPECT_FALSE(mill_.is_idle());
+  mill_.advance(now_);
+  mill_.link_up(now_);
+  EXPECT_EQ(written(), abort_words(profile_, true));
+  EXPECT_EQ(reason(mill_.operate(JogStep{.x_mm = 1}, {.who = "unix anna"}, now_).map([](Duration) {})),
+            Reason::axis_busy)
+      << "the tool may still rise";
 }
 
 TEST_F(InternalErrorAtAMill, TheFirstOfSeveralIsReported) {

@@ -111,7 +111,7 @@ def _reached_from(target, files):
 
 
 def _check_what_it_includes(file, number, target, files):
-    if file.path.startswith(_MILL_SIMULATOR) and not target.startswith(_MILL_SIMULATOR):
+    if file.path.startswith(_MILL_SIMULATOR) and target in _MILL_DATA:
         for path in sorted(filter(_is_of_the_check, _reached_from(target, files))):
             yield file.finding(number, "simulator-apart", f"{target} brings {path} into the simulated mill",
                                "let it include what is no part of the check")

@@ -209,6 +209,8 @@ void JobRun::end_aborted(TimePoint now) {
 void JobRun::end(JobEvent event, std::string_view by, std::string_view why, TimePoint now) {
   const std::string requested_by(by);  // it may be of what runs
   Job& ended = job();
+  // The run stays, so that the recovery from the error finds it.
+  if (!next(ended.state, event)) return mill_.violations.illegal("job", name(ended.state), name(event));
   if (event == JobEvent::lost || event == JobEvent::abort_unsure) ended.written = written_at_loss();
   run_.reset();
   rights_.job_ends(ended.number, now);

@@ -210,11 +210,14 @@ void MillController::illegal(std::string_view machine, std::string_view state, s
   internal_error_ = fmt::format("an internal error: {} in state {} cannot have the event {}", machine, state, event);
 }
 
-// Nobody knows what the mill does: it is stopped, and a person looks at the workpiece.
+// Nobody knows what the mill does: it is stopped, and a person looks at the workpiece. The abort is the first thing
+// sent on the line that is opened again: bytes that wait in the host when a line is closed are lost.
 void MillController::recover(TimePoint now) {
   events_.internal_error(internal_error_, now);
   run_.abandon(internal_error_, now);
-  if (send_abort(now)) link_down(now, internal_error_);
+  hand_.abort_requested(now);
+  if (link_ == MillLink::open) link_down(now, internal_error_);
+  abort_.postpone();
   internal_error_.clear();
 }
 

@@ -126,10 +126,10 @@ class MillController : public LineMachine, private Violations {
   const std::vector<Job>& jobs() const { return queue_.jobs(); }
   std::optional<RunningJob> running(TimePoint now) { return run_.view(now); }
   JobNumber running_job() const { return run_.number(); }  // 0: none
-  // Reports whether no job runs, and no abort leaves this host.
-  bool is_idle() const { return run_.number() == 0 && abort_.phase() != AbortPhase::leaves; }
+  // Reports whether no job runs, no abort leaves this host, and no internal error has to be recovered from.
+  bool is_idle() const { return run_.number() == 0 && abort_.phase() != AbortPhase::leaves && internal_error_.empty(); }
   // Reports whether an abort is to be sent, or has not left this host.
-  bool abort_waits() const { return abort_.waits(); }
+  bool abort_waits() const { return abort_.waits() || !internal_error_.empty(); }
   MillLink link() const { return link_; }
   const std::optional<MeasuredPace>& measured_pace() const { return run_.measured_pace(); }
   const MillSettings& settings() const { return settings_; }
