@@ -16,7 +16,7 @@ grpc_port=50203
 metrics_port=9203
 ready_limit_s=30
 # Time of one processor for a file, or a batch of files, on average.
-compile_s=9
+compile_s=10
 end_limit_s=10
 
 once=false
@@ -35,10 +35,17 @@ read_arguments() {
   esac
 }
 
-# Says how long the build will take, by the number of files that remain to be compiled.
+# Prints the objects that the programs are linked of, by the commands that compile them.
+objects() {
+  ninja -C build -t commands "${programs[@]}" | sed -n 's/.* -o \([^ ]*\.o\) -c .*/\1/p'
+}
+
+# Says how long the build will take, by the number of objects that do not exist yet.
 announce_build() {
-  local files processors seconds
-  files="$(ninja -C build -n "${programs[@]}" | grep -c 'Building CXX' || true)"
+  local files=0 object processors seconds
+  while read -r object; do
+    [[ -e "build/$object" ]] || files=$((files + 1))
+  done < <(objects)
   ((files > 0)) || return 0
   processors="$(nproc)"
   seconds=$((files * compile_s / processors))
