@@ -88,7 +88,7 @@ def main():
     arguments = parser.parse_args()
     parts = parts_of(arguments.build, arguments.programs, arguments.filter)
     seconds, passed, failed, skipped = {}, 0, 0, 0
-    # Those of integration mostly wait for what they have started.
+    # The cases of integration mostly wait for the programs that they have started.
     with concurrent.futures.ThreadPoolExecutor(max_workers=os.cpu_count() + 1) as pool:
         for part in concurrent.futures.as_completed([pool.submit(part.run) for part in parts]):
             done = part.result()

@@ -1,4 +1,4 @@
-// What the language of one machine has beside, or without, the guideline's.
+// A Dialect is how the language of one machine differs from the guideline's.
 #pragma once
 
 #include <algorithm>

@@ -14,7 +14,7 @@
 
 namespace axisgate::api {
 
-// Where a job continues, in its part; both count from 1. Line 0: none is named.
+// A LineToChoose is the place in its part where a job continues; both count from 1. Line 0: none is named.
 struct LineToChoose {
   std::uint64_t line = 0, column = 1;
 };

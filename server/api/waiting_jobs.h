@@ -1,4 +1,4 @@
-// What people do with the jobs of a mill that wait, or have been executed.
+// Requests on the jobs of a mill that wait, or have been executed.
 #pragma once
 
 #include <string>

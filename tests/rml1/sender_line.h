@@ -1,4 +1,4 @@
-// What a sender needs beside its line, for tests that have no controller.
+// A SenderLine has all that a sender needs beside its line, for tests that have no controller.
 #pragma once
 
 #include "device/rml1/sending/abort.h"

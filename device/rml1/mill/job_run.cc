@@ -161,7 +161,7 @@ void JobRun::follow_sender(TimePoint now) {
   if (state == SenderState::aborted) end_aborted(now);
 }
 
-// A mill that is held by its panel, off, or behind a full buffer takes nothing; which of these, the line does not say.
+// A mill takes nothing if its panel holds it, if it is off, or if its buffer is full; the line does not say which.
 void JobRun::judge_busy(TimePoint now) {
   const SendProgress progress = run_->sender.progress(now);
   const std::uint64_t left = progress.written - progress.unsent;

@@ -75,7 +75,7 @@ class MillController : public LineMachine, private Violations {
   void inherit(Job job);
   // Takes over the job that was begun last in the runs before, whatever has become of it.
   void inherit_left(const Job& last);
-  // Takes over an abort that the run before could not send any more.
+  // Takes over an abort that the run before could no longer send.
   void inherit_abort() { abort_.postpone(); }
   // Takes over surfaces() of the run before.
   void inherit_surfaces(std::uint64_t surfaces) { left_.inherit_surfaces(surfaces); }
