@@ -18,7 +18,7 @@ read_arguments() {
   esac
 }
 
-# What only the tests need is at the end of the list.
+# Prints the list, or the part before the packages that only the tests need.
 chosen_part() {
   if $to_build; then sed '/^# --- to test/,$d' "$list"; else cat "$list"; fi
 }

@@ -15,7 +15,7 @@ namespace axisgate::rml1 {
 
 // README.md has the table of what leads from one to another.
 enum class AbortPhase {
-  none,    // nobody requested one, or the mill has it
+  none,    // no abort was requested, or the mill has it
   waits,   // for the line
   leaves,  // this host
   travels  // to the mill: a converter may still hold it; last: kAbortPhases
