@@ -9,6 +9,7 @@
 
 #include "axisgate/v1/mill.grpc.pb.h"
 #include "tests/integration/rpc_fixture.h"
+#include "tests/paths/paths.h"
 
 namespace axisgate::rpc {
 
@@ -34,10 +35,10 @@ class RpcMill : public RpcTest {
     std::filesystem::remove_all(directory_ + ".spool");
   }
   void configure(server::Config& config) override {
-    const auto read = server::parse_config(
-        "[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"" AXISGATE_SOURCE_DIR
-        "/deploy/mills/mdx-20.toml\"\nconnection = \"simulated\"\nspeed = 20\ntools = [\"T1\", \"T2\"]\n",
-        "test.toml", server::device_kinds());
+    const auto read = server::parse_config("[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"" +
+                                               testing::in_project("deploy/mills/mdx-20.toml").string() +
+                                               "\"\nconnection = \"simulated\"\nspeed = 20\ntools = [\"T1\", \"T2\"]\n",
+                                           "test.toml", server::device_kinds());
     ASSERT_TRUE(read) << to_string(read.error().front());
     config.devices.push_back(read->devices.front());
     std::get<server::MillConfig>(config.devices.back().family).station = {station_};

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/paths/paths.h"
 #include "tests/refusals/page.h"
 
 namespace axisgate::refusals {
@@ -15,7 +16,6 @@ namespace {
 
 constexpr std::string_view kHowToWrite =
     "AXISGATE_WRITE_REFUSALS=1 build/bin/refusals_tests --gtest_filter='RefusalsPage.*'";
-const std::filesystem::path kSource = AXISGATE_SOURCE_DIR;
 
 std::string content(const std::filesystem::path& path) {
   std::ifstream file(path, std::ios::binary);
@@ -149,8 +149,8 @@ TEST(RefusalsPage, IsWhatTheTrialsTold) {
       outcomes.push_back(std::move(outcome));
     }
   }
-  const auto codes = codes_by_reason(content(kSource / "proto/axisgate/v1/common.proto"));
-  const std::filesystem::path path = kSource / "device/shrc203/REFUSALS.md";
+  const auto codes = codes_by_reason(content(testing::in_project("proto/axisgate/v1/common.proto")));
+  const std::filesystem::path path = testing::in_project("device/shrc203/REFUSALS.md");
   const std::string wanted = refusals_page(outcomes, codes);
   EXPECT_EQ(wanted.find("| - |"), std::string::npos) << "a reason without its gRPC code in common.proto";
   const char* write = std::getenv("AXISGATE_WRITE_REFUSALS");

@@ -11,6 +11,7 @@
 #include "device/rml1/check.h"
 #include "device/rml1/profile_files.h"
 #include "device/rml1/sending/timeline.h"
+#include "tests/paths/paths.h"
 #include "tests/rml1/courses.h"
 #include "tests/rml1/mill.h"
 #include "tests/rml1/paragraphs.h"
@@ -42,7 +43,7 @@ Job whole(const std::string& name, std::string text) {
 
 std::vector<Job> files() {
   std::vector<Job> jobs;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(AXISGATE_SOURCE_DIR "/tests")) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::in_project("tests"))) {
     const std::string ending = entry.path().extension();
     if (ending == ".rml" || ending == ".prn") jobs.push_back(whole(entry.path().filename(), contents(entry.path())));
   }

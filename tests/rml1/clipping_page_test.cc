@@ -8,6 +8,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "tests/paths/paths.h"
 #include "tests/rml1/clipping_cases.h"
 
 namespace axisgate::rml1 {
@@ -15,7 +16,7 @@ namespace {
 
 constexpr std::string_view kHowToWrite =
     "AXISGATE_WRITE_CLIPPING=1 build/bin/rml1_tests --gtest_filter='ClippingPage.*'";
-const std::filesystem::path kFolder = std::filesystem::path(AXISGATE_SOURCE_DIR) / "device/rml1";
+const std::filesystem::path kFolder = testing::in_project("device/rml1");
 constexpr double kCell = 220, kScale = 0.09, kColumns = 4;
 
 // Seen from the front and a little from above and the right.

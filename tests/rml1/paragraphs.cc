@@ -5,11 +5,13 @@
 #include <fstream>
 #include <stdexcept>
 
+#include "tests/paths/paths.h"
+
 namespace axisgate::rml1 {
 namespace {
 
 // A function: fixtures are read before main().
-std::filesystem::path folder() { return std::filesystem::path(AXISGATE_SOURCE_DIR) / "tests/rml1"; }
+std::filesystem::path folder() { return testing::in_project("tests/rml1"); }
 
 void read(const std::filesystem::path& path, std::vector<Paragraph>& found) {
   std::ifstream file(path);

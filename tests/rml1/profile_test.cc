@@ -10,6 +10,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "tests/paths/paths.h"
+
 namespace axisgate::rml1 {
 namespace {
 
@@ -302,7 +304,7 @@ TEST(Profile, TellsOfAFileThatIsNotThere) {
   EXPECT_EQ(found.error()[0].line, 0u);
 }
 
-std::filesystem::path mills() { return std::filesystem::path(AXISGATE_SOURCE_DIR) / "deploy/mills"; }
+std::filesystem::path mills() { return testing::in_project("deploy/mills"); }
 
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;

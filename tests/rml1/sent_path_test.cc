@@ -11,6 +11,7 @@
 #include "device/rml1/check.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/profile_files.h"
+#include "tests/paths/paths.h"
 #include "tests/rml1/courses.h"
 #include "tests/rml1/mill.h"
 #include "tests/rml1/paragraphs.h"
@@ -47,11 +48,11 @@ std::vector<std::string> jobs_in(const std::filesystem::path& folder, IsJob is_j
 
 // Returns the jobs that tests/jobs writes. Their names end as many programs end them; a table lies beside them.
 std::vector<std::string> written_jobs() {
-  return jobs_in(AXISGATE_JOBS, [](const std::string& ending) { return ending != ".tsv"; });
+  return jobs_in(testing::written_jobs(), [](const std::string& ending) { return ending != ".tsv"; });
 }
 
 std::vector<std::string> kept_jobs() {
-  return jobs_in(AXISGATE_SOURCE_DIR "/tests",
+  return jobs_in(testing::in_project("tests"),
                  [](const std::string& ending) { return ending == ".rml" || ending == ".prn"; });
 }
 

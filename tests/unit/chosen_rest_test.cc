@@ -7,6 +7,7 @@
 #include <string>
 
 #include "server/devices/spooled_jobs.h"
+#include "tests/paths/paths.h"
 #include "tests/unit/spool_bed.h"
 
 namespace axisgate::server {
@@ -20,7 +21,7 @@ constexpr std::string_view kFirst = "PA;PU1,1;\nPU2,2;\n", kSecond = "PU1,1;\nPU
 class ChosenRest : public spool_test::SpoolBed {
  protected:
   void SetUp() override {
-    config_.profile = *rml1::load_profile(AXISGATE_SOURCE_DIR "/deploy/mills/mdx-20.toml");
+    config_.profile = *rml1::load_profile(testing::in_project("deploy/mills/mdx-20.toml"));
     job_.number = upload(std::string(kFirst) + std::string(kSecond) + "PU9,9;")->id;
     job_.parts = {{"T1", kFirst.size()}, {"T2", kFirst.size() + kSecond.size()}, {"T1", 52}};
     go_to_part(job_, 1);

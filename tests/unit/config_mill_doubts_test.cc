@@ -7,6 +7,7 @@
 
 #include "server/config/config.h"
 #include "server/kinds.h"
+#include "tests/paths/paths.h"
 
 namespace axisgate::server::config_mill_doubts_test {
 namespace {
@@ -26,7 +27,7 @@ MillConfig mill_in(const Config& config) { return std::get<MillConfig>(config.de
 // Without a key to fill in, and without a doubt.
 TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
   for (const char* name : {"srm-20", "mdx-20"}) {
-    const auto config = load_config(AXISGATE_SOURCE_DIR "/deploy/" + std::string(name) + ".toml", device_kinds());
+    const auto config = load_config(testing::in_project("deploy/" + std::string(name) + ".toml"), device_kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
     EXPECT_EQ(mill_in(*config).profile_name, name);
     EXPECT_THAT(mill_in(*config).doubts, IsEmpty()) << name;

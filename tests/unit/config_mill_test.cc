@@ -11,6 +11,7 @@
 #include "server/config/text.h"
 #include "server/kinds.h"
 #include "server/recording/redaction.h"
+#include "tests/paths/paths.h"
 
 namespace axisgate::server::config_mill_test {
 namespace {
@@ -248,7 +249,7 @@ TEST_F(ConfigMillProfile, ErrorsInItAreAtItsOwnLinesAndLast) {
 }
 
 TEST_F(ConfigMillProfile, AFileIsReadAndItsPathWrittenAndHidden) {
-  std::filesystem::copy_file(AXISGATE_SOURCE_DIR "/deploy/mills/mdx-50.toml", file);
+  std::filesystem::copy_file(testing::in_project("deploy/mills/mdx-50.toml"), file);
   std::string good = text();
   good.erase(good.find("window"));
   const auto config = parse(good);
@@ -368,7 +369,7 @@ TEST(ConfigMill, IsOfferedAmongTheKinds) {
 }
 
 TEST(ConfigMill, TheExampleIsRight) {
-  const std::string path = AXISGATE_SOURCE_DIR "/deploy/mill.toml";
+  const std::string path = testing::in_project("deploy/mill.toml");
   const auto text = read_config_file(path);
   ASSERT_TRUE(text) << text.error();
   const auto config = parse_config(*text, path, device_kinds());

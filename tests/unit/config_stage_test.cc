@@ -9,6 +9,7 @@
 #include "server/config/config.h"
 #include "server/config/stage.h"
 #include "server/kinds.h"
+#include "tests/paths/paths.h"
 
 namespace axisgate::server::config_stage_test {
 namespace {
@@ -268,7 +269,7 @@ TEST(ConfigStageTable, TheProfileMayStandInTheConfigurationItself) {
 
 TEST(ConfigStageFiles, EveryProfileThatIsShippedIsRight) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(AXISGATE_SOURCE_DIR "/deploy/stages")) {
+  for (const auto& entry : std::filesystem::directory_iterator(testing::in_project("deploy/stages"))) {
     ++count;
     const auto config = parse_config(
         "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n[[device.axis]]\nnumber = 1\nstage = \"" +

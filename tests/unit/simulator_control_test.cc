@@ -7,6 +7,7 @@
 
 #include "device/core/control_language.h"
 #include "device/shrc203/simulator/control.h"
+#include "tests/paths/paths.h"
 #include "tests/unit/simulator_bench.h"
 
 namespace axisgate::shrc203::simulator::simulator_control_test {
@@ -49,7 +50,7 @@ TEST_F(SimulatorControl, HelpListsEveryCommandAndTellsEachOne) {
 }
 
 TEST_F(SimulatorControl, TheReadmeHasEveryUsage) {
-  std::ifstream file(AXISGATE_SOURCE_DIR "/device/shrc203/simulator/README.md");
+  std::ifstream file(testing::in_project("device/shrc203/simulator/README.md"));
   std::ostringstream readme;
   readme << file.rdbuf();
   for (const std::string& usage : usages()) EXPECT_THAT(readme.str(), HasSubstr("\n    " + usage + "\n"));
