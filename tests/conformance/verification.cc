@@ -7,7 +7,7 @@
 
 #include "device/shrc203/command/codec.h"
 #include "device/shrc203/command/reply.h"
-#include "tests/unit/simulator_bench.h"
+#include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::shrc203::conformance {
 namespace {

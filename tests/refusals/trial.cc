@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "tests/unit/simulator_bench.h"
+#include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::refusals {
 namespace {

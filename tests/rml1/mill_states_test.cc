@@ -10,8 +10,8 @@
 #include "device/rml1/mill/job_queue.h"
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/mill_controller_fixture.h"
-#include "tests/unit/reported.h"
-#include "tests/unit/transition_table.h"
+#include "tests/unit/core/reported.h"
+#include "tests/unit/core/transition_table.h"
 
 namespace axisgate::rml1::mill_states_test {
 namespace {

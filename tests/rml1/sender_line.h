@@ -3,7 +3,7 @@
 
 #include "device/rml1/sending/abort.h"
 #include "device/rml1/sending/sender.h"
-#include "tests/unit/reported.h"
+#include "tests/unit/core/reported.h"
 
 namespace axisgate::rml1 {
 

@@ -18,7 +18,7 @@
 #include "tests/stress/bench.h"
 #include "tests/stress/caller.h"
 #include "tests/stress/readers.h"
-#include "tests/unit/metrics_page.h"
+#include "tests/unit/server/metrics_page.h"
 
 namespace axisgate::stress {
 namespace {
