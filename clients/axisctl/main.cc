@@ -3,7 +3,7 @@
 #include <iterator>
 
 #include "clients/axisctl/failure.h"
-#include "clients/axisctl/mill_verbs.h"
+#include "clients/axisctl/mill/mill_verbs.h"
 #include "clients/axisctl/options.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"

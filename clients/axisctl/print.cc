@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "clients/axisctl/condition_text.h"
-#include "clients/axisctl/mill_text.h"
+#include "clients/axisctl/mill/mill_text.h"
 
 namespace axisgate::axisctl {
 namespace {

@@ -1,5 +1,5 @@
 // Which files are read as jobs.
-#include "clients/axisctl/job_file.h"
+#include "clients/axisctl/mill/job_file.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // Places in a job as they are typed with --from.
-#include "clients/axisctl/job_places.h"
+#include "clients/axisctl/mill/job_places.h"
 
 #include <gtest/gtest.h>
 

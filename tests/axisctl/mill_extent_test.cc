@@ -2,7 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "clients/axisctl/mill_text.h"
+#include "clients/axisctl/mill/mill_text.h"
 #include "tests/axisctl/cut_out.h"
 
 namespace axisgate::axisctl {

@@ -1,5 +1,5 @@
 // What axisctl says about a mill's jobs. Sizes, times and ranges are typed by hand: of 30,000 bytes 12,300 are 41 %.
-#include "clients/axisctl/mill_text.h"
+#include "clients/axisctl/mill/mill_text.h"
 
 #include <gmock/gmock.h>
 #include <google/protobuf/util/time_util.h>

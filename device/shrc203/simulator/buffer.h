@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "device/shrc203/simulator/axis_set.h"
-#include "device/shrc203/simulator/motion_profile.h"
+#include "device/shrc203/simulator/motion/motion_profile.h"
 #include "device/shrc203/simulator/units.h"
 
 namespace axisgate::shrc203::simulator {

@@ -5,10 +5,10 @@
 #include <cctype>
 #include <utility>
 
-#include "device/shrc203/simulator/memory_switch_commands.h"
-#include "device/shrc203/simulator/program_commands.h"
+#include "device/shrc203/simulator/commands/memory_switch_commands.h"
+#include "device/shrc203/simulator/commands/program_commands.h"
+#include "device/shrc203/simulator/commands/questions.h"
 #include "device/shrc203/simulator/program_run.h"
-#include "device/shrc203/simulator/questions.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {

@@ -10,9 +10,9 @@
 
 #include "device/core/line_machine.h"
 #include "device/shrc203/simulator/boot.h"
+#include "device/shrc203/simulator/commands/setters.h"
 #include "device/shrc203/simulator/line_cutter.h"
 #include "device/shrc203/simulator/rig.h"
-#include "device/shrc203/simulator/setters.h"
 
 namespace axisgate::shrc203::simulator {
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include "device/shrc203/simulator/axis_set.h"
-#include "device/shrc203/simulator/setters.h"
+#include "device/shrc203/simulator/commands/setters.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {

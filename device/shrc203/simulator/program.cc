@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/simulator/reader.h"
+#include "device/shrc203/simulator/commands/reader.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {

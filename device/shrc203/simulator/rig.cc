@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/shrc203/simulator/memory_switch_commands.h"
+#include "device/shrc203/simulator/commands/memory_switch_commands.h"
 
 namespace axisgate::shrc203::simulator {
 

@@ -5,14 +5,14 @@
 #include <string>
 
 #include "device/core/time.h"
-#include "device/shrc203/simulator/axis.h"
 #include "device/shrc203/simulator/axis_set.h"
 #include "device/shrc203/simulator/memory_switches.h"
-#include "device/shrc203/simulator/motions.h"
+#include "device/shrc203/simulator/motion/axis.h"
+#include "device/shrc203/simulator/motion/motions.h"
+#include "device/shrc203/simulator/motion/triggers.h"
 #include "device/shrc203/simulator/options.h"
 #include "device/shrc203/simulator/program.h"
 #include "device/shrc203/simulator/saved_positions.h"
-#include "device/shrc203/simulator/triggers.h"
 
 namespace axisgate::shrc203::simulator {
 

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "device/shrc203/simulator/questions.h"
-#include "device/shrc203/simulator/setters.h"
+#include "device/shrc203/simulator/commands/questions.h"
+#include "device/shrc203/simulator/commands/setters.h"
 
 namespace axisgate::shrc203::simulator {
 namespace {

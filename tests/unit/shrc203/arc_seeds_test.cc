@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "device/shrc203/simulator/arcs.h"
+#include "device/shrc203/simulator/motion/arcs.h"
 #include "device/shrc203/stage.h"
 #include "device/stage/arc.h"
 #include "tests/simulation/random.h"

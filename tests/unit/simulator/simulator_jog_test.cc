@@ -1,7 +1,7 @@
 // How a simulated axis jogs (manual 88) J:), and what JD: changes while it does (manual 93)).
 #include <gtest/gtest.h>
 
-#include "device/shrc203/simulator/motion_profile.h"
+#include "device/shrc203/simulator/motion/motion_profile.h"
 #include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::shrc203::simulator::simulator_jog_test {

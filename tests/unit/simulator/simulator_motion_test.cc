@@ -1,7 +1,7 @@
 // How simulated axes move: profiles, ends, limits, origin, stops.
 #include <gtest/gtest.h>
 
-#include "device/shrc203/simulator/motion_profile.h"
+#include "device/shrc203/simulator/motion/motion_profile.h"
 #include "tests/unit/simulator/simulator_bench.h"
 
 namespace axisgate::shrc203::simulator::simulator_motion_test {

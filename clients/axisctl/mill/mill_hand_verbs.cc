@@ -1,0 +1,80 @@
+// mill jog, origin, spindle, raise: what a person does with a mill besides jobs.
+#include <fmt/format.h>
+
+#include <cctype>
+#include <charconv>
+#include <string>
+#include <string_view>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill/mill_calls.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+// "x=5", "Z=-0.5mm".
+void add_distance(std::string_view text, v1::JogStep& step) {
+  std::string_view number = text.size() > 2 ? text.substr(2) : "";
+  if (number.ends_with("mm")) number.remove_suffix(2);
+  if (number.starts_with('+')) number.remove_prefix(1);
+  double mm = 0;
+  const auto [end, error] = std::from_chars(number.data(), number.data() + number.size(), mm);
+  const bool whole = error == std::errc() && end == number.data() + number.size();
+  const char axis = text.size() > 2 && text[1] == '=' ? static_cast<char>(std::toupper(text[0])) : '?';
+  if (!whole || axis < 'X' || axis > 'Z') {
+    throw usage(fmt::format("\"{}\" is not an axis and a distance", text),
+                "name an axis and how many mm it moves, e.g. x=5 or z=-0.5");
+  }
+  if (axis == 'X') step.set_x_mm(mm);
+  if (axis == 'Y') step.set_y_mm(mm);
+  if (axis == 'Z') step.set_z_mm(mm);
+}
+
+int operate(const Session& session, v1::OperateMillRequest request, std::string_view sent) {
+  request.set_device(mill_to_change(session));
+  *request.mutable_context() = session.connection.new_call_context();
+  const v1::OperateMillResponse response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::OperateMill, request, kQuestionLimit);
+  if (session.options.json) {
+    print_json(response);
+    return kDone;
+  }
+  const double seconds = static_cast<double>(response.longest().seconds()) + response.longest().nanos() * 1e-9;
+  print_line(seconds == 0
+                 ? fmt::format("{} was sent", sent)
+                 : fmt::format("{} was sent; by its profile the mill has done it within {:.1f} s", sent, seconds));
+  return kDone;
+}
+
+}  // namespace
+
+int mill_jog(const Session& session) {
+  v1::OperateMillRequest request;
+  for (const std::string& text : session.options.job.distances) add_distance(text, *request.mutable_step());
+  if (session.options.job.mm_per_s) request.mutable_step()->set_mm_per_s(*session.options.job.mm_per_s);
+  return operate(session, request, "the step, unchecked because the tool's position is not known,");
+}
+
+int mill_origin(const Session& session) {
+  v1::OperateMillRequest request;
+  v1::SetSurface& surface = *request.mutable_surface();
+  surface.set_origin(session.options.job.origin);
+  if (session.options.job.z) surface.set_z(*session.options.job.z);
+  return operate(session, request, "Z0");
+}
+
+int mill_spindle(const Session& session) {
+  v1::OperateMillRequest request;
+  request.set_spindle(session.options.job.spindle == "on");
+  return operate(session, request, fmt::format("spindle {}", session.options.job.spindle));
+}
+
+int mill_raise(const Session& session) {
+  v1::OperateMillRequest request;
+  request.mutable_raise();
+  return operate(session, request, "spindle off and tool up");
+}
+
+}  // namespace axisgate::axisctl

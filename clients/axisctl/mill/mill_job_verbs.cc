@@ -1,0 +1,139 @@
+// mill queue, start, pause, resume, abort, cancel, clear, first, done: what is requested of a mill in one call.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill/job_follower.h"
+#include "clients/axisctl/mill/job_places.h"
+#include "clients/axisctl/mill/mill_calls.h"
+#include "clients/axisctl/mill/mill_text.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+template <class Request>
+Request mill_request(const Session& session) {
+  Request request;
+  request.set_device(mill_to_change(session));
+  *request.mutable_context() = session.connection.new_call_context();
+  return request;
+}
+
+// Of the job whose number was typed.
+template <class Request>
+Request job_request(const Session& session) {
+  Request request;
+  request.set_job(fmt::format("{}/jobs/{}", mill_to_change(session), session.options.job.number.value()));
+  *request.mutable_context() = session.connection.new_call_context();
+  return request;
+}
+
+int report_answer(const Session& session, const google::protobuf::Message& response, const std::string& text) {
+  session.options.json ? print_json(response) : print_line(text);
+  return kDone;
+}
+
+int choose_rest(const Session& session) {
+  auto request = job_request<v1::ContinueJobRequest>(session);
+  // Without a line the daemon's answer, a refusal, says where what was sent ends.
+  if (session.options.job.from) {
+    const rml1::Place from = job_place(*session.options.job.from);
+    request.set_line(static_cast<std::int64_t>(from.line));
+    request.set_column(static_cast<std::int64_t>(from.column));
+  }
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::ContinueJob, request, kStartLimit);
+  return report_answer(session, response, rest_text(response.job()));
+}
+
+}  // namespace
+
+int mill_queue(const Session& session) {
+  const v1::Mill mill = mill_now(session, chosen_mill(session));
+  if (session.options.json) {
+    print_json(mill);
+  } else {
+    for (const std::string& line : queue_lines(mill)) print_line(line);
+  }
+  return kDone;
+}
+
+int mill_start(const Session& session) {
+  const std::string job = wanted_job(session, mill_now(session, mill_to_change(session)));
+  return start_job(session, session.connection.new_call_context(), job);
+}
+
+int mill_watch(const Session& session) { return JobFollower(session, "").follow(); }
+
+int mill_pause(const Session& session) {
+  auto request = mill_request<v1::PauseJobRequest>(session);
+  request.set_raise(session.options.job.raise);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::PauseJob, request, kQuestionLimit);
+  return report_answer(session, response, paused_text(response.running()));
+}
+
+int mill_resume(const Session& session) {
+  if (session.options.job.number) return choose_rest(session);
+  const auto request = mill_request<v1::ResumeJobRequest>(session);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::ResumeJob, request, kQuestionLimit);
+  return report_answer(session, response,
+                       fmt::format("job {} is resumed; {}", last_part(response.running().job()),
+                                   run_on_text(response.running().run_on())));
+}
+
+// Nothing holds it up: where the mill is named, no other call is made before.
+int mill_abort(const Session& session) {
+  v1::AbortJobRequest request;
+  *request.mutable_context() = new_stop_context();
+  request.set_device(chosen_mill(session));
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::AbortJob, request, kStopLimit);
+  return report_answer(session, response, aborted_text(response));
+}
+
+int mill_cancel(const Session& session) {
+  const auto request = job_request<v1::CancelJobRequest>(session);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJob, request, kQuestionLimit);
+  return report_answer(session, response, fmt::format("job {} is CANCELLED", last_part(request.job())));
+}
+
+int mill_clear(const Session& session) {
+  auto request = mill_request<v1::CancelJobsRequest>(session);
+  request.set_who(session.options.who);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::CancelJobs, request, kQuestionLimit);
+  std::vector<std::string> numbers;
+  for (const std::string& job : response.jobs()) numbers.emplace_back(last_part(job));
+  const bool one = numbers.size() == 1;
+  return report_answer(session, response,
+                       fmt::format("{} {} of {} {} CANCELLED", one ? "job" : "jobs", fmt::join(numbers, ", "),
+                                   on_one_line(request.who()), one ? "is" : "are"));
+}
+
+int mill_first(const Session& session) {
+  const auto request = job_request<v1::MoveJobRequest>(session);
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::MoveJob, request, kQuestionLimit);
+  return report_answer(session, response,
+                       fmt::format("{} is as far forward as you may move it; `axisctl mill queue` shows the order",
+                                   job_text(response.job())));
+}
+
+int mill_done(const Session& session) {
+  v1::ReportJobDoneRequest request;
+  request.set_job(fed_job(session, mill_now(session, mill_to_change(session))));
+  *request.mutable_context() = session.connection.new_call_context();
+  const auto response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::ReportJobDone, request, kQuestionLimit);
+  return report_answer(session, response, fmt::format("job {} is DONE", last_part(request.job())));
+}
+
+}  // namespace axisgate::axisctl

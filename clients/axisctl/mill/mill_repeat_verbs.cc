@@ -1,0 +1,57 @@
+// mill again, and mill send --rest-of: an ended job, or what is left of it, as a new job.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/mill/job_places.h"
+#include "clients/axisctl/mill/mill_calls.h"
+#include "clients/axisctl/mill/mill_text.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+v1::RepeatJobRequest repeat_request(const Session& session, std::uint64_t number) {
+  v1::RepeatJobRequest request;
+  request.set_job(fmt::format("{}/jobs/{}", mill_to_change(session), number));
+  *request.mutable_context() = session.connection.new_call_context();
+  for (const std::string& name : session.options.job.accepted) request.add_accepted_warnings(name);
+  return request;
+}
+
+int repeat(const Session& session, const v1::RepeatJobRequest& request) {
+  const v1::RepeatJobResponse response =
+      session.connection.call(session.connection.mills, &v1::MillService::Stub::RepeatJob, request, kStartLimit);
+  session.options.json ? print_json(response) : print_line(state_text(response.job()));
+  return kDone;
+}
+
+}  // namespace
+
+int mill_again(const Session& session) {
+  return repeat(session, repeat_request(session, session.options.job.number.value()));
+}
+
+int mill_send_rest(const Session& session) {
+  const JobOptions& job = session.options.job;
+  const bool is_as_before = job.files.empty() && job.tools.empty() && job.origin.empty() && job.title.empty() &&
+                            job.streaming.empty() && job.made_for.empty() && !job.stock && !job.continues;
+  if (!is_as_before) {
+    throw usage("the rest of a job has the file, the tools, the origin and all else of that job",
+                "name only --from, and --accept, beside --rest-of");
+  }
+  v1::RepeatJobRequest request = repeat_request(session, *job.rest_of);
+  request.set_rest(true);
+  // The daemon refuses a rest without a line, and says where what was executed ends.
+  if (job.from) {
+    const rml1::Place from = job_place(*job.from);
+    request.set_line(static_cast<std::int64_t>(from.line));
+    request.set_column(static_cast<std::int64_t>(from.column));
+  }
+  return repeat(session, request);
+}
+
+}  // namespace axisgate::axisctl

@@ -1,0 +1,96 @@
+// mill send: reads the files of a job whole, so that it can be sent again, and sends it into the queue of a mill.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/lengths.h"
+#include "clients/axisctl/mill/job_file.h"
+#include "clients/axisctl/mill/mill_calls.h"
+#include "clients/axisctl/mill/mill_text.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/verbs.h"
+#include "device/core/escape.h"
+#include "server/spool/job_name.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+std::string title_from_files(const std::vector<std::string>& files) {
+  const std::string& first = files.front();
+  const std::string title = first == "-" ? "standard input" : std::filesystem::path(first).filename().string();
+  return files.size() == 1 ? title : fmt::format("{} and {} more", title, files.size() - 1);
+}
+
+// Refuses what the daemon would refuse: only here is it known that the title comes from the name of a file.
+std::string title_of(const JobOptions& job) {
+  if (!job.title.empty()) return job.title;
+  const std::string title = title_from_files(job.files);
+  const auto name = server::spool::job_name(title);
+  if (name) return *name;
+  throw usage(fmt::format("\"{}\": {}", escaped(title), name.error().message), "give the job a title: --title TEXT");
+}
+
+void check_tools(const JobOptions& job) {
+  if (job.tools.size() == job.files.size() || (job.tools.empty() && job.files.size() == 1)) return;
+  throw usage(fmt::format("--tool has {} names for a job of {} files", job.tools.size(), job.files.size()),
+              "name one tool for each file: --tool T1,T3");
+}
+
+// Without --tool the first one that the mill has; empty where it has none.
+std::string tool_of(const JobOptions& job, const v1::Mill& mill) {
+  if (!job.tools.empty()) return job.tools.front();
+  return mill.tools().empty() ? "" : mill.tools(0);
+}
+
+void set_stock(const std::string& text, v1::Stock& into) {
+  const rml1::Stock stock = stock_of(text);
+  into.set_x_mm(stock.x);
+  into.set_y_mm(stock.y);
+  into.set_z_mm(stock.z);
+}
+
+}  // namespace
+
+int mill_send(const Session& session) {
+  const JobOptions& job = session.options.job;
+  if (job.rest_of) return mill_send_rest(session);
+  if (job.files.empty()) throw usage("FILE is required", "name the file of a job, or --rest-of an ended one");
+  check_tools(job);
+  for (const std::string& file : job.files) check_job_file(file);
+  const std::string device = mill_to_change(session);
+  const v1::Mill mill = mill_now(session, device);
+  std::vector<v1::SendJobRequest> messages(1);
+  v1::SendJobRequest header;
+  for (std::size_t i = 0; i < job.files.size(); ++i) {
+    // Each piece is a message of its own.
+    const std::int64_t bytes = read_job_file(job.files[i], mill.job_bytes_at_most(), [&](std::string_view piece) {
+      messages.emplace_back().set_data(piece.data(), piece.size());
+    });
+    if (job.files.size() == 1) break;
+    header.add_parts()->set_tool(job.tools[i]);
+    header.mutable_parts()->rbegin()->set_bytes(bytes);
+  }
+  header.set_device(device);
+  *header.mutable_context() = session.connection.new_call_context();
+  header.set_title(title_of(job));
+  header.set_origin(job.origin);
+  if (job.stock) set_stock(*job.stock, *header.mutable_stock());
+  header.set_made_for(job.made_for);
+  if (job.continues) header.set_continues(fmt::format("{}/jobs/{}", device, *job.continues));
+  if (!job.streaming.empty()) header.set_streaming(job.streaming == "full" ? v1::STREAMING_FULL : v1::STREAMING_PACED);
+  if (header.parts().empty()) header.set_tool(tool_of(job, mill));
+  for (const std::string& name : job.accepted) header.add_accepted_warnings(name);
+  messages.front() = header;
+  const v1::SendJobResponse response = session.connection.upload(
+      session.connection.mills, &v1::MillService::Stub::PrepareAsyncSendJob, std::move(messages));
+  session.options.json ? print_json(response) : print_line(state_text(response.job()));
+  return kDone;
+}
+
+}  // namespace axisgate::axisctl

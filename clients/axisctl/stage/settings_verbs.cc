@@ -1,0 +1,192 @@
+// settings, speed, motor, loop, divisions, settle, sleep, wake, display, beep, mode, dialect, reset: what the
+// controller is set to.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/stage/setting_calls.h"
+#include "clients/axisctl/verbs.h"
+#include "device/core/quantity.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+bool switched_on(const Session& session) { return session.options.value == "on"; }
+
+std::string label_of(const v1::Device& device, int axis) { return axis_label(find_axis(device, std::to_string(axis))); }
+
+std::string profile_text(const v1::Profile& profile) {
+  const std::string time = profile.acceleration_ms() == 0 ? "?" : fmt::format("{} ms", profile.acceleration_ms());
+  return fmt::format("minimum {}, maximum {}, acceleration {}", speed_text(profile.minimum()),
+                     speed_text(profile.maximum()), time);
+}
+
+void print_axis(const v1::Device& device, const v1::AxisSettings& axis) {
+  const auto print = [name = label_of(device, axis.axis())](std::string_view item, std::string_view value) {
+    print_line(fmt::format("{}  {}  {}", name, item, value));
+  };
+  print("motor", !axis.has_excited() ? "?" : axis.excited() ? "on" : "off");
+  print("loop", !axis.has_closed_loop() ? "?" : axis.closed_loop() ? "closed" : "open");
+  print("speed", profile_text(axis.speeds()));
+  print("speed of the origin return", profile_text(axis.origin_speeds()));
+  print("divisions", axis.has_divisions() ? std::to_string(axis.divisions()) : "?");
+  print("name on the device", axis.name_on_device().empty() ? "?" : axis.name_on_device());
+  print("scale resolution", axis.scale_resolution().empty() ? "?" : axis.scale_resolution() + " nm");
+}
+
+std::string settling_text(const v1::Settings& settings) {
+  if (!settings.has_settling()) return "?";
+  constexpr std::int64_t nanoseconds_per_tenth = 100'000'000;
+  const std::int64_t tenths = settings.settling().seconds() * 10 + settings.settling().nanos() / nanoseconds_per_tenth;
+  return to_string(Decimal{tenths, 1}) + " s";
+}
+
+void print_settings(const v1::Device& device, const v1::Settings& settings) {
+  const auto print = [](std::string_view item, std::string_view value) {
+    print_line(fmt::format("{}  {}", item, value));
+  };
+  const auto on_or_off = [](bool known, bool on) { return !known ? "?" : on ? "on" : "off"; };
+  for (const v1::AxisSettings& axis : settings.axes()) print_axis(device, axis);
+  print("settling", settling_text(settings));
+  print("sleep", on_or_off(settings.has_sleeping(), settings.sleeping()));
+  print("display", on_or_off(settings.has_display_lit(), settings.display_lit()));
+  print("beep", on_or_off(settings.has_beep(), settings.beep()));
+  print("outputs", settings.has_outputs() ? pins_text(settings.outputs(), "OUT") : "?");
+  print("inputs", settings.has_inputs() ? pins_text(settings.inputs(), "IN") : "?");
+  print("trigger", settings.has_trigger() ? trigger_text(settings.trigger()) : "?");
+  print("mode", settings.has_mode() ? settings.mode() : "?");
+  print("dialect", settings.has_format() ? settings.format() : "?");
+}
+
+int show_speeds(const Session& session, const v1::Device& device) {
+  const v1::Settings settings = settings_of(session, device);
+  for (const int wanted : chosen_axes(session, device)) {
+    for (const v1::AxisSettings& axis : settings.axes()) {
+      if (axis.axis() != wanted) continue;
+      const v1::Profile& profile = session.options.origin_return ? axis.origin_speeds() : axis.speeds();
+      if (session.options.json) {
+        print_json(axis);
+      } else {
+        print_line(fmt::format("{}  {}", label_of(device, wanted), profile_text(profile)));
+      }
+    }
+  }
+  return kDone;
+}
+
+v1::Profile wanted_profile(const Options& options, const v1::Axis& axis) {
+  v1::Profile profile;
+  if (!options.minimum.empty()) *profile.mutable_minimum() = parse_speed_for(axis, options.minimum);
+  if (!options.maximum.empty()) *profile.mutable_maximum() = parse_speed_for(axis, options.maximum);
+  profile.set_acceleration_ms(options.acceleration_ms);
+  return profile;
+}
+
+// What `set` sets, for every axis that was named.
+template <class Set>
+int change_axes(const Session& session, Set set) {
+  const v1::Device device = chosen_device(session);
+  v1::Settings wanted;
+  for (const int number : chosen_axes(session, device)) {
+    v1::AxisSettings& axis = *wanted.add_axes();
+    axis.set_axis(number);
+    set(axis, find_axis(device, std::to_string(number)));
+  }
+  return change_settings(session, device, wanted);
+}
+
+template <class Set>
+int change_controller(const Session& session, Set set) {
+  v1::Settings wanted;
+  set(wanted);
+  return change_settings(session, chosen_device(session), wanted);
+}
+
+std::int64_t settling_tenths(const std::string& text) {
+  constexpr std::int64_t most = 2550;  // 255 s (manual 56))
+  if (const std::optional<std::int64_t> tenths = parse_steps(text, 1, most)) return *tenths;
+  throw usage(fmt::format("\"{}\" is not 0 to 255 s in steps of 0.1 s", text), "e.g. `axisctl settle 0.1`");
+}
+
+}  // namespace
+
+int show_settings(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  const v1::Settings settings = settings_of(session, device);
+  session.options.json ? print_json(settings) : print_settings(device, settings);
+  return kDone;
+}
+
+int speeds(const Session& session) {
+  const Options& options = session.options;
+  if (options.minimum.empty() && options.maximum.empty() && options.acceleration_ms == 0) {
+    return show_speeds(session, chosen_device(session));
+  }
+  return change_axes(session, [&](v1::AxisSettings& wanted, const v1::Axis& axis) {
+    *(options.origin_return ? wanted.mutable_origin_speeds() : wanted.mutable_speeds()) = wanted_profile(options, axis);
+  });
+}
+
+int switch_motor(const Session& session) {
+  return change_axes(session,
+                     [&](v1::AxisSettings& wanted, const v1::Axis&) { wanted.set_excited(switched_on(session)); });
+}
+
+int change_loop(const Session& session) {
+  return change_axes(session, [&](v1::AxisSettings& wanted, const v1::Axis&) {
+    wanted.set_closed_loop(session.options.value == "closed");
+  });
+}
+
+int change_divisions(const Session& session) {
+  return change_axes(
+      session, [&](v1::AxisSettings& wanted, const v1::Axis&) { wanted.set_divisions(session.options.divisions); });
+}
+
+int change_settling(const Session& session) {
+  const std::int64_t tenths = settling_tenths(session.options.value);
+  return change_controller(session, [&](v1::Settings& wanted) {
+    wanted.mutable_settling()->set_seconds(tenths / 10);
+    wanted.mutable_settling()->set_nanos(static_cast<std::int32_t>(tenths % 10) * 100'000'000);
+  });
+}
+
+int sleep_controller(const Session& session) {
+  return change_controller(session, [](v1::Settings& wanted) { wanted.set_sleeping(true); });
+}
+
+int wake_controller(const Session& session) {
+  return change_controller(session, [](v1::Settings& wanted) { wanted.set_sleeping(false); });
+}
+
+int switch_display(const Session& session) {
+  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_display_lit(switched_on(session)); });
+}
+
+int switch_beep(const Session& session) {
+  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_beep(switched_on(session)); });
+}
+
+int change_mode(const Session& session) {
+  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_mode(session.options.value); });
+}
+
+int change_dialect(const Session& session) {
+  return change_controller(session, [&](v1::Settings& wanted) { wanted.set_format(session.options.value); });
+}
+
+int reset_controller(const Session& session) {
+  v1::ResetDeviceRequest request;
+  *request.mutable_context() = session.connection.new_call_context();
+  request.set_device(chosen_device(session).name());
+  return report_done(session, session.connection.call(session.connection.settings,
+                                                      &v1::SettingService::Stub::ResetDevice, request, kSettingLimit));
+}
+
+}  // namespace axisgate::axisctl

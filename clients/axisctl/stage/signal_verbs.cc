@@ -1,0 +1,152 @@
+// outputs, inputs and trigger: what comes in and goes out beside the line.
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "clients/axisctl/failure.h"
+#include "clients/axisctl/parse.h"
+#include "clients/axisctl/print.h"
+#include "clients/axisctl/stage/setting_calls.h"
+#include "clients/axisctl/verbs.h"
+#include "device/core/quantity.h"
+
+namespace axisgate::axisctl {
+namespace {
+
+int switched(int now, const Options& options) {
+  for (const int output : options.outputs) {
+    const int bit = 1 << (output - 1);
+    now = options.value == "on" ? now | bit : now & ~bit;
+  }
+  return now;
+}
+
+void check_outputs(const Options& options) {
+  const bool none = options.value == "none";
+  if (none == options.outputs.empty()) return;
+  throw none ? usage("`outputs none` switches all of them off, and takes no numbers", "e.g. `axisctl outputs off 1 3`")
+             : usage(fmt::format("which outputs are to be {}?", options.value),
+                     fmt::format("e.g. `axisctl outputs {} 1 3`", options.value));
+}
+
+int show_outputs(const Session& session, const v1::Settings& settings) {
+  if (session.options.json) {
+    v1::Settings shown;
+    if (settings.has_outputs()) shown.set_outputs(settings.outputs());
+    print_json(shown);
+  } else {
+    print_line(settings.has_outputs() ? pins_text(settings.outputs(), "OUT") : "?");
+  }
+  return kDone;
+}
+
+Failure no_interval(std::string_view text) {
+  return usage(fmt::format("\"{}\" is not an interval", text),
+               "2 to 30000 pulses of an axis, e.g. `1000 --axis 1`, or 0.01s to 100s, e.g. `0.2s`");
+}
+
+// "0.2s", not "20pulses".
+bool is_time(std::string_view text) {
+  return text.ends_with('s') && text.find_first_not_of("+-.0123456789") == text.size() - 1;
+}
+
+// In hundredths of a second.
+std::int64_t timer_interval(std::string_view text) {
+  constexpr std::int64_t most = 10'000;
+  const std::optional<std::int64_t> hundredths = parse_steps(text.substr(0, text.size() - 1), 2, most);
+  if (!hundredths || *hundredths == 0) throw no_interval(text);
+  return *hundredths;
+}
+
+std::int64_t pulse_interval(std::string_view text) {
+  constexpr std::int64_t least = 2, most = 30'000;
+  const Result<Quantity> pulses = parse_quantity(text, Unit::pulses);
+  if (!pulses || pulses->unit != Unit::pulses || pulses->value.decimals != 0) throw no_interval(text);
+  if (pulses->value.digits < least || pulses->value.digits > most) throw no_interval(text);
+  return pulses->value.digits;
+}
+
+v1::Trigger timer(const Options& options) {
+  if (!options.axis.empty()) {
+    throw usage(fmt::format("{} is a time, and the timer has no axis", options.interval),
+                "leave out --axis, or give a number of pulses, e.g. `1000 --axis 1`");
+  }
+  v1::Trigger trigger;
+  trigger.set_target(v1::Trigger::TARGET_TIMER);
+  trigger.set_interval(timer_interval(options.interval));
+  return trigger;
+}
+
+v1::Trigger wanted_trigger(const Options& options, const v1::Device& device) {
+  if (is_time(options.interval)) return timer(options);
+  v1::Trigger trigger;
+  trigger.set_interval(pulse_interval(options.interval));
+  if (options.axis.empty()) {
+    throw usage(fmt::format("an interval of {} pulses needs an axis", trigger.interval()),
+                fmt::format("e.g. `{} --axis 1`; a time has a unit, e.g. `0.2s`", options.interval));
+  }
+  trigger.set_axis(find_axis(device, options.axis).number());
+  trigger.set_target(options.scale.empty()  ? v1::Trigger::TARGET_DRIVE_PULSES
+                     : options.scale == "+" ? v1::Trigger::TARGET_SCALE_PLUS
+                                            : v1::Trigger::TARGET_SCALE_MINUS);
+  return trigger;
+}
+
+}  // namespace
+
+int outputs(const Session& session) {
+  const Options& options = session.options;
+  if (!options.value.empty()) check_outputs(options);
+  const v1::Device device = chosen_device(session);
+  v1::Settings wanted;
+  wanted.set_outputs(0);
+  if (options.value == "none") return change_settings(session, device, wanted);
+  // The daemon follows what is set, so that nothing has to be asked while something moves.
+  v1::Settings settings;
+  if (device.has_outputs()) settings.set_outputs(device.outputs());
+  if (options.value.empty()) return show_outputs(session, settings);
+  if (!settings.has_outputs()) {
+    throw Failure{kRefused, "INVALID_REQUEST", "the state of the other outputs is unknown",
+                  "try again, or begin with `axisctl outputs none`"};
+  }
+  wanted.set_outputs(switched(settings.outputs(), options));
+  return change_settings(session, device, wanted);
+}
+
+int inputs(const Session& session) {
+  const v1::Settings settings = settings_of(session, chosen_device(session));
+  if (session.options.json) {
+    v1::Settings shown;
+    if (settings.has_inputs()) shown.set_inputs(settings.inputs());
+    print_json(shown);
+  } else {
+    print_line(settings.has_inputs() ? pins_text(settings.inputs(), "IN") : "?");
+  }
+  return kDone;
+}
+
+int trigger_every(const Session& session) {
+  const v1::Device device = chosen_device(session);
+  v1::Settings wanted;
+  *wanted.mutable_trigger() = wanted_trigger(session.options, device);
+  return change_settings(session, device, wanted);
+}
+
+int trigger_off(const Session& session) {
+  v1::Settings wanted;
+  wanted.mutable_trigger()->set_target(v1::Trigger::TARGET_NONE);
+  return change_settings(session, chosen_device(session), wanted);
+}
+
+int trigger_fire(const Session& session) {
+  v1::FireTriggerRequest request;
+  *request.mutable_context() = session.connection.new_call_context();
+  request.set_device(chosen_device(session).name());
+  return report_done(session, session.connection.call(session.connection.settings,
+                                                      &v1::SettingService::Stub::FireTrigger, request, kSettingLimit));
+}
+
+}  // namespace axisgate::axisctl
