@@ -3,8 +3,8 @@
 
 #include <string>
 
-#include "device/rml1/point.h"
-#include "device/rml1/stock.h"
+#include "device/rml1/check/stock.h"
+#include "device/rml1/machine/point.h"
 
 namespace axisgate::axisctl {
 

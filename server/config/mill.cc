@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "device/config/config_file.h"
-#include "device/rml1/profile_files.h"
+#include "device/rml1/machine/profile_files.h"
 #include "device/rml1/simulator/options.h"
 #include "server/config/caller.h"
 #include "server/config/name.h"

@@ -1,5 +1,5 @@
 // Whose long task is the next.
-#include "server/api/fair_worker.h"
+#include "server/api/request/fair_worker.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

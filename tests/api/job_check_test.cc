@@ -1,5 +1,5 @@
 // What of a job is refused while its bytes come.
-#include "server/api/job_check.h"
+#include "server/api/mill/job_check.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "tests/paths/paths.h"
 
 namespace axisgate::api {

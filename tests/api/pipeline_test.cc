@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "server/api/names.h"
+#include "server/api/request/names.h"
 #include "tests/api/ask.h"
 
 namespace axisgate::api {

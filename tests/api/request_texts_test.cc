@@ -1,9 +1,9 @@
 // Requests as the log shows them.
-#include "server/api/request_texts.h"
+#include "server/api/request/request_texts.h"
 
 #include <gtest/gtest.h>
 
-#include "server/api/audit.h"
+#include "server/api/request/audit.h"
 #include "tests/api/log.h"
 #include "tests/api/world.h"
 

@@ -1,5 +1,5 @@
 // How many streams there may be, of whom, and how the daemon ends them.
-#include "server/api/streams.h"
+#include "server/api/request/streams.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

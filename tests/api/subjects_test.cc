@@ -1,9 +1,9 @@
 // Commands, settings, saved positions, tokens, and what stands in the log.
 #include <gtest/gtest.h>
 
-#include "server/api/audit.h"
-#include "server/api/position_checks.h"
-#include "server/api/setting_lines.h"
+#include "server/api/request/audit.h"
+#include "server/api/stage/position_checks.h"
+#include "server/api/stage/setting_lines.h"
 #include "tests/api/ask.h"
 #include "tests/api/log.h"
 

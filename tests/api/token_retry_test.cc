@@ -1,5 +1,5 @@
 // A revocation that could not be written: it holds at once, and is tried again until it is on disk.
-#include "server/api/token_retry.h"
+#include "server/api/sharing/token_retry.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

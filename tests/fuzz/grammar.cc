@@ -5,7 +5,7 @@
 #include <random>
 #include <string_view>
 
-#include "device/rml1/instruction_table.h"
+#include "device/rml1/language/instruction_table.h"
 
 namespace axisgate::rml1 {
 namespace {

@@ -5,7 +5,7 @@
 #include <tuple>
 #include <vector>
 
-#include "device/rml1/parser.h"
+#include "device/rml1/language/parser.h"
 #include "tests/fuzz/mutator.h"
 #include "tests/fuzz/require.h"
 

@@ -9,7 +9,7 @@
 #include <string>
 #include <string_view>
 
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 #include "tests/rml1/bad_line.h"
 
 namespace axisgate::rml1 {

@@ -8,9 +8,9 @@
 #include <utility>
 #include <variant>
 
-#include "server/api/paths.h"
-#include "server/rpc/targets.h"
-#include "server/rpc/to_proto.h"
+#include "server/api/stage/paths.h"
+#include "server/proto/targets.h"
+#include "server/proto/to_proto.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "axisgate/v1/stage.pb.h"
-#include "server/rpc/digest.h"
+#include "server/proto/digest.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "server/connections/callers.h"
-#include "server/rpc/method_kinds.h"
+#include "server/rpc/gate/method_kinds.h"
 #include "server/rpc/services.h"
 #include "tests/integration/rpc_fixture.h"
 

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "axisgate/v1/common.pb.h"
-#include "server/rpc/status.h"
+#include "server/rpc/calls/status.h"
 
 namespace axisgate::rpc {
 namespace {

@@ -8,8 +8,8 @@
 #include <iterator>
 #include <random>
 
-#include "device/rml1/check.h"
-#include "device/rml1/profile_files.h"
+#include "device/rml1/check/check.h"
+#include "device/rml1/machine/profile_files.h"
 #include "device/rml1/sending/timeline.h"
 #include "tests/paths/paths.h"
 #include "tests/rml1/courses.h"

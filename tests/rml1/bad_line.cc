@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "device/rml1/quoted.h"
+#include "device/rml1/language/quoted.h"
 #include "device/rml1/sending/words.h"
 #include "tests/rml1/mill.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/machine.h"
+#include "device/rml1/machine/machine.h"
 #include "device/rml1/simulator/options.h"
 #include "device/rml1/simulator/route.h"
 

@@ -1,4 +1,4 @@
-#include "device/rml1/diagnostic.h"
+#include "device/rml1/language/diagnostic.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "device/rml1/characters.h"
+#include "device/rml1/language/characters.h"
 #include "tests/rml1/mill.h"
 #include "tests/rml1/paragraphs.h"
 

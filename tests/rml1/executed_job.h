@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "tests/rml1/courses.h"
 
 namespace axisgate::rml1 {

@@ -14,8 +14,8 @@
 #include <string>
 #include <vector>
 
+#include "device/rml1/machine/profile_files.h"
 #include "device/rml1/mill/prepared_job.h"
-#include "device/rml1/profile_files.h"
 #include "tests/paths/paths.h"
 #include "tests/rml1/fed_mill.h"
 #include "tests/rml1/sender_line.h"

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "device/core/time.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/mill/mill_controller.h"
-#include "device/rml1/profile.h"
 #include "device/rml1/simulator/options.h"
 #include "tests/rml1/abort_bench.h"
 

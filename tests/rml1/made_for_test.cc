@@ -8,8 +8,8 @@
 #include <iterator>
 #include <sstream>
 
-#include "device/rml1/check.h"
-#include "device/rml1/profile_files.h"
+#include "device/rml1/check/check.h"
+#include "device/rml1/machine/profile_files.h"
 #include "tests/paths/paths.h"
 
 namespace axisgate::rml1 {

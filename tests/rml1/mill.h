@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/machine.h"
+#include "device/rml1/machine/machine.h"
 #include "device/rml1/sending/timeline.h"
 
 namespace axisgate::rml1 {

@@ -1,5 +1,5 @@
 // One parameter (guideline 2-3, 2-5).
-#include "device/rml1/number_reader.h"
+#include "device/rml1/language/number_reader.h"
 
 #include <gtest/gtest.h>
 

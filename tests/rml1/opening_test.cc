@@ -1,5 +1,5 @@
 // What a file is, by its first bytes: a job, or one line that says what else.
-#include "device/rml1/opening.h"
+#include "device/rml1/check/opening.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/check.h"
+#include "device/rml1/check/check.h"
 #include "tests/rml1/mill.h"
 
 namespace axisgate::rml1 {

@@ -1,5 +1,5 @@
 // A machine as its file describes it: each key, and what is wrong with it at which line.
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>

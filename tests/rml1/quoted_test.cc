@@ -1,5 +1,5 @@
 // Errors show the bytes that they are about.
-#include "device/rml1/quoted.h"
+#include "device/rml1/language/quoted.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

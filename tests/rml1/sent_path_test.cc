@@ -8,9 +8,9 @@
 #include <random>
 #include <set>
 
-#include "device/rml1/check.h"
+#include "device/rml1/check/check.h"
+#include "device/rml1/machine/profile_files.h"
 #include "device/rml1/mill/prepared_job.h"
-#include "device/rml1/profile_files.h"
 #include "tests/paths/paths.h"
 #include "tests/rml1/courses.h"
 #include "tests/rml1/mill.h"

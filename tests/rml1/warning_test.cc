@@ -1,5 +1,5 @@
 // The names by which people accept warnings.
-#include "device/rml1/warning.h"
+#include "device/rml1/language/warning.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // What a job demands of the tool. A step of the test mill is 0.01 mm.
-#include "device/rml1/workload.h"
+#include "device/rml1/check/workload.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

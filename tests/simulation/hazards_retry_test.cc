@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "server/api/motion_watch.h"
+#include "server/api/request/motion_watch.h"
 #include "tests/simulation/daemon.h"
 #include "tests/simulation/scenario.h"
 

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <functional>
 
-#include "server/api/motion_watch.h"
-#include "server/api/pipeline.h"
+#include "server/api/request/motion_watch.h"
+#include "server/api/request/pipeline.h"
 #include "server/journal/answers.h"
 
 namespace axisgate::simulation {
@@ -257,7 +257,7 @@ void Retries::begin(const MessagePtr& message, const std::shared_ptr<Mutation>& 
   asking_ = nullptr;
 }
 
-// As Execution::remember() in server/api/commands.cc.
+// As Execution::remember() in server/api/stage/commands.cc.
 void Retries::execute(const MessagePtr& message, const std::shared_ptr<Mutation>& mutation) {
   const auto& [axis, way] = message->wanted.ways.front();
   ExecuteRequest request{
@@ -274,7 +274,7 @@ void Retries::execute(const MessagePtr& message, const std::shared_ptr<Mutation>
   });
 }
 
-// As repeat_motion() in server/api/repeats.cc, and Execution::repeat().
+// As repeat_motion() in server/api/request/repeats.cc, and Execution::repeat().
 void Retries::repeat(const MessagePtr& message, const Result<Known>& known) {
   if (!known) return count(known.error());
   ++counts_.repeated;

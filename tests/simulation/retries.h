@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "server/api/request_kinds.h"
+#include "server/api/request/request_kinds.h"
 #include "tests/simulation/daemon.h"
 #include "tests/simulation/world.h"
 

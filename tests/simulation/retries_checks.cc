@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "device/shrc203/command/axes.h"
-#include "server/api/mutations.h"
+#include "server/api/request/mutations.h"
 #include "server/journal/answers.h"
 #include "tests/simulation/retries.h"
 

@@ -14,8 +14,8 @@ _DAEMON = "server/axisgated.cc"  # its main(): joins the services to the gateway
 _SIMULATOR = "device/shrc203/simulator/"
 _MILL_SIMULATOR = "device/rml1/simulator/"
 # Of the gateway's side the simulated mill knows the figures of machines alone.
-_MILL_DATA = ("device/rml1/profile.h", "device/rml1/profile_files.h", "device/rml1/known_machine.h",
-              "device/rml1/dialect.h")
+_MILL_DATA = ("device/rml1/machine/profile.h", "device/rml1/machine/profile_files.h",
+              "device/rml1/machine/known_machine.h", "device/rml1/language/dialect.h")
 _GATEWAY_PARSERS = ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h")
 # Lowest first. Folders on one floor are siblings and may not include each other. A floor below a floor is a room within
 # a folder; the files directly in a folder lie on the floor given for it.
@@ -25,7 +25,7 @@ _FLOORS = {
     "server/access": (2, 0), "server/events": (2, 0), "server/config": (2, 1), "server/journal": (2, 1), "server/connections": (2, 2),
     "server/spool": (2, 2),
     "server/metrics": (2, 3), "server/recording": (2, 4), "server/devices": (2, 5), "server/*": (2, 6),
-    "server": (3,), "server/api": (4,), "server/rpc": (5,), "clients": (6,), "tests": (7,),
+    "server": (3,), "server/api": (4,), "server/proto": (5,), "server/rpc": (6,), "clients": (7,), "tests": (8,),
 }
 # The rooms of a controller: what each is for stands in device/shrc203/README.md.
 _CONTROLLER = "device/shrc203/"
@@ -139,8 +139,11 @@ def _check_target(file, number, target):
         yield file.finding(number, "kinds", f"{target} is of one kind of device",
                            f"use device/stage; only {_KINDS} names the kinds")
     if _is_grpc(target) and _must_not_know_grpc(file.path):
-        yield file.finding(number, "no-grpc", f"<{target}> is gRPC or protobuf",
-                           "convert in server/rpc and pass a plain type")
+        yield file.finding(number, "no-grpc", f"<{target}> is gRPC",
+                           "call it in server/rpc and pass a plain type")
+    if _is_protobuf(target) and _must_not_know_protobuf(file.path):
+        yield file.finding(number, "no-grpc", f"<{target}> is protobuf",
+                           "convert in server/proto and pass a plain type")
     if re.match(r"boost/asio\b", target) and not file.path.startswith(_ASIO_FOLDERS):
         yield file.finding(number, "asio-in-link", f"<{target}> is Boost.Asio",
                            "put input and output behind device/link")
@@ -153,7 +156,7 @@ def _is_of_the_check(path):
 # The one file that names the kinds of device. Mills are all of one kind, so their part of the server uses it as it is.
 _KINDS = "server/kinds.cc"
 _OF_MILLS = ("server/api/", "server/config/", "server/devices/", "server/events/", "server/journal/", "server/metrics/",
-             "server/rpc/")
+             "server/proto/", "server/rpc/")
 
 
 def _names_a_kind(path, target):
@@ -164,13 +167,21 @@ def _names_a_kind(path, target):
 
 
 def _is_grpc(target):
-    return bool(re.match(r"grpc|google/protobuf/", target)) or target.endswith(".pb.h")
+    return target.startswith("grpc") or target.endswith(".grpc.pb.h")
+
+
+def _is_protobuf(target):
+    return target.startswith("google/protobuf/") or target.endswith(".pb.h")
 
 
 def _must_not_know_grpc(path):
     if path.startswith("device/"):
         return True
     return path.startswith("server/") and not path.startswith("server/rpc/") and path != _DAEMON
+
+
+def _must_not_know_protobuf(path):
+    return _must_not_know_grpc(path) and not path.startswith("server/proto/")
 
 
 def _check_clock(file):

@@ -167,18 +167,18 @@ class SimulatorApart(Tree):
         self.assert_include("device/shrc203/a.cc", "device/shrc203/simulator/options.h", "simulator-apart")
 
     def test_the_simulated_mill_and_the_check_do_not_know_each_other(self):
-        for target in ("device/rml1/parser.h", "device/rml1/machine.h", "device/rml1/clip.h"):
+        for target in ("device/rml1/language/parser.h", "device/rml1/machine/machine.h", "device/rml1/machine/clip.h"):
             self.assert_include("device/rml1/simulator/a.cc", target, "simulator-apart")
             self.assert_include("device/rml1/simulator/program/a.cc", target, "simulator-apart")
         self.assert_include("device/rml1/a.cc", "device/rml1/simulator/machine.h", "simulator-apart")
-        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/profile.h")
+        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/machine/profile.h")
         self.assert_include("device/rml1/simulator/a.cc", "device/rml1/simulator/machine.h")
 
     def test_nor_through_what_they_include(self):
-        self.write("device/rml1/dialect.h", '#pragma once\n#include "device/rml1/parser.h"\n')
-        self.write("device/rml1/profile.h", '#pragma once\n#include "device/rml1/dialect.h"\n')
-        self.write("device/rml1/parser.h", "#pragma once\n")
-        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/profile.h", "simulator-apart")
+        self.write("device/rml1/language/dialect.h", '#pragma once\n#include "device/rml1/language/parser.h"\n')
+        self.write("device/rml1/machine/profile.h", '#pragma once\n#include "device/rml1/language/dialect.h"\n')
+        self.write("device/rml1/language/parser.h", "#pragma once\n")
+        self.assert_include("device/rml1/simulator/a.cc", "device/rml1/machine/profile.h", "simulator-apart")
 
     def test_the_simulator_does_not_know_the_table(self):
         for target in ("device/shrc203/command/command_table.h", "device/shrc203/command/codec.h"):
@@ -191,7 +191,7 @@ class SimulatorApart(Tree):
 
 
 class Libraries(Tree):
-    def test_grpc_and_protobuf_stay_in_rpc(self):
+    def test_grpc_stays_in_rpc_and_protobuf_above_the_api(self):
         below = ("device/core/a.h", "device/link/a.cc", "server/a.cc", "server/gateway.cc", "server/events/a.h",
                  "server/api/a.h")
         above = ("server/rpc/a.cc", "server/axisgated.cc", "clients/axisctl/a.cc", "tests/integration/a.cc")
@@ -201,6 +201,10 @@ class Libraries(Tree):
                 self.assert_include(path, header, "no-grpc")
             for path in above:
                 self.assert_include(path, header)
+        for header in headers[:2]:
+            self.assert_include("server/proto/a.cc", header, "no-grpc")
+        for header in headers[2:]:
+            self.assert_include("server/proto/a.cc", header)
 
     def test_asio_stays_behind_the_link(self):
         for header in ("<boost/asio.hpp>", "<boost/asio/serial_port.hpp>"):

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "clients/axisctl/options.h"
-#include "device/rml1/machine.h"
+#include "device/rml1/machine/machine.h"
 
 namespace axisgate::axisctl {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "axisgate/v1/mill.pb.h"
-#include "device/rml1/place.h"
+#include "device/rml1/language/place.h"
 
 namespace axisgate::axisctl {
 

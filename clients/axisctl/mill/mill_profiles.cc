@@ -8,7 +8,7 @@
 
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
-#include "device/rml1/profile_files.h"
+#include "device/rml1/machine/profile_files.h"
 
 namespace axisgate::axisctl {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::axisctl {
 

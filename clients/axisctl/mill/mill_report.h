@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "device/rml1/check.h"
+#include "device/rml1/check/check.h"
 
 namespace axisgate::axisctl {
 

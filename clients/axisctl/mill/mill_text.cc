@@ -13,7 +13,7 @@
 #include "clients/axisctl/mill/mill_times.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/table.h"
-#include "device/rml1/profile_files.h"
+#include "device/rml1/machine/profile_files.h"
 
 namespace axisgate::axisctl {
 namespace {

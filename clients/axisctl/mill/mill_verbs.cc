@@ -20,8 +20,8 @@
 #include "clients/axisctl/mill/mill_profiles.h"
 #include "clients/axisctl/mill/mill_report.h"
 #include "clients/axisctl/print.h"
+#include "device/rml1/machine/profile_files.h"
 #include "device/rml1/picture/picture.h"
-#include "device/rml1/profile_files.h"
 #include "server/config/name.h"
 
 namespace axisgate::axisctl {

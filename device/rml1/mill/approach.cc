@@ -7,7 +7,7 @@
 #include <set>
 #include <utility>
 
-#include "device/rml1/check.h"
+#include "device/rml1/check/check.h"
 #include "device/rml1/mill/prefix.h"
 #include "device/rml1/sending/words.h"
 

@@ -7,10 +7,10 @@
 #include <string_view>
 
 #include "device/core/problem.h"
-#include "device/rml1/machine.h"
-#include "device/rml1/place.h"
-#include "device/rml1/profile.h"
-#include "device/rml1/stock.h"
+#include "device/rml1/check/stock.h"
+#include "device/rml1/language/place.h"
+#include "device/rml1/machine/machine.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 

@@ -9,7 +9,7 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 

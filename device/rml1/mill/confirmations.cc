@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 
 namespace axisgate::rml1 {
 namespace {

@@ -4,8 +4,8 @@
 #include "device/core/line_machine.h"
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/mill/by_hand.h"
-#include "device/rml1/profile.h"
 #include "device/rml1/sending/abort.h"
 
 namespace axisgate::rml1 {

@@ -9,14 +9,14 @@
 #include <vector>
 
 #include "device/core/time.h"
-#include "device/rml1/extent.h"
-#include "device/rml1/leaves.h"
-#include "device/rml1/place.h"
+#include "device/rml1/check/stock.h"
+#include "device/rml1/language/place.h"
+#include "device/rml1/language/warning.h"
+#include "device/rml1/machine/extent.h"
+#include "device/rml1/machine/leaves.h"
 #include "device/rml1/sending/job_times.h"
 #include "device/rml1/sending/plan.h"
 #include "device/rml1/sending/settings.h"
-#include "device/rml1/stock.h"
-#include "device/rml1/warning.h"
 
 namespace axisgate::rml1 {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <utility>
 
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {

@@ -10,10 +10,10 @@
 
 #include "device/core/problem.h"
 #include "device/core/time.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/mill/job_queue.h"
 #include "device/rml1/mill/prepared_job.h"
 #include "device/rml1/mill/rights.h"
-#include "device/rml1/profile.h"
 #include "device/rml1/sending/sender.h"
 
 namespace axisgate::rml1 {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <variant>
 
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 
 namespace axisgate::rml1 {
 namespace {

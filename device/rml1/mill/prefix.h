@@ -5,12 +5,12 @@
 #include <optional>
 #include <string_view>
 
-#include "device/rml1/diagnostic.h"
-#include "device/rml1/leaves.h"
-#include "device/rml1/machine.h"
-#include "device/rml1/parser.h"
-#include "device/rml1/profile.h"
-#include "device/rml1/state_judge.h"
+#include "device/rml1/check/state_judge.h"
+#include "device/rml1/language/diagnostic.h"
+#include "device/rml1/language/parser.h"
+#include "device/rml1/machine/leaves.h"
+#include "device/rml1/machine/machine.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 

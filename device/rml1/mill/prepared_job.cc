@@ -4,8 +4,8 @@
 #include <chrono>
 #include <utility>
 
-#include "device/rml1/characters.h"
-#include "device/rml1/parser.h"
+#include "device/rml1/language/characters.h"
+#include "device/rml1/language/parser.h"
 #include "device/rml1/sending/words.h"
 
 namespace axisgate::rml1 {

@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
-#include "device/rml1/machine.h"
+#include "device/rml1/machine/machine.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/mill/approach.h"
 #include "device/rml1/mill/place_index.h"
-#include "device/rml1/profile.h"
 #include "device/rml1/sending/job_times.h"
 #include "device/rml1/sending/pace_meter.h"
 #include "device/rml1/sending/plan.h"

@@ -1,7 +1,7 @@
 // Where the parts of a picture lie.
 #pragma once
 
-#include "device/rml1/bounds.h"
+#include "device/rml1/machine/bounds.h"
 #include "device/rml1/picture/picture.h"
 
 namespace axisgate::rml1 {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "device/rml1/check.h"
+#include "device/rml1/check/check.h"
 #include "device/rml1/picture/shades.h"
 #include "device/rml1/picture/strokes.h"
 

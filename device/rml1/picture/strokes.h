@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "device/rml1/bounds.h"
-#include "device/rml1/machine.h"
+#include "device/rml1/machine/bounds.h"
+#include "device/rml1/machine/machine.h"
 
 namespace axisgate::rml1 {
 

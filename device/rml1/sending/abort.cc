@@ -3,7 +3,7 @@
 #include <array>
 
 #include "device/core/transitions.h"
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"
 

@@ -8,7 +8,7 @@
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
 #include "device/core/violations.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/sending/settings.h"
 
 namespace axisgate::rml1 {

@@ -1,6 +1,6 @@
 #include "device/rml1/sending/cut.h"
 
-#include "device/rml1/characters.h"
+#include "device/rml1/language/characters.h"
 
 namespace axisgate::rml1 {
 

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <utility>
 
-#include "device/rml1/characters.h"
+#include "device/rml1/language/characters.h"
 
 namespace axisgate::rml1 {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "device/rml1/place.h"
+#include "device/rml1/language/place.h"
 #include "device/rml1/sending/cut_places.h"
 
 namespace axisgate::rml1 {

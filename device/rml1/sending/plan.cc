@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/window.h"

@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "device/core/transitions.h"
-#include "device/rml1/guard.h"
+#include "device/rml1/language/guard.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/delivery.h"
 #include "device/rml1/sending/words.h"

@@ -9,7 +9,7 @@
 #include "device/core/line_machine.h"
 #include "device/core/time.h"
 #include "device/core/violations.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/sending/abort.h"
 #include "device/rml1/sending/cut.h"
 #include "device/rml1/sending/pace.h"

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <iterator>
 
-#include "device/rml1/diagnostic.h"
-#include "device/rml1/move_time.h"
-#include "device/rml1/parser.h"
+#include "device/rml1/language/diagnostic.h"
+#include "device/rml1/language/parser.h"
+#include "device/rml1/machine/move_time.h"
 
 namespace axisgate::rml1 {
 namespace {

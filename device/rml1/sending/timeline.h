@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
-#include "device/rml1/machine.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/machine.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 

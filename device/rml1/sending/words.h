@@ -4,7 +4,7 @@
 #include <string>
 
 #include "device/core/time.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1 {
 

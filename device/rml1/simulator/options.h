@@ -4,7 +4,7 @@
 #include <cstddef>
 
 #include "device/core/named_options.h"
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 
 namespace axisgate::rml1::simulator {
 

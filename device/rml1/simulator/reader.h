@@ -1,10 +1,10 @@
-// Bytes to commands, as guideline 2 has it. Written from the guideline, apart from device/rml1/parser.h.
+// Bytes to commands, as guideline 2 has it. Written from the guideline, apart from device/rml1/language/parser.h.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/simulator/command.h"
 #include "device/rml1/simulator/number.h"
 

@@ -1,7 +1,7 @@
 // The spindle motor (guideline 3-3 !MC and !RC, 5-2).
 #pragma once
 
-#include "device/rml1/profile.h"
+#include "device/rml1/machine/profile.h"
 #include "device/rml1/simulator/record.h"
 
 namespace axisgate::rml1::simulator {

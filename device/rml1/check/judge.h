@@ -1,0 +1,54 @@
+// What saves a workpiece: judged on what is commanded and on what is driven.
+#pragma once
+
+#include <optional>
+#include <set>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/check/profile_judge.h"
+#include "device/rml1/check/stock.h"
+#include "device/rml1/machine/bounds.h"
+#include "device/rml1/machine/machine.h"
+
+namespace axisgate::rml1 {
+
+// Each warning is given once, at the first command that causes it.
+class Judge {
+ public:
+  // Everything referred to outlives this.
+  Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, const std::vector<KnownMachine>& others,
+        Diagnostics& diagnostics)
+      : profile_(profile), origin_known_(origin_known), stock_(stock), others_(others), diagnostics_(diagnostics) {}
+
+  void moved(const Move& move);
+  void commanded(const Point& from, const Point& target, bool height_alone, const Box& box, const Instruction& by);
+  // What `move` takes in one pass, in mm.
+  void took(double depth_mm, const Move& move);
+  void finish(const Machine& machine, std::uint64_t commands);
+
+ private:
+  template <class Text>
+  void warn_once(Warning warning, const Place& place, std::string_view section, Text&& text);
+  void judge_stock(const Move& move);
+  void take_plane(const Point& from, const Point& target, const Place& place);
+  void judge_area(const Point& target, const Box& box, const Place& place);
+  void judge_sizes();
+  void judge_errors(std::uint64_t commands);
+  bool fits(double size, double area_mm, double step_mm) const;
+  double mm(double steps) const { return steps * profile_.step_mm; }
+
+  const Profile& profile_;
+  bool origin_known_;
+  std::optional<Stock> stock_;
+  const std::vector<KnownMachine>& others_;
+  Diagnostics& diagnostics_;
+  std::set<Warning> reported_;
+  bool travel_reported_ = false;  // outside the work area
+  Bounds asked_;                  // of what was commanded; X and Y of what cuts alone, where the origin is known
+  Place widest_x_, widest_y_, deepest_;
+  std::optional<Place> last_;
+  std::uint64_t paths_before_errors_ = 0;
+};
+
+}  // namespace axisgate::rml1

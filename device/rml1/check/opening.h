@@ -1,0 +1,37 @@
+// What a file is, by its first bytes, whatever pieces they come in.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "device/rml1/check/job_kind.h"
+#include "device/rml1/language/place.h"
+
+namespace axisgate::rml1 {
+
+class Opening {
+ public:
+  enum class Verdict : std::uint8_t { nothing_yet, job, g_code, other_file };
+
+  // Holds as many of the bytes as are needed for a verdict, and returns their number.
+  std::size_t take(std::string_view bytes);
+  void finish();  // the file ends here
+
+  Verdict verdict() const { return verdict_; }
+  const std::string& held() const { return held_; }
+  std::string_view what() const { return what_; }              // an other file is: "a PDF document"
+  const Place& g_code_place() const { return kind_.place(); }  // of the first word
+
+ private:
+  void take(char c);
+  void judge_head();
+
+  std::string held_;
+  std::string_view what_;
+  JobKind kind_;
+  Verdict verdict_ = Verdict::nothing_yet;
+};
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,81 @@
+// Whether a job was made for another machine, or for another unit: a job states neither.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/check/unit_clues.h"
+#include "device/rml1/language/diagnostic.h"
+#include "device/rml1/language/instruction.h"
+#include "device/rml1/machine/extent.h"
+#include "device/rml1/machine/known_machine.h"
+#include "device/rml1/machine/point.h"
+#include "device/rml1/machine/profile.h"
+
+namespace axisgate::rml1 {
+
+// Each doubt is reported once. Not thread safe.
+class ProfileJudge {
+ public:
+  // Everything referred to outlives this. `made_for`: the name of the machine that the job was made for, if somebody
+  // has said it; empty: the job is judged by what it shows.
+  ProfileJudge(const Profile& profile, const std::vector<KnownMachine>& others, std::string_view made_for,
+               Diagnostics& diagnostics)
+      : profile_(profile), others_(others), made_for_(made_for), diagnostics_(diagnostics) {}
+
+  // The first bytes of the file.
+  void begins(std::string_view head);
+  void executed(const Instruction& instruction);
+  // A lift by so many steps, or to that height above Z0.
+  void lifted(double steps, const Instruction& by);
+  // The end of a straight commanded path, in steps.
+  void commanded(const Point& target, const Instruction& by);
+  // A path that leads below Z0, to the depth of `target`.
+  void deepened(const Point& target, const Instruction& by);
+  // `extent` is that of the job on this machine.
+  void finish(const Extent& extent);
+
+  // The highest speed in mm/s that the job sets and the machine does not have.
+  std::optional<double> speed_not_reached() const { return speed_not_reached_; }
+
+ private:
+  // A Suspicion is what shows that the job was made for machines with a step of that length.
+  struct Suspicion {
+    std::string why;
+    std::string names;  // of these machines: "MDX-15 and the MDX-20"
+    double step_mm = 0;
+    Place place;
+  };
+
+  void suspect(std::string why, const std::vector<std::string>& names, double step_mm, const Place& place);
+  void suspect_as_said();
+  double odds_of(double step_mm) const;
+  void suspect_by_clues();
+  void judge_raster();
+  void judge_speed(const Instruction& instruction, double highest, bool& reported);
+  std::string machines_as_fast(double speed) const;
+  void take_coordinate(double steps);
+
+  const Profile& profile_;
+  const std::vector<KnownMachine>& others_;
+  const std::string_view made_for_;
+  Diagnostics& diagnostics_;
+  std::optional<Suspicion> suspicion_;  // the first one
+  bool named_ = false;                  // the file names this machine
+  UnitClues clues_;
+  std::uint64_t paths_ = 0;
+  bool own_travel_ = false;          // there is a lift by the whole travel of this machine
+  std::optional<Suspicion> travel_;  // likewise of machines with another step
+  std::optional<Place> deep_;        // where the first path leads below Z0
+  bool plane_speed_reported_ = false, height_speed_reported_ = false;
+  std::optional<double> speed_not_reached_;
+  std::int64_t raster_ = 0;           // of all X and Y, in steps: their greatest common divisor
+  std::set<std::int64_t> different_;  // of these, as many as are needed
+  std::optional<Place> first_;        // where they begin
+};
+
+}  // namespace axisgate::rml1

@@ -1,0 +1,85 @@
+// What is reported about a job: the guideline's errors, and what saves a workpiece.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/language/place.h"
+#include "device/rml1/language/warning.h"
+
+namespace axisgate::rml1 {
+
+enum class Severity { note, warning, error };
+std::string_view name(Severity severity);
+
+struct Diagnostic {
+  int number = 0;  // of the guideline: 1, 2, 3, 11; 0 where it has none
+  Severity severity = Severity::error;
+  Place place;
+  std::string_view section;  // of the guideline: "2-5"; lives as long as the program
+  std::string text;
+  std::optional<Warning> warning{};  // its kind, of a warning
+};
+
+// The first ten of each kind in the order of their finding, and a count of all. Each place in the code that reports
+// something is a kind, so that what is kept has a limit. Not thread safe.
+class Diagnostics {
+ public:
+  static constexpr std::uint64_t kSame = 10;
+
+  // What of a kind is not kept.
+  struct Omitted {
+    Diagnostic first;
+    std::uint64_t count = 0;
+    Place last;
+  };
+
+  // `text` is called only for what is kept: a job may have millions.
+  template <class Text>
+  void error(int number, const Place& place, std::string_view section, Text&& text) {
+    add(number, Severity::error, {}, place, section, text);
+  }
+  template <class Text>
+  void warn(Warning warning, const Place& place, std::string_view section, Text&& text) {
+    add(0, Severity::warning, warning, place, section, text);
+  }
+  template <class Text>
+  void note(const Place& place, std::string_view section, Text&& text) {
+    add(0, Severity::note, {}, place, section, text);
+  }
+
+  const std::vector<Diagnostic>& kept() const { return kept_; }
+  // By place in the job; at one place, what concerns the whole job comes first.
+  std::vector<Diagnostic> in_order() const;
+  std::uint64_t count(Severity severity) const { return counts_[static_cast<std::size_t>(severity)]; }
+  std::uint64_t omitted_count() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
+  std::vector<Omitted> omitted() const;
+
+ private:
+  template <class Text>
+  void add(int number, Severity severity, std::optional<Warning> warning, const Place& place, std::string_view section,
+           Text&& text) {
+    static constexpr char kKind = 0;
+    ++counts_[static_cast<std::size_t>(severity)];
+    if (keeps(&kKind, place)) kept_.push_back({number, severity, place, section, std::string(text()), warning});
+  }
+
+  struct Kind {
+    const void* id;
+    std::size_t first;  // in kept_
+    std::uint64_t count = 0;
+    Place last;
+  };
+
+  bool keeps(const void* id, const Place& place);
+
+  std::vector<Diagnostic> kept_;
+  std::vector<Kind> kinds_;
+  std::uint64_t counts_[3] = {};
+};
+
+}  // namespace axisgate::rml1

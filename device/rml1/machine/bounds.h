@@ -1,0 +1,35 @@
+// How far something reaches.
+#pragma once
+
+#include <algorithm>
+#include <string>
+
+#include "device/rml1/machine/point.h"
+
+namespace axisgate::rml1 {
+
+struct Reach {
+  bool any = false;
+  double lowest = 0, highest = 0;
+
+  void take(double value) {
+    lowest = any ? std::min(lowest, value) : value;
+    highest = any ? std::max(highest, value) : value;
+    any = true;
+  }
+  double size() const { return highest - lowest; }
+};
+
+std::string to_string(const Reach& reach);  // "6500", "400 to 1137"
+
+struct Bounds {
+  Reach x, y, z;
+
+  void take(const Point& p) {
+    x.take(p.x);
+    y.take(p.y);
+    z.take(p.z);
+  }
+};
+
+}  // namespace axisgate::rml1

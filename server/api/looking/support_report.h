@@ -1,0 +1,38 @@
+// What somebody who helps needs to know, with secrets taken out.
+#pragma once
+
+#include <deque>
+#include <string>
+
+#include "server/api/looking/diagnostics.h"
+#include "server/api/request/subscription.h"
+#include "server/gateway.h"
+#include "server/recording/redaction.h"
+
+namespace axisgate::api {
+
+class SupportReport final : public Subscription<std::string> {
+ public:
+  SupportReport(server::Gateway& gateway, const DoorReport& door, Streams::Place place);
+
+ private:
+  // The recording of one device up to where it was when the report was asked.
+  struct Recording {
+    std::string head;
+    server::DeviceRecorder::Reader reader;
+    server::RecordingRing::Position end;
+  };
+
+  void add_devices(server::Gateway& gateway, const DoorReport& door);
+  void add_recordings(server::Gateway& gateway);
+  static std::string next_of(Recording& recording);
+  void begin() override { wake(); }
+  Reading read() override;
+
+  server::Redactor redactor_;
+  std::string first_;  // everything but the recordings, which may be long
+  std::deque<Recording> recordings_;
+  bool summary_due_ = true;
+};
+
+}  // namespace axisgate::api

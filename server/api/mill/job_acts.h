@@ -1,0 +1,39 @@
+// How a request acts on one job of a mill: on the strand of its device, once for each request id.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+#include "device/core/problem.h"
+#include "device/rml1/mill/mill_controller.h"
+#include "server/api/mill/job_upload.h"
+#include "server/api/request/call.h"
+#include "server/api/request/pipeline.h"
+#include "server/devices/mill.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+// Fails with deadline_passed: while a request was posted, or waited for the journal, its caller may have left.
+Result<void> check_in_time(const TurnOf<server::Mill>& turn);
+
+// Fails with not_found.
+Result<rml1::Job> find_job(const rml1::MillController& mill, rml1::JobNumber number);
+
+// Thread safe.
+class JobActs {
+ public:
+  // The referenced objects must outlive this one.
+  JobActs(server::Gateway& gateway, const MillPipeline& pipeline) : gateway_(gateway), pipeline_(pipeline) {}
+
+  using Act = std::function<Result<void>(rml1::MillController&, const rml1::Job&, const TurnOf<server::Mill>&)>;
+  // Acts on the job of that name. The answer is the job as it is then, once the spool has kept it. A repeated request
+  // acts no more. Fails as MillPipeline::admit() and `act` do, and with not_found; deadline_passed.
+  void act(RequestKind kind, const Call& call, std::string_view job, Act act, Answer<CurrentJob> answer) const;
+
+ private:
+  server::Gateway& gateway_;
+  const MillPipeline& pipeline_;
+};
+
+}  // namespace axisgate::api

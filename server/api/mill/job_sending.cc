@@ -1,0 +1,161 @@
+#include "server/api/mill/job_sending.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/api/mill/job_setup.h"
+#include "server/api/mill/workpiece.h"
+#include "server/api/request/names.h"
+#include "server/devices/spooled_jobs.h"
+
+namespace axisgate::api {
+namespace {
+
+using server::Mill;
+
+Result<void> check_streaming(const Mill& mill, const std::optional<rml1::Streaming>& streaming) {
+  if (streaming != rml1::Streaming::full || mill.config().holds_host_back) return {};
+  return fail(
+      Reason::invalid_request,
+      fmt::format("nothing holds the host back while the buffer of {} is full, so bytes would be lost", mill.name()),
+      "send the job without a streaming of its own");
+}
+
+Result<rml1::CheckOptions> check_options(const Mill& mill, const JobToSend& job) {
+  const server::MillConfig& config = mill.config();
+  Result<std::string> made_for = machine_with_profile(config, job.made_for);
+  if (!made_for) return tl::unexpected(made_for.error());
+  rml1::CheckOptions options;
+  options.stock = job.stock;
+  options.others = config.others;
+  options.made_for = *std::move(made_for);
+  if (job.origin.empty()) return options;
+  const auto origin = std::ranges::find(config.origins, job.origin, &server::NamedOrigin::name);
+  if (origin == config.origins.end()) {
+    std::vector<std::string> names;
+    for (const server::NamedOrigin& one : config.origins) names.push_back(one.name);
+    return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), job.origin),
+                names.empty()
+                    ? "name none: then it is the one that is set at the panel"
+                    : fmt::format("it has {}; none is the one that is set at the panel", fmt::join(names, ", ")));
+  }
+  options.origin = server::origin_of(*origin, config.profile);
+  return options;
+}
+
+std::vector<PartToSend> parts_of(const rml1::Job& job) {
+  if (job.parts.size() == 1) return {{job.parts.front().tool}};
+  std::vector<PartToSend> parts;
+  std::uint64_t begin = 0;
+  for (const rml1::JobPart& part : job.parts) parts.push_back({part.tool, part.end - std::exchange(begin, part.end)});
+  return parts;
+}
+
+// Its bytes are those of the whole job: lines count as in its file.
+JobToSend copy_of(const rml1::Job& job, std::vector<std::string> accepted) {
+  return {.title = job.name,
+          .origin = job.setup.origin,
+          .parts = parts_of(job),
+          .accepted_warnings = std::move(accepted),
+          .streaming = job.streaming,
+          .stock = job.stock};
+}
+
+Result<void> check_has_rest(const rml1::Job& job) {
+  const bool was_begun = job.executed || job.written || job.part > 0;
+  const bool is_cut_off = job.state == rml1::JobState::aborted || job.state == rml1::JobState::cancelled;
+  if (is_cut_off && was_begun) return {};
+  return fail(Reason::wrong_mode,
+              fmt::format("{} is {}{}: it has no rest", text_of(job), name(job.state),
+                          is_cut_off ? ", and was never begun" : ""),
+              fmt::format("`axisctl mill again {}` queues all of it", job.number));
+}
+
+}  // namespace
+
+Result<std::unique_ptr<JobUpload>> JobSending::begin_upload(RequestKind kind, const Call& call,
+                                                            const MillPipeline::Admitted& admitted, JobToSend job,
+                                                            JobsBefore before) const {
+  Mill& mill = *admitted.device;
+  if (const Result<void> parts = check_parts(job.parts, mill.config().tools, mill.name()); !parts)
+    return tl::unexpected(parts.error());
+  if (const Result<void> can = check_streaming(mill, job.streaming); !can) return tl::unexpected(can.error());
+  if (const Result<void> names = check_warning_names(job.accepted_warnings); !names)
+    return tl::unexpected(names.error());
+  const Result<rml1::CheckOptions> options = check_options(mill, job);
+  if (!options) return tl::unexpected(options.error());
+  auto spooled = mill.spool().begin(mill.name(), {.name = job.title,
+                                                  .who = admitted.caller.who,
+                                                  .identity = server::queued_as(admitted.caller.who),
+                                                  .created = server::calendar_now()});
+  if (!spooled) return tl::unexpected(spooled.error());
+  return std::make_unique<JobUpload>(kind, call, admitted, pipeline_, *worker_, std::move(job), std::move(before),
+                                     *options, *std::move(spooled));
+}
+
+Result<std::unique_ptr<JobUpload>> JobSending::send(const Call& call, std::string_view device, JobToSend job) const {
+  const auto admitted = pipeline_.admit({RequestKind::send_job, call, find_mill(gateway_, device)});
+  if (!admitted) return tl::unexpected(admitted.error());
+  JobsBefore before;
+  if (!job.continues.empty()) {
+    const Mill& mill = *admitted->device;
+    const Result<JobName> named = find_job_name(gateway_, job.continues);
+    if (!named) return tl::unexpected(named.error());
+    if (named->device != admitted->device) {
+      return fail(Reason::invalid_request, fmt::format("{} is a job of another mill", job.continues),
+                  fmt::format("name a job of {}", mill.name()));
+    }
+    const Result<rml1::Job> ended = server::ended_job(mill.spool(), mill.name(), named->number);
+    if (!ended) return tl::unexpected(ended.error());
+    const Result<void> same = check_same_workpiece(mill, *ended, job.origin, job.stock);
+    if (!same) return tl::unexpected(same.error());
+    before = {.continues = ended->number, .cut = ended->number, .surfaces = ended->surfaces};
+  }
+  return begin_upload(RequestKind::send_job, call, *admitted, std::move(job), std::move(before));
+}
+
+Result<std::shared_ptr<JobUpload>> JobSending::begin_repeat(const Call& call, const MillPipeline::Admitted& admitted,
+                                                            rml1::JobNumber number, const JobToRepeat& how) const {
+  Mill& mill = *admitted.device;
+  const Result<rml1::Job> ended = server::ended_job(mill.spool(), mill.name(), number);
+  if (!ended) return tl::unexpected(ended.error());
+  JobsBefore before{.accepted = ended->accepted};
+  if (how.rest) {
+    if (const Result<void> has = check_has_rest(*ended); !has) return tl::unexpected(has.error());
+    const Result<rml1::Place> from =
+        server::chosen_rest(mill.spool(), mill.name(), mill.config(), *ended, how.from.line, how.from.column);
+    if (!from) return tl::unexpected(from.error());
+    before.continues = number;
+    before.cut = ended->continues;
+    before.from = *from;
+    before.part = ended->part;
+  }
+  const Result<std::string> bytes = mill.spool().read(mill.name(), number);
+  if (!bytes) return tl::unexpected(bytes.error());
+  Result<std::unique_ptr<JobUpload>> upload =
+      begin_upload(RequestKind::repeat_job, call, admitted, copy_of(*ended, how.accepted_warnings), std::move(before));
+  if (!upload) return tl::unexpected(upload.error());
+  if (const Result<void> taken = (*upload)->append(*bytes); !taken) return tl::unexpected(taken.error());
+  return std::shared_ptr<JobUpload>(*std::move(upload));
+}
+
+// The end of a job comes into the spool a moment after it left the queue.
+void JobSending::repeat(const Call& call, std::string_view name, JobToRepeat how, Answer<CurrentJob> answer) const {
+  const Result<JobName> found = find_job_name(gateway_, name);
+  const auto admitted = pipeline_.admit({RequestKind::repeat_job, call, device_of(found)});
+  if (!admitted) return answer(tl::unexpected(admitted.error()));
+  const auto on_worker = [this, call, admitted = *admitted, number = found->number, how = std::move(how), answer] {
+    const Result<std::shared_ptr<JobUpload>> upload = begin_repeat(call, admitted, number, how);
+    if (!upload) return answer(tl::unexpected(upload.error()));
+    (*upload)->finish(call.digest, [upload, answer](Result<CurrentJob> job) { answer(std::move(job)); });
+  };
+  Mill& mill = *admitted->device;
+  mill.post([&mill, worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](
+                rml1::MillController&, TimePoint) {
+    mill.when_kept([worker, on_worker, identity] { worker->post(identity, on_worker); });
+  });
+}
+
+}  // namespace axisgate::api

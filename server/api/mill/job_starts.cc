@@ -1,0 +1,104 @@
+#include "server/api/mill/job_starts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/api/mill/job_setup.h"
+#include "server/api/request/names.h"
+#include "server/devices/spooled_jobs.h"
+
+namespace axisgate::api {
+namespace {
+
+// As it was published last. What acts is compared with it on the strand.
+Result<rml1::Job> published_job(server::Mill& mill, rml1::JobNumber number) {
+  const auto now = mill.newest().get().value;
+  const auto found = std::ranges::find(now->jobs, number, &rml1::Job::number);
+  if (found != now->jobs.end()) return *found;
+  return fail(Reason::not_found, fmt::format("there is no job {} in the queue", number),
+              "`axisctl mill queue` lists them");
+}
+
+// The job was not read, since its state was another one, and now it could be. In most cases it still has that state,
+// and the request is refused for it.
+Problem changed_meanwhile(const rml1::Job& job) {
+  return {.reason = Reason::wrong_mode,
+          .message = fmt::format("{} has come to another state while the request waited", text_of(job)),
+          .hint = "ask again"};
+}
+
+// The first command of what is left, and how long that takes.
+Result<rml1::JobRest> rest_of(server::Mill& mill, rml1::Job job, const LineToChoose& from) {
+  const auto at = server::chosen_rest(mill.spool(), mill.name(), mill.config(), job, from.line, from.column);
+  if (!at) return tl::unexpected(at.error());
+  job.setup.from = *at;
+  const auto prepared =
+      server::prepared_job(mill.spool(), mill.name(), mill.config(), job, mill.newest().get().value->measured_pace);
+  if (!prepared) return tl::unexpected(prepared.error());
+  return rml1::JobRest{*at, (*prepared)->times().whole(), (*prepared)->plan().run_on};
+}
+
+}  // namespace
+
+// It is posted to the mill first: what is published then is no older than what the caller was answered before.
+template <class Read, class Act>
+void JobStarts::read_and_act(RequestKind kind, const Call& call, std::string_view name, Read read, Act act,
+                             Answer<CurrentJob> answer) const {
+  const Result<JobName> found = find_job_name(gateway_, name);
+  const auto admitted = pipeline_.admit({kind, call, device_of(found)});
+  if (!admitted) return answer(tl::unexpected(admitted.error()));
+  const auto on_worker = [this, kind, call, name = std::string(name), read, act, answer, &mill = *admitted->device,
+                          number = found->number] {
+    const auto came = published_job(mill, number).and_then([&](const rml1::Job& job) { return read(mill, job); });
+    acts_.act(
+        kind, call, name,
+        [came, act](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn) {
+          return act(controller, it, turn, came);
+        },
+        answer);
+  };
+  admitted->device->post([worker = worker_, on_worker, identity = server::identity_of(admitted->caller.who)](
+                             rml1::MillController&, TimePoint) { worker->post(identity, on_worker); });
+}
+
+void JobStarts::start(const Call& call, std::string_view name, Answer<CurrentJob> answer) const {
+  using Prepared = Result<std::shared_ptr<const rml1::PreparedJob>>;
+  read_and_act(
+      RequestKind::start_job, call, name,
+      [](server::Mill& mill, const rml1::Job& job) -> Prepared {
+        if (job.state != rml1::JobState::confirmed) return tl::unexpected(changed_meanwhile(job));
+        return server::prepared_job(mill.spool(), mill.name(), mill.config(), job,
+                                    mill.newest().get().value->measured_pace);
+      },
+      [](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
+         const Prepared& prepared) -> Result<void> {
+        if (const Result<void> can = controller.check_startable(it.number, turn.now); !can) return can;
+        if (!prepared) return tl::unexpected(prepared.error());
+        const Result<void> fits = check_setup(turn.device, it);
+        return fits ? controller.start(it.number, *prepared, turn.context, turn.now) : fits;
+      },
+      std::move(answer));
+}
+
+void JobStarts::choose_rest(const Call& call, std::string_view name, LineToChoose from,
+                            Answer<CurrentJob> answer) const {
+  const auto can_be_chosen = [](const rml1::Job& job) {
+    return rml1::next(job.state, rml1::JobEvent::choose_rest).has_value();
+  };
+  read_and_act(
+      RequestKind::continue_job, call, name,
+      [from, can_be_chosen](server::Mill& mill, const rml1::Job& job) -> Result<rml1::JobRest> {
+        if (!can_be_chosen(job)) return tl::unexpected(changed_meanwhile(job));
+        return rest_of(mill, job, from);
+      },
+      [can_be_chosen](rml1::MillController& controller, const rml1::Job& it, const TurnOf<server::Mill>& turn,
+                      const Result<rml1::JobRest>& rest) -> Result<void> {
+        if (can_be_chosen(it) && !rest) return tl::unexpected(rest.error());
+        return controller.choose_rest(it.number, rest.value_or(rml1::JobRest()), turn.caller.who, turn.now);
+      },
+      std::move(answer));
+}
+
+}  // namespace axisgate::api

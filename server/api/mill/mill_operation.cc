@@ -1,0 +1,80 @@
+#include "server/api/mill/mill_operation.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+#include <variant>
+
+#include "server/api/request/names.h"
+
+namespace axisgate::api {
+namespace {
+
+using server::Mill;
+using HandTurn = TurnOf<Mill>;
+
+// With the height of a named origin.
+Result<rml1::HandAct> act_of(const HandRequest& request, const Mill& mill) {
+  if (request.origin.empty()) return request.act;
+  const auto* surface = std::get_if<rml1::SetSurface>(&request.act);
+  if (surface != nullptr && surface->at) {
+    return fail(Reason::invalid_request,
+                fmt::format("Z0 cannot be both at the origin \"{}\" and at z = {}", request.origin, *surface->at),
+                "name the origin or z, not both");
+  }
+  const auto& origins = mill.config().origins;
+  const auto named = std::ranges::find(origins, request.origin, &server::NamedOrigin::name);
+  if (named == origins.end()) {
+    return fail(Reason::invalid_request, fmt::format("{} has no origin \"{}\"", mill.name(), request.origin),
+                "`axisctl mill queue` lists them");
+  }
+  if (named->z) return rml1::SetSurface{named->z};
+  return fail(Reason::invalid_request, fmt::format("the origin {} of {} has no height", named->name, mill.name()),
+              "give it one in the configuration: `z`; X and Y are set at the mill's panel");
+}
+
+Result<std::string> describe_if_possible(const HandTurn& turn, const HandRequest& request) {
+  if (const Result<void> in_time = check_in_time(turn); !in_time) return tl::unexpected(in_time.error());
+  const Result<rml1::HandAct> act = act_of(request, turn.device);
+  if (!act) return tl::unexpected(act.error());
+  return text_of(*act);
+}
+
+Result<Duration> do_it(const HandTurn& turn, const HandRequest& request) {
+  const Result<rml1::HandAct> act = act_of(request, turn.device);
+  if (!act) return tl::unexpected(act.error());
+  return turn.controller.operate(*act, turn.context, turn.now);
+}
+
+// How long it took at most, the first time.
+Result<Duration> longest_of(const HandRequest& request, const Mill& mill) {
+  const Result<rml1::HandAct> act = act_of(request, mill);
+  if (!act) return tl::unexpected(act.error());
+  return words_of(*act, mill.config().profile, mill.config().sending.slack).map([](const rml1::HandWords& words) {
+    return words.longest;
+  });
+}
+
+}  // namespace
+
+void MillOperation::operate(const Call& call, std::string_view device, const Result<HandRequest>& read,
+                            Answer<Duration> answer) const {
+  const HandRequest request = read.value_or(HandRequest());
+  pipeline_.act(
+      {RequestKind::operate_mill, call, find_mill(gateway_, device), read ? std::nullopt : std::optional(read.error())},
+      [request](const HandTurn& turn) { return describe_if_possible(turn, request); },
+      [request, answer](const HandTurn& turn, const MutationPtr& mutation) {
+        Result<Duration> longest = do_it(turn, request);
+        longest ? mutation->acted(server::journal::answer_done()) : mutation->failed(longest.error());
+        answer(std::move(longest));
+      },
+      [answer](const Problem& problem) { answer(tl::unexpected(problem)); },
+      [request, answer](Mill& mill, const Result<Known>& known) {
+        repeat_done(known, [&](const Result<void>& done) {
+          answer(done ? longest_of(request, mill) : Result<Duration>(tl::unexpected(done.error())));
+        });
+      });
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,43 @@
+// All that can be asked of mills, wired.
+#pragma once
+
+#include <memory>
+
+#include "server/api/mill/job_acts.h"
+#include "server/api/mill/job_sending.h"
+#include "server/api/mill/job_starts.h"
+#include "server/api/mill/mill_operation.h"
+#include "server/api/mill/mills.h"
+#include "server/api/mill/waiting_jobs.h"
+#include "server/api/request/fair_worker.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+class MillSubjects {
+ public:
+  // The referenced objects must outlive this one.
+  MillSubjects(server::Gateway& gateway, const MillPipeline& pipeline, Streams& streams)
+      : acts_(gateway, pipeline),
+        mills(gateway, pipeline, streams),
+        operation(gateway, pipeline),
+        waiting(gateway, pipeline, acts_),
+        starts(gateway, pipeline, acts_, worker_),
+        sending(gateway, pipeline, worker_) {}
+  ~MillSubjects() { worker_->join(); }
+
+ private:
+  // Runs what reads or writes a whole job: neither on a device's strand nor on a thread that serves others. Shared with
+  // what is posted to a mill, which may come to its turn after this object is gone.
+  const std::shared_ptr<FairWorker> worker_ = std::make_shared<FairWorker>();
+  const JobActs acts_;
+
+ public:
+  const Mills mills;
+  const MillOperation operation;
+  const WaitingJobs waiting;
+  const JobStarts starts;
+  const JobSending sending;
+};
+
+}  // namespace axisgate::api

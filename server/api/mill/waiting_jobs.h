@@ -1,0 +1,45 @@
+// Requests on the jobs of a mill that wait, or have been executed.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "device/rml1/mill/job.h"
+#include "server/api/mill/job_acts.h"
+#include "server/api/mill/job_upload.h"
+#include "server/api/request/call.h"
+#include "server/gateway.h"
+
+namespace axisgate::api {
+
+// In the order of the queue; not empty.
+struct CancelledJobs {
+  const server::Mill* mill = nullptr;  // never null
+  std::vector<rml1::JobNumber> jobs;
+};
+
+// Thread safe. All members also fail as JobActs::act() and rml1::MillController do.
+class WaitingJobs {
+ public:
+  // The referenced objects must outlive this one.
+  WaitingJobs(server::Gateway& gateway, const MillPipeline& pipeline, const JobActs& acts)
+      : gateway_(gateway), pipeline_(pipeline), acts_(acts) {}
+
+  // Fails with not_allowed if the caller is not at the mill's station.
+  void confirm(const Call& call, std::string_view job, const rml1::JobSetup& seen, Answer<CurrentJob> answer) const;
+  // Fails with not_allowed if the job is somebody else's.
+  void cancel(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  // Cancels all jobs of `who` that wait to begin. Fails with not_found if there is none.
+  void cancel_all(const Call& call, std::string_view device, std::string who, Answer<CancelledJobs> answer) const;
+  // Moves a job to the front for an administrator, or before their other jobs for its owner. Fails as cancel() does.
+  void move_first(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+  void done(const Call& call, std::string_view job, Answer<CurrentJob> answer) const;
+
+ private:
+  server::Gateway& gateway_;
+  const MillPipeline& pipeline_;
+  const JobActs& acts_;
+};
+
+}  // namespace axisgate::api

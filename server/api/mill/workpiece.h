@@ -1,0 +1,23 @@
+// The workpiece that jobs of a mill have cut, for the check of a job that continues it.
+#pragma once
+
+#include <memory>
+
+#include "device/core/problem.h"
+#include "device/rml1/check/check.h"
+#include "device/rml1/mill/job.h"
+#include "server/devices/mill.h"
+
+namespace axisgate::api {
+
+// Checks whether a job of that origin and stock can continue the workpiece of one that has ended. Fails with wrong_mode
+// if the ended one is not DONE, and with stale_setpoint if its heights count from another Z0.
+Result<void> check_same_workpiece(const server::Mill& mill, const rml1::Job& ended, std::string_view origin,
+                                  const std::optional<rml1::Stock>& stock);
+
+// Returns a check that has played the job and those whose workpieces it continued, the first one first. Reads whole
+// jobs, so not on a device's strand. Fails with not_found if the spool no longer has one of them.
+Result<std::unique_ptr<rml1::Check>> workpiece_after(const server::Mill& mill, rml1::JobNumber job,
+                                                     const rml1::CheckOptions& options);
+
+}  // namespace axisgate::api

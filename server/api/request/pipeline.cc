@@ -1,0 +1,11 @@
+#include "server/api/request/pipeline.h"
+
+namespace axisgate::api {
+
+Result<void> check_deadline(RequestKind kind, const stage::RequestContext& context, TimePoint now) {
+  if (rule_of(kind).patience != Patience::motion || now <= context.not_after) return {};
+  return fail(Reason::deadline_passed, "the request came to the device after its not_after",
+              "ask again, with a later not_after");
+}
+
+}  // namespace axisgate::api

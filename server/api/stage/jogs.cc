@@ -1,0 +1,147 @@
+#include "server/api/stage/jogs.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "server/api/request/names.h"
+#include "server/api/request/request_texts.h"
+
+namespace axisgate::api {
+namespace {
+
+using stage::StageController;
+using JogAxes = std::vector<JogAxis>;
+
+const Problem kBrokenOff{
+    .reason = Reason::stopped, .message = "the call of the jog broke off", .hint = "see whether the client still runs"};
+
+std::vector<stage::JogRequest::Axis> request_axes(const JogAxes& axes) {
+  std::vector<stage::JogRequest::Axis> all;
+  for (const JogAxis& one : axes) all.push_back({one.axis, one.direction.value_or(1), one.speed});
+  return all;
+}
+
+std::optional<Problem> check_directions(const Result<JogAxes>& axes) {
+  if (!axes) return axes.error();
+  for (const JogAxis& one : *axes) {
+    if (one.direction) continue;
+    return Problem{.reason = Reason::invalid_request,
+                   .message = fmt::format("axis {} has no direction to jog in", one.axis),
+                   .hint = "set DIRECTION_PLUS or DIRECTION_MINUS"};
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<std::shared_ptr<Jog>> Jogs::open(const Credential& caller) const {
+  Result<Streams::Place> place = streams_.take(RequestKind::jog, name_of(caller));
+  if (!place) return tl::unexpected(place.error());
+  return std::make_shared<Jog>(gateway_, pipeline_, *std::move(place));
+}
+
+bool Jog::start(const Call& call, std::string_view device, const Result<JogAxes>& axes) {
+  const Result<server::Stage*> found = find_stage(gateway_, device);
+  {
+    const std::lock_guard lock(mutex_);
+    jogged_ = found.value_or(nullptr);
+  }
+  pipeline_.act(
+      {RequestKind::jog, call, found, check_directions(axes)},
+      [self = self<Jog>(), axes](const Turn& turn) -> Result<std::string> {
+        if (self->is_over()) return tl::unexpected(kBrokenOff);
+        const stage::JogRequest request{request_axes(*axes), turn.context};
+        Result<void> good = check_deadline(RequestKind::jog, turn.context, turn.now);
+        if (good) good = turn.controller.check_use(turn.context, axes_used(request, turn.controller.state()));
+        if (!good) return tl::unexpected(good.error());
+        return text_of(request);
+      },
+      [self = self<Jog>(), axes](const Turn& turn, const MutationPtr& mutation) {
+        self->begin_on(turn, *axes, mutation);
+      },
+      [self = self<Jog>()](const Problem& problem) { (void)self->refuse(problem); },
+      [self = self<Jog>()](server::Stage& its_device, const Result<Known>& known) { self->repeat(its_device, known); });
+  const std::lock_guard lock(mutex_);
+  return !refused_;
+}
+
+bool Jog::renew(const Result<JogAxes>& axes) {
+  const Result<void> posted = post_renewal(*device(), axes);
+  return posted || refuse(posted.error());
+}
+
+bool Jog::is_over() {
+  const std::lock_guard lock(mutex_);
+  over_ = over_ || broken_off_;
+  return over_;
+}
+
+void Jog::begin_on(const Turn& turn, const JogAxes& axes, const MutationPtr& mutation) {
+  follow_from_now();
+  motion_ = turn.controller.jog({request_axes(axes), turn.context}, turn.now,
+                                [self = self<Jog>(), mutation, &device = turn.device](Result<stage::Motion> motion) {
+                                  motion ? mutation->acted({}) : mutation->failed(motion.error());
+                                  self->show(device, motion);
+                                });
+}
+
+// It never starts twice: the reader sees the first one.
+void Jog::repeat(server::Stage& device, const Result<Known>& known) {
+  device.post([self = self<Jog>(), &device, known](const StageController& controller, TimePoint) {
+    self->over_ = true;
+    self->show_repeated(device, controller, known);
+  });
+}
+
+Result<void> Jog::post_renewal(server::Stage& device, const Result<JogAxes>& axes) {
+  if (!axes) return tl::unexpected(axes.error());
+  device.post([self = self<Jog>(), axes = request_axes(*axes)](StageController& controller, TimePoint now) {
+    if (self->motion_ == 0 || self->over_) return;
+    const Result<void> renewed = controller.renew_jog(self->motion_, axes, now);
+    // Of a jog that has ended its reader receives the outcome.
+    if (!renewed && renewed.error().reason != Reason::not_found) self->refuse(renewed.error());
+  });
+  return {};
+}
+
+void Jog::finish() { stop({}); }
+
+void Jog::break_off() {
+  {
+    const std::lock_guard lock(mutex_);
+    broken_off_ = true;
+    if (jogged_ == nullptr) return;  // nothing was requested yet
+  }
+  stop(kBrokenOff);
+}
+
+bool Jog::refuse(const Problem& problem) {
+  {
+    const std::lock_guard lock(mutex_);
+    refused_ = true;
+  }
+  end(problem);
+  stop(problem);
+  return false;
+}
+
+void Jog::stop(std::optional<Problem> why) {
+  server::Stage* const jogged = device();
+  if (jogged == nullptr) {
+    return end({.reason = Reason::invalid_request,
+                .message = "the jog names no device and no axis",
+                .hint = "send a first message"});
+  }
+  jogged->post([self = self<Jog>(), why = std::move(why)](StageController& controller, TimePoint now) {
+    self->over_ = true;
+    if (self->motion_ != 0) controller.end_jog(self->motion_, why, now);
+  });
+}
+
+server::Stage* Jog::device() {
+  const std::lock_guard lock(mutex_);
+  return jogged_;
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,80 @@
+#include "server/api/stage/position_checks.h"
+
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "device/core/escape.h"
+#include "device/core/spans.h"
+
+namespace axisgate::api {
+namespace {
+
+// The connection was interrupted since the controller was last known to hold it, so that it may have restarted.
+bool was_interrupted(const server::SavedPosition& position, const stage::State& state) {
+  const bool line = state.link == stage::LinkState::up || state.link == stage::LinkState::doubtful;
+  return !line || !position.frame || position.frame->device_epoch != state.device_epoch;
+}
+
+std::string again(const server::SavedPosition& position) {
+  return fmt::format("save it again where it shall be: axisctl save {}{}", position.name,
+                     position.place ? "" : " --coordinates");
+}
+
+}  // namespace
+
+Result<void> check_unit(const server::SavedPosition& position, const stage::State& state) {
+  if (state.serial_number.empty() || state.serial_number == position.serial_number) return {};
+  return fail(Reason::epoch_passed,
+              fmt::format("\"{}\" was saved in the controller {}, and this is {}", position.name,
+                          position.serial_number, escaped(state.serial_number)),
+              again(position));
+}
+
+bool may_be_lost(const server::SavedPosition& position, const stage::State& state) {
+  return !check_unit(position, state) || (position.place && was_interrupted(position, state));
+}
+
+stage::PositionSlot slot_of(const server::SavedPosition& position) { return {position.place, position.number}; }
+
+Result<std::map<int, std::int64_t>> reported_coordinates(const server::SavedPosition& position,
+                                                         const std::string& question,
+                                                         const std::vector<std::string>& answers,
+                                                         const stage::Kind& kind, const stage::State& state) {
+  // One flipped bit would make another place of it, which would be refused later.
+  if (answers.size() != 2 || answers[0] != answers[1]) {
+    return fail(Reason::line_fault, fmt::format("the controller reported two things of {}", question), "save it again");
+  }
+  auto coordinates = kind.read_position(slot_of(position), answers[0], state);
+  if (!coordinates.empty()) return coordinates;
+  return tl::unexpected(Problem{.reason = Reason::device_refused,
+                                .message = "the controller saved the position, and does not report its coordinates",
+                                .hint = "check its mode: axisctl status",
+                                .sent = question,
+                                .wire_reply = answers[0]});
+}
+
+// Manual 129): of a place it reports what its coordinates are by now. As long as the controller was connected without
+// interruption, it holds the place; where its coordinates were set again meanwhile, nothing is left to compare them
+// with. After an interruption, and in another run of the daemon, it is the same place only where it reports the same
+// coordinates: whether the frame is the same then, too, nobody knows. A set of coordinates stays as it is.
+std::map<int, std::int64_t> expected_of(const server::SavedPosition& position, const stage::State& state) {
+  const bool shifted =
+      position.place && !was_interrupted(position, state) && *position.frame != server::frame_of(state);
+  return shifted ? std::map<int, std::int64_t>() : position.coordinates;
+}
+
+Problem refusal_of(Problem problem, const server::SavedPosition& position, const stage::State& state, TimePoint now) {
+  // What the controller reported is in no other refusal of that reason: those are of the caller's own epochs.
+  if (problem.reason != Reason::epoch_passed || problem.sent.empty()) return problem;
+  problem.message = fmt::format("\"{}\" is not there any more: {}", position.name, problem.message);
+  if (was_interrupted(position, state)) {
+    problem.message +=
+        fmt::format("; the controller came back {} ago, and may have restarted{}", for_people(now - state.epoch_began),
+                    position.place ? ", which deletes its saved positions" : "");
+  }
+  problem.hint = again(position);
+  return problem;
+}
+
+}  // namespace axisgate::api

@@ -1,0 +1,102 @@
+#include "server/api/stage/targets.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace axisgate::api {
+namespace {
+
+tl::unexpected<Problem> speeds_need(std::string_view what) {
+  return fail(Reason::invalid_request, fmt::format("the axis's present {} is not known yet", what),
+              "give minimum, maximum and acceleration_ms, or ask again once the device's link is up");
+}
+
+// Manual 89) D:, S <= F: an axis's present S may lie above a new, lower F, which it then is lowered to.
+Result<Quantity> minimum_under(const Quantity& maximum, const stage::AxisState& axis) {
+  if (!axis.minimum_speed) return speeds_need("minimum speed S");
+  if (maximum.unit != Unit::pulses && !axis.scale) return speeds_need("scale");
+  const Result<std::int64_t> highest = to_pulses_per_second(maximum, axis.scale.value_or(Scale{}));
+  if (!highest) return tl::unexpected(highest.error());
+  return pulses(std::min(*axis.minimum_speed, *highest));
+}
+
+Result<stage::AxisMove> completed_target(const AxisTarget& target, const stage::State& state) {
+  stage::AxisMove move{target.axis, target.distance, std::nullopt, target.approach};
+  if (target.speeds) {
+    const Result<stage::SpeedProfile> speeds = completed(*target.speeds, state.axis(target.axis));
+    if (!speeds) return tl::unexpected(on_axis(target.axis, speeds.error()));
+    move.profile = *speeds;
+  }
+  if (target.approach && target.approach->value.digits == 0) {
+    return tl::unexpected(on_axis(target.axis, Problem{.reason = Reason::invalid_request,
+                                                       .message = "an approach of 0 comes from no side",
+                                                       .hint = "leave it out to go straight there"}));
+  }
+  return move;
+}
+
+}  // namespace
+
+Result<int> checked_axis(int number) {
+  if (number >= 1 && number <= stage::kAxisCount) return number;
+  return fail(Reason::unknown_axis, fmt::format("there is no axis {}", number), "axes are 1, 2 and 3");
+}
+
+Result<stage::AxisSet> checked_axes(const std::vector<int>& numbers) {
+  stage::AxisSet axes;
+  for (const int number : numbers) {
+    const Result<int> axis = checked_axis(number);
+    if (!axis) return tl::unexpected(axis.error());
+    if (axes.has(*axis)) return fail(Reason::invalid_request, fmt::format("axis {} is named twice", number));
+    axes.add(*axis);
+  }
+  return axes;
+}
+
+Problem on_axis(int axis, Problem problem) {
+  problem.message = fmt::format("axis {}: {}", axis, problem.message);
+  problem.axis = axis;
+  return problem;
+}
+
+Result<stage::AxisSet> controllable_axes(stage::AxisSet named, const stage::State& state) {
+  const stage::AxisSet controllable = state.controllable();
+  if (controllable.empty()) {
+    return fail(Reason::link_down, state.link_problem.empty() ? "it is not known yet which axes the device has"
+                                                              : "the device cannot be asked: " + state.link_problem);
+  }
+  if (named.empty()) return controllable;
+  if (controllable.contains(named)) return named;
+  const stage::AxisSet missing = named - controllable;
+  return fail(Reason::unknown_axis, fmt::format("{} cannot be moved here", to_string(missing)),
+              fmt::format("the controller is set to {} (?:AXIS)", to_string(controllable)));
+}
+
+Result<stage::SpeedProfile> completed(const Speeds& speeds, const stage::AxisState& axis) {
+  stage::SpeedProfile all;
+  if (!speeds.maximum && !axis.maximum_speed) return speeds_need("maximum speed F");
+  all.maximum = speeds.maximum ? *speeds.maximum : pulses(*axis.maximum_speed);
+  const Result<Quantity> minimum = speeds.minimum ? *speeds.minimum : minimum_under(all.maximum, axis);
+  if (!minimum) return tl::unexpected(minimum.error());
+  all.minimum = *minimum;
+  if (!speeds.acceleration_ms && !axis.acceleration_ms) return speeds_need("acceleration time R");
+  all.acceleration_ms = speeds.acceleration_ms ? *speeds.acceleration_ms : *axis.acceleration_ms;
+  return all;
+}
+
+Result<stage::MoveRequest> completed(const Move& move, const stage::State& state, stage::RequestContext context) {
+  stage::MoveRequest request;
+  request.relative = move.relative;
+  request.context = std::move(context);
+  for (const AxisTarget& target : move.targets) {
+    Result<stage::AxisMove> one = completed_target(target, state);
+    if (!one) return tl::unexpected(one.error());
+    request.moves.push_back(*std::move(one));
+  }
+  return request;
+}
+
+}  // namespace axisgate::api

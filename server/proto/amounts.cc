@@ -1,0 +1,133 @@
+#include "server/proto/amounts.h"
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+
+#include "server/api/stage/targets.h"
+
+namespace axisgate::rpc {
+namespace {
+
+Result<Quantity> decimal(const std::string& text, Unit unit) {
+  const Result<Decimal> value = parse_decimal(text);
+  if (!value) return tl::unexpected(value.error());
+  return Quantity{*value, unit};
+}
+
+// Pulses come as a Decimal from the configuration, where "5.0" is whole, too.
+std::int64_t whole(const Quantity& quantity) { return to_pulses(quantity, Scale{}).value_or(0); }
+
+}  // namespace
+
+Result<Quantity> to_quantity(const v1::Distance& distance) {
+  switch (distance.amount_case()) {
+    case v1::Distance::kPulses:
+      return pulses(distance.pulses());
+    case v1::Distance::kNm:
+      return decimal(distance.nm(), Unit::nanometers);
+    case v1::Distance::kUm:
+      return decimal(distance.um(), Unit::micrometers);
+    case v1::Distance::kMm:
+      return decimal(distance.mm(), Unit::millimeters);
+    case v1::Distance::kDegrees:
+      return decimal(distance.degrees(), Unit::degrees);
+    case v1::Distance::AMOUNT_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "a distance has no amount", "set one of pulses, nm, um, mm and degrees");
+}
+
+Result<Quantity> to_quantity(const v1::Speed& speed) {
+  switch (speed.amount_case()) {
+    case v1::Speed::kPulsesPerS:
+      return pulses(speed.pulses_per_s());
+    case v1::Speed::kNmPerS:
+      return decimal(speed.nm_per_s(), Unit::nanometers);
+    case v1::Speed::kUmPerS:
+      return decimal(speed.um_per_s(), Unit::micrometers);
+    case v1::Speed::kMmPerS:
+      return decimal(speed.mm_per_s(), Unit::millimeters);
+    case v1::Speed::kDegreesPerS:
+      return decimal(speed.degrees_per_s(), Unit::degrees);
+    case v1::Speed::AMOUNT_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "a speed has no amount",
+              "set one of pulses_per_s, nm_per_s, um_per_s, mm_per_s and degrees_per_s");
+}
+
+v1::Distance to_distance(const Quantity& quantity) {
+  v1::Distance distance;
+  switch (quantity.unit) {
+    case Unit::pulses:
+      distance.set_pulses(whole(quantity));
+      break;
+    case Unit::nanometers:
+      distance.set_nm(to_string(quantity.value));
+      break;
+    case Unit::micrometers:
+      distance.set_um(to_string(quantity.value));
+      break;
+    case Unit::millimeters:
+      distance.set_mm(to_string(quantity.value));
+      break;
+    case Unit::degrees:
+      distance.set_degrees(to_string(quantity.value));
+      break;
+  }
+  return distance;
+}
+
+v1::Speed to_speed(const Quantity& quantity) {
+  v1::Speed speed;
+  switch (quantity.unit) {
+    case Unit::pulses:
+      speed.set_pulses_per_s(whole(quantity));
+      break;
+    case Unit::nanometers:
+      speed.set_nm_per_s(to_string(quantity.value));
+      break;
+    case Unit::micrometers:
+      speed.set_um_per_s(to_string(quantity.value));
+      break;
+    case Unit::millimeters:
+      speed.set_mm_per_s(to_string(quantity.value));
+      break;
+    case Unit::degrees:
+      speed.set_degrees_per_s(to_string(quantity.value));
+      break;
+  }
+  return speed;
+}
+
+v1::Unit to_proto(Unit unit) {
+  static_assert(static_cast<int>(Unit::pulses) + 1 == v1::UNIT_PULSES);
+  static_assert(static_cast<int>(Unit::degrees) + 1 == v1::UNIT_DEGREES);
+  return static_cast<v1::Unit>(static_cast<int>(unit) + 1);
+}
+
+Result<stage::AxisSet> to_axes(const google::protobuf::RepeatedField<google::protobuf::int32>& numbers) {
+  return api::checked_axes({numbers.begin(), numbers.end()});
+}
+
+Duration to_span(const google::protobuf::Duration& duration) {
+  constexpr Duration kSpanMax = std::chrono::hours(24);
+  return std::clamp<Duration>(to_duration(duration), Duration::zero(), kSpanMax);
+}
+
+Duration to_duration(const google::protobuf::Duration& duration) {
+  constexpr std::int64_t kSecondsMax = std::int64_t{200} * 366 * 24 * 3600;
+  if (duration.seconds() < 0 || duration.nanos() < 0) return Duration(-1);
+  return std::chrono::seconds(std::min(duration.seconds(), kSecondsMax)) + std::chrono::nanoseconds(duration.nanos());
+}
+
+google::protobuf::Duration to_proto(Duration duration) {
+  google::protobuf::Duration proto;
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(duration);
+  proto.set_seconds(seconds.count());
+  proto.set_nanos(static_cast<std::int32_t>((duration - seconds).count()));
+  return proto;
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,95 @@
+#include "server/proto/lease_to_proto.h"
+
+#include <utility>
+
+#include "server/events/wall_time.h"
+#include "server/proto/amounts.h"
+#include "server/proto/to_proto.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using server::AtLoss;
+
+google::protobuf::Timestamp to_stamp(TimePoint time) { return to_proto(server::to_wall(time)); }
+
+template <class Repeated>
+void add_axes(Repeated& axes, stage::AxisSet set) {
+  for (const int axis : set.list()) axes.Add(axis);
+}
+
+AtLoss to_at_loss(v1::AtLoss at_loss) {
+  switch (at_loss) {
+    case v1::AT_LOSS_FINISH:
+      return AtLoss::finish;
+    case v1::AT_LOSS_STOP_AND_RELEASE:
+      return AtLoss::stop_and_release;
+    default:
+      return AtLoss::stop;
+  }
+}
+
+v1::AtLoss to_rule(AtLoss at_loss) {
+  static_assert(static_cast<int>(AtLoss::finish) + 1 == v1::AT_LOSS_FINISH);
+  static_assert(static_cast<int>(AtLoss::stop_and_release) + 1 == v1::AT_LOSS_STOP_AND_RELEASE);
+  return static_cast<v1::AtLoss>(static_cast<int>(at_loss) + 1);
+}
+
+}  // namespace
+
+Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms) {
+  const Result<stage::AxisSet> axes = to_axes(terms.axes());
+  if (!axes) return tl::unexpected(axes.error());
+  api::LeaseWish wish{.axes = *axes, .at_loss = to_at_loss(terms.at_loss()), .purpose = terms.purpose()};
+  if (terms.has_time_to_live()) wish.time_to_live = to_duration(terms.time_to_live());
+  if (terms.has_expected_use()) wish.expected_use = to_duration(terms.expected_use());
+  return wish;
+}
+
+v1::Lease to_proto(const server::Lease& lease) {
+  v1::Lease proto;
+  proto.set_token(lease.sealed_token);
+  add_axes(*proto.mutable_axes(), lease.terms.axes);
+  proto.set_holder(lease.holder);
+  *proto.mutable_since_time() = to_stamp(lease.since);
+  *proto.mutable_expire_time() = to_stamp(lease.expires);
+  *proto.mutable_time_to_live() = to_proto(lease.terms.time_to_live);
+  proto.set_at_loss(to_rule(lease.terms.at_loss));
+  proto.set_purpose(lease.terms.purpose);
+  if (lease.latch) *proto.mutable_latch() = to_proto(*lease.latch);
+  if (lease.ending) proto.set_ending(text_of(*lease.ending));
+  return proto;
+}
+
+v1::Latch to_proto(const server::Latch& latch) {
+  v1::Latch proto;
+  add_axes(*proto.mutable_axes(), latch.axes);
+  proto.set_by(latch.by);
+  *proto.mutable_time() = to_stamp(latch.at);
+  return proto;
+}
+
+v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board) {
+  v1::WatchLeasesResponse proto;
+  for (const server::Lease& lease : board.held) {
+    *proto.add_leases() = to_proto(lease);
+    proto.mutable_leases()->rbegin()->clear_token();
+  }
+  for (const server::WaitingLease& waiting : board.waiting) {
+    v1::WaitingLease& one = *proto.add_waiting();
+    one.set_place(waiting.place);
+    add_axes(*one.mutable_axes(), waiting.terms.axes);
+    one.set_holder(waiting.holder);
+    *one.mutable_since_time() = to_stamp(waiting.since);
+    one.set_purpose(waiting.terms.purpose);
+    if (waiting.expected_wait) *one.mutable_expected_wait() = to_proto(*waiting.expected_wait);
+  }
+  for (const server::Leases::HeldBack& held_back : board.held_back) {
+    v1::HeldBack& one = *proto.add_held_back();
+    one.set_who(held_back.who);
+    *one.mutable_latch() = to_proto(held_back.latch);
+  }
+  return proto;
+}
+
+}  // namespace axisgate::rpc

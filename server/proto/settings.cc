@@ -1,0 +1,132 @@
+#include "server/proto/settings.h"
+
+#include <utility>
+
+#include "server/proto/amounts.h"
+#include "server/proto/targets.h"
+#include "server/proto/to_proto.h"
+
+namespace axisgate::rpc {
+namespace {
+
+Result<std::optional<api::Speeds>> to_axis_speeds(int axis, bool given, const v1::Profile& profile) {
+  if (!given) return std::nullopt;
+  const Result<api::Speeds> speeds = to_speeds(profile);
+  if (!speeds) return tl::unexpected(api::on_axis(axis, speeds.error()));
+  return *speeds;
+}
+
+Result<api::AxisChange> to_axis_change(const v1::AxisSettings& settings) {
+  api::AxisChange change{.axis = settings.axis()};
+  if (settings.has_closed_loop()) change.closed_loop = settings.closed_loop();
+  if (settings.has_excited()) change.excited = settings.excited();
+  if (settings.has_divisions()) change.divisions = settings.divisions();
+  const auto speeds = to_axis_speeds(settings.axis(), settings.has_speeds(), settings.speeds());
+  if (!speeds) return tl::unexpected(speeds.error());
+  change.speeds = *speeds;
+  const auto origin = to_axis_speeds(settings.axis(), settings.has_origin_speeds(), settings.origin_speeds());
+  if (!origin) return tl::unexpected(origin.error());
+  change.origin_speeds = *origin;
+  change.names_given = !settings.name_on_device().empty() || !settings.scale_resolution().empty();
+  return change;
+}
+
+// Below zero where it is no proper duration: that is out of range.
+Duration to_settling(const google::protobuf::Duration& duration) {
+  return duration.nanos() < 1'000'000'000 ? to_duration(duration) : Duration(-1);
+}
+
+Result<stage::Trigger> to_trigger(const v1::Trigger& trigger) {
+  if (trigger.target() < v1::Trigger::TARGET_NONE || trigger.target() > v1::Trigger::TARGET_SCALE_MINUS) {
+    return fail(Reason::invalid_request, "the trigger has no target", "name one; TARGET_NONE ends it");
+  }
+  const auto target = static_cast<stage::Trigger::Target>(trigger.target() - v1::Trigger::TARGET_NONE);
+  return stage::Trigger{target, trigger.axis(), trigger.interval()};
+}
+
+Result<void> fill_controller(const v1::Settings& settings, api::SettingsChange& change) {
+  if (settings.has_display_lit()) change.display_lit = settings.display_lit();
+  if (settings.has_beep()) change.beep = settings.beep();
+  if (settings.has_settling()) change.settling = to_settling(settings.settling());
+  if (settings.has_outputs()) change.outputs = settings.outputs();
+  if (settings.has_sleeping()) change.sleeping = settings.sleeping();
+  if (settings.has_mode()) change.mode = settings.mode();
+  if (settings.has_format()) change.format = settings.format();
+  change.inputs_given = settings.has_inputs();
+  if (!settings.has_trigger()) return {};
+  const Result<stage::Trigger> trigger = to_trigger(settings.trigger());
+  if (!trigger) return tl::unexpected(trigger.error());
+  change.trigger = *trigger;
+  return {};
+}
+
+Result<api::NewCoordinate> to_coordinate(const v1::AxisCoordinate& coordinate) {
+  api::NewCoordinate one{.axis = coordinate.axis()};
+  if (coordinate.set_origin()) one.coordinate = api::SetOrigin{};
+  if (coordinate.unset_origin()) one.coordinate = api::UnsetOrigin{};
+  if (coordinate.coordinate_case() != v1::AxisCoordinate::kPosition) return one;
+  const auto quantity = to_quantity(coordinate.position());
+  if (!quantity) return tl::unexpected(api::on_axis(coordinate.axis(), quantity.error()));
+  one.coordinate = *quantity;
+  return one;
+}
+
+void fill_speeds(const stage::SpeedSetting& speeds, v1::Profile& profile) {
+  profile.mutable_minimum()->set_pulses_per_s(speeds.minimum);
+  profile.mutable_maximum()->set_pulses_per_s(speeds.maximum);
+  profile.set_acceleration_ms(speeds.acceleration_ms);
+}
+
+void fill_axis(const stage::AxisSettings& settings, v1::AxisSettings& axis) {
+  if (settings.speeds) fill_speeds(*settings.speeds, *axis.mutable_speeds());
+  if (settings.origin_speeds) fill_speeds(*settings.origin_speeds, *axis.mutable_origin_speeds());
+  if (settings.divisions) axis.set_divisions(*settings.divisions);
+  if (settings.closed_loop) axis.set_closed_loop(*settings.closed_loop);
+  if (settings.excited) axis.set_excited(*settings.excited);
+  axis.set_name_on_device(settings.name_on_device);
+  axis.set_scale_resolution(settings.scale_resolution);
+}
+
+}  // namespace
+
+Result<api::SettingsChange> to_change(const v1::Settings& settings) {
+  api::SettingsChange change;
+  for (const v1::AxisSettings& axis : settings.axes()) {
+    Result<api::AxisChange> one = to_axis_change(axis);
+    if (!one) return tl::unexpected(one.error());
+    change.axes.push_back(*std::move(one));
+  }
+  if (const auto filled = fill_controller(settings, change); !filled) return tl::unexpected(filled.error());
+  return change;
+}
+
+Result<api::NewCoordinates> to_coordinates(const v1::SetCoordinatesRequest& request) {
+  api::NewCoordinates all;
+  for (const v1::AxisCoordinate& coordinate : request.coordinates()) {
+    Result<api::NewCoordinate> one = to_coordinate(coordinate);
+    if (!one) return tl::unexpected(one.error());
+    all.push_back(*std::move(one));
+  }
+  return all;
+}
+
+v1::Settings to_proto(const stage::Settings& settings) {
+  v1::Settings proto;
+  for (const auto& [number, axis] : settings.axes) {
+    v1::AxisSettings& one = *proto.add_axes();
+    one.set_axis(number);
+    fill_axis(axis, one);
+  }
+  if (settings.settling) *proto.mutable_settling() = to_proto(*settings.settling);
+  if (settings.sleeping) proto.set_sleeping(*settings.sleeping);
+  if (settings.display_lit) proto.set_display_lit(*settings.display_lit);
+  if (settings.beep) proto.set_beep(*settings.beep);
+  if (settings.outputs) proto.set_outputs(*settings.outputs);
+  if (settings.inputs) proto.set_inputs(*settings.inputs);
+  if (settings.trigger) fill_trigger(*settings.trigger, *proto.mutable_trigger());
+  if (settings.mode) proto.set_mode(*settings.mode);
+  if (settings.format) proto.set_format(*settings.format);
+  return proto;
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,151 @@
+#include "server/proto/targets.h"
+
+#include <chrono>
+#include <utility>
+
+#include "server/proto/amounts.h"
+#include "server/proto/curves.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using api::checked_axis;
+using api::on_axis;
+
+Result<stage::AxisMove> to_axis_move(int number, const v1::Distance& distance) {
+  const Result<int> axis = checked_axis(number);
+  if (!axis) return tl::unexpected(axis.error());
+  const Result<Quantity> quantity = to_quantity(distance);
+  if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
+  return stage::AxisMove{*axis, *quantity, std::nullopt};
+}
+
+Result<std::vector<stage::AxisMove>> to_axis_moves(const v1::Segment& segment) {
+  std::vector<stage::AxisMove> moves;
+  const auto add = [&](const v1::AxisDistance& part) -> Result<void> {
+    Result<stage::AxisMove> move = to_axis_move(part.axis(), part.distance());
+    if (!move) return tl::unexpected(move.error());
+    moves.push_back(*std::move(move));
+    return {};
+  };
+  switch (segment.shape_case()) {
+    case v1::Segment::kSingle:
+      if (const Result<void> added = add(segment.single()); !added) return tl::unexpected(added.error());
+      return moves;
+    case v1::Segment::kLine:
+      if (segment.line().distances_size() < 2) {
+        return fail(Reason::invalid_request, "a line moves two or three axes", "use `single` for one axis");
+      }
+      for (const v1::AxisDistance& part : segment.line().distances()) {
+        if (const Result<void> added = add(part); !added) return tl::unexpected(added.error());
+      }
+      return moves;
+    case v1::Segment::kArc:
+    case v1::Segment::SHAPE_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "the segment has no shape", "set `line`, `single` or `arc`");
+}
+
+Result<api::AxisTarget> to_target(const v1::AxisTarget& target) {
+  const Result<int> axis = checked_axis(target.axis());
+  if (!axis) return tl::unexpected(axis.error());
+  const Result<Quantity> distance = to_quantity(target.distance());
+  if (!distance) return tl::unexpected(on_axis(*axis, distance.error()));
+  api::AxisTarget one{.axis = *axis, .distance = *distance};
+  if (target.has_profile()) {
+    const Result<api::Speeds> speeds = to_speeds(target.profile());
+    if (!speeds) return tl::unexpected(on_axis(*axis, speeds.error()));
+    one.speeds = *speeds;
+  }
+  if (target.has_approach()) {
+    const Result<Quantity> approach = to_quantity(target.approach());
+    if (!approach) return tl::unexpected(on_axis(*axis, approach.error()));
+    one.approach = *approach;
+  }
+  return one;
+}
+
+}  // namespace
+
+Result<api::Speeds> to_speeds(const v1::Profile& profile) {
+  api::Speeds speeds;
+  if (profile.has_maximum()) {
+    const Result<Quantity> maximum = to_quantity(profile.maximum());
+    if (!maximum) return tl::unexpected(maximum.error());
+    speeds.maximum = *maximum;
+  }
+  if (profile.has_minimum()) {
+    const Result<Quantity> minimum = to_quantity(profile.minimum());
+    if (!minimum) return tl::unexpected(minimum.error());
+    speeds.minimum = *minimum;
+  }
+  if (profile.acceleration_ms() != 0) speeds.acceleration_ms = profile.acceleration_ms();
+  return speeds;
+}
+
+Result<api::Move> to_move(const v1::MoveRequest& request) {
+  api::Move move{.targets = {}, .relative = request.relative()};
+  for (const v1::AxisTarget& target : request.targets()) {
+    Result<api::AxisTarget> one = to_target(target);
+    if (!one) return tl::unexpected(one.error());
+    move.targets.push_back(*std::move(one));
+  }
+  return move;
+}
+
+Result<stage::Segment> to_segment(const v1::Segment& segment) {
+  stage::Segment stretch;
+  if (segment.has_arc()) {
+    Result<stage::Curve> curve = to_curve(segment.arc());
+    if (!curve) return tl::unexpected(curve.error());
+    stretch.curve = *std::move(curve);
+  } else {
+    Result<std::vector<stage::AxisMove>> moves = to_axis_moves(segment);
+    if (!moves) return tl::unexpected(moves.error());
+    stretch.moves = *std::move(moves);
+  }
+  stretch.relative = segment.relative();
+  if (segment.has_speed()) {
+    const Result<Quantity> speed = to_quantity(segment.speed());
+    if (!speed) return tl::unexpected(speed.error());
+    stretch.speed = *speed;
+  }
+  if (segment.acceleration_ms() != 0) stretch.acceleration_ms = segment.acceleration_ms();
+  stretch.rest = std::chrono::milliseconds(segment.rest_ms());
+  if (segment.has_inputs()) stretch.inputs = segment.inputs();
+  return stretch;
+}
+
+Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request) {
+  const Result<int> axis = checked_axis(request.axis());
+  if (!axis) return tl::unexpected(axis.error());
+  stage::ScanRequest scan;
+  scan.axis = *axis;
+  for (const auto& [end, place] : {std::pair(&request.from(), &scan.from), {&request.to(), &scan.to}}) {
+    const Result<Quantity> quantity = to_quantity(*end);
+    if (!quantity) return tl::unexpected(on_axis(*axis, quantity.error()));
+    *place = *quantity;
+  }
+  if (request.has_speed()) {
+    const Result<Quantity> speed = to_quantity(request.speed());
+    if (!speed) return tl::unexpected(on_axis(*axis, speed.error()));
+    scan.speed = *speed;
+  }
+  if (request.acceleration_ms() != 0) scan.acceleration_ms = request.acceleration_ms();
+  switch (request.interval_case()) {
+    case v1::ScanRequest::kDrivePulses:
+      scan.interval = request.drive_pulses();
+      return scan;
+    case v1::ScanRequest::kScalePulses:
+      scan.by_scale = true;
+      scan.interval = request.scale_pulses();
+      return scan;
+    case v1::ScanRequest::INTERVAL_NOT_SET:
+      break;
+  }
+  return fail(Reason::invalid_request, "a scan does not say how far apart its trigger pulses are",
+              "set `drive_pulses` or `scale_pulses`");
+}
+
+}  // namespace axisgate::rpc

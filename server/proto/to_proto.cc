@@ -1,0 +1,372 @@
+#include "server/proto/to_proto.h"
+
+#include <algorithm>
+#include <chrono>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "device/core/escape.h"
+#include "device/link/clock.h"
+#include "device/stage/envelope.h"
+#include "server/api/request/names.h"
+#include "server/proto/amounts.h"
+#include "server/proto/mills.h"
+#include "server/rpc/calls/status.h"
+
+namespace axisgate::rpc {
+namespace {
+
+using stage::LinkState;
+using stage::MotionKind;
+using stage::MotionState;
+
+v1::LinkState to_link_state(LinkState state) {
+  static_assert(static_cast<int>(LinkState::down) + 1 == v1::LINK_STATE_DOWN);
+  static_assert(static_cast<int>(LinkState::connecting) + 1 == v1::LINK_STATE_CONNECTING);
+  static_assert(static_cast<int>(LinkState::up) + 1 == v1::LINK_STATE_UP);
+  static_assert(static_cast<int>(LinkState::doubtful) + 1 == v1::LINK_STATE_DOUBTFUL);
+  static_assert(static_cast<int>(LinkState::babbling) + 1 == v1::LINK_STATE_BABBLING);
+  return static_cast<v1::LinkState>(static_cast<int>(state) + 1);
+}
+
+v1::MotionKind to_motion_kind(MotionKind kind) {
+  static_assert(static_cast<int>(MotionKind::move) + 1 == v1::MOTION_KIND_MOVE);
+  static_assert(static_cast<int>(MotionKind::scan) + 1 == v1::MOTION_KIND_SCAN);
+  return static_cast<v1::MotionKind>(static_cast<int>(kind) + 1);
+}
+
+v1::MotionState to_motion_state(MotionState state) {
+  static_assert(static_cast<int>(MotionState::queued) + 1 == v1::MOTION_STATE_QUEUED);
+  static_assert(static_cast<int>(MotionState::succeeded) + 1 == v1::MOTION_STATE_SUCCEEDED);
+  static_assert(static_cast<int>(MotionState::unknown) + 1 == v1::MOTION_STATE_UNKNOWN);
+  return static_cast<v1::MotionState>(static_cast<int>(state) + 1);
+}
+
+// Empty where it is not known or the axis is shown in a unit that does not fit its scale.
+std::string position_text(std::optional<std::int64_t> pulses, const std::optional<Scale>& scale, Unit unit) {
+  if (!pulses || (unit != Unit::pulses && !scale)) return "";
+  const Result<Decimal> shown = from_pulses(*pulses, unit, scale.value_or(Scale{}));
+  return shown ? to_string(*shown) : "";
+}
+
+void fill_stage(int number, const stage::Profile& profile, const stage::State& state, v1::Axis& axis) {
+  const auto& stage = profile.axes[static_cast<std::size_t>(number - 1)].stage;
+  if (!stage) return;
+  axis.set_stage(stage->model);
+  const auto fits = stage::Envelope(profile, state, "", "").check_stage(number);
+  if (!fits) axis.set_stage_problem(fits.error().message);
+  const stage::AxisState& now = state.axis(number);
+  if (!stage->modulo || !now.position_pulses || !now.scale) return;
+  const Result<Decimal> place = within_turn(*now.position_pulses, *stage->modulo, *now.scale);
+  if (place) axis.set_position_in_turn(to_string(*place));
+}
+
+void fill_limits(const stage::AxisProfile& profile, v1::Axis& axis) {
+  if (profile.travel_minimum) *axis.mutable_travel_minimum() = to_distance(*profile.travel_minimum);
+  if (profile.travel_maximum) *axis.mutable_travel_maximum() = to_distance(*profile.travel_maximum);
+  if (profile.maximum_speed) *axis.mutable_speed_limit() = to_speed(*profile.maximum_speed);
+  axis.set_require_homing(profile.require_homing);
+}
+
+void fill_axis(int number, const stage::AxisProfile& profile, const stage::AxisState& state, v1::Axis& axis) {
+  axis.set_number(number);
+  axis.set_name(profile.name);
+  axis.set_unit(to_proto(profile.unit));
+  axis.set_controllable(state.controllable);
+  if (state.position_pulses) axis.set_position_pulses(*state.position_pulses);
+  axis.set_position(position_text(state.position_pulses, state.scale, profile.unit));
+  if (state.busy) axis.set_busy(*state.busy);
+  axis.set_foreign_motion(state.foreign_motion);
+  axis.set_armed(state.armed);
+  if (state.excited) axis.set_excited(*state.excited);
+  axis.set_homed(state.homed);
+  axis.set_status_bits(state.status.raw);
+  if (state.controllable) {
+    for (const auto condition : stage::listed(stage::conditions_in(state.status.raw))) {
+      axis.add_conditions(to_condition(condition));
+    }
+  }
+  fill_limits(profile, axis);
+  if (state.scale) {
+    axis.set_per_pulse(to_string(state.scale->per_pulse));
+    axis.set_rotary(state.scale->rotary);
+  }
+  if (state.minimum_speed) axis.set_minimum_speed(*state.minimum_speed);
+  if (state.maximum_speed) axis.set_maximum_speed(*state.maximum_speed);
+  if (state.acceleration_ms) axis.set_acceleration_ms(*state.acceleration_ms);
+}
+
+void fill_age(TimePoint read, v1::Device& device) {
+  if (read == TimePoint{}) return;
+  const Duration age = std::max(Duration::zero(), monotonic_now() - read);
+  *device.mutable_age() = to_proto(age);
+  *device.mutable_read_time() = to_proto(server::to_wall(read));
+}
+
+v1::StopChange::State to_stop_state(stage::StopState state) {
+  switch (state) {
+    case stage::StopState::asked:
+    case stage::StopState::written:
+      return v1::StopChange::STATE_OPEN;
+    case stage::StopState::confirmed:
+      return v1::StopChange::STATE_CONFIRMED;
+    case stage::StopState::replaced:
+      return v1::StopChange::STATE_REPLACED;
+    case stage::StopState::withdrawn:
+      break;
+  }
+  return v1::StopChange::STATE_WITHDRAWN;
+}
+
+void fill_stops(const std::string& device, const stage::State& state, v1::Device& proto) {
+  for (const stage::Stop& stop : state.open_stops) {
+    v1::OpenStop& one = *proto.add_open_stops();
+    one.set_name(api::stop_name(device, stop.id));
+    for (const int axis : stop.axes.list()) one.add_axes(axis);
+    one.set_emergency(stop.kind == stage::StopKind::emergency);
+    for (const std::string& who : stop.callers) one.add_callers(who);
+    *one.mutable_ask_time() = to_proto(server::to_wall(stop.asked));
+    one.set_written(stop.state == stage::StopState::written);
+    one.set_late(stop.late);
+    one.set_stale_setpoint(stop.stale);
+  }
+  if (!state.emergency) return;
+  proto.mutable_emergency_latch()->set_who(state.emergency->who);
+  *proto.mutable_emergency_latch()->mutable_time() = to_proto(server::to_wall(state.emergency->at));
+}
+
+// Each fact's own place in an Event.
+struct EventFiller {
+  const server::FactRecord& record;
+  v1::Event& event;
+
+  void operator()(const stage::MotionChanged& change) const {
+    *event.mutable_motion() = to_proto(record.device, change.motion, record.revision, record.clock);
+  }
+  void operator()(const stage::CompletionSeen& seen) const {
+    event.mutable_completion()->set_axis(seen.axis);
+    if (seen.motion != 0) event.mutable_completion()->set_motion(api::motion_name(record.device, seen.motion));
+  }
+  void operator()(const stage::PathProgress& progress) const {
+    *event.mutable_path_progress() = to_proto(record.device, progress);
+  }
+  void operator()(const stage::LinkChanged& change) const {
+    event.mutable_link()->set_state(to_link_state(change.link));
+    event.mutable_link()->set_why(change.why);
+  }
+  void operator()(const stage::ForeignMotion& motion) const {
+    for (const int axis : motion.axes.list()) event.mutable_foreign_motion()->add_axes(axis);
+  }
+  void operator()(const stage::ConditionChanged& change) const {
+    v1::ConditionChange& proto = *event.mutable_condition();
+    proto.set_condition(to_condition(change.condition));
+    for (const int axis : change.axes.list()) proto.add_axes(axis);
+    proto.set_begun(change.begun);
+    proto.set_value(escaped(change.value));
+    if (change.before != TimePoint{}) *proto.mutable_before_time() = to_proto(record.clock.at(change.before));
+    *proto.mutable_seen_time() = to_proto(record.clock.at(change.seen));
+  }
+  void operator()(const stage::SwitchesChanged& change) const {
+    v1::SwitchesChanged& switches = *event.mutable_switches_changed();
+    switches.set_who(change.who);
+    switches.set_unknown(change.unknown);
+    for (const auto& one : change.changes) {
+      v1::SwitchChange& proto = *switches.add_changes();
+      proto.set_item(one.item);
+      proto.set_number(one.number);
+      proto.set_before(escaped(one.before));
+      proto.set_after(escaped(one.after));
+    }
+  }
+  void operator()(const stage::ProgramNotice& notice) const {
+    static_assert(static_cast<int>(stage::ProgramNotice::Kind::trigger) + 1 == v1::ProgramNotice::KIND_TRIGGER);
+    event.mutable_program_notice()->set_kind(static_cast<v1::ProgramNotice::Kind>(static_cast<int>(notice.kind) + 1));
+    event.mutable_program_notice()->set_count(notice.count);
+  }
+  void operator()(const stage::StopRequested& stop) const {
+    for (const int axis : stop.axes.list()) event.mutable_stop_requested()->add_axes(axis);
+    event.mutable_stop_requested()->set_emergency(stop.emergency);
+    event.mutable_stop_requested()->set_who(stop.who);
+    event.mutable_stop_requested()->set_count(stop.count);
+  }
+  void operator()(const stage::StopChanged& change) const {
+    const stage::Stop& stop = change.stop;
+    v1::StopChange& proto = *event.mutable_stop();
+    proto.set_name(api::stop_name(record.device, stop.id));
+    proto.set_state(to_stop_state(stop.state));
+    for (const int axis : stop.axes.list()) proto.add_axes(axis);
+    proto.set_emergency(stop.kind == stage::StopKind::emergency);
+    for (const std::string& who : stop.callers) proto.add_callers(who);
+    if (!is_open(stop.state)) *proto.mutable_after() = to_proto(stop.ended - stop.asked);
+    for (const auto& [axis, pulses] : stop.came_to) {
+      v1::AxisRest& rest = *proto.add_rests();
+      rest.set_axis(axis);
+      rest.set_position_pulses(pulses);
+    }
+    if (stop.replaced_by != 0) proto.set_replaced_by(api::stop_name(record.device, stop.replaced_by));
+    proto.set_withdrawn_by(stop.withdrawn_by);
+  }
+  void operator()(const stage::EmergencyLatchChanged& change) const {
+    event.mutable_emergency_latch()->set_latched(change.latch.has_value());
+    event.mutable_emergency_latch()->set_who(change.who);
+  }
+  void operator()(const server::DaemonStarted& started) const {
+    event.mutable_daemon_started()->set_after_unclean_end(started.after_unclean_end);
+  }
+  void operator()(const server::JobChanged& change) const {
+    v1::JobChange& proto = *event.mutable_job();
+    *proto.mutable_job() = to_proto(record.device, change.job, record.clock);
+    if (change.sending) proto.set_sending(to_sending_state(*change.sending));
+    proto.set_who(change.who);
+    proto.set_why(change.why);
+  }
+};
+
+}  // namespace
+
+void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto) {
+  using Target = stage::Trigger::Target;
+  static_assert(static_cast<int>(Target::none) + 1 == v1::Trigger::TARGET_NONE);
+  static_assert(static_cast<int>(Target::scale_minus) + 1 == v1::Trigger::TARGET_SCALE_MINUS);
+  proto.set_target(static_cast<v1::Trigger::Target>(static_cast<int>(trigger.target) + 1));
+  proto.set_axis(trigger.axis);
+  proto.set_interval(trigger.interval);
+}
+
+v1::Condition to_condition(stage::Condition condition) {
+  static_assert(static_cast<int>(stage::Condition::unnamed_error) == v1::CONDITION_UNNAMED_ERROR);
+  static_assert(static_cast<int>(stage::Condition::format) == v1::CONDITION_FORMAT);
+  return static_cast<v1::Condition>(static_cast<int>(condition));
+}
+
+google::protobuf::Timestamp to_proto(server::WallTime time) {
+  const auto since_epoch = time.time_since_epoch();
+  const auto seconds = std::chrono::floor<std::chrono::seconds>(since_epoch);
+  google::protobuf::Timestamp stamp;
+  stamp.set_seconds(seconds.count());
+  stamp.set_nanos(static_cast<std::int32_t>(std::chrono::nanoseconds(since_epoch - seconds).count()));
+  return stamp;
+}
+
+v1::Device to_proto(const server::Stage& device, const stage::State& state) {
+  v1::Device proto;
+  proto.set_name(api::device_name(device.name()));
+  proto.set_kind(std::string(device.kind().name()));
+  proto.set_link(to_link_state(state.link));
+  proto.set_link_problem(state.link_problem);
+  proto.set_vendor(escaped(state.vendor));
+  proto.set_model(escaped(state.model));
+  proto.set_serial_number(escaped(state.serial_number));
+  proto.set_firmware(escaped(state.firmware));
+  proto.set_mode(escaped(state.mode));
+  proto.set_format(escaped(state.format));
+  proto.set_device_epoch(state.device_epoch);
+  proto.set_frame_epoch(state.frame_epoch);
+  for (int number = 1; number <= stage::kAxisCount; ++number) {
+    v1::Axis& axis = *proto.add_axes();
+    fill_axis(number, device.profile().axes[static_cast<std::size_t>(number - 1)], state.axis(number), axis);
+    fill_stage(number, device.profile(), state, axis);
+  }
+  if (state.outputs) proto.set_outputs(*state.outputs);
+  if (state.trigger) fill_trigger(*state.trigger, *proto.mutable_trigger());
+  proto.set_moving_unknown(state.moving_unknown);
+  fill_stops(device.name(), state, proto);
+  fill_age(state.read, proto);
+  return proto;
+}
+
+v1::Scan to_proto(const stage::ScanResult& scan) {
+  v1::Scan proto;
+  proto.set_run_from_pulses(scan.run_from);
+  proto.set_run_to_pulses(scan.run_to);
+  if (scan.expected) proto.set_expected_triggers(*scan.expected);
+  if (scan.expected_in_range) proto.set_expected_triggers_in_range(*scan.expected_in_range);
+  if (scan.observed) proto.set_observed_triggers(*scan.observed);
+  return proto;
+}
+
+void set_times(v1::Motion& proto, const stage::Motion& motion, const server::Moment& clock) {
+  *proto.mutable_create_time() = to_proto(clock.at(motion.created));
+  if (motion.started != TimePoint{}) *proto.mutable_start_time() = to_proto(clock.at(motion.started));
+  if (motion.ended != TimePoint{}) *proto.mutable_end_time() = to_proto(clock.at(motion.ended));
+}
+
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
+                    const server::Moment& clock) {
+  v1::Motion proto;
+  proto.set_name(api::motion_name(device, motion.id));
+  proto.set_kind(to_motion_kind(motion.kind));
+  proto.set_state(to_motion_state(motion.state));
+  for (const int axis : motion.axes.list()) proto.add_axes(axis);
+  for (const stage::AxisResult& result : motion.results) {
+    v1::AxisResult& one = *proto.add_results();
+    one.set_axis(result.axis);
+    if (result.target_pulses) one.set_target_pulses(*result.target_pulses);
+    if (result.command_pulses) one.set_command_pulses(*result.command_pulses);
+    one.set_completion_seen(result.completion_seen);
+  }
+  if (motion.problem) *proto.mutable_problem() = to_proto(*motion.problem);
+  proto.set_revision(revision);
+  set_times(proto, motion, clock);
+  proto.set_who(motion.who);
+  proto.set_request_id(motion.request_id);
+  proto.set_segments_total(motion.segments_total);
+  proto.set_segments_done(motion.segments_done);
+  proto.set_underruns(motion.underruns);
+  if (motion.scan) *proto.mutable_scan() = to_proto(*motion.scan);
+  return proto;
+}
+
+v1::Motion to_proto(const api::CurrentMotion& motion) {
+  v1::Motion proto = to_proto(motion.device, motion.motion, motion.revision, motion.clock);
+  proto.set_repeated(motion.is_repeated);
+  return proto;
+}
+
+v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress) {
+  using Step = stage::PathProgress::Step;
+  static_assert(static_cast<int>(Step::sent) + 1 == v1::PathProgress::STEP_SENT);
+  static_assert(static_cast<int>(Step::underrun) + 1 == v1::PathProgress::STEP_UNDERRUN);
+  v1::PathProgress proto;
+  proto.set_motion(api::motion_name(device, progress.motion));
+  proto.set_step(static_cast<v1::PathProgress::Step>(static_cast<int>(progress.step) + 1));
+  proto.set_segment(progress.segment);
+  proto.set_wire_reply(escaped(progress.wire_reply));
+  return proto;
+}
+
+v1::Event to_proto(const server::FactRecord& record) {
+  v1::Event event;
+  event.set_revision(record.revision);
+  *event.mutable_time() = to_proto(record.time);
+  if (!record.device.empty()) event.set_device(api::device_name(record.device));
+  event.set_run(record.run);
+  std::visit(EventFiller{record, event}, record.fact);
+  return event;
+}
+
+v1::DeviceStop to_proto(const api::DeviceStop& stop) {
+  v1::DeviceStop proto;
+  proto.set_device(api::device_name(stop.device->name()));
+  const auto* stage = dynamic_cast<const server::Stage*>(stop.device);
+  for (const stage::StopReport::Axis& axis : stop.report.axes) {
+    const stage::AxisProfile& profile = stage->profile().axes[static_cast<std::size_t>(axis.axis - 1)];
+    v1::AxisStop& one = *proto.add_axes();
+    one.set_axis(axis.axis);
+    one.set_wire_reply(escaped(axis.wire_reply));
+    one.set_named(axis.named);
+    one.set_reply_unreadable(axis.reply_unreadable);
+    if (axis.ready) one.set_ready(*axis.ready);
+    if (axis.position_pulses) one.set_position_pulses(*axis.position_pulses);
+    one.set_name(profile.name);
+    one.set_unit(to_proto(profile.unit));
+    one.set_position(position_text(axis.position_pulses, stop.state.axis(axis.axis).scale, profile.unit));
+  }
+  if (stop.report.problem) *proto.mutable_problem() = to_proto(*stop.report.problem);
+  proto.set_stays_open(stop.report.stays_open);
+  if (stop.report.stop != 0) proto.set_stop(api::stop_name(stop.device->name(), stop.report.stop));
+  return proto;
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,43 @@
+// What the gateway knows, as callers read it: devices, motions, facts.
+#pragma once
+
+#include <google/protobuf/timestamp.pb.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/event.pb.h"
+#include "axisgate/v1/motion.pb.h"
+#include "axisgate/v1/stage.pb.h"
+#include "device/stage/stage_controller.h"
+#include "server/api/request/motion_watch.h"
+#include "server/api/stage/stops.h"
+#include "server/devices/stage.h"
+#include "server/events/event_bus.h"
+#include "server/events/wall_time.h"
+
+namespace axisgate::rpc {
+
+google::protobuf::Timestamp to_proto(server::WallTime time);
+
+// With the state's age as of now.
+void fill_trigger(const stage::Trigger& trigger, v1::Trigger& proto);
+
+v1::Device to_proto(const server::Stage& device, const stage::State& state);
+
+// `revision` is that of the newest fact about the motion, 0 when not known; its times are shown by `clock`.
+v1::Motion to_proto(std::string_view device, const stage::Motion& motion, std::uint64_t revision,
+                    const server::Moment& clock);
+v1::Motion to_proto(const api::CurrentMotion& motion);
+
+v1::PathProgress to_proto(std::string_view device, const stage::PathProgress& progress);
+
+v1::Condition to_condition(stage::Condition condition);
+
+v1::Event to_proto(const server::FactRecord& record);
+
+v1::DeviceStop to_proto(const api::DeviceStop& stop);
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,42 @@
+#include "server/proto/transactions.h"
+
+#include <algorithm>
+#include <chrono>
+
+#include "device/core/escape.h"
+
+namespace axisgate::rpc {
+namespace {
+
+// Longer than any line of the controller.
+constexpr std::size_t kWireTextMax = 512;
+
+// Bounded, so that it does not overflow nanoseconds.
+Duration to_timeout(const google::protobuf::Duration& timeout) {
+  return std::chrono::seconds(std::clamp<std::int64_t>(timeout.seconds(), -1, 3600)) +
+         std::chrono::nanoseconds(timeout.nanos());
+}
+
+}  // namespace
+
+api::Transaction to_transaction(const v1::ExecuteRequest& request) {
+  api::Transaction transaction{.lines = {request.lines().begin(), request.lines().end()}};
+  if (request.has_timeout()) transaction.timeout = to_timeout(request.timeout());
+  return transaction;
+}
+
+v1::ExecuteResponse to_response(const stage::ExecuteEvent& event) {
+  v1::ExecuteResponse response;
+  if (event.kind == stage::ExecuteEvent::Kind::completion) {
+    response.set_completion(event.axis);
+    return response;
+  }
+  v1::LineReply& reply = *response.mutable_reply();
+  reply.set_line(static_cast<int>(event.line));
+  reply.set_answer(escaped(event.answer, kWireTextMax));
+  reply.set_sent(event.sent);
+  reply.set_wire_reply(escaped(event.wire_reply, kWireTextMax));
+  return response;
+}
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,15 @@
+// Transactions of a caller's own lines, as messages.
+#pragma once
+
+#include "axisgate/v1/command.pb.h"
+#include "device/stage/stage_controller.h"
+#include "server/api/stage/commands.h"
+
+namespace axisgate::rpc {
+
+api::Transaction to_transaction(const v1::ExecuteRequest& request);
+
+// Of one that is not the end. The device's texts in it are escaped.
+v1::ExecuteResponse to_response(const stage::ExecuteEvent& event);
+
+}  // namespace axisgate::rpc

@@ -1,0 +1,74 @@
+#include "server/rpc/calls/jog_run.h"
+
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "server/api/stage/targets.h"
+#include "server/proto/amounts.h"
+#include "server/proto/to_proto.h"
+#include "server/rpc/calls/call.h"
+#include "server/rpc/calls/unreadable.h"
+
+namespace axisgate::rpc {
+namespace {
+
+constexpr const char* kJogMethod = "/axisgate.v1.StageService/Jog";
+
+std::optional<int> to_direction(v1::AxisJog::Direction direction) {
+  if (direction == v1::AxisJog::DIRECTION_PLUS) return 1;
+  if (direction == v1::AxisJog::DIRECTION_MINUS) return -1;
+  return std::nullopt;
+}
+
+Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request) {
+  std::vector<api::JogAxis> axes;
+  for (const v1::AxisJog& one : request.axes()) {
+    const Result<int> axis = api::checked_axis(one.axis());
+    if (!axis) return tl::unexpected(axis.error());
+    axes.push_back({.axis = *axis, .direction = to_direction(one.direction())});
+    if (!one.has_speed()) continue;
+    const Result<Quantity> speed = to_quantity(one.speed());
+    if (!speed) return tl::unexpected(speed.error());
+    axes.back().speed = *speed;
+  }
+  return axes;
+}
+
+}  // namespace
+
+JogRun* JogRun::start(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context,
+                      const HalfClose& half_close) {
+  const auto run = std::make_shared<JogRun>(std::move(jog), context, half_close);
+  run->serve();
+  run->StartRead(run->incoming_.marked());
+  return run.get();
+}
+
+JogRun::JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context, const HalfClose& half_close)
+    : SubscribedStream(jog, [](v1::JogResponse& response,
+                               const api::CurrentMotion& motion) { *response.mutable_motion() = to_proto(motion); }),
+      jog_(std::move(jog)),
+      context_(context),
+      half_close_(half_close) {}
+
+void JogRun::OnReadDone(bool ok) {
+  if (!ok && incoming_.unreadable()) return jog_->refuse_part(not_readable(kJogMethod));
+  if (!ok) return half_close_.wait([jog = jog_] { jog->finish(); });
+  if (take()) StartRead(incoming_.marked());
+}
+
+bool JogRun::take() {
+  const auto axes = to_jog_axes(*incoming_);
+  if (std::exchange(started_, true)) return jog_->renew(axes);
+  api::Call call = to_call(context_, incoming_->context());
+  call.digest = digest_of(*incoming_);
+  return jog_->start(call, incoming_->device(), axes);
+}
+
+void JogRun::OnCancel() {
+  jog_->break_off();
+  SubscribedStream::OnCancel();
+}
+
+}  // namespace axisgate::rpc

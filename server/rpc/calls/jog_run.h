@@ -1,0 +1,39 @@
+// The call of Jog: axes run for as long as its client says so.
+#pragma once
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+
+#include "axisgate/v1/stage.pb.h"
+#include "server/api/stage/jogs.h"
+#include "server/rpc/calls/half_close.h"
+#include "server/rpc/calls/incoming.h"
+#include "server/rpc/calls/subscribed_stream.h"
+
+namespace axisgate::rpc {
+
+// Messages are taken in as they come, whatever becomes of the answers: a client that does not read keeps its jog alive.
+class JogRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::JogRequest, v1::JogResponse>, v1::JogResponse,
+                                             api::CurrentMotion> {
+ public:
+  // `context` is gRPC's and lives as long as the call.
+  static JogRun* start(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context,
+                       const HalfClose& half_close);
+
+  JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context, const HalfClose& half_close);
+  void OnReadDone(bool ok) override;
+  void OnCancel() override;
+
+ private:
+  bool take();
+
+  const std::shared_ptr<api::Jog> jog_;
+  const grpc::CallbackServerContext& context_;
+  const HalfClose& half_close_;
+  Incoming<v1::JogRequest> incoming_;
+  bool started_ = false;  // the first message has come
+};
+
+}  // namespace axisgate::rpc

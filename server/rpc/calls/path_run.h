@@ -1,0 +1,38 @@
+// The call of RunPath: takes the whole path in, and reports its progress until its outcome.
+#pragma once
+
+#include <grpcpp/server_context.h>
+#include <grpcpp/support/server_callback.h>
+
+#include <memory>
+
+#include "axisgate/v1/stage.pb.h"
+#include "server/api/stage/paths.h"
+#include "server/rpc/calls/half_close.h"
+#include "server/rpc/calls/incoming.h"
+#include "server/rpc/calls/subscribed_stream.h"
+
+namespace axisgate::rpc {
+
+class PathRun final : public SubscribedStream<grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>,
+                                              v1::RunPathResponse, api::PathStep> {
+ public:
+  // `context` is gRPC's and lives as long as the call.
+  static PathRun* start(std::shared_ptr<api::Path> path, const grpc::CallbackServerContext& context,
+                        const HalfClose& half_close);
+
+  PathRun(std::shared_ptr<api::Path> path, const grpc::CallbackServerContext& context, const HalfClose& half_close);
+  void OnReadDone(bool ok) override;
+  void OnCancel() override;
+
+ private:
+  bool take();
+
+  const std::shared_ptr<api::Path> path_;
+  const grpc::CallbackServerContext& context_;
+  const HalfClose& half_close_;
+  Incoming<v1::RunPathRequest> incoming_;
+  std::string digest_;  // of all that has come
+};
+
+}  // namespace axisgate::rpc

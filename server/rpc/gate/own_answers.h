@@ -1,0 +1,64 @@
+// The methods that the front answers itself: stops, which share no thread with gRPC; and questions, which are asked so
+// often that every thread they pass through counts.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "axisgate/v1/command.pb.h"
+#include "axisgate/v1/device.pb.h"
+#include "axisgate/v1/mill.pb.h"
+#include "axisgate/v1/stage.pb.h"
+#include "device/core/time.h"
+#include "server/api/api.h"
+#include "server/front/desk.h"
+#include "server/rpc/calls/answers.h"
+#include "server/rpc/calls/served.h"
+
+namespace axisgate::rpc {
+
+// Thread safe.
+class OwnAnswers {
+ public:
+  // It outlives this.
+  explicit OwnAnswers(const api::Api& api) : api_(api) {}
+
+  // What came with one request, and whom it is answered to.
+  struct Asked {
+    std::shared_ptr<Served> served;
+    std::optional<TimePoint> deadline;
+    Wake wake;
+  };
+  // A kind that is answered here, and how.
+  struct Row {
+    api::RequestKind kind;
+    std::unique_ptr<front::Answer> (OwnAnswers::*answer)(std::optional<std::string_view> message, Asked asked) const;
+  };
+  // Nothing for one that gRPC answers.
+  static const Row* row_of(api::RequestKind kind);
+
+  // `deadline` is the call's, and `message` is as front::Desk::answer() describes it.
+  std::unique_ptr<front::Answer> answer(const Row& row, std::shared_ptr<Served> served,
+                                        std::optional<TimePoint> deadline, std::optional<std::string_view> message,
+                                        Wake wake) const;
+
+ private:
+  template <class Request>
+  using Method = std::unique_ptr<front::Answer> (OwnAnswers::*)(const Request&, Asked) const;
+
+  template <class Request, Method<Request> kMethod>
+  std::unique_ptr<front::Answer> parsed(std::optional<std::string_view> message, Asked asked) const;
+
+  std::unique_ptr<front::Answer> stop(const v1::StopRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> emergency_stop(const v1::EmergencyStopRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> abort_job(const v1::AbortJobRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> list_devices(const v1::ListDevicesRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> get_device(const v1::GetDeviceRequest& request, Asked asked) const;
+  std::unique_ptr<front::Answer> execute(const v1::ExecuteRequest& request, Asked asked) const;
+
+  const api::Api& api_;
+};
+
+}  // namespace axisgate::rpc
