@@ -6,7 +6,7 @@
 
 #include "server/api/stage/targets.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 Result<Quantity> decimal(const std::string& text, Unit unit) {
@@ -130,4 +130,4 @@ google::protobuf::Duration to_proto(Duration duration) {
   return proto;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

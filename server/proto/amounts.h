@@ -10,7 +10,7 @@
 #include "device/core/time.h"
 #include "device/stage/axes.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // invalid_request where no amount is given or it is not an exact decimal.
 Result<Quantity> to_quantity(const v1::Distance& distance);
@@ -30,4 +30,4 @@ google::protobuf::Duration to_proto(Duration duration);
 // From no time at all, also for one that is none, to a day.
 Duration to_span(const google::protobuf::Duration& duration);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

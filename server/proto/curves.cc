@@ -13,7 +13,7 @@
 #include "server/api/stage/targets.h"
 #include "server/proto/amounts.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 using stage::Curve;
@@ -125,4 +125,4 @@ Result<Curve> to_curve(const v1::Arc& arc) {
   return curve;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

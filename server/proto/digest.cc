@@ -12,7 +12,7 @@
 #include "axisgate/v1/common.pb.h"
 #include "device/core/quantity.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 using google::protobuf::FieldDescriptor;
@@ -107,4 +107,4 @@ std::string digest_of(std::string_view before, const Message& next) {
 
 std::string digest_of(const Message& request) { return digest_of({}, request); }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -6,7 +6,7 @@
 #include "server/proto/amounts.h"
 #include "server/proto/to_proto.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 using server::AtLoss;
@@ -92,4 +92,4 @@ v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board) {
   return proto;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -7,7 +7,7 @@
 #include "server/api/sharing/leases.h"
 #include "server/devices/stage.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // unknown_axis, invalid_request.
 Result<api::LeaseWish> to_wish(const v1::LeaseTerms& terms);
@@ -20,4 +20,4 @@ v1::Latch to_proto(const server::Latch& latch);
 // Without tokens.
 v1::WatchLeasesResponse to_proto(const server::LeaseBoard& board);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -11,7 +11,7 @@
 #include "server/proto/amounts.h"
 #include "server/proto/to_proto.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 constexpr double kLongestStock = 10'000;  // mm; as axisctl has it
@@ -299,4 +299,4 @@ Result<api::JobToSend> to_job(const v1::SendJobRequest& request) {
   return job;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

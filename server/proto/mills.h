@@ -9,7 +9,7 @@
 #include "device/core/problem.h"
 #include "server/api/mill/mill_subjects.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // Of the mill with that name in the configuration. `clock`: by which its times are shown.
 v1::Job to_proto(std::string_view mill, const rml1::Job& job, const server::Moment& clock);
@@ -33,4 +33,4 @@ Result<api::JobToSend> to_job(const v1::SendJobRequest& request);
 api::LineToChoose to_line(std::int64_t line, std::int64_t column);
 api::JobToRepeat to_repeat(const v1::RepeatJobRequest& request);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -5,7 +5,7 @@
 #include "server/events/wall_time.h"
 #include "server/proto/to_proto.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 Result<api::PositionWish> to_wish(const v1::SavePositionRequest& request) {
   const v1::PositionKind kind = request.kind();
@@ -33,4 +33,4 @@ v1::Position to_proto(const api::NamedPosition& named) {
   return proto;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

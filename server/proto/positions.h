@@ -5,11 +5,11 @@
 #include "device/core/problem.h"
 #include "server/api/stage/positions.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // invalid_request.
 Result<api::PositionWish> to_wish(const v1::SavePositionRequest& request);
 
 v1::Position to_proto(const api::NamedPosition& position);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -6,7 +6,7 @@
 #include "server/proto/targets.h"
 #include "server/proto/to_proto.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 Result<std::optional<api::Speeds>> to_axis_speeds(int axis, bool given, const v1::Profile& profile) {
@@ -129,4 +129,4 @@ v1::Settings to_proto(const stage::Settings& settings) {
   return proto;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

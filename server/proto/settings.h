@@ -6,7 +6,7 @@
 #include "device/stage/settings.h"
 #include "server/api/stage/setting_lines.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // Of amounts as to_quantity(); invalid_request.
 Result<api::SettingsChange> to_change(const v1::Settings& settings);
@@ -14,4 +14,4 @@ Result<api::NewCoordinates> to_coordinates(const v1::SetCoordinatesRequest& requ
 
 v1::Settings to_proto(const stage::Settings& settings);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -6,7 +6,7 @@
 #include "server/proto/amounts.h"
 #include "server/proto/curves.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 using api::checked_axis;
@@ -148,4 +148,4 @@ Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request) {
               "set `drive_pulses` or `scale_pulses`");
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -6,7 +6,7 @@
 #include "device/stage/requests.h"
 #include "server/api/stage/targets.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 // unknown_axis, invalid_request.
 Result<api::Move> to_move(const v1::MoveRequest& request);
@@ -15,4 +15,4 @@ Result<stage::Segment> to_segment(const v1::Segment& segment);
 // Without its context.
 Result<stage::ScanRequest> to_scan(const v1::ScanRequest& request);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

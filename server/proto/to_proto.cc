@@ -12,9 +12,9 @@
 #include "server/api/request/names.h"
 #include "server/proto/amounts.h"
 #include "server/proto/mills.h"
-#include "server/rpc/calls/status.h"
+#include "server/proto/problem.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 using stage::LinkState;
@@ -369,4 +369,4 @@ v1::DeviceStop to_proto(const api::DeviceStop& stop) {
   return proto;
 }
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

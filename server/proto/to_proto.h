@@ -18,7 +18,7 @@
 #include "server/events/event_bus.h"
 #include "server/events/wall_time.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 google::protobuf::Timestamp to_proto(server::WallTime time);
 
@@ -40,4 +40,4 @@ v1::Event to_proto(const server::FactRecord& record);
 
 v1::DeviceStop to_proto(const api::DeviceStop& stop);
 
-}  // namespace axisgate::rpc
+}  // namespace axisgate::proto

@@ -5,7 +5,7 @@
 
 #include "device/core/escape.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 namespace {
 
 // Longer than any line of the controller.
@@ -39,4 +39,18 @@ v1::ExecuteResponse to_response(const stage::ExecuteEvent& event) {
   return response;
 }
 
-}  // namespace axisgate::rpc
+v1::Command to_proto(const stage::CommandInfo& info) {
+  static_assert(static_cast<int>(Lane::stop) + 1 == v1::LANE_STOP);
+  static_assert(static_cast<int>(Lane::poll) + 1 == v1::LANE_POLL);
+  v1::Command command;
+  command.set_name(info.name);
+  command.set_format(info.format);
+  command.set_description(info.description);
+  for (const std::string& parameter : info.parameters) command.add_parameters(parameter);
+  command.set_section(info.section);
+  command.set_lane(static_cast<v1::Lane>(static_cast<int>(info.lane) + 1));
+  command.set_moves(info.moves);
+  return command;
+}
+
+}  // namespace axisgate::proto

@@ -2,14 +2,17 @@
 #pragma once
 
 #include "axisgate/v1/command.pb.h"
+#include "device/stage/command_info.h"
 #include "device/stage/stage_controller.h"
 #include "server/api/stage/commands.h"
 
-namespace axisgate::rpc {
+namespace axisgate::proto {
 
 api::Transaction to_transaction(const v1::ExecuteRequest& request);
 
 // Of one that is not the end. The device's texts in it are escaped.
 v1::ExecuteResponse to_response(const stage::ExecuteEvent& event);
 
-}  // namespace axisgate::rpc
+v1::Command to_proto(const stage::CommandInfo& info);
+
+}  // namespace axisgate::proto

@@ -19,7 +19,7 @@ constexpr std::size_t kBuffer = 1024;
 
 Result<CheckedJob> check(const std::vector<std::string>& files, const std::vector<std::string>& accepted = {},
                          JobPast before = {}) {
-  const auto profile = rml1::load_profile(testing::in_project("deploy/mills/mdx-540.toml"));
+  const auto profile = rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml"));
   std::vector<PartToSend> parts;
   for (const std::string& file : files) parts.push_back({"T1", file.size()});
   JobCheck job(*profile, {}, kBuffer, parts, accepted, std::move(before));
@@ -68,7 +68,7 @@ TEST(AJobCheck, KnowsWhatWasAcceptedBefore) {
 
 // The same 11 mm, where a job before has taken the first 5.5 mm and another the rest.
 TEST(AJobCheck, KnowsWhatAnotherJobHasRemoved) {
-  const auto profile = rml1::load_profile(testing::in_project("deploy/mills/mdx-540.toml"));
+  const auto profile = rml1::load_profile(paths::in_project("deploy/mills/mdx-540.toml"));
   constexpr const char* kDeep = "PA;!PZ-1100,200;!MC1;PU0,0;\nPD1000,0;\nPU0,0;!MC0;";
   ASSERT_FALSE(check({kDeep}));
   rml1::Check first(*profile, {});

@@ -40,7 +40,7 @@ std::string first_difference(const std::string& now, const std::string& wanted) 
 }
 
 TEST(CommandsPage, IsWhatTheTableSays) {
-  const std::filesystem::path path = testing::in_project("device/shrc203/COMMANDS.md");
+  const std::filesystem::path path = paths::in_project("device/shrc203/COMMANDS.md");
   const std::string wanted = commands_page();
   const char* write = std::getenv("AXISGATE_WRITE_COMMANDS");
   if (write != nullptr && std::string_view(write) == "1") {
@@ -87,7 +87,7 @@ TEST(CommandsPage, TypedCallsAreOfRowsOfTheTable) {
 // By the text of proto/, since this program runs where gRPC is not installed as well.
 TEST(CommandsPage, TypedCallsExist) {
   std::set<std::string> methods;
-  for (const auto& entry : std::filesystem::directory_iterator(testing::in_project("proto/axisgate/v1"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(paths::in_project("proto/axisgate/v1"))) {
     std::istringstream file(content(entry.path()));
     std::string service;
     for (std::string line; std::getline(file, line);) {

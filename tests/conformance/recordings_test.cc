@@ -27,7 +27,7 @@ const std::vector<File>& all_recordings() {
   static const std::vector<File> files = [] {
     std::vector<File> found;
     std::error_code error;
-    const auto folder = testing::in_project("tests/conformance/recordings");
+    const auto folder = paths::in_project("tests/conformance/recordings");
     for (const auto& entry : std::filesystem::directory_iterator(folder, error)) {
       std::ifstream stream(entry.path(), std::ios::binary);
       found.push_back({entry.path().filename().string(), {std::istreambuf_iterator<char>(stream), {}}});

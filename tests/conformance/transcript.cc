@@ -149,7 +149,7 @@ void read_file(const std::filesystem::path& path, Transcripts& transcripts) {
 Transcripts read_all() {
   std::vector<std::filesystem::path> paths;
   std::error_code error;
-  const auto folder = testing::in_project("tests/conformance/transcripts");
+  const auto folder = paths::in_project("tests/conformance/transcripts");
   for (const auto& file : std::filesystem::directory_iterator(folder, error)) paths.push_back(file.path());
   std::ranges::sort(paths);
   Transcripts transcripts;

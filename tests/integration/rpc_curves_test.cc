@@ -30,14 +30,14 @@ Message parsed(const std::string& text) {
 }
 
 stage::Segment segment(const std::string& text) {
-  const Result<stage::Segment> result = to_segment(parsed<v1::Segment>(text));
+  const Result<stage::Segment> result = proto::to_segment(parsed<v1::Segment>(text));
   EXPECT_TRUE(result) << text << ": " << result.error().message;
   return result.value_or(stage::Segment{});
 }
 
 // "INVALID_REQUEST: message"
 std::string refused(const std::string& text) {
-  const Result<stage::Segment> taken = to_segment(parsed<v1::Segment>(text));
+  const Result<stage::Segment> taken = proto::to_segment(parsed<v1::Segment>(text));
   const Result<void> result = taken ? api::check_segment(*taken) : tl::unexpected(taken.error());
   return result ? "taken" : std::string(name(result.error().reason)) + ": " + result.error().message;
 }
@@ -165,7 +165,7 @@ TEST(Segments, RestAndWaitForInputs) {
 
 TEST(Moves, Approach) {
   const auto move = [](const std::string& approach) {
-    return to_move(parsed<v1::MoveRequest>("targets { axis: 2 distance { mm: \"1\" } " + approach + " }"));
+    return proto::to_move(parsed<v1::MoveRequest>("targets { axis: 2 distance { mm: \"1\" } " + approach + " }"));
   };
   ASSERT_TRUE(move("approach { um: \"-10\" }"));
   EXPECT_EQ(written(move("approach { um: \"-10\" }")->targets.at(0).approach.value()), "-10um");
@@ -176,7 +176,7 @@ TEST(Moves, Approach) {
   EXPECT_EQ(move("approach {}").error().message, "axis 2: a distance has no amount");
 }
 
-Result<stage::ScanRequest> scan(const std::string& text) { return to_scan(parsed<v1::ScanRequest>(text)); }
+Result<stage::ScanRequest> scan(const std::string& text) { return proto::to_scan(parsed<v1::ScanRequest>(text)); }
 
 TEST(Scans, AreTakenAsWritten) {
   const auto taken = scan(
@@ -210,9 +210,9 @@ TEST(Scans, WhatIsMissingIsNamed) {
 TEST(Scans, AreToldWithWhatIsKnown) {
   stage::Motion motion;
   motion.kind = stage::MotionKind::scan;
-  EXPECT_FALSE(to_proto("stage", motion, 1, server::Moment()).has_scan());
+  EXPECT_FALSE(proto::to_proto("stage", motion, 1, server::Moment()).has_scan());
   motion.scan = stage::ScanResult{-200, 1300, 16, 11, {}};
-  const v1::Motion running = to_proto("stage", motion, 1, server::Moment());
+  const v1::Motion running = proto::to_proto("stage", motion, 1, server::Moment());
   EXPECT_EQ(running.kind(), v1::MOTION_KIND_SCAN);
   EXPECT_EQ(running.scan().run_from_pulses(), -200);
   EXPECT_EQ(running.scan().run_to_pulses(), 1300);
@@ -220,7 +220,7 @@ TEST(Scans, AreToldWithWhatIsKnown) {
   EXPECT_EQ(running.scan().expected_triggers_in_range(), 11);
   EXPECT_FALSE(running.scan().has_observed_triggers());
   motion.scan = stage::ScanResult{0, 0, {}, {}, 0};
-  const v1::Motion ended = to_proto("stage", motion, 1, server::Moment());
+  const v1::Motion ended = proto::to_proto("stage", motion, 1, server::Moment());
   EXPECT_FALSE(ended.scan().has_expected_triggers() || ended.scan().has_expected_triggers_in_range());
   EXPECT_TRUE(ended.scan().has_observed_triggers());
 }

@@ -21,38 +21,38 @@ TEST(DigestTest, TheSameAmountIsTheSameRequest) {
   v1::MoveRequest other = move();
   for (const char* nanometres : {"1000", "1000.0", "+1000"}) {
     other.mutable_targets(0)->mutable_distance()->set_nm(nanometres);
-    EXPECT_EQ(digest_of(other), digest_of(move())) << nanometres;
+    EXPECT_EQ(proto::digest_of(other), proto::digest_of(move())) << nanometres;
   }
   other.mutable_targets(0)->mutable_distance()->set_mm("0.001");
   other.mutable_targets(0)->mutable_profile()->mutable_maximum()->set_um_per_s("50");
-  EXPECT_EQ(digest_of(other), digest_of(move()));
+  EXPECT_EQ(proto::digest_of(other), proto::digest_of(move()));
 }
 
 TEST(DigestTest, TheContextIsNoPartOfIt) {
   v1::MoveRequest other = move();
   other.mutable_context()->set_device_epoch(7);
   other.mutable_context()->set_lease_token("another");
-  EXPECT_EQ(digest_of(other), digest_of(move()));
+  EXPECT_EQ(proto::digest_of(other), proto::digest_of(move()));
 }
 
 TEST(DigestTest, AnythingElseIs) {
   v1::MoveRequest other = move();
   other.set_relative(true);
-  EXPECT_NE(digest_of(other), digest_of(move()));
+  EXPECT_NE(proto::digest_of(other), proto::digest_of(move()));
   other = move();
   other.mutable_targets(0)->mutable_distance()->set_um("10");
-  EXPECT_NE(digest_of(other), digest_of(move()));
+  EXPECT_NE(proto::digest_of(other), proto::digest_of(move()));
   other.mutable_targets(0)->mutable_distance()->set_pulses(1);
-  EXPECT_NE(digest_of(other), digest_of(move())) << "pulses are not converted: the resolution may change";
+  EXPECT_NE(proto::digest_of(other), proto::digest_of(move())) << "pulses are not converted: the resolution may change";
   other.mutable_targets(0)->mutable_distance()->set_degrees("1");
-  EXPECT_NE(digest_of(other), digest_of(move()));
+  EXPECT_NE(proto::digest_of(other), proto::digest_of(move()));
 }
 
 TEST(DigestTest, OfAStreamTheOrderCounts) {
   const v1::MoveRequest one = move();
   v1::MoveRequest other = move();
   other.set_relative(true);
-  EXPECT_NE(digest_of(digest_of(one), other), digest_of(digest_of(other), one));
+  EXPECT_NE(proto::digest_of(proto::digest_of(one), other), proto::digest_of(proto::digest_of(other), one));
 }
 
 }  // namespace

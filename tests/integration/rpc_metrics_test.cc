@@ -87,7 +87,7 @@ class RpcMetricsTest : public RpcTest {
 
 TEST_F(RpcMetricsTest, EveryMethodOfTheApiStandsThereFromTheStart) {
   std::size_t methods = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(testing::in_project("proto/axisgate/v1"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(paths::in_project("proto/axisgate/v1"))) {
     const auto* file = google::protobuf::DescriptorPool::generated_pool()->FindFileByName(
         "axisgate/v1/" + entry.path().filename().string());
     ASSERT_NE(file, nullptr) << entry;

@@ -36,7 +36,7 @@ class RpcMill : public RpcTest {
   }
   void configure(server::Config& config) override {
     const auto read = server::parse_config("[[device]]\nname = \"mill\"\nkind = \"rml1\"\nprofile = \"" +
-                                               testing::in_project("deploy/mills/mdx-20.toml").string() +
+                                               paths::in_project("deploy/mills/mdx-20.toml").string() +
                                                "\"\nconnection = \"simulated\"\nspeed = 20\ntools = [\"T1\", \"T2\"]\n",
                                            "test.toml", server::device_kinds());
     ASSERT_TRUE(read) << to_string(read.error().front());

@@ -4,7 +4,7 @@
 
 #include <filesystem>
 
-namespace axisgate::testing {
+namespace axisgate::paths {
 
 /// Returns the path of a file or folder of the project, for example "deploy/stages".
 std::filesystem::path in_project(const std::filesystem::path& path);
@@ -12,4 +12,4 @@ std::filesystem::path in_project(const std::filesystem::path& path);
 /// Returns the folder of the jobs that tests/jobs writes when the tests are built, with their table jobs.tsv.
 std::filesystem::path written_jobs();
 
-}  // namespace axisgate::testing
+}  // namespace axisgate::paths

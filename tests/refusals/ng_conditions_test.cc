@@ -149,8 +149,8 @@ TEST(RefusalsPage, IsWhatTheTrialsTold) {
       outcomes.push_back(std::move(outcome));
     }
   }
-  const auto codes = codes_by_reason(content(testing::in_project("proto/axisgate/v1/common.proto")));
-  const std::filesystem::path path = testing::in_project("device/shrc203/REFUSALS.md");
+  const auto codes = codes_by_reason(content(paths::in_project("proto/axisgate/v1/common.proto")));
+  const std::filesystem::path path = paths::in_project("device/shrc203/REFUSALS.md");
   const std::string wanted = refusals_page(outcomes, codes);
   EXPECT_EQ(wanted.find("| - |"), std::string::npos) << "a reason without its gRPC code in common.proto";
   const char* write = std::getenv("AXISGATE_WRITE_REFUSALS");

@@ -43,7 +43,7 @@ Job whole(const std::string& name, std::string text) {
 
 std::vector<Job> files() {
   std::vector<Job> jobs;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(testing::in_project("tests"))) {
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(paths::in_project("tests"))) {
     const std::string ending = entry.path().extension();
     if (ending == ".rml" || ending == ".prn") jobs.push_back(whole(entry.path().filename(), contents(entry.path())));
   }

@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view kHowToWrite =
     "AXISGATE_WRITE_CLIPPING=1 build/bin/rml1_tests --gtest_filter='ClippingPage.*'";
-const std::filesystem::path kFolder = testing::in_project("device/rml1");
+const std::filesystem::path kFolder = paths::in_project("device/rml1");
 constexpr double kCell = 220, kScale = 0.09, kColumns = 4;
 
 // Seen from the front and a little from above and the right.

@@ -152,13 +152,13 @@ std::vector<Written> written_jobs() {
                                              {"text", 4},   {"relief-rough", 5}, {"relief-fine", 5}};
   std::map<std::string, int> taken;
   std::vector<Written> jobs;
-  std::ifstream table(testing::written_jobs() / "jobs.tsv");
+  std::ifstream table(paths::written_jobs() / "jobs.tsv");
   for (std::string line; std::getline(table, line);) {
     std::istringstream cells(line);
     Written job;
     cells >> job.file >> job.mill >> job.kind;
     if (!wanted.contains(job.kind) || taken[job.kind]++ >= wanted.at(job.kind)) continue;
-    job.body = text_of(testing::written_jobs() / job.file);
+    job.body = text_of(paths::written_jobs() / job.file);
     jobs.push_back(std::move(job));
   }
   return jobs;

@@ -21,13 +21,13 @@ struct MadeJob {
 
 std::vector<MadeJob> made_jobs() {
   std::vector<MadeJob> jobs;
-  std::ifstream table(testing::written_jobs() / "jobs.tsv");
+  std::ifstream table(paths::written_jobs() / "jobs.tsv");
   std::string line;
   std::getline(table, line);  // the names of the columns
   while (std::getline(table, line)) {
     MadeJob job;
     std::istringstream(line) >> job.file >> job.mill;
-    std::ifstream in(testing::written_jobs() / job.file, std::ios::binary);
+    std::ifstream in(paths::written_jobs() / job.file, std::ios::binary);
     job.bytes.assign(std::istreambuf_iterator<char>(in), {});
     jobs.push_back(std::move(job));
   }

@@ -11,7 +11,7 @@ namespace axisgate::rml1 {
 namespace {
 
 // A function: fixtures are read before main().
-std::filesystem::path folder() { return testing::in_project("tests/rml1"); }
+std::filesystem::path folder() { return paths::in_project("tests/rml1"); }
 
 void read(const std::filesystem::path& path, std::vector<Paragraph>& found) {
   std::ifstream file(path);

@@ -304,7 +304,7 @@ TEST(Profile, TellsOfAFileThatIsNotThere) {
   EXPECT_EQ(found.error()[0].line, 0u);
 }
 
-std::filesystem::path mills() { return testing::in_project("deploy/mills"); }
+std::filesystem::path mills() { return paths::in_project("deploy/mills"); }
 
 std::string text_of(const std::filesystem::path& path) {
   std::ostringstream text;

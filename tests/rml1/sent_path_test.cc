@@ -48,11 +48,11 @@ std::vector<std::string> jobs_in(const std::filesystem::path& folder, IsJob is_j
 
 // Returns the jobs that tests/jobs writes. Their names end as many programs end them; a table lies beside them.
 std::vector<std::string> written_jobs() {
-  return jobs_in(testing::written_jobs(), [](const std::string& ending) { return ending != ".tsv"; });
+  return jobs_in(paths::written_jobs(), [](const std::string& ending) { return ending != ".tsv"; });
 }
 
 std::vector<std::string> kept_jobs() {
-  return jobs_in(testing::in_project("tests"),
+  return jobs_in(paths::in_project("tests"),
                  [](const std::string& ending) { return ending == ".rml" || ending == ".prn"; });
 }
 

@@ -10,8 +10,6 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-constexpr std::int64_t kSpeedMax = 1'000'000;       // pulses/s, manual 89)
-constexpr std::int64_t kRampMax = 1000;             // ms, manual 89)
 constexpr std::int64_t kPulsesMax = 999'999'999;    // manual 45)
 constexpr std::int64_t kBaseRateMax = 100'000'000;  // 10 nm each
 constexpr int kSpeedNumbers = 4;

@@ -8,6 +8,9 @@
 
 namespace axisgate::shrc203::simulator {
 
+inline constexpr std::int64_t kSpeedMax = 1'000'000;  // S and F: pulses/s, manual 89)
+inline constexpr std::int64_t kRampMax = 1000;        // R: ms, manual 89)
+
 // digits * 10^-decimals, exactly.
 struct Number {
   std::int64_t digits = 0;

@@ -28,7 +28,7 @@ api::Call to_call(const grpc::CallbackServerContext& call, const v1::CallContext
 template <class Request>
 api::Call to_checked_call(const grpc::CallbackServerContext& call, const Request& request) {
   api::Call made = to_call(call, request.context(), request.validate_only());
-  if (!made.request_id.empty()) made.digest = digest_of(request);
+  if (!made.request_id.empty()) made.digest = proto::digest_of(request);
   return made;
 }
 

@@ -32,14 +32,14 @@ void JobUploadRun::OnReadDone(bool ok) {
 
 Result<void> JobUploadRun::take() {
   if (upload_ == nullptr) {
-    Result<api::JobToSend> job = to_job(*incoming_);
+    Result<api::JobToSend> job = proto::to_job(*incoming_);
     if (!job) return tl::unexpected(job.error());
     auto upload = sending_.send(to_call(context_, incoming_->context()), incoming_->device(), *std::move(job));
     if (!upload) return tl::unexpected(upload.error());
     upload_ = *std::move(upload);
     v1::SendJobRequest header = *incoming_;
     header.clear_data();
-    header_digest_ = digest_of(header);
+    header_digest_ = proto::digest_of(header);
   }
   data_digest_.add(incoming_->data());
   return upload_->append(incoming_->data());
@@ -55,7 +55,7 @@ void JobUploadRun::finish() {
   }
   v1::SendJobRequest data;
   data.set_data(data_digest_.hexadecimal());
-  upload_->finish(digest_of(header_digest_, data),
+  upload_->finish(proto::digest_of(header_digest_, data),
                   [run = shared_from_this()](const Result<api::CurrentJob>& job) { run->answer(job); });
 }
 
@@ -65,7 +65,7 @@ void JobUploadRun::answer(const Result<api::CurrentJob>& job) {
     const std::lock_guard lock(mutex_);
     if (std::exchange(ended_, true)) return;
   }
-  *response_->mutable_job() = to_proto(*job);
+  *response_->mutable_job() = proto::to_proto(*job);
   Finish(grpc::Status::OK);
 }
 

@@ -28,7 +28,7 @@ Result<std::vector<api::JogAxis>> to_jog_axes(const v1::JogRequest& request) {
     if (!axis) return tl::unexpected(axis.error());
     axes.push_back({.axis = *axis, .direction = to_direction(one.direction())});
     if (!one.has_speed()) continue;
-    const Result<Quantity> speed = to_quantity(one.speed());
+    const Result<Quantity> speed = proto::to_quantity(one.speed());
     if (!speed) return tl::unexpected(speed.error());
     axes.back().speed = *speed;
   }
@@ -46,8 +46,10 @@ JogRun* JogRun::start(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerC
 }
 
 JogRun::JogRun(std::shared_ptr<api::Jog> jog, const grpc::CallbackServerContext& context, const HalfClose& half_close)
-    : SubscribedStream(jog, [](v1::JogResponse& response,
-                               const api::CurrentMotion& motion) { *response.mutable_motion() = to_proto(motion); }),
+    : SubscribedStream(jog,
+                       [](v1::JogResponse& response, const api::CurrentMotion& motion) {
+                         *response.mutable_motion() = proto::to_proto(motion);
+                       }),
       jog_(std::move(jog)),
       context_(context),
       half_close_(half_close) {}
@@ -62,7 +64,7 @@ bool JogRun::take() {
   const auto axes = to_jog_axes(*incoming_);
   if (std::exchange(started_, true)) return jog_->renew(axes);
   api::Call call = to_call(context_, incoming_->context());
-  call.digest = digest_of(*incoming_);
+  call.digest = proto::digest_of(*incoming_);
   return jog_->start(call, incoming_->device(), axes);
 }
 

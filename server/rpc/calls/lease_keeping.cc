@@ -21,7 +21,7 @@ LeaseKeeping* LeaseKeeping::start(std::shared_ptr<api::LeaseKeeping> keeping) {
 
 LeaseKeeping::LeaseKeeping(std::shared_ptr<api::LeaseKeeping> keeping)
     : SubscribedStream(keeping, [](v1::KeepLeaseAliveResponse& response,
-                                   const server::Lease& lease) { *response.mutable_lease() = to_proto(lease); }),
+                                   const server::Lease& lease) { *response.mutable_lease() = proto::to_proto(lease); }),
       keeping_(std::move(keeping)) {}
 
 // A client that has closed its side in order keeps nothing alive any more, and was not cut off.

@@ -16,9 +16,9 @@ constexpr const char* kRunPathMethod = "/axisgate.v1.StageService/RunPath";
 
 void fill_path_step(v1::RunPathResponse& response, const api::PathStep& step) {
   if (const auto* motion = std::get_if<api::CurrentMotion>(&step.what)) {
-    *response.mutable_motion() = to_proto(*motion);
+    *response.mutable_motion() = proto::to_proto(*motion);
   } else {
-    *response.mutable_progress() = to_proto(step.device, std::get<stage::PathProgress>(step.what));
+    *response.mutable_progress() = proto::to_proto(step.device, std::get<stage::PathProgress>(step.what));
   }
 }
 
@@ -47,12 +47,12 @@ void PathRun::OnReadDone(bool ok) {
 
 bool PathRun::take() {
   if (incoming_->has_header()) {
-    digest_ = digest_of(incoming_->header());
+    digest_ = proto::digest_of(incoming_->header());
     return path_->start(to_checked_call(context_, incoming_->header()), incoming_->header().device());
   }
   if (incoming_->has_segment()) {
-    digest_ = digest_of(digest_, incoming_->segment());
-    return path_->add(to_segment(incoming_->segment()));
+    digest_ = proto::digest_of(digest_, incoming_->segment());
+    return path_->add(proto::to_segment(incoming_->segment()));
   }
   return path_->refuse_part({.reason = Reason::invalid_request, .message = "a part of the path is empty"});
 }

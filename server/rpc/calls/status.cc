@@ -4,22 +4,10 @@
 
 #include <chrono>
 
-#include "device/core/escape.h"
 #include "server/explain.h"
 
 namespace axisgate::rpc {
 namespace {
-
-// Longer than any line of the controller.
-constexpr std::size_t kDeviceTextMax = 512;
-
-// Both enums count alike; the API's file is the one that must not change.
-static_assert(static_cast<int>(Reason::unspecified) == v1::REASON_UNSPECIFIED);
-static_assert(static_cast<int>(Reason::axis_busy) == v1::REASON_AXIS_BUSY);
-static_assert(static_cast<int>(Reason::link_down) == v1::REASON_LINK_DOWN);
-static_assert(static_cast<int>(Reason::deadline_passed) == v1::REASON_DEADLINE_PASSED);
-static_assert(static_cast<int>(Reason::internal) == v1::REASON_INTERNAL);
-static_assert(static_cast<int>(kLastReason) == v1::REASON_DAEMON_ENDING);
 
 void pack(const char* type, const google::protobuf::Message& detail, v1::ErrorStatus& status) {
   google::protobuf::Any& any = *status.add_details();
@@ -122,22 +110,10 @@ grpc::StatusCode code_of(Reason reason) {
   return grpc::StatusCode::INTERNAL;
 }
 
-v1::Problem to_proto(const Problem& problem, const Metadata& metadata) {
-  v1::Problem proto;
-  proto.set_reason(static_cast<v1::Reason>(problem.reason));
-  proto.set_message(problem.message);
-  proto.set_hint(problem.hint);
-  if (problem.axis) proto.set_axis(*problem.axis);
-  proto.set_sent(escaped(problem.sent, kDeviceTextMax));
-  proto.set_wire_reply(escaped(problem.wire_reply, kDeviceTextMax));
-  proto.mutable_metadata()->insert(metadata.begin(), metadata.end());
-  return proto;
-}
-
-grpc::Status to_status(const Problem& problem, const Metadata& metadata) {
+grpc::Status to_status(const Problem& problem, const proto::Metadata& metadata) {
   const grpc::StatusCode code = code_of(problem.reason);
   const std::string message = server::explain(problem);
-  const v1::Problem detail = to_proto(problem, metadata);
+  const v1::Problem detail = proto::to_proto(problem, metadata);
   v1::ErrorStatus status;
   status.set_code(code);
   status.set_message(message);

@@ -66,8 +66,8 @@ std::optional<TimePoint> deadline_of(const Headers& headers) {
     if (digit < '0' || digit > '9') return std::nullopt;
     number = 10 * number + (digit - '0');
   }
-  constexpr std::int64_t kLongest = 24 * 3'600'000'000'000;  // longer ones are for ever
-  if (unit == std::string_view::npos || number > kLongest / kNanoseconds[unit]) return std::nullopt;
+  constexpr std::int64_t kLongestDeadline = 24 * 3'600'000'000'000;  // longer ones are for ever
+  if (unit == std::string_view::npos || number > kLongestDeadline / kNanoseconds[unit]) return std::nullopt;
   return monotonic_now() + std::chrono::nanoseconds(number * kNanoseconds[unit]);
 }
 

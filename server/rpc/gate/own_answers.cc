@@ -24,7 +24,7 @@ using front::Answer;
 template <class Response>
 Response reports_in(const std::vector<api::DeviceStop>& stops) {
   Response response;
-  for (const api::DeviceStop& one : stops) *response.add_devices() = to_proto(one);
+  for (const api::DeviceStop& one : stops) *response.add_devices() = proto::to_proto(one);
   response.set_stays_open(std::ranges::any_of(stops, [](const auto& one) { return one.report.stays_open; }));
   if (response.devices_size() != 1) return response;
   const v1::DeviceStop& only = response.devices(0);
@@ -38,7 +38,7 @@ template <class Request>
 api::Call call_of_stop(const Served& served, std::optional<TimePoint> deadline, const Request& request) {
   api::Call call = to_call(served.credential(), deadline, request.context());
   if (request.has_max_wait()) {
-    const TimePoint end = monotonic_now() + std::max(Duration::zero(), to_duration(request.max_wait()));
+    const TimePoint end = monotonic_now() + std::max(Duration::zero(), proto::to_duration(request.max_wait()));
     call.deadline = std::min(end, call.deadline.value_or(end));
   }
   return call;
@@ -48,8 +48,8 @@ v1::ListDevicesResponse list_of(const api::DeviceList& list) {
   v1::ListDevicesResponse response;
   for (const auto& one : list.devices) {
     const auto* stage = std::get_if<api::DeviceState>(&one);
-    *response.add_devices() =
-        stage == nullptr ? device_of(std::get<api::MillState>(one)) : to_proto(*stage->device, *stage->state);
+    *response.add_devices() = stage == nullptr ? proto::device_of(std::get<api::MillState>(one))
+                                               : proto::to_proto(*stage->device, *stage->state);
   }
   response.set_request_memory(list.request_memory);
   response.set_requests_kept(list.requests_kept);
@@ -91,7 +91,7 @@ std::unique_ptr<Answer> OwnAnswers::stop(const v1::StopRequest& request, Asked a
   const api::Call call = call_of_stop(*asked.served, asked.deadline, request);
   return one_answer<std::vector<api::DeviceStop>>(
       asked.served, asked.wake, reports_in<v1::StopResponse>, [&](api::Answer<std::vector<api::DeviceStop>> answer) {
-        api_.stops.stop(call, request.device(), to_axes(request.axes()), std::move(answer));
+        api_.stops.stop(call, request.device(), proto::to_axes(request.axes()), std::move(answer));
       });
 }
 
@@ -107,8 +107,8 @@ std::unique_ptr<Answer> OwnAnswers::emergency_stop(const v1::EmergencyStopReques
 std::unique_ptr<Answer> OwnAnswers::abort_job(const v1::AbortJobRequest& request, Asked asked) const {
   const auto fill = [](const api::CurrentRun& run) {
     v1::AbortJobResponse response;
-    if (run.running) *response.mutable_running() = to_proto(run);
-    if (run.executed) *response.mutable_executed() = to_proto(*run.executed);
+    if (run.running) *response.mutable_running() = proto::to_proto(run);
+    if (run.executed) *response.mutable_executed() = proto::to_proto(*run.executed);
     return response;
   };
   const api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
@@ -127,10 +127,10 @@ std::unique_ptr<Answer> OwnAnswers::list_devices(const v1::ListDevicesRequest&, 
 std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& request, Asked asked) const {
   const auto fill = [](const api::StateNow& now) {
     v1::GetDeviceResponse response;
-    *response.mutable_device() = to_proto(*now.device, *now.state);
+    *response.mutable_device() = proto::to_proto(*now.device, *now.state);
     return response;
   };
-  const auto max_age = request.has_max_age() ? std::optional(to_span(request.max_age())) : std::nullopt;
+  const auto max_age = request.has_max_age() ? std::optional(proto::to_span(request.max_age())) : std::nullopt;
   return one_answer<api::StateNow>(asked.served, asked.wake, fill, [&](api::Answer<api::StateNow> answer) {
     api_.devices.get({.credential = asked.served->credential(), .deadline = asked.deadline}, request.name(), max_age,
                      std::move(answer));
@@ -140,9 +140,9 @@ std::unique_ptr<Answer> OwnAnswers::get_device(const v1::GetDeviceRequest& reque
 std::unique_ptr<Answer> OwnAnswers::execute(const v1::ExecuteRequest& request, Asked asked) const {
   api::Call call = to_call(asked.served->credential(), asked.deadline, request.context());
   call.validate_only = request.validate_only();
-  if (!call.request_id.empty()) call.digest = digest_of(request);
-  const auto opened = api_.commands.execute(call, request.device(), to_transaction(request));
-  return stream_answer(opened, std::move(asked.served), to_response, std::move(asked.wake));
+  if (!call.request_id.empty()) call.digest = proto::digest_of(request);
+  const auto opened = api_.commands.execute(call, request.device(), proto::to_transaction(request));
+  return stream_answer(opened, std::move(asked.served), proto::to_response, std::move(asked.wake));
 }
 
 }  // namespace axisgate::rpc

@@ -25,7 +25,7 @@ class WaitingCall final : public api::LeaseSeeker {
       return true;
     }
     return call_->try_answer([&](Response& response) {
-      if (*lease) *response.mutable_lease() = to_proto(**lease);
+      if (*lease) *response.mutable_lease() = proto::to_proto(**lease);
     });
   }
 
@@ -41,8 +41,8 @@ grpc::ServerUnaryReactor* ControlService::AcquireLease(grpc::CallbackServerConte
                                                        const v1::AcquireLeaseRequest* request,
                                                        v1::AcquireLeaseResponse* response) {
   const auto call = UnaryCall<v1::AcquireLeaseResponse>::start(response);
-  leases_.acquire(to_checked_call(*context, *request), request->device(), to_wish(request->terms()),
-                  to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
+  leases_.acquire(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
+                  proto::to_duration(request->wait()), std::make_shared<WaitingCall<v1::AcquireLeaseResponse>>(call));
   return call.get();
 }
 
@@ -74,7 +74,7 @@ grpc::ServerUnaryReactor* ControlService::TakeOverLease(grpc::CallbackServerCont
                                                         const v1::TakeOverLeaseRequest* request,
                                                         v1::TakeOverLeaseResponse* response) {
   const auto call = UnaryCall<v1::TakeOverLeaseResponse>::start(response);
-  leases_.take_over(to_checked_call(*context, *request), request->device(), to_wish(request->terms()),
+  leases_.take_over(to_checked_call(*context, *request), request->device(), proto::to_wish(request->terms()),
                     std::make_shared<WaitingCall<v1::TakeOverLeaseResponse>>(call));
   return call.get();
 }
@@ -83,7 +83,7 @@ grpc::ServerWriteReactor<v1::WatchLeasesResponse>* ControlService::WatchLeases(g
                                                                                const v1::WatchLeasesRequest* request) {
   return serve<v1::WatchLeasesResponse>(
       leases_.watch(to_call(*context), request->device()),
-      [](v1::WatchLeasesResponse& response, const api::Board& board) { response = to_proto(*board); });
+      [](v1::WatchLeasesResponse& response, const api::Board& board) { response = proto::to_proto(*board); });
 }
 
 grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* context, const v1::RearmRequest* request,
@@ -95,7 +95,7 @@ grpc::ServerUnaryReactor* ControlService::Rearm(grpc::CallbackServerContext* con
                       stage::AxisSet axes;
                       for (const server::Latch& latch : lifted) {
                         axes = axes | latch.axes;
-                        *answer.add_latches() = to_proto(latch);
+                        *answer.add_latches() = proto::to_proto(latch);
                       }
                       for (const int axis : axes.list()) answer.add_axes(axis);
                     }));

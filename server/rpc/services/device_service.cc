@@ -10,9 +10,9 @@ namespace axisgate::rpc {
 grpc::ServerWriteReactor<v1::WatchDeviceResponse>* DeviceService::WatchDevice(grpc::CallbackServerContext* context,
                                                                               const v1::WatchDeviceRequest* request) {
   return serve<v1::WatchDeviceResponse>(
-      devices_.watch(to_call(*context), request->name(), to_span(request->min_interval())),
+      devices_.watch(to_call(*context), request->name(), proto::to_span(request->min_interval())),
       [](v1::WatchDeviceResponse& response, const api::DeviceState& now) {
-        *response.mutable_device() = to_proto(*now.device, *now.state);
+        *response.mutable_device() = proto::to_proto(*now.device, *now.state);
       });
 }
 
@@ -20,7 +20,7 @@ grpc::ServerUnaryReactor* DeviceService::ClearErrors(grpc::CallbackServerContext
                                                      const v1::ClearErrorsRequest* request,
                                                      v1::ClearErrorsResponse* response) {
   const auto call = UnaryCall<v1::ClearErrorsResponse>::start(response);
-  devices_.clear_errors(to_checked_call(*context, *request), request->name(), to_axes(request->axes()),
+  devices_.clear_errors(to_checked_call(*context, *request), request->name(), proto::to_axes(request->axes()),
                         answering(call));
   return call.get();
 }

@@ -18,7 +18,7 @@ void fill_text(Response& response, const std::string& text) {
 }
 
 std::string describe(const server::Stage& device, const stage::State& state) {
-  return to_proto(device, state).DebugString();
+  return proto::to_proto(device, state).DebugString();
 }
 
 std::string versions() {

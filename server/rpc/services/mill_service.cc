@@ -14,20 +14,21 @@ namespace {
 template <class Request>
 api::Call to_acting_call(const grpc::CallbackServerContext& context, const Request& request) {
   api::Call made = to_call(context, request.context());
-  if (!made.request_id.empty()) made.digest = digest_of(request);
+  if (!made.request_id.empty()) made.digest = proto::digest_of(request);
   return made;
 }
 
 template <class Response>
 api::Answer<api::CurrentJob> answering_with_job(std::shared_ptr<UnaryCall<Response>> call) {
-  return answering<api::CurrentJob>(
-      std::move(call), [](Response& response, const api::CurrentJob& job) { *response.mutable_job() = to_proto(job); });
+  return answering<api::CurrentJob>(std::move(call), [](Response& response, const api::CurrentJob& job) {
+    *response.mutable_job() = proto::to_proto(job);
+  });
 }
 
 template <class Response>
 api::Answer<api::CurrentRun> answering_with_run(std::shared_ptr<UnaryCall<Response>> call) {
   return answering<api::CurrentRun>(std::move(call), [](Response& response, const api::CurrentRun& run) {
-    if (run.running) *response.mutable_running() = to_proto(run);
+    if (run.running) *response.mutable_running() = proto::to_proto(run);
   });
 }
 
@@ -43,23 +44,24 @@ grpc::ServerUnaryReactor* MillService::GetMill(grpc::CallbackServerContext* cont
   const auto call = UnaryCall<v1::GetMillResponse>::start(response);
   mill_.mills.get(to_call(*context), request->device(),
                   answering<api::MillState>(call, [](v1::GetMillResponse& answer, const api::MillState& state) {
-                    *answer.mutable_mill() = to_proto(state);
+                    *answer.mutable_mill() = proto::to_proto(state);
                   }));
   return call.get();
 }
 
 grpc::ServerWriteReactor<v1::WatchMillResponse>* MillService::WatchMill(grpc::CallbackServerContext* context,
                                                                         const v1::WatchMillRequest* request) {
-  return serve<v1::WatchMillResponse>(
-      mill_.mills.watch(to_call(*context), request->device()),
-      [](v1::WatchMillResponse& response, const api::MillState& state) { *response.mutable_mill() = to_proto(state); });
+  return serve<v1::WatchMillResponse>(mill_.mills.watch(to_call(*context), request->device()),
+                                      [](v1::WatchMillResponse& response, const api::MillState& state) {
+                                        *response.mutable_mill() = proto::to_proto(state);
+                                      });
 }
 
 grpc::ServerUnaryReactor* MillService::ConfirmJob(grpc::CallbackServerContext* context,
                                                   const v1::ConfirmJobRequest* request,
                                                   v1::ConfirmJobResponse* response) {
   const auto call = UnaryCall<v1::ConfirmJobResponse>::start(response);
-  mill_.waiting.confirm(to_acting_call(*context, *request), request->job(), to_setup(request->seen()),
+  mill_.waiting.confirm(to_acting_call(*context, *request), request->job(), proto::to_setup(request->seen()),
                         answering_with_job(call));
   return call.get();
 }
@@ -69,8 +71,8 @@ grpc::ServerUnaryReactor* MillService::StartJob(grpc::CallbackServerContext* con
   const auto call = UnaryCall<v1::StartJobResponse>::start(response);
   mill_.starts.start(to_acting_call(*context, *request), request->job(),
                      answering<api::CurrentJob>(call, [](v1::StartJobResponse& answer, const api::CurrentJob& job) {
-                       *answer.mutable_job() = to_proto(job);
-                       if (job.run_on) *answer.mutable_run_on() = to_proto(*job.run_on);
+                       *answer.mutable_job() = proto::to_proto(job);
+                       if (job.run_on) *answer.mutable_run_on() = proto::to_proto(*job.run_on);
                      }));
   return call.get();
 }
@@ -92,7 +94,7 @@ grpc::ServerUnaryReactor* MillService::ResumeJob(grpc::CallbackServerContext* co
 grpc::ServerUnaryReactor* MillService::RepeatJob(grpc::CallbackServerContext* context,
                                                  const v1::RepeatJobRequest* request, v1::RepeatJobResponse* response) {
   const auto call = UnaryCall<v1::RepeatJobResponse>::start(response);
-  mill_.sending.repeat(to_acting_call(*context, *request), request->job(), to_repeat(*request),
+  mill_.sending.repeat(to_acting_call(*context, *request), request->job(), proto::to_repeat(*request),
                        answering_with_job(call));
   return call.get();
 }
@@ -102,7 +104,7 @@ grpc::ServerUnaryReactor* MillService::ContinueJob(grpc::CallbackServerContext* 
                                                    v1::ContinueJobResponse* response) {
   const auto call = UnaryCall<v1::ContinueJobResponse>::start(response);
   mill_.starts.choose_rest(to_acting_call(*context, *request), request->job(),
-                           to_line(request->line(), request->column()), answering_with_job(call));
+                           proto::to_line(request->line(), request->column()), answering_with_job(call));
   return call.get();
 }
 
@@ -148,9 +150,9 @@ grpc::ServerUnaryReactor* MillService::OperateMill(grpc::CallbackServerContext* 
                                                    const v1::OperateMillRequest* request,
                                                    v1::OperateMillResponse* response) {
   const auto call = UnaryCall<v1::OperateMillResponse>::start(response);
-  mill_.operation.operate(to_acting_call(*context, *request), request->device(), to_hand_request(*request),
+  mill_.operation.operate(to_acting_call(*context, *request), request->device(), proto::to_hand_request(*request),
                           answering<Duration>(call, [](v1::OperateMillResponse& answer, Duration longest) {
-                            *answer.mutable_longest() = to_proto(longest);
+                            *answer.mutable_longest() = proto::to_proto(longest);
                           }));
   return call.get();
 }

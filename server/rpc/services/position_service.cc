@@ -15,9 +15,9 @@ grpc::ServerUnaryReactor* PositionService::SavePosition(grpc::CallbackServerCont
                                                         v1::SavePositionResponse* response) {
   using Saved = std::optional<api::NamedPosition>;
   const auto call = UnaryCall<v1::SavePositionResponse>::start(response);
-  positions_.save(to_checked_call(*context, *request), request->name(), to_wish(*request),
+  positions_.save(to_checked_call(*context, *request), request->name(), proto::to_wish(*request),
                   answering<Saved>(call, [](v1::SavePositionResponse& answer, const Saved& saved) {
-                    if (saved) *answer.mutable_position() = to_proto(*saved);
+                    if (saved) *answer.mutable_position() = proto::to_proto(*saved);
                   }));
   return call.get();
 }
@@ -29,7 +29,7 @@ grpc::ServerUnaryReactor* PositionService::ListPositions(grpc::CallbackServerCon
   const auto call = UnaryCall<v1::ListPositionsResponse>::start(response);
   positions_.list(to_call(*context), request->device(),
                   answering<Positions>(call, [](v1::ListPositionsResponse& answer, const Positions& positions) {
-                    for (const auto& position : positions) *answer.add_positions() = to_proto(position);
+                    for (const auto& position : positions) *answer.add_positions() = proto::to_proto(position);
                   }));
   return call.get();
 }
@@ -49,7 +49,7 @@ grpc::ServerUnaryReactor* PositionService::MoveToPosition(grpc::CallbackServerCo
   positions_.move_to(
       to_checked_call(*context, *request), request->name(),
       answering<api::StartedMotion>(call, [](v1::MoveToPositionResponse& answer, const api::StartedMotion& motion) {
-        if (motion) *answer.mutable_motion() = to_proto(*motion);
+        if (motion) *answer.mutable_motion() = proto::to_proto(*motion);
       }));
   return call.get();
 }

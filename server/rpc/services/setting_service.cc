@@ -12,7 +12,7 @@ grpc::ServerUnaryReactor* SettingService::GetSettings(grpc::CallbackServerContex
   const auto call = UnaryCall<v1::GetSettingsResponse>::start(response);
   settings_.get(to_call(*context), request->device(),
                 answering<stage::Settings>(call, [](v1::GetSettingsResponse& answer, const stage::Settings& settings) {
-                  *answer.mutable_settings() = to_proto(settings);
+                  *answer.mutable_settings() = proto::to_proto(settings);
                 }));
   return call.get();
 }
@@ -21,7 +21,7 @@ grpc::ServerUnaryReactor* SettingService::ChangeSettings(grpc::CallbackServerCon
                                                          const v1::ChangeSettingsRequest* request,
                                                          v1::ChangeSettingsResponse* response) {
   const auto call = UnaryCall<v1::ChangeSettingsResponse>::start(response);
-  settings_.change(to_checked_call(*context, *request), request->device(), to_change(request->settings()),
+  settings_.change(to_checked_call(*context, *request), request->device(), proto::to_change(request->settings()),
                    answering(call));
   return call.get();
 }
@@ -30,7 +30,7 @@ grpc::ServerUnaryReactor* SettingService::SetCoordinates(grpc::CallbackServerCon
                                                          const v1::SetCoordinatesRequest* request,
                                                          v1::SetCoordinatesResponse* response) {
   const auto call = UnaryCall<v1::SetCoordinatesResponse>::start(response);
-  settings_.set_coordinates(to_checked_call(*context, *request), request->device(), to_coordinates(*request),
+  settings_.set_coordinates(to_checked_call(*context, *request), request->device(), proto::to_coordinates(*request),
                             answering(call));
   return call.get();
 }

@@ -17,7 +17,7 @@ namespace {
 template <class Response>
 api::Answer<api::StartedMotion> answering_with_motion(std::shared_ptr<UnaryCall<Response>> call) {
   return answering<api::StartedMotion>(std::move(call), [](Response& response, const api::StartedMotion& motion) {
-    if (motion) *response.mutable_motion() = to_proto(*motion);
+    if (motion) *response.mutable_motion() = proto::to_proto(*motion);
   });
 }
 
@@ -26,14 +26,15 @@ api::Answer<api::StartedMotion> answering_with_motion(std::shared_ptr<UnaryCall<
 grpc::ServerUnaryReactor* StageService::Move(grpc::CallbackServerContext* context, const v1::MoveRequest* request,
                                              v1::MoveResponse* response) {
   const auto call = UnaryCall<v1::MoveResponse>::start(response);
-  motions_.move(to_checked_call(*context, *request), request->device(), to_move(*request), answering_with_motion(call));
+  motions_.move(to_checked_call(*context, *request), request->device(), proto::to_move(*request),
+                answering_with_motion(call));
   return call.get();
 }
 
 grpc::ServerUnaryReactor* StageService::Home(grpc::CallbackServerContext* context, const v1::HomeRequest* request,
                                              v1::HomeResponse* response) {
   const auto call = UnaryCall<v1::HomeResponse>::start(response);
-  motions_.home(to_checked_call(*context, *request), request->device(), to_axes(request->axes()),
+  motions_.home(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
                 answering_with_motion(call));
   return call.get();
 }
@@ -42,7 +43,7 @@ grpc::ServerUnaryReactor* StageService::ReturnToOrigin(grpc::CallbackServerConte
                                                        const v1::ReturnToOriginRequest* request,
                                                        v1::ReturnToOriginResponse* response) {
   const auto call = UnaryCall<v1::ReturnToOriginResponse>::start(response);
-  motions_.return_to_origin(to_checked_call(*context, *request), request->device(), to_axes(request->axes()),
+  motions_.return_to_origin(to_checked_call(*context, *request), request->device(), proto::to_axes(request->axes()),
                             answering_with_motion(call));
   return call.get();
 }
@@ -57,7 +58,8 @@ grpc::ServerBidiReactor<v1::RunPathRequest, v1::RunPathResponse>* StageService::
 grpc::ServerUnaryReactor* StageService::Scan(grpc::CallbackServerContext* context, const v1::ScanRequest* request,
                                              v1::ScanResponse* response) {
   const auto call = UnaryCall<v1::ScanResponse>::start(response);
-  motions_.scan(to_checked_call(*context, *request), request->device(), to_scan(*request), answering_with_motion(call));
+  motions_.scan(to_checked_call(*context, *request), request->device(), proto::to_scan(*request),
+                answering_with_motion(call));
   return call.get();
 }
 
@@ -73,7 +75,7 @@ grpc::ServerUnaryReactor* StageService::GetMotion(grpc::CallbackServerContext* c
   const auto call = UnaryCall<v1::GetMotionResponse>::start(response);
   motions_.get(to_call(*context), request->name(),
                answering<api::CurrentMotion>(call, [](v1::GetMotionResponse& answer, const api::CurrentMotion& motion) {
-                 *answer.mutable_motion() = to_proto(motion);
+                 *answer.mutable_motion() = proto::to_proto(motion);
                }));
   return call.get();
 }
@@ -85,7 +87,7 @@ grpc::ServerUnaryReactor* StageService::ListMotions(grpc::CallbackServerContext*
   const auto call = UnaryCall<v1::ListMotionsResponse>::start(response);
   motions_.list(to_call(*context), request->device(),
                 answering<Motions>(call, [](v1::ListMotionsResponse& answer, const Motions& motions) {
-                  for (const api::CurrentMotion& motion : motions) *answer.add_motions() = to_proto(motion);
+                  for (const api::CurrentMotion& motion : motions) *answer.add_motions() = proto::to_proto(motion);
                 }));
   return call.get();
 }
@@ -94,7 +96,7 @@ grpc::ServerWriteReactor<v1::WatchMotionResponse>* StageService::WatchMotion(grp
                                                                              const v1::WatchMotionRequest* request) {
   return serve<v1::WatchMotionResponse>(motions_.watch(to_call(*context), request->name()),
                                         [](v1::WatchMotionResponse& response, const api::CurrentMotion& motion) {
-                                          *response.mutable_motion() = to_proto(motion);
+                                          *response.mutable_motion() = proto::to_proto(motion);
                                         });
 }
 

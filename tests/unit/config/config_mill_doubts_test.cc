@@ -27,7 +27,7 @@ MillConfig mill_in(const Config& config) { return std::get<MillConfig>(config.de
 // Without a key to fill in, and without a doubt.
 TEST(ConfigMills, ThoseOfTwoMillsAreReadyToUse) {
   for (const char* name : {"srm-20", "mdx-20"}) {
-    const auto config = load_config(testing::in_project("deploy/" + std::string(name) + ".toml"), device_kinds());
+    const auto config = load_config(paths::in_project("deploy/" + std::string(name) + ".toml"), device_kinds());
     ASSERT_TRUE(config) << to_string(config.error().front());
     EXPECT_EQ(mill_in(*config).profile_name, name);
     EXPECT_THAT(mill_in(*config).doubts, IsEmpty()) << name;

@@ -249,7 +249,7 @@ TEST_F(ConfigMillProfile, ErrorsInItAreAtItsOwnLinesAndLast) {
 }
 
 TEST_F(ConfigMillProfile, AFileIsReadAndItsPathWrittenAndHidden) {
-  std::filesystem::copy_file(testing::in_project("deploy/mills/mdx-50.toml"), file);
+  std::filesystem::copy_file(paths::in_project("deploy/mills/mdx-50.toml"), file);
   std::string good = text();
   good.erase(good.find("window"));
   const auto config = parse(good);
@@ -369,7 +369,7 @@ TEST(ConfigMill, IsOfferedAmongTheKinds) {
 }
 
 TEST(ConfigMill, TheExampleIsRight) {
-  const std::string path = testing::in_project("deploy/mill.toml");
+  const std::string path = paths::in_project("deploy/mill.toml");
   const auto text = read_config_file(path);
   ASSERT_TRUE(text) << text.error();
   const auto config = parse_config(*text, path, device_kinds());

@@ -269,7 +269,7 @@ TEST(ConfigStageTable, TheProfileMayStandInTheConfigurationItself) {
 
 TEST(ConfigStageFiles, EveryProfileThatIsShippedIsRight) {
   int count = 0;
-  for (const auto& entry : std::filesystem::directory_iterator(testing::in_project("deploy/stages"))) {
+  for (const auto& entry : std::filesystem::directory_iterator(paths::in_project("deploy/stages"))) {
     ++count;
     const auto config = parse_config(
         "[[device]]\nname = \"stage\"\nconnection = \"simulated\"\n[[device.axis]]\nnumber = 1\nstage = \"" +

@@ -278,7 +278,7 @@ TEST(Config, AFileThatIsNotThereSaysSo) {
 
 TEST(Config, TheExampleThatIsInstalledIsRight) {
   // Read here, because load_config() also judges the owner, who may be anybody for a source tree.
-  const std::string path = testing::in_project("deploy/axisgate.toml");
+  const std::string path = paths::in_project("deploy/axisgate.toml");
   const auto text = read_config_file(path);
   ASSERT_TRUE(text) << text.error();
   const auto config = parse_config(*text, path, device_kinds());

@@ -21,7 +21,7 @@ constexpr std::string_view kFirst = "PA;PU1,1;\nPU2,2;\n", kSecond = "PU1,1;\nPU
 class ChosenRest : public spool_test::SpoolBed {
  protected:
   void SetUp() override {
-    config_.profile = *rml1::load_profile(testing::in_project("deploy/mills/mdx-20.toml"));
+    config_.profile = *rml1::load_profile(paths::in_project("deploy/mills/mdx-20.toml"));
     job_.number = upload(std::string(kFirst) + std::string(kSecond) + "PU9,9;")->id;
     job_.parts = {{"T1", kFirst.size()}, {"T2", kFirst.size() + kSecond.size()}, {"T1", 52}};
     go_to_part(job_, 1);

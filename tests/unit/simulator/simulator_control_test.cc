@@ -50,7 +50,7 @@ TEST_F(SimulatorControl, HelpListsEveryCommandAndTellsEachOne) {
 }
 
 TEST_F(SimulatorControl, TheReadmeHasEveryUsage) {
-  std::ifstream file(testing::in_project("device/shrc203/simulator/README.md"));
+  std::ifstream file(paths::in_project("device/shrc203/simulator/README.md"));
   std::ostringstream readme;
   readme << file.rdbuf();
   for (const std::string& usage : usages()) EXPECT_THAT(readme.str(), HasSubstr("\n    " + usage + "\n"));

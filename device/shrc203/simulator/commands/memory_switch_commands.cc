@@ -10,7 +10,7 @@ namespace axisgate::shrc203::simulator {
 namespace {
 
 // As MODE SEL counts them: the order of manual 37), in which MANUAL is the 1 of manual 119).
-constexpr std::array<std::string_view, 6> kModes = {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "TEST"};
+constexpr std::array<std::string_view, 6> kModesAtPowerOn = {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "TEST"};
 
 constexpr std::string_view kStageUnits = "PNUMD";                               // manual 5)
 constexpr std::string_view kAxisNames = "123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";  // manual 12)
@@ -144,7 +144,7 @@ const Command* find_memory_switch_command(std::string_view verb) { return verb =
 void apply_memory_switches(Rig& rig) {
   rig.axis_setting = static_cast<int>(rig.memory.saved("AXIS"));
   rig.controllable = axes_of_setting(rig.axis_setting);
-  rig.mode = kModes[static_cast<std::size_t>(rig.memory.saved("MODE SEL"))];
+  rig.mode = kModesAtPowerOn[static_cast<std::size_t>(rig.memory.saved("MODE SEL"))];
   rig.hit_format = rig.memory.saved("CMD FORMAT") == 1;
   rig.beep = rig.memory.saved("BEEP SEL") == 1;
   for (const int number : kAxisNumbers) apply_to_axis(rig, number);

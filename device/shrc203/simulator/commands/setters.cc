@@ -6,8 +6,6 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s
-constexpr std::int64_t kRampMax = 1000;        // ms
 constexpr std::string_view kLengthUnits = "PNUMD";
 constexpr std::string_view kSpeedUnits = "FNUMD";
 
