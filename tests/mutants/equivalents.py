@@ -18,9 +18,14 @@ class Equivalent:
     reason: str
 
     def is_of(self, mutation):
-        """The column tells apart what has one kind on one line."""
+        """The column distinguishes mutations of one kind on one line."""
         return (self.path, self.text, self.column, self.kind) == (
-            mutation.path, mutation.text, mutation.column, mutation.kind)
+            mutation.path, without_comment(mutation.text), mutation.column, mutation.kind)
+
+
+def without_comment(line):
+    """The line's code: a comment may be reworded."""
+    return line.partition("  //")[0].rstrip()
 
 
 def parse(content):

@@ -190,7 +190,7 @@ class Equivalents(unittest.TestCase):
     def test_an_entry_holds_wherever_its_line_is(self):
         (entry,) = equivalents.parse(self.ENTRY.format("device/core/a.cc:90:12:comparison"))
         self.assertEqual(entry.reason, "it is never called with 3")
-        source = "bool f(int a) {\n  return a < 3;\n}\nbool g(int b) {\n  return b < 3;\n}\n"
+        source = "bool f(int a) {\n  return a < 3;  // a comment\n}\nbool g(int b) {\n  return b < 3;\n}\n"
         held = [m.id for m in sites.mutations("device/core/a.cc", source) if entry.is_of(m)]
         self.assertEqual(held, ["device/core/a.cc:2:12:comparison"])
 
