@@ -9,7 +9,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Reports whether the target is an address in gRPC's own form, which stays as it is.
+// Reports whether the target is an address in gRPC's own form, which is used unchanged.
 bool has_scheme(std::string_view target) {
   constexpr std::string_view kSchemes[] = {"unix:", "unix-abstract:", "dns:", "ipv4:", "ipv6:"};
   return std::ranges::any_of(kSchemes, [&](std::string_view scheme) { return target.starts_with(scheme); });
@@ -19,7 +19,8 @@ bool is_path(std::string_view target) {
   return target.find('/') != std::string_view::npos || target.ends_with(".sock");
 }
 
-// gRPC would take port 443. An IPv6 address needs brackets if a port follows it.
+// Appends the port if there is none: gRPC would use port 443. Also adds the brackets that an IPv6 address needs before
+// a port.
 std::string with_port(std::string_view host, int port) {
   const bool bracketed = host.starts_with('[');
   const auto colons = std::ranges::count(host, ':');

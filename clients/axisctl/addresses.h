@@ -1,4 +1,4 @@
-// What people type for a daemon and a device, as gRPC and the API want it.
+// Conversion of typed daemon and device names to the forms that gRPC and the API use.
 #pragma once
 
 #include <string>
@@ -6,11 +6,12 @@
 
 namespace axisgate::axisctl {
 
-// "unix:/path" of "/path", and of "lab/x.sock" likewise; "host:50203" of "host"; the default daemon of "". A host
-// without a port has the daemon's default port, with TLS the one that the examples of [network] have.
+// Returns the gRPC address of a target: "unix:/path" for "/path", likewise for "lab/x.sock", and "host:50203" for
+// "host". An empty target means the local daemon. A host without a port gets the daemon's default port, with TLS the
+// port in the examples of [network].
 std::string address(std::string_view target, bool tls);
 
-// "devices/stage" of "stage"; "" stays.
+// Returns "devices/stage" for "stage", and "" for "".
 std::string resource(const std::string& device);
 
 }  // namespace axisgate::axisctl

@@ -26,7 +26,7 @@ class Factory final : public intercepting::ClientInterceptorFactoryInterface {
  public:
   explicit Factory(std::string value) : value_(std::move(value)) {}
 
-  // gRPC owns it.
+  // gRPC takes ownership of the interceptor.
   intercepting::Interceptor* CreateClientInterceptor(intercepting::ClientRpcInfo*) override {
     return new Bearer(value_);
   }

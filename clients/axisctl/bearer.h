@@ -1,4 +1,4 @@
-// The caller's token on every call of a channel.
+// gRPC interceptors that add the caller's token to every call of a channel.
 #pragma once
 
 #include <grpcpp/support/client_interceptor.h>
@@ -9,12 +9,13 @@
 
 namespace axisgate::axisctl {
 
-// The variable that holds the token by which the daemon identifies the caller; unset: by the caller's user.
+// Environment variable with the token by which the daemon identifies the caller. Unset: the daemon identifies the
+// caller by their user.
 inline constexpr const char* kTokenVariable = "AXISGATE_TOKEN";
 
 using Interceptors = std::vector<std::unique_ptr<grpc::experimental::ClientInterceptorFactoryInterface>>;
 
-// For a channel; none without a token.
+// Returns the interceptors for a channel; none if the token is empty.
 Interceptors with_bearer(const std::string& token);
 
 }  // namespace axisgate::axisctl

@@ -27,7 +27,7 @@ pid_t spawn(const std::vector<std::string>& command, const sigset_t& mask) {
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  // What this program ignores while it waits, the command does not.
+  // The command gets the default handling of the signals that axisctl ignores while it waits.
   posix_spawnattr_t attributes;
   ::posix_spawnattr_init(&attributes);
   sigset_t defaults;
@@ -50,7 +50,7 @@ int run_child(const std::vector<std::string>& command, const std::string& name, 
   ::setenv(name.c_str(), value.c_str(), 1);
   std::signal(SIGINT, SIG_IGN);
   std::signal(SIGQUIT, SIG_IGN);
-  // A signal that comes while the command is being started is passed on to it afterwards.
+  // A signal that arrives while the command is being started is passed on to the command afterwards.
   sigset_t passed_on, before;
   ::sigemptyset(&passed_on);
   ::sigaddset(&passed_on, SIGTERM);

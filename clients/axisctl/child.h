@@ -1,4 +1,4 @@
-// A command that this one runs and waits for.
+// Runs another command and waits for its end.
 #pragma once
 
 #include <string>
@@ -6,8 +6,9 @@
 
 namespace axisgate::axisctl {
 
-// Runs it with NAME=VALUE in its environment and answers with its exit code, 128 + N where signal N ended it, as a
-// shell does. While it runs Ctrl-C is its own affair. Throws Failure where it cannot be started.
+// Runs a command with NAME=VALUE in its environment. Returns its exit code, or, as a shell does, 128 + N if signal N
+// ended it. While the command runs, axisctl ignores Ctrl-C, so that the command alone decides what to do. Throws
+// Failure if the command cannot be started.
 int run_child(const std::vector<std::string>& command, const std::string& name, const std::string& value);
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// The conditions of a stage and their times, in words.
+// Texts for the conditions of a stage and for their times.
 #pragma once
 
 #include <google/protobuf/repeated_field.h>
@@ -9,13 +9,13 @@
 
 namespace axisgate::axisctl {
 
-// "axes 1 and 2: emergency stop"; "controller in MANUAL mode", where no axis is named.
+// Returns "axes 1 and 2: emergency stop", or, for a condition without axes, "controller in MANUAL mode".
 std::string condition_text(v1::Condition condition, const google::protobuf::RepeatedField<std::int32_t>& axes,
                            bool begun, const std::string& value);
-// "emergency stop, CW limit sensor on"; "normal" of an axis without a condition.
+// Returns "emergency stop, CW limit sensor on", or "normal" if the axis has no condition.
 std::string status_text(const v1::Axis& axis);
 
-// The times of two readings between which something changed; of the first reading at all, which found it so.
+// Returns when something changed: between two readings, or found_text() if the very first reading already showed it.
 std::string between_text(const std::string& before, const std::string& seen);
 std::string found_text(const std::string& seen);
 

@@ -20,7 +20,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// A daemon has closed its connections within this time after it refused a request because it ends.
+// Time within which an ending daemon closes its connections after it has refused a request.
 constexpr std::chrono::milliseconds kEndOfDaemon{500};
 
 std::string content(const std::string& path) {
@@ -39,10 +39,10 @@ std::shared_ptr<grpc::ChannelCredentials> credentials(const Target& target) {
 std::shared_ptr<grpc::Channel> open_channel(const Target& target) {
   grpc::ChannelArguments arguments;
   arguments.SetInt(GRPC_ARG_USE_LOCAL_SUBCHANNEL_POOL, 1);
-  // gRPC itself would wait up to two minutes before it looks for a restarted daemon again.
+  // By default gRPC would wait up to two minutes before it tries to reach a restarted daemon.
   arguments.SetInt(GRPC_ARG_INITIAL_RECONNECT_BACKOFF_MS, 250);
   arguments.SetInt(GRPC_ARG_MAX_RECONNECT_BACKOFF_MS, 5000);
-  // Despite its name how long one attempt may take: a daemon that is being flooded accepts a stop, if not at once.
+  // Despite its name, this is the time limit of one connection attempt: a flooded daemon accepts a stop after a delay.
   arguments.SetInt(GRPC_ARG_MIN_RECONNECT_BACKOFF_MS, 5000);
   const char* const token = std::getenv(kTokenVariable);
   return grpc::experimental::CreateCustomChannelWithInterceptors(target.address, credentials(target), arguments,
@@ -57,7 +57,7 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
     case grpc::StatusCode::DEADLINE_EXCEEDED:
       return {kDeadline, "DEADLINE_EXCEEDED", fmt::format("the daemon at {} did not answer in time", target),
               "the request may still take effect: check with `axisctl status`"};
-    // Refused before anything that could tell more.
+    // The daemon refused these calls too early to send a problem.
     case grpc::StatusCode::UNAUTHENTICATED:
       return {kRefused, "UNAUTHENTICATED", status.error_message(), ""};
     case grpc::StatusCode::PERMISSION_DENIED:
@@ -73,7 +73,7 @@ Failure without_details(const grpc::Status& status, const std::string& target) {
   }
 }
 
-// What lease_text() wrote; nothing where it is something else.
+// Decodes the output of lease_text(); nullopt if `text` is anything else.
 std::optional<std::string> token_in(std::string_view text) {
   constexpr std::size_t kTextBytes = 48;
   if (text.size() != kTextBytes) return std::nullopt;
@@ -110,7 +110,7 @@ void Connection::repeat_by(const v1::ListDevicesResponse& there) const {
   if (there.requests_kept()) request_memory_ = there.request_memory();
 }
 
-// A daemon that is ending refuses requests with a problem; a daemon that was killed sends nothing.
+// An ending daemon refuses requests with a problem; a killed daemon sends none.
 bool Connection::asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const {
   const bool lost = status.error_code() == grpc::StatusCode::UNAVAILABLE ||
                     status.error_code() == grpc::StatusCode::CANCELLED ||

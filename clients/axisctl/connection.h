@@ -1,4 +1,4 @@
-// The way to the daemon. Every failed call becomes a Failure that says what to do.
+// Connection to the daemon. Every failed call becomes a Failure with a hint.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -25,31 +25,32 @@
 
 namespace axisgate::axisctl {
 
-// Starting a motion may first wait for its turn, at most 5 s (CallContext.not_after).
+// Deadlines of calls. kStartLimit is longer because a motion may first wait up to 5 s for its turn
+// (CallContext.not_after).
 inline constexpr std::chrono::seconds kQuestionLimit{5};
 inline constexpr std::chrono::seconds kStartLimit{10};
-// The daemon answers a stop within this time, with what it knows by then. An axis at full speed may take a second to
+// Time within which the daemon answers a stop, with what it knows by then. An axis at full speed may take a second to
 // slow down (manual 89) R).
 inline constexpr std::chrono::seconds kStopWait{3};
-// Longer than kStopWait, because the daemon may be flooded.
+// Deadline of a stop. Much longer than kStopWait, because the daemon may be flooded.
 inline constexpr std::chrono::seconds kStopLimit{30};
 
 class Connection {
  public:
-  // Calls as the token in AXISGATE_TOKEN, if there is one. Shares nothing with other connections of this process, so
-  // that a stop never waits behind a stream. Throws Failure where a certificate cannot be read. `request_id` is that of
-  // what is changed; empty: a new one for each.
+  // Identifies the caller by the token in AXISGATE_TOKEN, if it is set. Shares no network connection with other
+  // Connections of this process, so that a stop never waits for a stream. `request_id` is used for every mutation;
+  // empty: each mutation gets a new id. Throws Failure if a certificate cannot be read.
   explicit Connection(const Target& target, std::string request_id = {});
 
-  // A context with the request id, and with the token in AXISGATE_LEASE. Throws Failure where that is no token.
+  // Returns a context with the request id and the token in AXISGATE_LEASE. Throws Failure if that value is not a token.
   v1::CallContext new_call_context() const;
 
-  // From now on what changes something is repeated where its answer is lost, if the daemon keeps what became of it.
+  // After this call, a mutation whose answer was lost is sent again, provided the daemon remembers request ids.
   void repeat_by(const v1::ListDevicesResponse& there) const;
 
   bool repeats() const { return !request_memory_.empty(); }
 
-  // A call with a deadline, over all attempts. Throws Failure.
+  // Calls the daemon. `limit` covers all attempts. Throws Failure.
   template <class Stub, class Request, class Response>
   Response call(const std::unique_ptr<Stub>& stub,
                 grpc::Status (Stub::*method)(grpc::ClientContext*, const Request&, Response*), const Request& request,
@@ -62,8 +63,8 @@ class Connection {
     });
   }
 
-  // The same for a request in several messages, of which the first has the context; there is at least one. UploadSteps
-  // limits the time of each message and of the answer.
+  // Like call(), for a request in several messages, at least one. The first message has the context. UploadSteps limits
+  // the time of each message and of the answer.
   template <class Stub, class Request, class Response>
   Response upload(const std::unique_ptr<Stub>& stub,
                   std::unique_ptr<grpc::ClientAsyncWriter<Request>> (Stub::*method)(grpc::ClientContext*, Response*,
@@ -78,13 +79,13 @@ class Connection {
     });
   }
 
-  // Throws Failure unless the call ended well.
+  // Throws Failure unless the call succeeded.
   void check(const grpc::Status& status) const;
 
-  const std::string& target() const { return target_; }  // its address
+  const std::string& target() const { return target_; }  // address of the daemon
 
  private:
-  // Attempts until one is answered; more than one only of what `changes` something. Throws Failure.
+  // Retries until the daemon answers. Only calls marked `changes` are retried. Throws Failure.
   template <class Response, class Once>
   Response attempt(bool changes, std::chrono::seconds limit, Once once) const {
     const auto deadline = std::chrono::system_clock::now() + limit;
@@ -100,11 +101,11 @@ class Connection {
     }
   }
 
-  // Whether the answer was lost, and it is worth another attempt.
+  // Reports whether the answer was lost and the call should be made again.
   bool asks_again(const grpc::Status& status, std::chrono::system_clock::time_point deadline) const;
 
   const std::string target_, request_id_;
-  mutable std::string request_memory_;  // empty: nothing is repeated
+  mutable std::string request_memory_;  // empty: no call is repeated
   const std::shared_ptr<grpc::Channel> channel_;
 
  public:
@@ -122,16 +123,17 @@ class Connection {
   const std::unique_ptr<v1::MillService::Stub> mills;
 };
 
-// What the daemon said of an error; reason REASON_UNSPECIFIED when it said nothing.
+// Returns the problem that the daemon sent with an error; its reason is REASON_UNSPECIFIED if the daemon sent none.
 v1::Problem problem_of(const grpc::Status& status);
 
-// The variable that holds the token of the lease under which a command was started by `lease run`.
+// Environment variable with the lease token, for a command that `lease run` started.
 inline constexpr const char* kLeaseVariable = "AXISGATE_LEASE";
 
-// The token as the variable holds it, in hexadecimal.
+// Returns the token in hexadecimal, as the variable contains it.
 std::string lease_text(std::string_view token);
 
-// A context with a new request id, and with the token in AXISGATE_LEASE if that is one: nothing holds a stop up.
+// Returns a context with a new request id and the token in AXISGATE_LEASE. An invalid token is left out, so that it
+// cannot prevent a stop.
 v1::CallContext new_stop_context();
 
 }  // namespace axisgate::axisctl

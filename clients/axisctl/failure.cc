@@ -37,7 +37,7 @@ Failure usage(std::string message, std::string hint) {
 std::string short_name(v1::Reason reason) {
   constexpr std::string_view prefix = "REASON_";
   const std::string& name = v1::Reason_Name(reason);
-  // A newer daemon may know reasons that have no name here.
+  // A newer daemon may send reasons that have no name here.
   return name.empty() ? "REASON " + std::to_string(reason) : name.substr(prefix.size());
 }
 

@@ -1,4 +1,4 @@
-// How axisctl ends when it does not end well. Thrown from wherever it is noticed and caught once, in main.
+// Errors that end axisctl: thrown anywhere, and caught once, in main.
 #pragma once
 
 #include <string>
@@ -8,12 +8,12 @@
 
 namespace axisgate::axisctl {
 
-// Documented in README.md and `axisctl help`.
+// Exit codes, as documented in README.md and `axisctl help`.
 enum ExitCode : int {
   kDone = 0,
-  kFailed = 1,  // a motion, or it was stopped, or nobody can say; a mill job that has an error, or is not FED
+  kFailed = 1,  // a motion failed, was stopped or has an unknown outcome; a mill job has an error or was not FED
   kUsage = 2,
-  kRefused = 3,      // the request or the device's state
+  kRefused = 3,      // because of the request or the device's state
   kUnavailable = 4,  // no daemon, or the line is down
   kDeadline = 5,
 };
@@ -21,19 +21,19 @@ enum ExitCode : int {
 struct Failure {
   int exit_code = kFailed;
   std::string reason;   // "OUTSIDE_TRAVEL"
-  std::string message;  // one sentence: what, where, why
-  std::string hint;     // what to do; may be empty
+  std::string message;  // one sentence: the error, its place and its reason
+  std::string hint;     // remedy; may be empty
 };
 
 Failure usage(std::string message, std::string hint);
 
-// "OUTSIDE_TRAVEL", without the prefix of the API.
+// Returns the reason without the prefix of the API: "OUTSIDE_TRAVEL".
 std::string short_name(v1::Reason reason);
 
-// The exit code follows from the reason.
+// Converts a problem; its reason determines the exit code.
 Failure to_failure(const v1::Problem& problem);
 
-// A mistake in what was typed: always a usage error.
+// Converts a problem with typed text, which is always a usage error.
 Failure to_usage(const Problem& problem);
 
 }  // namespace axisgate::axisctl

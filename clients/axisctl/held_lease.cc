@@ -11,7 +11,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// A lease of ten seconds survives two that come late.
+// Interval between renewals. A lease of ten seconds survives two late renewals.
 constexpr std::chrono::seconds kKeepEvery{3};
 
 v1::AtLoss at_loss(const std::string& word) {
@@ -22,7 +22,7 @@ v1::AtLoss at_loss(const std::string& word) {
 v1::LeaseTerms terms(const Session& session, const v1::Device& device, const std::vector<std::string>& axes) {
   v1::LeaseTerms wanted;
   for (const int axis : find_axes(device, axes)) wanted.add_axes(axis);
-  // A command with --wait ends as it does without: after Ctrl-C its motion runs to its end.
+  // A command with --wait ends like one without: after Ctrl-C its motion runs to its end.
   wanted.set_at_loss(session.options.verb == Verb::lease_run ? at_loss(session.options.at_loss) : v1::AT_LOSS_FINISH);
   wanted.set_purpose(session.options.purpose);
   return wanted;
@@ -82,11 +82,11 @@ HeldLease::~HeldLease() {
     session_.connection.call(session_.connection.control, &v1::ControlService::Stub::ReleaseLease, request,
                              kQuestionLimit);
   } catch (const Failure& failure) {
-    print_failure(failure);  // it ends by itself, when it expires
+    print_failure(failure);  // the lease ends when it expires
   }
 }
 
-// False: it is to be given back.
+// Waits until the next renewal is due. Returns false if the lease must be released instead.
 bool HeldLease::wait_until_due() {
   std::unique_lock lock(mutex_);
   return !ended_changed_.wait_for(lock, kKeepEvery, [this] { return ended_; });

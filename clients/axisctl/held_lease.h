@@ -1,4 +1,4 @@
-// A lease as long as this object lives: acquired, kept alive, given back.
+// Lease that lasts as long as its object: acquired, kept alive, and released.
 #pragma once
 
 #include <atomic>
@@ -14,11 +14,10 @@ namespace axisgate::axisctl {
 
 class HeldLease {
  public:
-  // Over the axes of these names or numbers, none meaning the whole device; else as the options say (--wait,
-  // --take-over,
-  // --at-loss, --purpose). Throws Failure.
+  // Acquires a lease over the named or numbered axes; none means the whole device. The options --wait, --take-over,
+  // --at-loss and --purpose apply. Throws Failure.
   HeldLease(const Session& session, const v1::Device& device, const std::vector<std::string>& axes);
-  // Gives it back. What runs under it runs to its end.
+  // Releases the lease. A motion that was started under it runs to its end.
   ~HeldLease();
   HeldLease(const HeldLease&) = delete;
   HeldLease& operator=(const HeldLease&) = delete;

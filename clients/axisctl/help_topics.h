@@ -1,4 +1,4 @@
-// What `axisctl help` says beside the options, with examples that work. A test runs every one of them, in their order.
+// Texts of `axisctl help` besides the options, with working examples. A test runs every example, in order.
 #pragma once
 
 #include <span>
@@ -8,16 +8,16 @@
 namespace axisgate::axisctl {
 
 struct HelpTopic {
-  std::string_view name;      // a verb or another topic; empty: axisctl as a whole
+  std::string_view name;      // verb or other topic; empty: axisctl as a whole
   std::string_view text;      // may be empty
-  std::string_view examples;  // lines for a shell; they end with "until Ctrl-C" where they do not end by themselves
+  std::string_view examples;  // shell commands, one a line; "until Ctrl-C" marks commands that do not end by themselves
 };
 
-// In the order in which the examples can be run, on a stage with at least 2 mm of travel on either side, and
-// on a mill with that name.
+// Returns the topics in an order in which their examples can be run, on a stage with at least 2 mm of travel on either
+// side and a mill with the name in the examples.
 std::span<const HelpTopic> help_topics();
 
-// The text, then the examples; empty when there is no such topic.
+// Returns the text, then the examples; empty if there is no such topic.
 std::string help_text(std::string_view topic);
 
 }  // namespace axisgate::axisctl

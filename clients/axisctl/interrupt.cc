@@ -15,7 +15,7 @@ void write_error(std::string_view text) {
   [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, text.data(), text.size());
 }
 
-// Calls only what a signal handler may call (signal-safety(7)).
+// Calls only functions that a signal handler may call (signal-safety(7)).
 extern "C" void leave_on_interrupt(int) {
   write_error("\naxisctl: ");
   write_error(said_on_interrupt.load());

@@ -13,7 +13,8 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// The header, which may be a message of its own, and the first lines; empty: there are none.
+// Returns the header and the first lines of the recording; empty if there are none. Reads two messages, because the
+// header may be a separate message.
 std::string beginning_of_recording(const Session& session, const std::string& device) {
   v1::RecordRequest request;
   request.set_device(device);

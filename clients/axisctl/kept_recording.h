@@ -1,4 +1,4 @@
-// What the daemon still has of a device's recording.
+// Lookup of a time in the part of a device's recording that the daemon still has.
 #pragma once
 
 #include <google/protobuf/timestamp.pb.h>
@@ -11,8 +11,8 @@
 
 namespace axisgate::axisctl {
 
-// How long after the beginning of the recording a time is, to a second; nothing: that part is no longer kept, or the
-// daemon does not answer.
+// Returns the distance of `time` from the start of the recording, rounded down to a second. nullopt if the daemon no
+// longer has that part, or does not answer.
 std::optional<std::chrono::seconds> place_in_recording(const Session& session, const std::string& device,
                                                        const google::protobuf::Timestamp& time);
 

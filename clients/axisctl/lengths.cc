@@ -11,7 +11,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-constexpr double kFarthest = 10'000;  // mm; as in profiles
+constexpr double kFarthest = 10'000;  // mm; the same limit as in profiles
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Three lengths that are typed as one word: "80,50,10.5", in mm.
+// Parsing of three lengths in mm that are typed as one word: "80,50,10.5".
 #pragma once
 
 #include <string>
@@ -8,10 +8,11 @@
 
 namespace axisgate::axisctl {
 
-// `option`: where it was typed. Throws Failure, also below.
+// Parses three lengths. `option` is the option's name, for messages. Throws Failure if the text is not valid, as does
+// stock_of().
 rml1::Point lengths(const std::string& text, const char* option);
 
-// Of --stock: each is above 0.
+// Parses the value of --stock, whose lengths must be above 0.
 rml1::Stock stock_of(const std::string& text);
 
 }  // namespace axisgate::axisctl

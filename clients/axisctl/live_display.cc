@@ -11,7 +11,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// No limit where the terminal does not know its size.
+// Returns the width of the terminal; no limit if the terminal does not know its size.
 std::size_t terminal_columns() {
   winsize size{};
   return ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : std::string::npos;

@@ -1,5 +1,5 @@
-// Progress on the standard output: facts line by line; one line rewritten in place at the bottom of a terminal, such as
-// positions, and line by line when the output is none.
+// Progress on the standard output: facts line by line, and one line, such as positions, that is rewritten in place at
+// the bottom of a terminal. If the output is not a terminal, this line is also printed line by line.
 #pragma once
 
 #include <chrono>
@@ -16,13 +16,13 @@ class LiveDisplay {
   ~LiveDisplay();
 
   void fact(std::string_view line);
-  // Nothing is shown when it is what was shown before. A terminal shows as much of it as fits into a row, because only
-  // one row is rewritten.
+  // Shows the line that is rewritten in place, unless it has not changed. On a terminal it is cut to one row, because
+  // only one row can be rewritten.
   void in_place(const std::string& line);
-  // Takes the line in place away.
+  // Erases the line that is rewritten in place.
   void finish();
 
-  // How often positions are worth asking for.
+  // Returns the useful interval between updates of the positions: shorter on a terminal.
   std::chrono::milliseconds interval() const;
 
  private:

@@ -1,4 +1,4 @@
-// axisctl: the command line of axisgated.
+// axisctl: the command-line program for axisgated.
 #include <cstddef>
 #include <iterator>
 
@@ -14,8 +14,8 @@ namespace {
 struct Row {
   Verb verb;
   int (*run)(const Session&);
-  bool waits = false;                               // --wait
-  int (*without_daemon)(const Options&) = nullptr;  // instead of run
+  bool waits = false;                               // accepts --wait
+  int (*without_daemon)(const Options&) = nullptr;  // called instead of run
 };
 
 constexpr Row kRows[] = {

@@ -19,7 +19,7 @@ bool concerns(const v1::Event& event, const std::string& motion) {
     case v1::Event::kPathProgress:
       return event.path_progress().motion() == motion;
     default:
-      return true;  // the line, and stops, concern whatever moves on the device
+      return true;  // other events, such as stops and changes of the line, concern every motion of the device
   }
 }
 
@@ -34,7 +34,7 @@ MotionFollower::MotionFollower(const Session& session, const v1::Device& device)
   v1::WatchRequest request;
   request.set_device(device.name());
   events_ = session.connection.events->Watch(&events_context_, request);
-  // The headers say that the daemon is watching: what it publishes from here on comes.
+  // The headers show that the subscription has begun: later events are delivered.
   events_->WaitForInitialMetadata();
 }
 

@@ -1,4 +1,4 @@
-// Shows a motion on its way: every event of it in order, and the positions.
+// Display of a running motion: its events in order, and the positions.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -13,17 +13,19 @@
 
 namespace axisgate::axisctl {
 
-// Made before the motion is requested, so that none of its events is missed. It only shows events. Its caller learns
-// from the daemon's answer whether the motion succeeded, and a follower that loses its streams says nothing about that.
+// A MotionFollower shows the events of a motion. Create it before the motion is requested, so that no event is missed.
+// It does not report the outcome: the caller takes that from the daemon's answer, and a follower that loses its streams
+// says nothing about it.
 class MotionFollower {
  public:
   MotionFollower(const Session& session, const v1::Device& device);
   ~MotionFollower();
 
-  // From now on the events of `motion` are shown, those that have come already first.
+  // Starts to show the events of `motion`, beginning with those that have already arrived.
   void follow(const std::string& motion);
 
-  // The motion has its outcome: waits, at most a second, until its last event is shown, and ends.
+  // Waits at most a second until the motion's last event is shown, and ends the display. Call it when the motion has
+  // its outcome.
   void finish();
 
  private:

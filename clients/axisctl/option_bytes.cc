@@ -1,4 +1,4 @@
-// Arguments that are not UTF-8 are refused here, before anything is sent: protobuf takes nothing else.
+// Refusal of arguments that are not UTF-8, before anything is sent: protobuf accepts only UTF-8.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <string>
@@ -10,7 +10,8 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Names of files, and the words of a command that axisctl starts, are for this machine alone: they may be of any bytes.
+// Reports whether the argument is used on this machine only, so that it may have any bytes: the name of a file, or a
+// word of a command that axisctl starts.
 bool stays_here(const CLI::Option& option, Verb verb) {
   const std::string name = option.get_name(), type = option.get_type_name();
   if (verb == Verb::lease_run && name == "COMMAND") return true;

@@ -1,5 +1,5 @@
-// CLI11 takes eight seconds to compile: only this unit, option_bytes.cc, setting_options.cc, history_options.cc and
-// mill_options.cc include it.
+// Parsing of the command line. CLI11 takes eight seconds to compile, so only this file, option_bytes.cc,
+// setting_options.cc, history_options.cc and mill_options.cc include it.
 #include "clients/axisctl/options.h"
 
 #include <CLI/CLI.hpp>
@@ -278,7 +278,7 @@ void add_position_verbs(CLI::App& app, Options& options) {
   }
 }
 
-// The headings of `axisctl help`.
+// Sets the headings of `axisctl help`.
 void set_groups(CLI::App& app) {
   struct Group {
     const char* heading;
@@ -308,7 +308,7 @@ int list_examples() {
 }
 
 int show_help(CLI::App& app, const std::string& topic) {
-  app.clear();  // or CLI11 would show the help of the verb `help`
+  app.clear();  // otherwise CLI11 would show the help of the verb `help`
   if (topic.empty()) {
     print_line(app.help());
     return kDone;
@@ -352,7 +352,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
                  "id of the request; if it comes again with the same id, it does not act again (default: a new one)")
       ->type_name("ID");
   app.add_flag("--json", options.json, "print one JSON object per line");
-  app.group("Commands");  // the heading that verbs of verbs inherit
+  app.group("Commands");  // heading that the verbs below a verb inherit
   app.get_formatter()->label("SUBCOMMAND", "COMMAND");
   app.get_formatter()->label("REQUIRED", "");
   add_questions(app, options);
@@ -371,7 +371,7 @@ std::variant<Options, int> parse_options(int argument_count, char** arguments) {
   help->add_option("TOPIC", help_topic)->type_name("");
   help->add_flag("--list-examples", examples)->group("");
   set_groups(app);
-  app.footer(help_text("") + kExitCodes);  // last, or every verb's help would repeat it
+  app.footer(help_text("") + kExitCodes);  // set last, otherwise every verb's help would repeat it
   try {
     app.parse(argument_count, arguments);
   } catch (const CLI::CallForHelp& call) {

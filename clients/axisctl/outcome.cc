@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::chrono::milliseconds kPollEvery{200};
 
-// "; axis x ran from ..." of a scan that has started.
+// Returns "; axis x ran from ..." for a scan that has started; otherwise empty.
 std::string scan_of(const v1::Device& device, const v1::Motion& motion) {
   if (!motion.has_scan()) return "";
   return "; " + scan_text(find_axis(device, std::to_string(motion.axes(0))), motion.scan());
@@ -31,7 +31,8 @@ Failure to_failure(const v1::Device& device, const v1::Motion& motion) {
   return failure;
 }
 
-// A stream was refused: other streams of the same caller may take all its places. Calls have places of their own.
+// Polls for the outcome, after the daemon has refused a stream: the caller may have used up its quota of streams. Calls
+// have a separate quota.
 v1::Motion poll_outcome(const Session& session, const std::string& motion) {
   v1::GetMotionRequest request;
   request.set_name(motion);
@@ -44,7 +45,7 @@ v1::Motion poll_outcome(const Session& session, const std::string& motion) {
   }
 }
 
-// The outcome is asked by calls; where they fail, too, the motion continues without it.
+// Returns the outcome by polling. If polling also fails, the Failure says that the motion continues.
 v1::Motion outcome_by_calls(const Session& session, const std::string& motion) {
   try {
     return poll_outcome(session, motion);
@@ -108,7 +109,8 @@ int report_started(const Session& session, const v1::Motion& motion) {
 
 namespace {
 
-// Of a daemon that was killed and has started again: the same request is answered with what it came to.
+// Returns the outcome, even if the daemon was killed and has restarted: `start` then sends the same request again, and
+// the daemon answers with its result.
 v1::Motion outcome_of(const Session& session, v1::Motion motion, const std::function<v1::Motion()>& start) {
   while (motion.state() < v1::MOTION_STATE_SUCCEEDED) {
     try {

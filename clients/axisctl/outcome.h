@@ -1,4 +1,4 @@
-// The outcome of a motion, reported to a person and as an exit code.
+// Reports of a motion's outcome, as text and as an exit code.
 #pragma once
 
 #include <functional>
@@ -9,22 +9,22 @@
 
 namespace axisgate::axisctl {
 
-// Waits for the outcome; throws Failure when the daemon can no longer be asked.
+// Waits for the outcome. Throws Failure if the daemon can no longer be asked.
 v1::Motion await_outcome(const Session& session, const std::string& motion);
 
-// "axis x at 2.5 mm, axis y at 0 mm": where the axes are whose ends are known; may be empty.
+// Returns "axis x at 2.5 mm, axis y at 0 mm", for the axes whose end position is known; may be empty.
 std::string ends_text(const v1::Device& device, const v1::Motion& motion);
 
-// Prints where the axes are, or throws the Failure that the outcome is.
+// Prints the end positions of the axes. Throws Failure if the motion did not succeed.
 int report_outcome(const Session& session, const v1::Device& device, const v1::Motion& motion);
 
-// A motion that was started and is not waited for.
+// Prints that a motion was started, for --no-wait.
 int report_started(const Session& session, const v1::Motion& motion);
 
-// Starts it and waits for the outcome, which is reported; with --no-wait, once it has started. Throws Failure.
+// Starts a motion, waits for its outcome and reports it; with --no-wait, only reports the start. Throws Failure.
 int start_and_wait(const Session& session, const v1::Device& device, const std::function<v1::Motion()>& start);
 
-// From now on Ctrl-C says that the motion continues, before it ends axisctl with exit code 130.
+// After this call, Ctrl-C prints that the motion continues, and ends axisctl with exit code 130.
 void say_on_interrupt_that_motion_continues();
 
 }  // namespace axisgate::axisctl

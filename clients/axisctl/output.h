@@ -1,4 +1,4 @@
-// Where a verb writes a text that is meant to be kept.
+// Output file of a verb that writes a text to keep.
 #pragma once
 
 #include <cstdio>
@@ -7,16 +7,17 @@
 
 namespace axisgate::axisctl {
 
-// Throws Failure when the file cannot be made or written, and says why.
+// An Output is a file or the standard output. Throws Failure, with the reason, if the file cannot be created or
+// written.
 class Output {
  public:
-  // "" or "-": the standard output. An existing file is overwritten.
+  // Opens the file, and overwrites an existing one. "" or "-" means the standard output.
   explicit Output(std::string path);
   ~Output();
   Output(const Output&) = delete;
   Output& operator=(const Output&) = delete;
 
-  // Handed to the system when it returns, so that an interruption later loses nothing.
+  // Writes and flushes the text, so that a later interruption loses nothing.
   void write(std::string_view text);
 
   bool is_file() const { return file_ != stdout; }

@@ -21,7 +21,7 @@ void write(std::FILE* stream, std::string_view text) {
   std::fflush(stream);
 }
 
-// A newer daemon may know values that have no name here.
+// Returns the name without the prefix, or the number: a newer daemon may send values that have no name here.
 std::string without_prefix(const std::string& name, std::string_view prefix, int number) {
   return name.empty() ? fmt::format("({})", number) : name.substr(prefix.size());
 }

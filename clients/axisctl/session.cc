@@ -14,20 +14,21 @@
 namespace axisgate::axisctl {
 namespace {
 
-// As `kind` in the configuration.
+// Reports whether the device is a mill, from its `kind` in the configuration.
 bool is_mill(const v1::Device& device) { return device.kind() == "rml1"; }
 bool is_stage(const v1::Device& device) { return !is_mill(device); }
 
 v1::ListDevicesResponse listed_devices(const Session& session) {
   const Connection& connection = session.connection;
-  // The one question that the daemon answers even when it has no connection left but for a stop.
+  // The daemon answers this question even if only the connections reserved for stops are left.
   v1::ListDevicesResponse there = connection.call(connection.devices, &v1::DeviceService::Stub::ListDevices,
                                                   v1::ListDevicesRequest(), kQuestionLimit);
   connection.repeat_by(there);
   return there;
 }
 
-// Of those that are so. `kind`: for people.
+// Returns the only device that fulfils `is_so`. Throws Failure if there are none or several. `kind` is its name in
+// messages.
 v1::Device only_one(const v1::ListDevicesResponse& there, bool (*is_so)(const v1::Device&), std::string_view kind) {
   std::vector<v1::Device> such;
   std::ranges::copy_if(there.devices(), std::back_inserter(such), is_so);
@@ -39,7 +40,7 @@ v1::Device only_one(const v1::ListDevicesResponse& there, bool (*is_so)(const v1
               fmt::format("choose one with --device: {}", fmt::join(names, ", ")));
 }
 
-// Null: the daemon lists none of the name that was typed.
+// Returns the device with this name; null if the daemon does not list it.
 const v1::Device* named_device(const v1::ListDevicesResponse& there, const std::string& name) {
   const auto found = std::ranges::find(there.devices(), name, &v1::Device::name);
   return found == there.devices().end() ? nullptr : &*found;
@@ -53,7 +54,7 @@ v1::Device chosen_device(const Session& session) {
   const v1::Device* const named = named_device(there, session.options.device);
   if (named != nullptr && is_stage(*named)) return *named;
   const Connection& connection = session.connection;
-  // The daemon says what is wrong with the name.
+  // This call fails with a message that explains the error in the name.
   v1::GetDeviceRequest request;
   request.set_name(session.options.device);
   return connection.call(connection.devices, &v1::DeviceService::Stub::GetDevice, request, kQuestionLimit).device();

@@ -1,4 +1,4 @@
-// One run of axisctl: what was requested, and the connection to the daemon.
+// One run of axisctl: its options, and the connection to the daemon.
 #pragma once
 
 #include "axisgate/v1/device.pb.h"
@@ -12,14 +12,14 @@ struct Session {
   const Connection connection;
 };
 
-// As the daemon knows them without asking; all throw Failure.
+// The following functions return devices as the daemon lists them, without asking the controllers. All throw Failure.
 
-// The stage that was named, or the only one.
+// Returns the stage named by --device, or the only stage.
 v1::Device chosen_device(const Session& session);
-// The only mill. For a mill that was named the daemon need not be asked.
+// Returns the only mill. If --device names a mill, there is no need to ask the daemon.
 v1::Device only_mill(const Session& session);
-// The device that was named, whatever its kind. Otherwise the only stage, or where there is none, the only mill. One
-// that the daemon does not list has its name alone.
+// Returns the device named by --device, of any kind; it has only its name if the daemon does not list it. Without
+// --device, the only stage, or the only mill if there is no stage.
 v1::Device leased_device(const Session& session);
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// Rows of cells as lines.
+// Text tables.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 
 namespace axisgate::axisctl {
 
-// Each column is as wide as its widest cell; the last one is not filled up. All rows have as many cells as the first.
+// Formats rows of cells as lines. Each column is as wide as its widest cell; the last column is not padded. All rows
+// must have as many cells as the first row.
 std::vector<std::string> table_lines(const std::vector<std::vector<std::string>>& rows);
 
 }  // namespace axisgate::axisctl

@@ -6,8 +6,9 @@ namespace axisgate::axisctl {
 namespace {
 
 constexpr std::chrono::seconds kStepLimit{10};
-constexpr std::size_t kSlowestBytes = 1000;  // a second
-// gRPC counts a message as written while it holds the rest of it: at most this much, and one window of HTTP/2.
+constexpr std::size_t kSlowestBytes = 1000;  // bytes per second
+// Maximum number of bytes that are still to be sent when gRPC reports a message as written: gRPC's buffer and one
+// window of HTTP/2.
 constexpr std::size_t kOnTheirWay = 2 * 65'536;
 
 }  // namespace

@@ -1,5 +1,5 @@
-// A request in several messages, each with a time limit of its own: over a slow connection an upload takes long, and
-// only one that stalls is abandoned.
+// Upload of a request in several messages, each with a separate time limit, so that a slow upload continues and only a
+// stalled upload is abandoned.
 #pragma once
 
 #include <grpcpp/grpcpp.h>
@@ -10,20 +10,20 @@
 
 namespace axisgate::axisctl {
 
-// No message is longer than this, so that a slow upload differs from one that stalls.
+// Maximum size of a message in bytes, small enough to distinguish a slow upload from a stalled upload.
 inline constexpr std::size_t kUploadPiece = 1 << 14;
 
-// A message of `bytes` is on its way no longer than this; so is a whole upload, with all attempts.
+// Returns the time limit for sending a message of `bytes`, or for a whole upload, with all attempts.
 std::chrono::seconds upload_limit(std::size_t bytes);
 
 class UploadSteps {
  public:
-  // `context` is that of the call, which is made over queue(); it outlives this.
+  // `context` is the context of the call, and must outlive this object. The call must use queue().
   explicit UploadSteps(grpc::ClientContext& context) : context_(context) {}
 
   grpc::CompletionQueue* queue() { return &queue_; }
 
-  // DEADLINE_EXCEEDED where a step took too long. Once only.
+  // Sends the messages and waits for the answer. Returns DEADLINE_EXCEEDED if a step took too long. Call it only once.
   template <class Request>
   grpc::Status run(grpc::ClientAsyncWriter<Request>& writer, const std::vector<Request>& messages) {
     std::size_t bytes = 0;
@@ -33,7 +33,7 @@ class UploadSteps {
       const std::size_t size = messages[i].ByteSizeLong();
       bytes += size;
       writer.Write(messages[i], this);
-      continues = ended_within(upload_limit(size));  // false: the daemon has refused, and why is in the status
+      continues = ended_within(upload_limit(size));  // false: the daemon has refused; the status has the reason
     }
     if (continues) {
       writer.WritesDone(this);
@@ -46,7 +46,7 @@ class UploadSteps {
   }
 
  private:
-  // Waits for the operation that was begun. False where it failed; beyond its limit the call is cancelled.
+  // Waits for the current operation. Returns false if it failed. Cancels the call after the limit.
   bool ended_within(std::chrono::seconds limit);
   static std::chrono::seconds answer_limit(std::size_t bytes);
 

@@ -1,4 +1,4 @@
-// What options.cc and its groups of verbs share: a verb and what may stand behind several of them.
+// Functions shared by options.cc and its groups of verbs.
 #pragma once
 
 #include <optional>
@@ -12,25 +12,25 @@ class App;
 
 namespace axisgate::axisctl {
 
-// `options` outlives the parsing. The verb's own help ends with its examples.
+// Adds a verb, whose help ends with its examples. `options` must outlive the parsing.
 CLI::App* add_verb(CLI::App& app, Options& options, Verb verb, const char* name, const char* description);
 
-// --wait
+// Adds the option --wait.
 void add_wait(CLI::App& verb, Options& options);
 
-// [AXES]
+// Adds the optional argument AXES.
 void add_axes(CLI::App& verb, Options& options);
 
-// option_bytes.cc: names the first argument, of what was parsed, that is not UTF-8. nullopt if all are.
+// Returns an error for the first parsed argument that is not UTF-8; nullopt if all are. Defined in option_bytes.cc.
 std::optional<Failure> not_utf8(const CLI::App& app, Verb verb);
 
-// setting_options.cc
+// Defined in setting_options.cc.
 void add_setting_verbs(CLI::App& app, Options& options);
 
-// history_options.cc
+// Defined in history_options.cc.
 void add_history_verbs(CLI::App& app, Options& options);
 
-// mill_options.cc
+// Defined in mill_options.cc.
 void add_mill_verbs(CLI::App& app, Options& options);
 
 }  // namespace axisgate::axisctl

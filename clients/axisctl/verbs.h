@@ -1,4 +1,4 @@
-// The verbs. Each returns its exit code or throws Failure.
+// Functions that run the verbs, one each. Each returns its exit code, or throws Failure.
 #pragma once
 
 #include "clients/axisctl/session.h"
@@ -84,7 +84,7 @@ int mill_again(const Session& session);
 // Runs `mill send --rest-of`.
 int mill_send_rest(const Session& session);
 
-// With --wait under a lease of its own, which is waited for.
+// Runs a verb. With --wait, first waits for a lease and runs the verb under it.
 int with_lease(const Session& session, int (*verb)(const Session&));
 
 }  // namespace axisgate::axisctl

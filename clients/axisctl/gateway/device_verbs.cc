@@ -1,4 +1,4 @@
-// devices, status, position, clear, commands: what there is, and how it is.
+// devices, status, position, clear, commands: show the devices and their state; clear errors.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <google/protobuf/util/time_util.h>
@@ -28,10 +28,10 @@ std::string link_text(const v1::Device& device) {
                                        : fmt::format("{}: {}", link_name(device.link()), device.link_problem());
 }
 
-// yes, no, or ? where nobody knows.
+// Returns yes or no, or ? if unknown.
 std::string_view known(bool is_known, bool value) { return !is_known ? "?" : value ? "yes" : "no"; }
 
-// S, F and R as D: takes them (manual 89)), in pulses/s and ms.
+// Returns S, F and R as parameters of D: (manual 89)), in pulses/s and ms; ? if unknown.
 std::string speed_text(const v1::Axis& axis) {
   if (!axis.has_minimum_speed() || !axis.has_maximum_speed() || !axis.has_acceleration_ms()) return "?";
   return fmt::format("S{}F{}R{}", axis.minimum_speed(), axis.maximum_speed(), axis.acceleration_ms());
@@ -123,7 +123,7 @@ int status(const Session& session) {
   try {
     device = read_now(session, device.name());
   } catch (const Failure& unreadable) {
-    failure = unreadable;  // what is known is shown all the same
+    failure = unreadable;  // the last known state is still shown
   }
   if (session.options.json) {
     print_json(device);

@@ -1,4 +1,4 @@
-// lease run, list, hand-over, and rearm: who may move what.
+// lease run, list, hand-over, and rearm: the right to move axes.
 #include <fmt/format.h>
 
 #include <chrono>
@@ -71,7 +71,7 @@ void print_released(const v1::RearmResponse& response) {
   print_line(fmt::format("{} may move again", axes_text(response.axes())));
 }
 
-// Another's lease may have a latch, which this call could not end.
+// Explains that nothing was rearmed. A lease of another caller may have a latch, which this call could not end.
 std::string nothing_rearmed(const v1::WatchLeasesResponse& board) {
   for (const v1::Lease& lease : board.leases()) {
     if (!lease.has_latch()) continue;

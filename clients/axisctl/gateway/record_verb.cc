@@ -1,4 +1,4 @@
-// record: what goes over the line, as text that `replay` reads.
+// record: prints the serial traffic, as text that `replay` can read.
 #include <fmt/format.h>
 #include <semaphore.h>
 
@@ -17,7 +17,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-sem_t ended;  // by a signal, or because the call is over
+sem_t ended;  // posted by a signal, or when the call is over
 volatile std::sig_atomic_t by_signal = 0;
 
 void end(int) {
@@ -25,13 +25,13 @@ void end(int) {
   sem_post(&ended);
 }
 
-// Makes Ctrl-C, SIGTERM and SIGHUP the ordinary end of a call. One at a time.
+// EndedBySignal lets Ctrl-C, SIGTERM and SIGHUP end a call normally. Only one object may exist at a time.
 class EndedBySignal {
  public:
   explicit EndedBySignal(grpc::ClientContext& call) {
     sem_init(&ended, 0, 0);
     on_end_signals(end, 0);
-    // gRPC may not be called from a signal handler.
+    // A thread cancels the call, because gRPC must not be called from a signal handler.
     waiter_ = std::thread([&call] {
       while (sem_wait(&ended) != 0 && errno == EINTR) {
       }

@@ -1,4 +1,4 @@
-// replay: feeds recordings to the core that this program is built with. Needs no daemon.
+// replay: feeds recordings to the core of this program's version. Needs no daemon.
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -20,15 +20,15 @@ namespace axisgate::axisctl {
 namespace {
 
 constexpr std::string_view kHead = "# axisgate recording ";
-constexpr std::string_view kSection = "== ";  // of a support report
+constexpr std::string_view kSection = "== ";  // begins a section of a support report
 
 struct Part {
-  int first_line = 1;  // in the file
+  int first_line = 1;  // line number in the file
   std::string text;
 };
 
-// A daemon's file has a head for each start of the daemon, and wherever lines were lost; a support report has one for
-// each device.
+// Splits a file into its recordings. A daemon's file has a header for each start of the daemon and after each loss of
+// lines; a support report has a header for each device.
 std::vector<Part> recordings_in(std::istream& input) {
   std::vector<Part> parts;
   bool inside = false;

@@ -1,4 +1,4 @@
-// sim: what a person does at a simulated device.
+// sim: simulates the actions of a person at a simulated device.
 #include "clients/axisctl/failure.h"
 #include "clients/axisctl/print.h"
 #include "clients/axisctl/verbs.h"

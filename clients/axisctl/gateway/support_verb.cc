@@ -1,4 +1,4 @@
-// support: one text file for somebody who helps. A text, so that it can be read before it is sent, and mailed as it is.
+// support: writes a support report, one text file that can be read before it is sent, and mailed as it is.
 #include <fmt/chrono.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -17,12 +17,12 @@
 namespace axisgate::axisctl {
 namespace {
 
-// The recordings of several devices over a slow way.
+// Deadline of the report: long enough for the recordings of several devices over a slow connection.
 constexpr std::chrono::seconds kReportLimit{60};
 
 constexpr std::string_view kUnixTarget = "unix:";
 
-// Not the address itself, which may tell of people and machines.
+// Returns how the daemon is reached, without the address, which may identify people and machines.
 std::string way_to(const std::string& target) {
   if (!target.starts_with(kUnixTarget)) return "by TCP";
   struct stat found = {};
@@ -48,7 +48,7 @@ std::string default_name() {
   return fmt::format("axisgate-support-{:%Y%m%d-%H%M%S}.txt", fmt::gmtime(now));
 }
 
-// Throws Failure when there is no whole one.
+// Copies the daemon's report to the file. Throws Failure if the daemon does not send it whole.
 void copy_report(const Session& session, Output& output) {
   grpc::ClientContext call;
   call.set_deadline(std::chrono::system_clock::now() + kReportLimit);
@@ -69,7 +69,7 @@ int support(const Session& session) {
     copy_report(session, output);
   } catch (const Failure& failure) {
     print_failure(failure);
-    // Its message may tell the address.
+    // The failure's message is left out, because it may contain the address.
     output.write(fmt::format("\n== no report of axisgated, or an incomplete one: {} ==\n", failure.reason));
     lack = "without the daemon's part; ";
   }

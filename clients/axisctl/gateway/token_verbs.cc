@@ -1,4 +1,4 @@
-// whoami, token create, list, revoke: who calls.
+// whoami, token create, list, revoke: identity of callers.
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 

@@ -1,4 +1,4 @@
-// watch: every event, each once, also across a broken connection.
+// watch: prints every event exactly once, even if the connection breaks in between.
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -26,8 +26,8 @@ class Watcher {
     if (session.options.from_revision) request_.set_from_revision(*session.options.from_revision);
   }
 
-  // Returns only by a Failure that trying again would not fix. It is first checked that the daemon is there at all. If
-  // the daemon stops later, it waits for it.
+  // Watches forever. Throws Failure if the daemon does not answer at the start, or for an error that another attempt
+  // cannot fix. If the daemon stops later, waits until it is back.
   [[noreturn]] void run() {
     session_.connection.call(session_.connection.devices, &v1::DeviceService::Stub::ListDevices,
                              v1::ListDevicesRequest(), kQuestionLimit);
@@ -35,10 +35,10 @@ class Watcher {
   }
 
  private:
-  // Until the stream breaks; its status.
+  // Watches until the stream breaks, and returns its status.
   grpc::Status watch_once() {
     grpc::ClientContext context;
-    context.set_wait_for_ready(true);  // after a break the call waits for the daemon to come back
+    context.set_wait_for_ready(true);  // after a break the call waits until the daemon is back
     const auto reader = session_.connection.events->Watch(&context, request_);
     v1::WatchResponse response;
     while (reader->Read(&response)) {
@@ -67,7 +67,7 @@ class Watcher {
     backoff_ = std::min(backoff_ * 2, kBackoffMost);
   }
 
-  // A daemon that is ending says so; a daemon that was killed sends no problem.
+  // Prints the reason for the break. An ending daemon sends a problem; a killed daemon does not.
   void tell_of_break(const v1::Problem& problem) const {
     Failure failure{kUnavailable, "UNAVAILABLE", "the connection to the daemon was lost", "trying again"};
     if (problem.reason() != v1::REASON_UNSPECIFIED) {
@@ -84,8 +84,8 @@ class Watcher {
     const std::string text = found == problem.metadata().end() ? "" : found->second;
     std::uint64_t resume = 0;
     if (std::from_chars(text.data(), text.data() + text.size(), resume).ec != std::errc()) throw to_failure(problem);
-    // A caller that requested lost events decides how to continue. A watcher that was too slow, or outlived a daemon,
-    // is notified and continues.
+    // If the first request asks for events that are gone, the caller decides how to continue. A later loss, because the
+    // watcher was too slow or the daemon restarted, is only reported.
     if (!seen_any_) throw Failure{kRefused, "COMPACTED", problem.message(), fmt::format("use --from {}", resume)};
     print_failure({kRefused, "COMPACTED", problem.message(), fmt::format("continuing from revision {}", resume)});
     request_.set_from_revision(resume);

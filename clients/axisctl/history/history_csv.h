@@ -1,4 +1,4 @@
-// Entries of the journal as a table for other programs.
+// Conversion of journal entries to CSV, for other programs.
 #pragma once
 
 #include <string>
@@ -8,11 +8,11 @@
 
 namespace axisgate::axisctl {
 
-// The names of the columns of csv_row().
+// Column names of csv_row().
 inline constexpr std::string_view kCsvHeader = "number,time,kind,device,who,motion,details";
 
-// Quoted as RFC 4180 says. The time is in UTC, as RFC 3339 says; the other columns are as in HistoryEntry, without the
-// names of their collections.
+// Returns one row, quoted according to RFC 4180. The time is in UTC, according to RFC 3339. The other columns are as in
+// HistoryEntry; devices and motions are shortened to the last part of their names.
 std::string csv_row(const v1::HistoryEntry& entry);
 
 }  // namespace axisgate::axisctl

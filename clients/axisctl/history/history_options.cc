@@ -1,4 +1,4 @@
-// The options of history, motions, cancel and audit.
+// Options of history, motions, cancel and audit.
 #include <CLI/CLI.hpp>
 
 #include "clients/axisctl/help_topics.h"
@@ -32,7 +32,7 @@ void add_history(CLI::App& app, Options& options) {
   text->type_name("TEXT");
   limit->type_name("N");
   for (CLI::Option* other : {who, motion, axis, outcome, text, limit, follow, csv}) night->excludes(other);
-  // Its outcome would be missing.
+  // These options would hide the entry with the motion's outcome.
   for (CLI::Option* other : {hours, who, axis, outcome, text, limit, follow}) motion->excludes(other);
   csv->excludes(app.get_option("--json"));
 }

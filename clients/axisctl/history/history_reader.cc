@@ -59,10 +59,10 @@ class HistoryFollower {
     }
   }
 
-  // Whether there is another.
+  // Shows one page, and reports whether another page follows.
   bool show_next_page() {
     const v1::ListHistoryResponse page = page_of(session_, request_);
-    // A new journal has begun: its numbers count from 1 again.
+    // The daemon has begun a new journal, with numbers from 1 again.
     if (page.newest() < request_.after()) {
       request_.set_after(0);
       return true;

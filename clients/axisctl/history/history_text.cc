@@ -16,7 +16,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-constexpr std::size_t kLineMax = 1000;  // more than a line has
+constexpr std::size_t kLineMax = 1000;  // longer than any line
 
 std::string axes_text(const Json& details) {
   std::string text;
@@ -53,7 +53,7 @@ std::string refusal_text(const Json& details) {
   return fmt::format("{} requests refused; the last of them {}", details.value("count", std::int64_t{}), text);
 }
 
-// As the entry of the end has it, in words.
+// Returns the text for the reason of a lease's end, as its journal entry names it.
 std::string ending_text(const std::string& why) {
   if (why == "handed_over") return "handed over";
   if (why == "taken_over") return "taken over by somebody else";
@@ -70,7 +70,7 @@ std::string lease_text(const v1::HistoryEntry& entry, const Json& details) {
   return lease + " granted" + (details.value("taken_over", false) ? ", taken over from others" : "");
 }
 
-// Of [line, answer] and [line, answer, microseconds].
+// Formats an exchange, which is [line, answer] or [line, answer, microseconds].
 std::string exchange_text(const Json& exchange) {
   const std::string line = exchange.at(0), answer = exchange.at(1).is_null() ? "no answer" : exchange.at(1);
   return escaped(line, kLineMax) + "  " + escaped(answer, kLineMax);
@@ -84,7 +84,7 @@ std::string lines_text(const v1::HistoryEntry& entry, const Json& details) {
   return fmt::format("motion {}: {} line{}", last_part(entry.motion()), lines.size(), lines.size() == 1 ? "" : "s");
 }
 
-// Since the request of the motion.
+// Formats the time since the motion was requested.
 std::string elapsed_text(std::int64_t micros) {
   return micros < 10'000'000 ? fmt::format("{} ms", micros / 1000)
                              : fmt::format("{:.1f} s", static_cast<double>(micros) / 1e6);
@@ -190,7 +190,7 @@ std::string text_of(const v1::HistoryEntry& entry) {
   }
 }
 
-// Whether the text has the caller already.
+// Reports whether the text of an entry of this kind already contains the caller.
 bool names_caller(v1::HistoryKind kind) {
   return kind >= v1::HISTORY_KIND_LEASE_GRANTED && kind <= v1::HISTORY_KIND_REARMED;
 }
@@ -215,7 +215,6 @@ std::vector<std::string> exchanges_of(const v1::HistoryEntry& entry) {
   return all;
 }
 
-// When it ended and where; after its entries, oldest first.
 std::string life_text(std::uint64_t number, const std::vector<v1::HistoryEntry>& entries) {
   const auto newest = [&](v1::HistoryKind kind) {
     const auto found =

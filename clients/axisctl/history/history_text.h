@@ -1,4 +1,4 @@
-// Entries of the journal as lines for people.
+// Conversion of journal entries to lines for people.
 #pragma once
 
 #include <chrono>
@@ -10,17 +10,17 @@
 
 namespace axisgate::axisctl {
 
-// "2026-11-24 02:11:07  stage  stop of axes 1, 2, 3, by unix bert".
+// Returns the entry as one line: "2026-11-24 02:11:07+01:00  stage  stop of axes 1, 2, 3, by unix bert".
 std::string line_of(const v1::HistoryEntry& entry);
 
-// The lines that a controller was sent, each with its answer and when it was written after the motion's request:
-// "  A:1+P20000  OK  2 ms".
+// Returns the command lines that were sent to the controller, each with its answer and the time from the motion's
+// request until it was written: "  A:1+P20000  OK  2 ms".
 std::vector<std::string> exchanges_of(const v1::HistoryEntry& entry);
 
-// When a motion ended and where, by its entries, oldest first.
+// Returns when and where a motion ended, according to its entries, which are oldest first.
 std::string life_text(std::uint64_t number, const std::vector<v1::HistoryEntry>& entries);
 
-// How to get the recording of a motion, which begins `at` after the recording.
+// Returns the command that writes the recording of a motion, which begins `at` after the start of the recording.
 std::string record_text(const v1::HistoryEntry& requested, std::chrono::seconds at);
 
 }  // namespace axisgate::axisctl

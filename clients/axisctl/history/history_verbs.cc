@@ -1,4 +1,4 @@
-// history, audit: what has happened, whether the journal is as it was written, and erasing a name from it.
+// history, audit: shows what has happened, verifies the journal, and erases a name from the journal.
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -26,10 +26,10 @@ namespace {
 
 using google::protobuf::util::TimeUtil;
 
-// All of a journal is read.
+// Deadline of calls that read the whole journal.
 constexpr std::chrono::seconds kJournalLimit{600};
 
-// "failed" as an option has it; empty: none.
+// Converts the value of --outcome, such as "failed"; UNSPECIFIED if it is empty.
 v1::MotionState outcome_of(std::string text) {
   std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
   v1::MotionState outcome = v1::MOTION_STATE_UNSPECIFIED;
@@ -64,7 +64,7 @@ std::string hex(std::string_view bytes) {
   return text;
 }
 
-// "EPOCH:NUMBER:HASH", on a line that can be kept.
+// Returns "EPOCH:NUMBER:HASH", one line to note down.
 std::string head_text(const v1::JournalHead& head) {
   return fmt::format("{}:{}:{}", head.epoch(), head.number(), hex(head.hash()));
 }
@@ -88,14 +88,15 @@ v1::JournalHead head_of(const std::string& text) {
   return head;
 }
 
-// Of what is no entry, in SQLite's words.
+// Returns the text for damage outside the entries. `fault` is SQLite's message.
 std::string damage_text(const std::string& fault) {
   return "the file is damaged elsewhere, mostly in an index, so that `axisctl history` may lack entries: " + fault +
          " (to make the indices again, end the daemon and type `sqlite3 journal.sqlite REINDEX` in its state "
          "directory)";
 }
 
-// What one motion was, after its entries, oldest first; and how to get the recording around it.
+// Prints the summary of one motion from its entries, oldest first, and the command for its recording if the daemon
+// still has it.
 void print_life(const Session& session, const std::vector<v1::HistoryEntry>& entries) {
   print_line(life_text(*session.options.motion, entries));
   if (entries.empty()) return;

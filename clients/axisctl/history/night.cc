@@ -25,7 +25,7 @@ namespace {
 using google::protobuf::Timestamp;
 using google::protobuf::util::TimeUtil;
 
-// Every entry of a long time is read.
+// Deadline of the summary: the daemon reads every entry of a long period.
 constexpr std::chrono::seconds kSummaryLimit{60};
 constexpr int kEvening = 18;  // o'clock
 
@@ -44,8 +44,8 @@ std::time_t evening_before(std::time_t now) {
   return std::mktime(&evening);
 }
 
-// "23:10" of last night, "11-24 23:10" of another day. The offset from UTC is that of the beginning, unless it is
-// shown: in the night in which the clocks are changed an hour comes twice.
+// A NightClock formats times: "23:10" in the last 24 hours, otherwise "11-24 23:10". The offset from UTC is shown if it
+// differs from that of the beginning: when the clocks are set back, one hour occurs twice.
 class NightClock {
  public:
   NightClock(std::time_t from, std::time_t to)
@@ -91,7 +91,7 @@ std::string_view singular_of(v1::MotionKind kind) {
   return plural_of(kind).substr(0, plural_of(kind).size() - 1);
 }
 
-// "412 moves (2 FAILED, 1 STOPPED)". The others succeeded.
+// Returns "412 moves (2 FAILED, 1 STOPPED)". The other 409 succeeded.
 std::string motions_text(v1::MotionKind kind, const std::map<v1::MotionState, std::int64_t>& outcomes) {
   std::int64_t all = 0;
   std::vector<std::string> bad;
@@ -103,7 +103,7 @@ std::string motions_text(v1::MotionKind kind, const std::map<v1::MotionState, st
   return bad.empty() ? text : fmt::format("{} ({})", text, fmt::join(bad, ", "));
 }
 
-// "23:10 to 06:42 unix anna: 412 moves, 1 scan; 3 refused".
+// Returns "23:10 to 06:42 unix anna: 412 moves, 1 scan; 3 refused".
 std::string person_text(const v1::PersonSummary& person, const NightClock& clock) {
   const std::string first = clock.text(person.first_time()), last = clock.text(person.last_time());
   std::map<v1::MotionKind, std::map<v1::MotionState, std::int64_t>> by_kind;
@@ -133,8 +133,8 @@ std::string loss_text(const v1::LinkLoss& loss, const NightClock& clock) {
   return text + (loss.has_up_time() ? " for " + duration_text(loss.down_time(), loss.up_time()) : ", not up again");
 }
 
-// "stage axes 1, 2 and 3: emergency stop at 23:41, ended at 23:44". While a link was lost, hours may lie between two
-// readings.
+// Returns "stage axes 1, 2 and 3: emergency stop at 23:41, ended at 23:44". If a link was lost, the time is "between"
+// two readings that may be hours apart.
 std::string condition_line(const v1::ConditionSummary& one, const v1::ConditionSummary* end, const NightClock& clock) {
   const std::string seen = clock.text(one.seen_time());
   const std::string before = one.has_before_time() ? clock.text(one.before_time()) : seen;
@@ -151,8 +151,8 @@ bool is_same(const v1::ConditionSummary& one, const v1::ConditionSummary& other)
 
 using Conditions = google::protobuf::RepeatedPtrField<v1::ConditionSummary>;
 
-// Returns the change with which the last of its axes left the condition; null if the night has none. The axes may leave
-// it one by one. Another mode, which has no axes, ends the one before.
+// Returns the change with which the last axis left the condition; null if the night has none. The axes may leave it one
+// by one. A mode has no axes; the next mode ends it.
 const v1::ConditionSummary* end_of(const Conditions& all, Conditions::const_iterator one) {
   std::set<int> axes(one->axes().begin(), one->axes().end());
   for (auto other = one + 1; other != all.end(); ++other) {
@@ -165,7 +165,7 @@ const v1::ConditionSummary* end_of(const Conditions& all, Conditions::const_iter
   return nullptr;
 }
 
-// Reports whether the night has the beginning of what this change ends.
+// Reports whether the night also has the beginning of the condition that this change ends.
 bool ends_another(const Conditions& all, Conditions::const_iterator end) {
   return std::any_of(all.begin(), end, [end](const v1::ConditionSummary& one) {
     const auto touched = [&](int axis) { return std::ranges::find(one.axes(), axis) != one.axes().end(); };
@@ -173,7 +173,7 @@ bool ends_another(const Conditions& all, Conditions::const_iterator end) {
   });
 }
 
-// The end of a condition is on the line of its beginning.
+// Adds one line for each condition; the end of a condition is on the line of its beginning.
 template <class Add>
 void add_conditions(const v1::SummarizeHistoryResponse& night, const NightClock& clock, const Add& add) {
   const Conditions& all = night.conditions();
@@ -188,7 +188,7 @@ std::string start_text(const v1::DaemonStart& start, const NightClock& clock) {
                      clock.text(start.time()));
 }
 
-// What is not of one person, by its time.
+// Returns the lines that do not belong to one person, sorted by time.
 std::vector<std::string> happenings(const v1::SummarizeHistoryResponse& night, const NightClock& clock) {
   std::vector<std::pair<std::int64_t, std::string>> timed;
   const auto add = [&](const Timestamp& time, std::string text) {

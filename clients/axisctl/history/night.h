@@ -1,11 +1,12 @@
-// What happened in a night, on one screen.
+// history --night: a summary of the night, on one screen.
 #pragma once
 
 #include "clients/axisctl/session.h"
 
 namespace axisgate::axisctl {
 
-// From 18:00 yesterday, local time, or for the last --hours, until now. Returns its exit code or throws Failure.
+// Prints the summary from 18:00 yesterday, local time, or of the last --hours, until now. Returns the exit code, or
+// throws Failure.
 int show_night(const Session& session);
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// A work origin of the daemon's configuration, for the check of a file.
+// Lookup of a work origin in the daemon's configuration, for the check of a job file.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace axisgate::axisctl {
 
-// Asks the daemon for the place of an origin of the mill that was named, or of the only one. Throws Failure.
+// Asks the daemon for the place of a named origin. The mill is the one in `options`, or the only mill. Throws Failure.
 rml1::Origin configured_origin(const Options& options, const std::string& name);
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// The file of a job that is sent.
+// Reading of a mill's job file.
 #pragma once
 
 #include <cstdint>
@@ -8,13 +8,13 @@
 
 namespace axisgate::axisctl {
 
-// Both: "-" is the standard input.
+// In both functions "-" means the standard input.
 
-// Throws Failure if there is no regular file of that name: a FIFO or a device may never end.
+// Throws Failure if there is no regular file with this name: a FIFO or a device may never end.
 void check_job_file(const std::string& name);
 
-// Reads it in pieces, which `take` receives, and returns how many bytes it has. Throws Failure before it is read if it
-// has more than `most` bytes (0: any number), and afterwards if it was written to meanwhile.
+// Passes the file to `take` in pieces, and returns its size in bytes. Throws Failure if the file has more than `most`
+// bytes (0: no limit), or was written to while it was read.
 std::int64_t read_job_file(const std::string& name, std::int64_t most,
                            const std::function<void(std::string_view)>& take);
 

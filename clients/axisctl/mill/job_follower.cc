@@ -11,7 +11,8 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Of a job that was started: the newest state may still be the one before.
+// Reports whether a started job has left RUNNING. Earlier states count as not yet run, because the newest known state
+// may precede the start.
 bool has_run(v1::JobState state) { return state > v1::JOB_STATE_RUNNING; }
 
 std::string fed_text(const v1::Job& job) {
@@ -28,7 +29,7 @@ std::string tool_change_text(const v1::Job& job) {
       job_text(job), job.part(), job.parts_size(), on_one_line(job.setup().tool()), last_part(job.name()));
 }
 
-// Of one that waits for a person and has done what it was to do; empty: it does not.
+// Text for a job that waits for a person, with nothing wrong: FED, TOOL_CHANGE or PAUSED. Empty for other states.
 std::string halt_text(const v1::Job& job) {
   if (job.state() == v1::JOB_STATE_FED) return fed_text(job);
   if (job.state() == v1::JOB_STATE_TOOL_CHANGE) return tool_change_text(job);
@@ -99,7 +100,7 @@ bool JobFollower::show(const v1::Mill& mill) {
   return has_run(job_.state());
 }
 
-// Reports whether there is nothing to wait for.
+// Shows the job that waits. Reports whether the queue is empty, so that there is nothing to wait for.
 bool JobFollower::show_waiting(const v1::Mill& mill) {
   nothing_to_come_ = mill.jobs().empty();
   const std::string text = waiting_text(mill);

@@ -14,7 +14,7 @@ namespace axisgate::axisctl {
 namespace {
 
 std::optional<std::uint64_t> count_from_one(std::string_view text) {
-  std::int64_t value = 0;  // as in the request
+  std::int64_t value = 0;  // same type as in the request
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc() || end != text.data() + text.size() || value <= 0) return std::nullopt;
   return static_cast<std::uint64_t>(value);

@@ -1,4 +1,4 @@
-// Places in a job's file, as they are typed with --from, and as they are shown.
+// Parsing of the places in a job's file that --from names, and texts for places.
 #pragma once
 
 #include <string>
@@ -9,15 +9,16 @@
 
 namespace axisgate::axisctl {
 
-// "12" or "12:340": a line, or a line and a column, from 1; its offset is 0. Throws Failure, also below.
+// Parses "12" or "12:340": a line, or a line and a column, both from 1. The offset of the result is 0. Throws Failure
+// if the text is not valid, as does job_range().
 rml1::Place job_place(const std::string& text);
 
-// The same, or two of them with a hyphen between: "8:1-13:1". Alone it is both ends.
+// Parses one place, or two places with a hyphen between them: "8:1-13:1". One place is both ends of the range.
 rml1::PlaceRange job_range(const std::string& text);
 
-// "line 8, column 75"
+// Returns "line 8, column 75".
 std::string place_text(const v1::JobPlace& place);
-// The same without the column if that is the first one: "line 8".
+// Returns "line 8" for the first column, otherwise the same as place_text().
 std::string line_text(const v1::JobPlace& place);
 
 }  // namespace axisgate::axisctl

@@ -32,7 +32,7 @@ v1::Mill mill_now(const Session& session, const std::string& device) {
 
 namespace {
 
-// Empty: there is none, and no number was typed.
+// Returns the job whose number was typed, or else the first job that `wanted` accepts; empty if there is none.
 template <class Wanted>
 std::string typed_or_first(const Session& session, const v1::Mill& mill, Wanted wanted) {
   if (session.options.job.number) return fmt::format("{}/jobs/{}", mill.name(), *session.options.job.number);

@@ -1,4 +1,4 @@
-// What the verbs share that call a mill. All throw Failure.
+// Functions shared by the verbs that call a mill. All throw Failure.
 #pragma once
 
 #include <string>
@@ -8,18 +8,19 @@
 
 namespace axisgate::axisctl {
 
-// "devices/mill", as it was named; otherwise the only one, for which the daemon is asked.
+// Returns the name of the mill in the options, "devices/mill"; otherwise asks the daemon for its only mill.
 std::string chosen_mill(const Session& session);
 
-// The same for a request that changes something: from now on it is repeated where its answer is lost.
+// Like chosen_mill(), for a mutation. After this call, a mutation whose answer was lost is sent again
+// (Connection::repeat_by()).
 std::string mill_to_change(const Session& session);
 
 v1::Mill mill_now(const Session& session, const std::string& device);
 
-// "devices/mill/jobs/7" of the number that was typed; without one, of the first job that waits, is confirmed, is in a
-// tool change, or is PAUSED.
+// Returns the name of the job whose number was typed, "devices/mill/jobs/7". Without a number, the first job that
+// waits, is confirmed, is in a tool change, or is PAUSED.
 std::string wanted_job(const Session& session, const v1::Mill& mill);
-// The same, without a number of the job that is FED.
+// Like wanted_job(), but without a number returns the first job that is FED.
 std::string fed_job(const Session& session, const v1::Mill& mill);
 
 }  // namespace axisgate::axisctl

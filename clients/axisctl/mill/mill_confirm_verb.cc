@@ -1,4 +1,4 @@
-// mill confirm: a person at the mill says that all is set up for a job.
+// mill confirm: a person at the mill confirms that all is set up for a job.
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// Throws Failure where the question cannot be put to a person.
+// Throws Failure if no person can be asked.
 void check_person(const Options& options) {
   if (options.yes || (::isatty(STDIN_FILENO) == 1 && !options.json)) return;
   throw usage("a person at the mill must confirm the job", "confirm at a terminal, or with --yes once all is set up");
@@ -42,14 +42,15 @@ void ask_person(const v1::Job& job) {
                 ""};
 }
 
-// A request id that was chosen is that of the confirmation.
+// Returns the context for the start. A request id from the options belongs to the confirmation, so the start gets
+// ID-start.
 v1::CallContext context_of_start(const Session& session) {
   v1::CallContext context = session.connection.new_call_context();
   if (!session.options.request_id.empty()) context.set_request_id(session.options.request_id + "-start");
   return context;
 }
 
-// A refused start is tried again in most cases, and needs no second confirmation.
+// Starts the confirmed job. If the start is refused, the hint says how to start again, without a second confirmation.
 int start_confirmed(const Session& session, const v1::Job& job) {
   try {
     return start_job(session, context_of_start(session), job.name());

@@ -1,4 +1,4 @@
-// mill jog, origin, spindle, raise: what a person does with a mill besides jobs.
+// mill jog, origin, spindle, raise: manual operation of a mill, without a job.
 #include <fmt/format.h>
 
 #include <cctype>
@@ -14,7 +14,7 @@
 namespace axisgate::axisctl {
 namespace {
 
-// "x=5", "Z=-0.5mm".
+// Adds a typed distance, such as "x=5" or "Z=-0.5mm", to the step.
 void add_distance(std::string_view text, v1::JogStep& step) {
   std::string_view number = text.size() > 2 ? text.substr(2) : "";
   if (number.ends_with("mm")) number.remove_suffix(2);

@@ -1,4 +1,4 @@
-// mill queue, start, pause, resume, abort, cancel, clear, first, done: what is requested of a mill in one call.
+// mill queue, start, pause, resume, abort, cancel, clear, first, done: the verbs that make a single request to a mill.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -24,7 +24,7 @@ Request mill_request(const Session& session) {
   return request;
 }
 
-// Of the job whose number was typed.
+// Returns a request for the job whose number was typed.
 template <class Request>
 Request job_request(const Session& session) {
   Request request;
@@ -40,7 +40,7 @@ int report_answer(const Session& session, const google::protobuf::Message& respo
 
 int choose_rest(const Session& session) {
   auto request = job_request<v1::ContinueJobRequest>(session);
-  // Without a line the daemon's answer, a refusal, says where what was sent ends.
+  // Without a line the daemon refuses, and its message names the place where the sent part ends.
   if (session.options.job.from) {
     const rml1::Place from = job_place(*session.options.job.from);
     request.set_line(static_cast<std::int64_t>(from.line));
@@ -88,7 +88,7 @@ int mill_resume(const Session& session) {
                                    run_on_text(response.running().run_on())));
 }
 
-// Nothing holds it up: where the mill is named, no other call is made before.
+// Aborts without delay: no other call is made first if the mill is named.
 int mill_abort(const Session& session) {
   v1::AbortJobRequest request;
   *request.mutable_context() = new_stop_context();

@@ -10,14 +10,14 @@ namespace {
 using nlohmann::ordered_json;
 using namespace rml1;
 
-// `unit`: 1 for steps, the length of a step for mm. There is no -0.
+// Converts steps: `unit` is 1 for steps, or the length of a step for mm. Never returns -0.
 ordered_json number(double steps, double unit) { return std::abs(steps) < 1e-9 ? 0 : steps * unit; }
 
 ordered_json to_json(const Point& p, double unit) {
   return {{"x", number(p.x, unit)}, {"y", number(p.y, unit)}, {"z", number(p.z, unit)}};
 }
 
-// All three axes have moved, or none.
+// Returns null if nothing moves. Testing Z is enough: either all three axes have bounds, or none.
 ordered_json to_json(const Bounds& bounds, double unit) {
   if (!bounds.z.any) return {};
   return {{"min", to_json(Point{bounds.x.lowest, bounds.y.lowest, bounds.z.lowest}, unit)},

@@ -1,4 +1,4 @@
-// What is typed behind `axisctl mill`.
+// Options of the verbs of `axisctl mill`.
 #include <CLI/CLI.hpp>
 
 #include "clients/axisctl/help_topics.h"
@@ -48,7 +48,7 @@ void add_checks(CLI::App& mill, Options& options) {
   preview->add_option("-o,--output", options.mill.output, "an .svg file")->required()->type_name("FILE");
 }
 
-// `watch` and `cancel` have help texts as commands of their own, which are not about mills.
+// Adds a verb without a help text: the texts for `watch` and `cancel` describe the stage commands of these names.
 CLI::App* add_job_verb(CLI::App& mill, Options& options, Verb verb, const char* name, const char* description) {
   CLI::App* added = add_verb(mill, options, verb, name, description);
   added->footer("");

@@ -1,4 +1,4 @@
-// Where machine profiles are found.
+// Lookup of machine profiles.
 #pragma once
 
 #include <string>
@@ -8,8 +8,8 @@
 
 namespace axisgate::axisctl {
 
-// A shipped profile's name in either case, "mdx-20", or a file. Throws Failure when it is not valid, with every error
-// of the file.
+// Returns a shipped profile by its name, such as "mdx-20", in upper or lower case, or the profile in a file. Throws
+// Failure if the profile is not valid, after printing every error in the file.
 rml1::Profile mill_profile(const std::string& name);
 
 }  // namespace axisgate::axisctl

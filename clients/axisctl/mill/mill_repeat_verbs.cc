@@ -1,4 +1,4 @@
-// mill again, and mill send --rest-of: an ended job, or what is left of it, as a new job.
+// mill again, and mill send --rest-of: queue an ended job, or the rest of it, as a new job.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -45,7 +45,7 @@ int mill_send_rest(const Session& session) {
   }
   v1::RepeatJobRequest request = repeat_request(session, *job.rest_of);
   request.set_rest(true);
-  // The daemon refuses a rest without a line, and says where what was executed ends.
+  // Without a line the daemon refuses, and its message names the place where the executed part ends.
   if (job.from) {
     const rml1::Place from = job_place(*job.from);
     request.set_line(static_cast<std::int64_t>(from.line));

@@ -16,14 +16,14 @@ std::string counted(std::uint64_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-// -0.00 is shown as 0.00.
+// Returns 0 for tiny values, so that -0.00 is shown as 0.00.
 double plain(double value) { return std::abs(value) < 1e-9 ? 0 : value; }
 
 std::string reach_text(std::string_view axis, const Reach& reach, double step_mm) {
   return fmt::format("{} {:.2f} to {:.2f} mm", axis, plain(reach.lowest) * step_mm, plain(reach.highest) * step_mm);
 }
 
-// The top is a height above Z0 only where Z0 is known.
+// Returns the range of Z. The height of the top is shown only if Z0 is known.
 std::string height_text(const Check& check, double step_mm, bool origin_known) {
   const Reach& z = check.summary().bounds.z;
   if (z.highest < check.machine().box().highest.z) return reach_text("Z", z, step_mm);

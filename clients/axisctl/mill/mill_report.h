@@ -1,4 +1,4 @@
-// What is reported about a job, for people and for programs.
+// Reports about a checked job, for people and for programs.
 #pragma once
 
 #include <string>
@@ -7,12 +7,14 @@
 
 namespace axisgate::axisctl {
 
-// `job.rml:3:7: error 2: ... [2-3]` for each, in the order of the job, and how many are not shown.
+// Prints each diagnostic as `job.rml:3:7: error 2: ... [2-3]`, in the order of the job, and then how many are not
+// shown.
 void print_diagnostics(const std::string& file, const rml1::Diagnostics& diagnostics);
-// What the job does on this machine, in mm.
+// Prints the job's moves on this machine, in mm.
 void print_summary(const rml1::Check& check, const rml1::Profile& profile, bool origin_known);
 
-// One object for each diagnostic, and one of the job (mill_json.cc). Steps of the workpiece system, and mm.
+// Prints one JSON object for each diagnostic, and one for the job, in steps of the workpiece's system and in mm.
+// Defined in mill_json.cc.
 void print_json(const rml1::Check& check, const rml1::Profile& profile);
 
 }  // namespace axisgate::axisctl

@@ -1,4 +1,4 @@
-// mill send: reads the files of a job whole, so that it can be sent again, and sends it into the queue of a mill.
+// mill send: reads the files of a job whole, so that the job can be sent again, and sends the job into a mill's queue.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -27,7 +27,8 @@ std::string title_from_files(const std::vector<std::string>& files) {
   return files.size() == 1 ? title : fmt::format("{} and {} more", title, files.size() - 1);
 }
 
-// Refuses what the daemon would refuse: only here is it known that the title comes from the name of a file.
+// Returns the title. Throws Failure if the daemon would refuse it: only axisctl knows that the title comes from a file
+// name.
 std::string title_of(const JobOptions& job) {
   if (!job.title.empty()) return job.title;
   const std::string title = title_from_files(job.files);
@@ -42,7 +43,7 @@ void check_tools(const JobOptions& job) {
               "name one tool for each file: --tool T1,T3");
 }
 
-// Without --tool the first one that the mill has; empty where it has none.
+// Returns the tool of --tool, otherwise the first tool of the mill; empty if the mill has none.
 std::string tool_of(const JobOptions& job, const v1::Mill& mill) {
   if (!job.tools.empty()) return job.tools.front();
   return mill.tools().empty() ? "" : mill.tools(0);
@@ -68,7 +69,7 @@ int mill_send(const Session& session) {
   std::vector<v1::SendJobRequest> messages(1);
   v1::SendJobRequest header;
   for (std::size_t i = 0; i < job.files.size(); ++i) {
-    // Each piece is a message of its own.
+    // Each piece becomes one message.
     const std::int64_t bytes = read_job_file(job.files[i], mill.job_bytes_at_most(), [&](std::string_view piece) {
       messages.emplace_back().set_data(piece.data(), piece.size());
     });

@@ -18,9 +18,9 @@
 namespace axisgate::axisctl {
 namespace {
 
-constexpr std::size_t kDigestShown = 12;  // digits of it
+constexpr std::size_t kDigestShown = 12;  // hexadecimal digits
 
-// "QUEUED" of JOB_STATE_QUEUED; a number where a newer daemon knows more.
+// Returns "QUEUED" for JOB_STATE_QUEUED, or the number if only a newer version knows the value.
 std::string name_without(std::string_view prefix, const std::string& name, int number) {
   return name.empty() ? fmt::format("({})", number) : name.substr(prefix.size());
 }
@@ -31,7 +31,7 @@ std::string name_of(v1::SendingState state) {
   return name_without("SENDING_STATE_", v1::SendingState_Name(state), state);
 }
 
-// How many of `steps` a number of the job's bytes makes, all of them at most.
+// Scales `bytes` out of `all` to `steps`, rounded down; begun_steps() rounds up. The result is at most `steps`.
 std::int64_t whole_steps(std::int64_t bytes, std::int64_t all, std::int64_t steps) {
   return all <= 0 ? 0 : std::clamp<std::int64_t>(bytes, 0, all) * steps / all;
 }
@@ -48,7 +48,7 @@ std::string range_text(std::int64_t least, std::int64_t most) {
   return range_text(std::to_string(least), std::to_string(most));
 }
 
-// "full"; empty where it is not known, as in events.
+// Returns "full" or "paced"; empty if unknown, as in events.
 std::string streaming_text(const v1::Job& job) {
   switch (job.streaming()) {
     case v1::STREAMING_FULL:
@@ -60,7 +60,7 @@ std::string streaming_text(const v1::Job& job) {
   }
 }
 
-// "12 min 0 s to 18 min 30 s, paced"
+// Returns "12 min 0 s to 18 min 30 s, paced".
 std::string takes_text(const v1::Job& job) {
   if (!job.has_longest()) return "a time that is not known";
   const std::string range = range_text(duration_text(job.shortest()), duration_text(job.longest()));
@@ -82,8 +82,7 @@ std::string bar_text(const v1::Job& job, const v1::RunningJob& running) {
   return bar;
 }
 
-// ", up to 3.2 s and 14 mm,": rounded up, since it is a bound.
-// To what duration_text() shows.
+// Rounds up to the precision that duration_text() shows.
 google::protobuf::Duration rounded_up(const google::protobuf::Duration& duration) {
   using google::protobuf::util::TimeUtil;
   constexpr std::int64_t kSecond = 1'000'000'000, kHour = 3600 * kSecond;
@@ -92,6 +91,7 @@ google::protobuf::Duration rounded_up(const google::protobuf::Duration& duration
   return TimeUtil::NanosecondsToDuration((ns + shown - 1) / shown * shown);
 }
 
+// Returns ", up to 3.2 s and 14 mm,". Both are rounded up, because they are upper bounds.
 std::string within_text(const v1::RunOn& run_on) {
   if (!run_on.has_longest()) return "";
   const std::string way = run_on.mm() > 0 ? fmt::format(" and {:.0f} mm", std::ceil(run_on.mm())) : "";
@@ -114,12 +114,12 @@ std::string confirmation_text(const v1::Job& job) {
   return fmt::format("by {} until {}", on_one_line(job.confirmed_by()), time_text(job.confirmed_until()));
 }
 
-// "2 of 3"; empty where it has no others.
+// Returns "2 of 3"; empty if the job has only one part.
 std::string part_text(const v1::Job& job) {
   return job.parts_size() < 2 ? "" : fmt::format("{} of {}", job.part() + 1, job.parts_size());
 }
 
-// What is in at the mill, or comes in next.
+// Returns the tool that is in the mill, or is next.
 std::string tool_cell(const v1::Job& job) {
   const std::string tool = named_or(job.setup().tool(), "-"), part = part_text(job);
   return part.empty() ? tool : fmt::format("part {}, {}", part, tool);
@@ -129,21 +129,21 @@ bool is_paused(const v1::Job& job, const v1::RunningJob& running) {
   return running.job() == job.name() && running.sending() == v1::SENDING_STATE_PAUSED;
 }
 
-// "PAUSED (line 8)": of one that continues there.
+// Returns the state, with the line at which a waiting job continues: "PAUSED (line 8)".
 std::string state_cell(const v1::Job& job, const v1::RunningJob& running) {
   if (is_paused(job, running)) return name_of(v1::JOB_STATE_PAUSED);
   const std::string state = name_of(job.state());
   return job.setup().has_from() && waits(job) ? fmt::format("{} ({})", state, line_text(job.setup().from())) : state;
 }
 
-// "ends at line 8, column 1", "ends between line 8, column 1 and line 13, column 1"
+// Returns "ends at line 8, column 1" or "ends between line 8, column 1 and line 13, column 1".
 std::string end_text(const v1::JobPlaceRange& range) {
   const std::string least = place_text(range.least()), most = place_text(range.most());
   return least == most ? fmt::format("ends at {}", least) : fmt::format("ends between {} and {}", least, most);
 }
 
-// "in 2 min 0 s to 4 min 30 s", "now", "when job 3 is done". `held_by`: a job before it whose end a person must tell;
-// null: none.
+// Returns "in 2 min 0 s to 4 min 30 s", "now" or "when job 3 is done". `held_by` is an earlier job whose end a person
+// must report; null if there is none.
 std::string beginning_cell(const std::optional<TimeRange>& earliest, const v1::Job* held_by) {
   if (!earliest) return "-";
   const std::string range = duration_range_text(*earliest);
@@ -158,7 +158,7 @@ const v1::Job* held_by(const v1::Mill& mill) {
   return found == mill.jobs().end() ? nullptr : &*found;
 }
 
-// "38.0 x 30.0 mm, 1.70 mm deep"
+// Returns "38.0 x 30.0 mm, 1.70 mm deep".
 std::string size_text(const v1::JobExtent& extent) {
   if (!extent.has_cut_x()) return "cuts nothing";
   const auto size = [](const v1::AxisExtent& axis) { return axis.most_mm() - axis.least_mm(); };
@@ -166,7 +166,7 @@ std::string size_text(const v1::JobExtent& extent) {
                      extent.deepest_mm());
 }
 
-// "X 0.0 to 38.0, Y 0.0 to 30.0, Z -1.70 to 2.00 mm"
+// Returns "X 0.0 to 38.0, Y 0.0 to 30.0, Z -1.70 to 2.00 mm".
 std::string reach_text(const v1::JobExtent& extent) {
   const auto text = [](std::string_view name, const v1::AxisExtent& axis, int decimals) {
     return fmt::format("{} {:.{}f} to {:.{}f}", name, axis.least_mm(), decimals, axis.most_mm(), decimals);
@@ -194,7 +194,7 @@ std::string running_line(const v1::Mill& mill) {
   return mill.running().busy() ? fmt::format("{}; {}", text, kBusyText) : text;
 }
 
-// ", from line 12 on, on the workpiece of job 3"
+// Returns ", from line 12 on, on the workpiece of job 3".
 std::string after_text(const v1::Job& job) {
   const std::string from = job.setup().has_from() ? fmt::format(", from {} on", line_text(job.setup().from())) : "";
   return job.continues().empty() ? from
@@ -252,7 +252,7 @@ std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
   constexpr std::int64_t percent = 100;
   const std::string executed = range_text(whole_steps(running.executed_least(), job.bytes(), percent),
                                           begun_steps(running.executed_most(), job.bytes(), percent));
-  // Flow control has shown that the mill has executed more than was counted as arrived.
+  // Flow control has shown that the mill has executed more bytes than were counted as arrived.
   const bool converter_holds_more = running.executed_least() > running.executed_most();
   return fmt::format("{} [{}] {} %, {} of {} bytes written, {} taken, {} left{}", name_of(running.sending()),
                      bar_text(job, running), executed, running.written(), job.bytes(), running.taken(),
@@ -260,7 +260,8 @@ std::string progress_text(const v1::Job& job, const v1::RunningJob& running) {
                      converter_holds_more ? "; `converter` in the configuration is too small for this line" : "");
 }
 
-// Bytes that have not left this host may stay here, and the fastest mill has executed the most.
+// The lower bound assumes that unsent bytes stay on this host, and that the mill is the fastest and has executed the
+// most.
 std::string paused_text(const v1::RunningJob& running) {
   const std::int64_t most = std::max<std::int64_t>(0, running.run_on().at_most());
   const std::int64_t least =
@@ -273,7 +274,7 @@ std::string paused_text(const v1::RunningJob& running) {
                      tool);
 }
 
-// An abort is no emergency stop: what the mill has received may run on.
+// Returns the advice for an emergency. An abort is no emergency stop: bytes that the mill has received may run on.
 std::string emergency_text(const v1::RunOn& run_on) {
   using google::protobuf::util::TimeUtil;
   if (!run_on.has_longest()) return "in an emergency use its own emergency stop";

@@ -1,4 +1,5 @@
-// How long jobs of a mill still take, and when the next ones can begin. All is a range: a mill never answers.
+// Remaining times of a mill's jobs, and the earliest times at which jobs can begin. A mill never replies, so all times
+// are ranges.
 #pragma once
 
 #include <google/protobuf/duration.pb.h>
@@ -14,14 +15,14 @@ struct TimeRange {
   google::protobuf::Duration least, most;
 };
 
-// Queued, confirmed, in a tool change, or paused with the tool up.
+// Reports whether the job is queued, confirmed, in a tool change, or paused with the tool up.
 bool waits(const v1::Job& job);
 
-// Returns what is left of the job that runs.
+// Returns the remaining time of the running job.
 TimeRange time_left(const v1::RunningJob& running);
 
-// For each job of the queue, in its order: after so long the mill is done with those before it, if nobody ever has to
-// be waited for. Nothing where the job does not wait.
+// Returns, for each job in the order of the queue, the time until the mill has finished the earlier jobs, without any
+// waiting for people. nullopt if the job does not wait.
 std::vector<std::optional<TimeRange>> earliest_beginnings(const v1::Mill& mill);
 
 }  // namespace axisgate::axisctl

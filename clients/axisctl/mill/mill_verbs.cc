@@ -30,12 +30,13 @@ namespace {
 using namespace rml1;
 
 constexpr std::size_t kPiece = 1 << 16;
-constexpr double kThinnest = 0.1, kThickest = 100;  // tools, mm
+constexpr double kThinnest = 0.1, kThickest = 100;  // range of a tool's diameter, mm
 
-// Returns the name of the machine that has the profile. Empty: it is judged by the job.
+// Returns the name of the profile's machine. Empty if no profile is named: the check then infers the machine from the
+// job.
 std::string made_for(const std::string& profile) { return profile.empty() ? "" : mill_profile(profile).name; }
 
-// "10,10,5" is a place; "vice" is the name of one.
+// Returns the origin of --origin: coordinates such as "10,10,5", or the name of a configured origin such as "vice".
 Origin origin_of(const Options& options) {
   const std::string& text = *options.mill.origin;
   if (server::is_name(text)) return configured_origin(options, text);
@@ -72,7 +73,7 @@ CheckOptions check_options(const Options& all, const Profile& profile) {
   return options;
 }
 
-// "traces.rml, outline.rml"
+// Returns "traces.rml, outline.rml".
 std::string title_of(const std::vector<std::string>& files) {
   std::vector<std::string> names;
   for (const std::string& file : files) names.push_back(std::filesystem::path(file).filename().string());
@@ -90,7 +91,7 @@ void check_parts(const MillOptions& asked) {
   }
 }
 
-// Throws Failure when it cannot be read.
+// Feeds the file to the check. Throws Failure if it cannot be read.
 void read_job(const std::string& name, Check& check) {
   const auto close = [](std::FILE* file) { return file == stdin ? 0 : std::fclose(file); };
   errno = 0;
@@ -145,7 +146,7 @@ int mill_preview(const Options& options) {
     if (asked.tools_mm.size() > 1) how.tool_mm = asked.tools_mm[part];
     if (part > 0) strokes.begin_part();
     auto check = std::make_unique<Check>(profile, how, &strokes);
-    // The heights of a workpiece are those of one tool.
+    // Heights of the workpiece are carried over only between parts with the same tool.
     if (part > 0 && how.tool_mm == checks.back()->tool_mm()) check->continues(*checks.back());
     read_job(asked.files[part], *check);
     print_diagnostics(asked.files[part], check->diagnostics());

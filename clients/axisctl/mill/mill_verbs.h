@@ -1,5 +1,5 @@
-// The verbs of `axisctl mill` that ask the daemon for the name of an origin at most. Each returns its exit code or
-// throws Failure.
+// Verbs of `axisctl mill` that need no daemon, except to look up a named origin. Each returns its exit code or throws
+// Failure.
 #pragma once
 
 #include "clients/axisctl/options.h"

@@ -1,4 +1,4 @@
-// zero, unzero and preset: what the place where an axis stands is called.
+// zero, unzero and preset: set the coordinates of an axis's present position.
 #include "clients/axisctl/parse.h"
 #include "clients/axisctl/stage/setting_calls.h"
 #include "clients/axisctl/verbs.h"

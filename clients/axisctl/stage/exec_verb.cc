@@ -1,4 +1,4 @@
-// exec: the controller's own language; prints answers and completions, and nothing else.
+// exec: sends raw controller commands; prints answers and completions, and nothing else.
 #include <google/protobuf/util/time_util.h>
 
 #include <chrono>
@@ -11,7 +11,8 @@ namespace axisgate::axisctl {
 namespace {
 
 constexpr std::chrono::seconds kWait{20};
-// The daemon is the one to say that time is up; the call's own deadline only catches a daemon that hangs.
+// Time that the call's deadline adds to kWait. The daemon itself ends the call after kWait; the deadline only catches a
+// daemon that hangs.
 constexpr std::chrono::seconds kGrace{2};
 
 void show(const v1::ExecuteResponse& response, bool json) {

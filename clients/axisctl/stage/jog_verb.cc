@@ -1,4 +1,4 @@
-// jog: axes run until Ctrl-C, or for so many seconds.
+// jog: runs axes until Ctrl-C, or for a number of seconds.
 #include <fmt/format.h>
 #include <semaphore.h>
 #include <unistd.h>
@@ -26,10 +26,10 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using JogStream = grpc::ClientReaderWriter<v1::JogRequest, v1::JogResponse>;
 
-// The daemon stops the axes after 500 ms without one.
+// Interval of the renewals. The daemon stops the axes after 500 ms without a renewal.
 constexpr std::chrono::milliseconds kRenewEvery{100};
 
-sem_t ended;  // by a signal, or because the call is over
+sem_t ended;  // posted by a signal, or when the call is over
 
 void end(int) { sem_post(&ended); }
 
@@ -42,13 +42,15 @@ timespec to_timespec(Clock::time_point time) {
   return result;
 }
 
-// Lets the axes run on, from a thread of its own, since a terminal that takes no output must not stop them. Ctrl-C,
-// SIGTERM and SIGHUP close this side of the call, upon which the daemon stops them in order. One at a time.
+// Renewals keeps the axes running from a separate thread, because a terminal that blocks output must not stop them.
+// Ctrl-C, SIGTERM and SIGHUP close this side of the call; the daemon then stops the axes in order. Only one object may
+// exist at a time.
 class Renewals {
  public:
   explicit Renewals(JogStream& stream) : stream_(stream) {
     sem_init(&ended, 0, 0);
-    // The second one ends axisctl, where no answer comes to the first. SA_RESTART: no line is printed by halves.
+    // A second signal ends axisctl, in case the daemon does not answer the first. SA_RESTART prevents half-printed
+    // lines.
     on_end_signals(end, static_cast<int>(SA_RESETHAND | SA_RESTART));
     renewer_ = std::thread([this] { renew(); });
   }
@@ -65,7 +67,7 @@ class Renewals {
     const v1::JogRequest run_on;
     Clock::time_point next = Clock::now();
     do {
-      // What a process that was halted has missed is not made up for.
+      // A process that was halted does not send the renewals that it missed.
       next = std::max(next + kRenewEvery, Clock::now());
       if (ends_before(next)) {
         stream_.WritesDone();
@@ -100,7 +102,7 @@ v1::JogRequest make_request(const Options& options, const v1::CallContext& conte
   return request;
 }
 
-// Only for a person, who can press it: otherwise the program that has started axisctl knows how to end it.
+// Prints the Ctrl-C note only at a terminal: a program that started axisctl knows how to end it.
 void say_how_it_ends(const v1::Device& device, const v1::JogRequest& request) {
   if (::isatty(STDIN_FILENO) != 1) return;
   std::vector<std::string> axes;
@@ -112,11 +114,11 @@ void say_how_it_ends(const v1::Device& device, const v1::JogRequest& request) {
   print_note(fmt::format("jogging {}; Ctrl-C stops {}", fmt::join(axes, ", "), axes.size() == 1 ? "it" : "them"));
 }
 
-// To its outcome, or to the end of the call; a Motion without a name has not begun.
+// Runs the jog to its outcome, or to the end of the call. The result has no name if the jog did not begin.
 v1::Motion run(const Session& session, const v1::Device& device, const v1::JogRequest& request, JogStream& stream,
                MotionFollower& follower) {
   v1::Motion motion;
-  stream.Write(request);  // where it cannot be, there is nothing to read: why is in the status
+  stream.Write(request);  // if this fails, Read() fails too, and the status has the reason
   Renewals renewals(stream);
   v1::JogResponse response;
   while (stream.Read(&response)) {
@@ -143,7 +145,7 @@ int jog(const Session& session) {
     session.connection.check(stream->Finish());
     throw Failure{kFailed, "INTERNAL", "the daemon ended the call without starting the jog", "see its log"};
   }
-  // With the outcome known the status adds nothing; without it the daemon may still be there to be asked.
+  // The status is not needed if the outcome is known. Otherwise the daemon may still answer a question for the outcome.
   if (motion.state() < v1::MOTION_STATE_SUCCEEDED) motion = await_outcome(session, motion.name());
   follower.finish();
   return report_outcome(session, device, motion);

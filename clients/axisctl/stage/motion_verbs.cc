@@ -1,4 +1,4 @@
-// home, move and scan: ask, then wait for the outcome.
+// home, move and scan: request a motion, then wait for its outcome.
 #include <functional>
 #include <optional>
 

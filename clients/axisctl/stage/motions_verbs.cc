@@ -1,4 +1,4 @@
-// motions, cancel: the motions that the daemon has now.
+// motions, cancel: list the motions that the daemon has, and stop one of them.
 #include <fmt/format.h>
 #include <google/protobuf/util/time_util.h>
 
@@ -23,7 +23,7 @@ constexpr int kNewestWithOutcome = 20;
 
 bool has_outcome(const v1::Motion& motion) { return motion.state() >= v1::MOTION_STATE_SUCCEEDED; }
 
-// Oldest first, as they are listed.
+// Returns the motions to show, oldest first, in the order of the answer.
 std::vector<v1::Motion> shown_of(const v1::ListMotionsResponse& there, bool all) {
   auto hidden =
       all ? 0 : std::max<std::ptrdiff_t>(0, std::ranges::count_if(there.motions(), has_outcome) - kNewestWithOutcome);
@@ -38,7 +38,7 @@ std::vector<v1::Motion> shown_of(const v1::ListMotionsResponse& there, bool all)
   return shown;
 }
 
-// A motion without an outcome has its time until `now` instead of its end.
+// Returns the cells of a row. The last cell is the end of the motion, or its duration up to `now` if it has no outcome.
 std::vector<std::string> cells_of(const v1::Motion& motion, const google::protobuf::Timestamp& now) {
   const auto& since = motion.has_start_time() ? motion.start_time() : motion.create_time();
   return {std::string(last_part(motion.name())),
@@ -50,7 +50,7 @@ std::vector<std::string> cells_of(const v1::Motion& motion, const google::protob
           motion.has_end_time() ? time_text(motion.end_time()) : "for " + duration_text(since, now)};
 }
 
-// "devices/stage/motions/12" of that or of "12".
+// Returns "devices/stage/motions/12" for the same text or for "12".
 std::string motion_name(const Session& session, const std::string& text) {
   if (text.starts_with("devices/")) return text;
   const bool is_number = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
@@ -73,7 +73,7 @@ v1::Motion motion_now(const Session& session, const std::string& name) {
       .motion();
 }
 
-// "motion 12 (move) STOPPED; axis 1 at 2.5 mm".
+// Returns "motion 12 (move) STOPPED; axis 1 at 2.5 mm".
 std::string fate_text(const v1::Device& device, const v1::Motion& motion, std::string_view remark) {
   const std::string ends = ends_text(device, motion);
   return fmt::format("motion {} ({}) {}{}{}{}", last_part(motion.name()), kind_name(motion.kind()), remark,

@@ -19,7 +19,7 @@ using Places = std::vector<v1::AxisDistance>;
 
 constexpr std::string_view kAround = "around", kThrough = "through", kTo = "to", kRise = "rise";
 
-// What a segment's words say of it besides its course.
+// Options of one segment besides its course.
 struct Manner {
   std::string speed;
   std::optional<std::int64_t> rest_ms, inputs;
@@ -56,7 +56,7 @@ bool take_manner(std::string_view word, Manner& manner) {
   return true;
 }
 
-// The words of a course, from the first to the last.
+// A Course reads the words of a segment's course, from the first to the last.
 class Course {
  public:
   Course(const v1::Device& device, std::vector<std::string> words) : device_(device), words_(std::move(words)) {}
@@ -69,7 +69,7 @@ class Course {
     return true;
   }
 
-  // The next word; empty behind the last one.
+  // Takes the next word; empty after the last word.
   std::string take() { return at_ < words_.size() ? words_[at_++] : std::string(); }
 
   Places take_places() {
@@ -129,7 +129,7 @@ void fill_rise(Course& course, v1::Arc& arc) {
   course.expect_end(arc.has_around() ? example : "e.g. through 1=1mm 2=1mm to 1=2mm 2=0 rise 3=0.1mm");
 }
 
-// The axes of the circle are left in `plane`.
+// Fills in an arc around a center, and returns the axes of the circle in `plane`.
 void fill_around(Course& course, v1::Arc& arc, Places& plane) {
   v1::ArcAroundCenter& around = *arc.mutable_around();
   plane = of_two_axes(course.take_places(), "the center");
@@ -162,7 +162,8 @@ void fill_straight(Course& course, v1::Segment& segment, Places& places) {
   }
 }
 
-// The path's speed belongs to its lower axis (manual 2.4), so a bare number is in that axis's unit.
+// Returns the axis with the lowest number. The path's speed is that axis's speed (manual 2.4), so a bare number is in
+// its unit.
 const v1::Axis& lowest_axis(const v1::Device& device, const Places& places) {
   const auto lowest =
       std::min_element(places.begin(), places.end(), [](const auto& a, const auto& b) { return a.axis() < b.axis(); });

@@ -1,4 +1,4 @@
-// path, line and arc: read the segments whole, send them, follow them.
+// path, line and arc: read all segments, send them, and follow the path.
 #include <fmt/format.h>
 
 #include <cerrno>
@@ -34,14 +34,15 @@ void send_path(PathStream& stream, const v1::CallContext& context, const v1::Dev
   request.mutable_header()->set_device(device.name());
   bool open = stream.Write(request);
   for (const v1::Segment& segment : segments) {
-    if (!open) return;  // the daemon has refused: why is in the status
+    if (!open) return;  // the daemon has refused; the status has the reason
     *request.mutable_segment() = segment;
     open = stream.Write(request);
   }
   stream.WritesDone();
 }
 
-// Reads up to the next Motion; progress between is shown from the events, which hold the completions too, in order.
+// Reads up to the next Motion; false at the end of the stream. Skips progress messages, because the events show the
+// progress, with the completions in order.
 bool read_motion(PathStream& stream, v1::Motion& motion) {
   v1::RunPathResponse response;
   while (stream.Read(&response)) {
@@ -76,7 +77,7 @@ int run(const Session& session, const v1::Device& device, const std::vector<v1::
   follower.follow(motion.name());
   while (read_motion(*stream, motion)) {
   }
-  // With the outcome known the status adds nothing; without it the daemon may still be there to be asked.
+  // The status is not needed if the outcome is known. Otherwise the daemon may still answer a question for the outcome.
   if (motion.state() < v1::MOTION_STATE_SUCCEEDED) motion = await_outcome(session, motion.name());
   follower.finish();
   return report_outcome(session, device, motion);

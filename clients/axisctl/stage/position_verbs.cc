@@ -1,4 +1,4 @@
-// save, positions, go and forget: places of the stage with names.
+// save, positions, go and forget: saved positions of the stage.
 #include <fmt/format.h>
 
 #include <string>

@@ -1,4 +1,4 @@
-// What all verbs around settings share: asking for them, and changing them.
+// Functions shared by the verbs that show or change settings.
 #pragma once
 
 #include <chrono>
@@ -7,19 +7,21 @@
 
 namespace axisgate::axisctl {
 
-// Waking up moves a stage, and a controller that restarts is silent meanwhile.
+// Deadline of calls for settings. It is long because `wake` moves the stage, and a restarting controller does not
+// reply.
 inline constexpr std::chrono::seconds kSettingLimit{30};
 
-// All settings, as requested from the daemon now. Throws Failure.
+// Requests all settings from the daemon. Throws Failure.
 v1::Settings settings_of(const Session& session, const v1::Device& device);
 
-// Changes what is given; prints and exits as every verb that does. Throws Failure.
+// Changes the settings that `wanted` has, and prints the result with report_done(). Returns the exit code. Throws
+// Failure.
 int change_settings(const Session& session, const v1::Device& device, const v1::Settings& wanted);
 
-// "OK", or the answer.
+// Prints "OK", or with --json the response. Returns the exit code.
 int report_done(const Session& session, const google::protobuf::Message& response);
 
-// The axes that were named; none: all that can be moved.
+// Returns the axes that were named, or all controllable axes if none was.
 std::vector<int> chosen_axes(const Session& session, const v1::Device& device);
 
 }  // namespace axisgate::axisctl

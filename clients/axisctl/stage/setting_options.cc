@@ -1,4 +1,4 @@
-// What is typed behind the verbs that show or change what the controller is set to.
+// Options of the verbs that show or change settings of the controller.
 #include <CLI/CLI.hpp>
 #include <string>
 #include <utility>
@@ -18,7 +18,7 @@ void add_several_axes(CLI::App& verb, Options& options) {
       ->type_name("");
 }
 
-// One word of these, in either case.
+// Adds an argument that must be one of `values`, in upper or lower case.
 void add_value(CLI::App& verb, Options& options, const char* name, std::vector<std::string> values) {
   verb.add_option(name, options.value)
       ->required()
@@ -32,7 +32,7 @@ CLI::App* add_change(CLI::App& app, Options& options, Verb verb, const char* nam
   return added;
 }
 
-// What `speed`, `outputs` and `trigger` set ends with the lease under which it was set, so that they have no --wait.
+// `speed`, `outputs` and `trigger` have no --wait, because their settings end with the lease under which they were set.
 void add_axis_settings(CLI::App& app, Options& options) {
   CLI::App* speed = add_verb(app, options, Verb::speed, "speed", "show or set the speeds of axes");
   add_axes(*speed, options);

@@ -1,5 +1,5 @@
-// settings, speed, motor, loop, divisions, settle, sleep, wake, display, beep, mode, dialect, reset: what the
-// controller is set to.
+// settings, speed, motor, loop, divisions, settle, sleep, wake, display, beep, mode, dialect, reset: settings of the
+// controller.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -88,7 +88,7 @@ v1::Profile wanted_profile(const Options& options, const v1::Axis& axis) {
   return profile;
 }
 
-// What `set` sets, for every axis that was named.
+// Changes the settings that `set` sets, for every axis that was named.
 template <class Set>
 int change_axes(const Session& session, Set set) {
   const v1::Device device = chosen_device(session);

@@ -1,4 +1,4 @@
-// outputs, inputs and trigger: what comes in and goes out beside the line.
+// outputs, inputs and trigger: the controller's digital signals.
 #include <fmt/format.h>
 
 #include <cstdint>
@@ -48,12 +48,12 @@ Failure no_interval(std::string_view text) {
                "2 to 30000 pulses of an axis, e.g. `1000 --axis 1`, or 0.01s to 100s, e.g. `0.2s`");
 }
 
-// "0.2s", not "20pulses".
+// Reports whether the text is a time, such as "0.2s", and not a number of pulses, such as "20pulses".
 bool is_time(std::string_view text) {
   return text.ends_with('s') && text.find_first_not_of("+-.0123456789") == text.size() - 1;
 }
 
-// In hundredths of a second.
+// Returns the interval in hundredths of a second.
 std::int64_t timer_interval(std::string_view text) {
   constexpr std::int64_t most = 10'000;
   const std::optional<std::int64_t> hundredths = parse_steps(text.substr(0, text.size() - 1), 2, most);
@@ -104,7 +104,7 @@ int outputs(const Session& session) {
   v1::Settings wanted;
   wanted.set_outputs(0);
   if (options.value == "none") return change_settings(session, device, wanted);
-  // The daemon follows what is set, so that nothing has to be asked while something moves.
+  // The daemon tracks the outputs, so the controller need not be asked while an axis moves.
   v1::Settings settings;
   if (device.has_outputs()) settings.set_outputs(device.outputs());
   if (options.value.empty()) return show_outputs(session, settings);

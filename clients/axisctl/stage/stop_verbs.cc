@@ -1,4 +1,4 @@
-// stop, estop and withdraw: one call, also for several devices. Say of every axis what is known, never more.
+// stop, estop and withdraw: one call, also for several devices. The texts never claim more about an axis than is known.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ std::string describe_stop(const v1::AxisStop& stop, bool stays_open) {
                      describe_reply(stop, stays_open), state, describe_position(stop));
 }
 
-// Returns what went wrong; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
+// Returns the error; nullopt if all axes are stationary. A stop that stays open has failed, whatever the reason.
 std::optional<Failure> failure_of(const v1::DeviceStop& device) {
   if (device.has_problem()) {
     Failure failure = to_failure(device.problem());
@@ -46,7 +46,8 @@ std::optional<Failure> failure_of(const v1::DeviceStop& device) {
   return std::nullopt;
 }
 
-// Every device has its lines and its error, whatever became of the others. The exit code is that of the first error.
+// Prints the lines and the error of every device, independent of the other devices. Returns the exit code of the first
+// error.
 template <class Response>
 int report(const Session& session, const Response& response) {
   if (session.options.json) print_json(response);
@@ -70,13 +71,13 @@ int report(const Session& session, const Response& response) {
   return exit_code;
 }
 
-// 1 to 3; nothing of a name.
+// Returns 1 to 3; nullopt if the text is a name.
 std::optional<int> axis_number(std::string_view text) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return std::nullopt;
   return text[0] - '0';
 }
 
-// Only for names of axes is the daemon asked first what they mean.
+// Sets the axes to stop. Asks the daemon first only if axes were given by name.
 void set_axes(const Session& session, v1::StopRequest& request) {
   const std::vector<std::string>& axes = session.options.axes;
   if (std::ranges::all_of(axes, [](const std::string& axis) { return axis_number(axis).has_value(); })) {
@@ -106,7 +107,7 @@ int stop(const Session& session) {
     return report(
         session, session.connection.call(session.connection.stage, &v1::StageService::Stub::Stop, request, kStopLimit));
   } catch (const Failure& failure) {
-    // Axes of several devices: which one is asked as for every other command.
+    // With several devices, axes need --device: chosen_device() throws the same Failure as for other commands.
     if (failure.reason == "INVALID_REQUEST" && request.device().empty()) (void)chosen_device(session);
     throw;
   }
