@@ -1,4 +1,4 @@
-// What is wrong with a file that a person has written, and where.
+// A mistake in a file that a person has written, with its line.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,8 @@ namespace axisgate {
 
 struct ConfigError {
   std::string file;
-  std::uint32_t line = 0;  // 0: the file as a whole
-  std::string key;         // "device.axis.unit"; empty where no key is meant
+  std::uint32_t line = 0;  // 0: the whole file
+  std::string key;         // "device.axis.unit"; empty if the error concerns no key
   std::string message;
 };
 std::string to_string(const ConfigError& error);  // `lab.toml:12: device.axis.unit: ...`

@@ -1,4 +1,4 @@
-// A file of the configuration as text.
+// Reads a configuration file as text.
 #pragma once
 
 #include <string>
@@ -6,7 +6,8 @@
 
 namespace axisgate {
 
-// What is wrong is for a person, and follows on the file's name: "cannot be opened: No such file or directory".
+// Returns the file's text. The error is text for a person and follows the file's name: "cannot be opened: No such file
+// or directory".
 tl::expected<std::string, std::string> read_config_file(const std::string& path);
 
 }  // namespace axisgate

@@ -1,5 +1,6 @@
-// One TOML table, read strictly: every key is requested by type and range, a key that nobody requested is an error, and
-// errors name file, line, key, what is wrong and what is allowed. Included by few, since toml++ is slow to compile.
+// One TOML table, read strictly: each key is requested with its type and range, and a key that the code never requests
+// is an error. An error names the file, the line, the key, the mistake and the allowed values. Include this header in
+// few files: toml++ is slow to compile.
 #pragma once
 
 #include <toml++/toml.h>
@@ -22,7 +23,8 @@ class ConfigTable {
   template <class T>
   using Choices = std::span<const std::pair<std::string_view, T>>;
 
-  // `path` is the table's name in errors, "" for the file's root. Everything referred to outlives this.
+  // `path` is the table's name in errors, "" for the file's root. The table and the error list must outlive this
+  // object.
   ConfigTable(const toml::table& table, std::string path, std::string_view file, std::vector<ConfigError>& errors)
       : table_(table), path_(std::move(path)), file_(file), errors_(errors) {}
 
@@ -72,7 +74,7 @@ class ConfigTable {
     return node == nullptr ? nullptr : node->as_table();
   }
 
-  // Without an error, whatever the key holds.
+  // Checks the type of the key's value without reporting an error.
   bool holds_text(std::string_view key) const { return table_.get(key) != nullptr && table_.get(key)->is_string(); }
   bool holds_table(std::string_view key) const { return table_.get(key) != nullptr && table_.get(key)->is_table(); }
 
@@ -92,7 +94,7 @@ class ConfigTable {
   // Accepts the key without reading it.
   void allow(std::string_view key) { asked_.emplace_back(key); }
 
-  // The tables of [[key]].
+  // Returns the tables of [[key]].
   std::vector<const toml::table*> tables(std::string_view key) {
     std::vector<const toml::table*> found;
     const toml::node* node = find(key);
@@ -109,7 +111,7 @@ class ConfigTable {
     errors_.push_back({file_, line(table_), qualified(key), "is missing; use " + std::string(allowed)});
   }
 
-  // At the key's line, or at the table's where the key is absent.
+  // Reports an error at the key's line, or at the table's line if the key is absent.
   void error(std::string_view key, std::string message) {
     const toml::node* node = table_.get(key);
     errors_.push_back({file_, line(node != nullptr ? *node : table_), qualified(key), std::move(message)});

@@ -45,7 +45,7 @@ std::optional<double> read_number(std::string_view word, const NumberField& numb
                                      : std::from_chars(word.data(), end, whole);
   if (read.ec != std::errc{} || read.ptr != end) return std::nullopt;
   if (!number.fractions) value = static_cast<double>(whole);
-  // Written so that what is not a number is outside, too.
+  // Written so that NaN is outside, too.
   const bool inside = value >= static_cast<double>(number.minimum) && value <= static_cast<double>(number.maximum);
   return inside ? std::optional(value) : std::nullopt;
 }
@@ -99,7 +99,7 @@ Result<std::string> ControlLanguage::help(const std::vector<Argument>& arguments
   return usages;
 }
 
-// Whether `word` may stand where the usage has `place`; what it stands for goes to `arguments`.
+// Reports whether `word` is allowed for `place` of the usage; adds its value to `arguments`.
 bool ControlLanguage::take_word(std::string_view word, std::string_view place, std::vector<Argument>& arguments) const {
   if (const NumberField* number = number_called(place)) {
     const auto value = read_number(word, *number);

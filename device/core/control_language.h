@@ -1,5 +1,5 @@
-// The lines by which a person acts on a simulated device: `limit AXIS cw|ccw on|off`. How commands are written, how a
-// line is read by that, and how it is answered.
+// Lines by which a person acts on a simulated device, such as `limit AXIS cw|ccw on|off`: description of the commands,
+// reading of a line, and its reply.
 #pragma once
 
 #include <cstddef>
@@ -15,9 +15,8 @@ namespace axisgate {
 
 inline constexpr std::size_t kControlLineMax = 200;  // characters of a command
 
-// In a usage, words in lower case stand for themselves, A|B is one of them, those in capitals are a number in a range
-// of their own (COMMAND is any word), and what is in brackets, at the end, may be left out. Capitals and small letters
-// are the same in a line.
+// In a usage, a word in lower case stands for itself, A|B for one of the two, and a word in capitals for a number in
+// its own range (COMMAND for any word). A part in brackets, at the end, may be left out. Lines are not case-sensitive.
 struct ControlUsage {
   std::string_view usage;
   std::string_view meaning;
@@ -31,29 +30,30 @@ struct NumberField {
   bool fractions = false;
 };
 
-// What a line has where its usage leaves a choice.
+// Value of a part that the usage leaves open.
 struct Argument {
-  std::string_view word;  // of A|B as the usage writes it
-  double number = 0;      // of A|B which of them it is, from 0
+  std::string_view word;  // word of the line; for A|B, the spelling of the usage
+  double number = 0;      // value; for A|B, index of the choice, from 0
 };
 
 std::vector<std::string_view> words_of(std::string_view text);
 
-// All commands of one device. Thread safe: it never changes.
+// All commands of one device. Thread safe, because it never changes.
 class ControlLanguage {
  public:
-  // What the views and the span point to outlives this.
+  // The objects behind the views and the span must outlive this one.
   ControlLanguage(std::vector<ControlUsage> commands, std::span<const NumberField> numbers)
       : commands_(std::move(commands)), numbers_(numbers) {}
 
   struct Call {
-    std::size_t command = 0;  // its place among the commands
+    std::size_t command = 0;  // index of the command
     std::vector<Argument> arguments;
   };
-  // A line without its end; the arguments point into it. A refusal names the word, and what may be said instead.
+  // Reads a line without its end; the arguments point into the line. Fails with invalid_request; the message names the
+  // word, and the hint the allowed words.
   Result<Call> read(std::string_view line) const;
 
-  // The reply to `help [COMMAND]`: every usage, or what one command does and the ranges of its numbers.
+  // Returns the reply to `help [COMMAND]`: every usage, or the meaning of one command with the ranges of its numbers.
   Result<std::string> help(const std::vector<Argument>& arguments) const;
 
  private:
@@ -69,7 +69,7 @@ class ControlLanguage {
   std::span<const NumberField> numbers_;
 };
 
-// One line for a person: "ok", "ok VALUE..." or "error: what; what to do".
+// Returns one line for a person: "ok", "ok VALUE..." or "error: what; what to do".
 std::string control_reply(const Result<std::string>& done);
 
 }  // namespace axisgate

@@ -12,7 +12,7 @@ constexpr int kDigitsMax = 18;
 
 bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
 
-// The digits before and after the point of an unsigned number.
+// Digits before and after the point of an unsigned number.
 struct Parts {
   std::string_view whole, fraction;
 };
@@ -24,7 +24,7 @@ bool all_digits(std::string_view text) {
   return true;
 }
 
-// A number that ends in its point may have lost its last digits on the way, so "5." is no number.
+// Splits a number. "5." is not a number: its last digits may have been lost on the line.
 std::optional<Parts> split(std::string_view unsigned_text) {
   const std::size_t point = unsigned_text.find('.');
   Parts parts{unsigned_text.substr(0, point), {}};

@@ -23,7 +23,7 @@ std::string escaped_byte(char byte) {
   return {'\\', 'x', kHexDigits[value >> 4], kHexDigits[value & 15]};
 }
 
-// One byte as escaped() or quoted_bytes() writes it.
+// Takes one byte in the form that escaped() or quoted_bytes() writes.
 std::optional<char> take_byte(std::string_view& text) {
   if (text.empty() || text[0] < ' ' || text[0] > '~') return {};
   const auto take = [&text](std::size_t characters, char byte) {

@@ -1,9 +1,9 @@
-// The guards: what keeps answers, outcomes and stops correct on a bad line. Each is queried where it acts,
+// Guards keep answers, outcomes and stops correct on a bad line. Each guard is queried at the place where it acts,
 //
 //   if (guarded(Guard::x) && ...)
 //
-// which costs nothing, since the answer is always yes. Only a build with AXISGATE_REMOVABLE_GUARDS can do without one,
-// so that tests/guards can show that something fails then.
+// which costs nothing, since the answer is always yes. Only a build with AXISGATE_REMOVABLE_GUARDS can remove a guard,
+// so that tests/guards can show that a test fails without it.
 #pragma once
 
 #ifdef AXISGATE_REMOVABLE_GUARDS
@@ -13,7 +13,7 @@
 namespace axisgate {
 
 enum class Guard {
-  // Whose answer is whose: after doubt
+  // Matching of answers to commands after doubt
   barrier_after_time_limit,
   barrier_after_garbage,
   barrier_after_line_fault,
@@ -26,7 +26,7 @@ enum class Guard {
   older_identities,
   three_probes,
   backoff,
-  // ... and in front of it
+  // Matching of answers to commands before doubt
   half_lines_hold,
   half_lines_before_stops,
   unended_lines,
@@ -45,7 +45,7 @@ enum class Guard {
   foreign_traffic,
   possible_lines_before,
 
-  // A notice is never taken for a reply, nor a reply for a notice
+  // Separation of notices and replies
   number_questions_wait,
   questions_for_all_axes,
   closed_questions,
@@ -58,7 +58,7 @@ enum class Guard {
   start_settles,
   settled_by_exchange,
 
-  // Who is there
+  // Identity of the controller
   serial_number,
   serial_number_after_barrier,
   serial_number_twice,
@@ -67,7 +67,7 @@ enum class Guard {
   host_mode,
   ready_before_open,
 
-  // Truth over optimism
+  // Reports that require proof
   success_when_ready,
   success_at_target,
   success_without_error,
@@ -85,7 +85,7 @@ enum class Guard {
   conditions_seen_twice,
   one_home_an_axis,
 
-  // Stop goes first
+  // Priority of stops
   stop_lane,
   stop_in_barrier,
   barrier_after_stop,
@@ -116,7 +116,7 @@ enum class Guard {
   emergency_latches,
   emergency_cleared_for_all,
 
-  // Set and go is one step
+  // Setpoint and start as one step
   one_motion_at_a_time,
   axes_stand_first,
   late_numbers_wait,
@@ -138,7 +138,7 @@ enum class Guard {
   path_place_is_unique,
   wrong_segments_stop,
 
-  // Who may move what
+  // Rights and limits of motions
   leases_expire,
   lease_keeps_others_out,
   lease_axes,
@@ -170,7 +170,7 @@ enum class Guard {
   settings_restored,
   pending_speeds_restored,
 
-  // Every queue is bounded, every wait has a limit
+  // Bounds of queues and waits
   lanes_bounded,
   shares_bounded,
   waiting_lines_expire,

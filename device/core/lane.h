@@ -1,4 +1,4 @@
-// The lanes in which commands wait for the one line, first to last.
+// Lanes in which commands wait for the one line, in the order of their priority.
 #pragma once
 
 #include <array>

@@ -1,4 +1,4 @@
-// Waiting work in lanes: a stop before everything, polls last, and nobody waits for ever.
+// Waiting work in lanes: stops come first, polls come last, and no work waits forever.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace axisgate {
 
-// Why a lane takes nothing more: queue_full, with when to try again.
+// Return queue_full as the reason why a lane accepts no more work, with a hint when to try again.
 tl::unexpected<Problem> lane_full(Lane lane, std::size_t waiting);
 tl::unexpected<Problem> share_full(Lane lane, const std::string& caller, std::size_t waiting);
 
@@ -30,10 +30,10 @@ template <class Work>
 class LaneQueue {
  public:
   static constexpr std::size_t kLaneMax = 1024;
-  static constexpr std::size_t kShareMax = kLaneMax / 4;  // of what one caller may have waiting in a lane
+  static constexpr std::size_t kShareMax = kLaneMax / 4;  // limit of work of one caller in a lane
   static constexpr int kPassesMax = 8;
 
-  // `work` is not taken where the lane is full, or holds `share` of this caller's already: queue_full.
+  // Adds work. Fails with queue_full if the lane is full, or if this caller already has `share` items in it.
   Result<void> push(Lane lane, std::string caller, Work work, std::size_t share = kLaneMax) {
     auto& waiting = lanes_[index(lane)].waiting;
     if (guarded(Guard::lanes_bounded) && waiting.size() >= kLaneMax) return lane_full(lane, waiting.size());
@@ -43,7 +43,7 @@ class LaneQueue {
     return {};
   }
 
-  // The next work for which admissible(work) holds.
+  // Takes the next work for which admissible(work) is true.
   template <class Admissible>
   std::optional<Work> take(Admissible admissible) {
     for (const bool stops_wait : {!stops_turn(), false}) {
@@ -57,7 +57,7 @@ class LaneQueue {
     return {};
   }
 
-  // Removes and hands over all work for which chosen(work) holds.
+  // Removes all work for which chosen(work) is true, and passes it to `consume`.
   template <class Chosen, class Consume>
   void drain(Chosen chosen, Consume consume) {
     std::vector<Work> removed;
@@ -70,19 +70,20 @@ class LaneQueue {
     return std::ranges::any_of(lanes_, [&](const OneLane& lane) { return lane.waiting.any_of(holds); });
   }
 
-  // In no order.
+  // Visits all work in no particular order.
   template <class Visit>
   void for_each(Visit visit) const {
     for (const auto& lane : lanes_) lane.waiting.for_each(visit);
   }
 
-  // In the order in which take() would hand it over if all of it was admissible now: by the last turn of each caller.
+  // Visits the work of a lane in the order in which take() would return it if all of it was admissible now: by the last
+  // turn of each caller.
   template <class Visit>
   void for_each_in_turn(Lane lane, Visit visit) const {
     lanes_[index(lane)].waiting.for_each_in_turn(visit);
   }
 
-  // Whether a stop would not have to let others go first.
+  // Reports whether a stop may be taken now, without letting other work go first.
   bool stops_turn() const { return !last_was_stop_ || !guarded(Guard::stops_by_turns); }
 
   std::size_t size(Lane lane) const { return lanes_[index(lane)].waiting.size(); }

@@ -1,4 +1,4 @@
-// Cuts a byte stream into lines. An incomplete line never comes out, so it never parses as a complete one.
+// Cuts a byte stream into lines. An incomplete line is never returned, so it never parses as a complete one.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +12,15 @@ namespace axisgate {
 class LineFramer {
  public:
   static constexpr std::size_t kLineBytesMax = 256;
-  static constexpr std::size_t kLinesMax = 1024;  // unread lines kept; more are dropped, newest first
+  static constexpr std::size_t kLinesMax = 1024;  // maximum number of unread lines; further lines are dropped
 
   struct Line {
     std::string text;
     bool overlong = false;  // cut to kLineBytesMax: not to be parsed
   };
 
-  // CR, LF and CR LF each end a line; empty lines vanish; NUL and blanks around a line are padding that some
-  // interfaces add, and are stripped.
+  // Adds bytes. CR, LF and CR LF each end a line, and empty lines are dropped. NUL and blanks around a line are padding
+  // that some interfaces add, and are removed.
   void push(std::string_view bytes);
 
   std::optional<Line> next();

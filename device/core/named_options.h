@@ -1,4 +1,4 @@
-// Options of a simulated device by name: one for each place that a manual leaves open, its first value the default.
+// Named options of a simulated device, one for each place that a manual leaves open. The first value is the default.
 #pragma once
 
 #include <span>
@@ -15,13 +15,13 @@ struct OptionName {
   std::span<const std::string_view> values;
 };
 
-// Not thread safe. What `names` and `device` point to outlives this.
+// Not thread safe. The objects that `names` and `device` refer to must outlive this one.
 class NamedOptions {
  public:
-  // `device` as refusals name it: "simulated SHRC-203".
+  // `device`: name of the device in messages, such as "simulated SHRC-203".
   NamedOptions(std::span<const OptionName> names, std::string_view device);
 
-  // Unknown names and values are refused, naming the possible ones.
+  // Sets an option. Fails with invalid_request if the name or the value is unknown; the hint lists the possible ones.
   Result<void> set(std::string_view name, std::string_view value);
   std::string_view get(std::string_view name) const;  // empty for an unknown name
   bool is(std::string_view name, std::string_view value) const { return get(name) == value; }

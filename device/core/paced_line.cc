@@ -74,7 +74,7 @@ void PacedLine::link_up(TimePoint now) {
 
 void PacedLine::link_down(TimePoint now, std::string_view why) {
   advance(now);
-  // A serial port sends what was written before it closes; the answers find nobody.
+  // A serial port sends the written bytes before it closes; the answers are lost.
   const std::string written = inward_.arrived_by(TimePoint::max());
   if (!written.empty()) device_->receive(written, device_now_);
   drop_bytes();
@@ -106,7 +106,7 @@ void PacedLine::advance(TimePoint now) {
   write_due(until);
 }
 
-// Everything due at this one time: what the device does by itself, then the bytes that reach it.
+// Does everything that is due at this time: first the device's own actions, then the bytes that reach it.
 void PacedLine::step(TimePoint until) {
   shell_now_ = std::max(shell_now_, until);
   run_device_to(shell_now_);
@@ -117,7 +117,7 @@ void PacedLine::step(TimePoint until) {
 
 void PacedLine::run_device_to(TimePoint shell) {
   device_now_ = std::max(device_now_, device_time(shell));
-  // Rounding must not leave a deadline of this very time a nanosecond in the future.
+  // Rounding must not leave a deadline of this time a nanosecond in the future.
   const auto due = device_->next_deadline();
   if (due && shell_time(*due) <= shell) device_now_ = std::max(device_now_, *due);
   device_->advance(device_now_);

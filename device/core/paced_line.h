@@ -1,4 +1,4 @@
-// A device behind a real line: bytes take their time, replies come late, and the device's own time may run faster.
+// Simulates a real line to a device: bytes take time, replies are delayed, and the device's own time may run faster.
 #pragma once
 
 #include <deque>
@@ -14,15 +14,16 @@ namespace axisgate {
 
 struct Pacing {
   int baud = 0;            // bits a second, ten a byte; 0 passes bytes at once
-  Duration reply_delay{};  // added to everything that the device writes
-  double speed = 1;        // how much faster than the shell's time the device's time runs; above 0
+  Duration reply_delay{};  // added to all bytes that the device writes
+  double speed = 1;        // factor by which the device's time runs faster than the shell's; above 0
 };
 
-// Wraps a device: to the shell it is the machine, to the device it is the line. Baud and delay are in the shell's time.
-// Not thread safe. When the line goes down, what was written still reaches the device; what it answered is lost.
+// Wraps a device: it acts as the machine for the shell, and as the line for the device. Baud and delay are in the
+// shell's time. Not thread safe. When the line goes down, written bytes still reach the device, but its answers are
+// lost.
 class PacedLine : public LineMachine {
  public:
-  // Under way each way at most; more is lost, as where a line without handshake overruns.
+  // Maximum number of bytes in transit in each direction. Further bytes are lost, as on a line without handshake.
   static constexpr std::size_t kBytesUnderWayMax = 1 << 20;
 
   using Factory = std::function<std::unique_ptr<LineMachine>(ByteLink& line)>;
@@ -36,13 +37,13 @@ class PacedLine : public LineMachine {
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override;
 
-  // Acts on the device other than through its line; `act` receives the device's own time.
+  // Acts on the device without using its line; `act` receives the device's own time.
   void touch(TimePoint now, const std::function<void(TimePoint device_now)>& act);
 
  private:
   class DeviceSide;
 
-  // One way of the line: what is under way, and when each byte arrives.
+  // One direction of the line: the bytes in transit, and when each arrives.
   class Way {
    public:
     void send(std::string_view bytes, TimePoint from, Duration byte_time);
@@ -72,7 +73,7 @@ class PacedLine : public LineMachine {
   ByteLink& outside_;
   std::unique_ptr<DeviceSide> device_side_;
   std::unique_ptr<LineMachine> device_;
-  std::optional<TimePoint> origin_;  // where both clocks show the same
+  std::optional<TimePoint> origin_;  // time at which both clocks are equal
   TimePoint shell_now_{};
   TimePoint device_now_{};
   Way inward_, outward_;

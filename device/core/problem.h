@@ -1,4 +1,4 @@
-// The one error type: what happened, where, why, and what to do about it.
+// The only error type: what happened, where, why, and what to do about it.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-// Stable: clients match on these names. Their order and meaning never change; new ones are appended.
+// Reasons are stable: clients match on these names. Their order and meaning never change; new ones are appended.
 enum class Reason {
   unspecified,
   // the request itself
@@ -50,7 +50,7 @@ enum class Reason {
   outcome_unknown,
   compacted,
   internal,
-  // who may do what
+  // rights and conditions of the caller
   lease_held,
   lease_lost,
   outside_lease,
@@ -71,14 +71,14 @@ enum class Reason {
 };
 inline constexpr Reason kLastReason = Reason::daemon_ending;
 
-// "STALE_SETPOINT" and the like, as they stand in the API and in log lines.
+// Returns a name such as "STALE_SETPOINT", as in the API and in log lines.
 std::string_view name(Reason reason);
 
 struct Problem {
   Reason reason = Reason::unspecified;
   std::string message{};      // one sentence for a person: what, where, why
-  std::string hint{};         // what to do; may be empty
-  std::optional<int> axis{};  // 1..3, where one axis is meant
+  std::string hint{};         // remedy; may be empty
+  std::optional<int> axis{};  // 1..3; nullopt if no single axis is concerned
   std::string sent{};         // the line concerned, without terminator; may be empty
   std::string wire_reply{};   // the device's answer, unescaped; may be empty
 };

@@ -8,7 +8,7 @@
 namespace axisgate {
 namespace {
 
-// 18 digits of a value times the powers of ten of units and decimals do not fit into 64 bits.
+// Wide enough for 18 digits of a value times the powers of ten of units and decimals, which do not fit into 64 bits.
 __extension__ typedef __int128 Wide;
 
 struct Spelling {
@@ -28,7 +28,7 @@ std::string in_quotes(std::string_view text) { return '"' + escaped(text) + '"';
 
 std::string text_of(Decimal value, Unit unit) { return to_string(value).append(symbol(unit)); }
 
-// The power of ten between a unit and what Scale::per_pulse counts: nanometres, or millionths of a degree.
+// Returns the power of ten between a unit and the unit of Scale::per_pulse: nanometres, or millionths of a degree.
 int scale_units_exponent(Unit unit) {
   switch (unit) {
     case Unit::pulses:
@@ -50,7 +50,7 @@ std::optional<Wide> times_power_of_ten(Wide value, int exponent) {
   return value;
 }
 
-// Nothing where it has more than 18 digits.
+// Returns nullopt if the number has more than 18 digits.
 std::optional<Decimal> to_decimal(Wide digits, int decimals) {
   for (; decimals > 0 && digits % 10 == 0; --decimals) digits /= 10;
   constexpr Wide kEnd = 1'000'000'000'000'000'000;
@@ -96,7 +96,7 @@ tl::unexpected<Problem> out_of_range(const Quantity& quantity, const Scale& scal
       range_hint(quantity.unit, scale));
 }
 
-// `per` is "" or "/s". Nobody asks for a speed below 1 pulse/s: it is none.
+// `per` is "" or "/s". For a speed below 1 pulse/s the message names only 1 pulse/s, because 0 is not a speed.
 tl::unexpected<Problem> not_representable(const Quantity& quantity, const Scale& scale, std::int64_t below,
                                           std::string_view per) {
   const auto nearest = [&](std::int64_t count) {

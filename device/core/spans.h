@@ -1,4 +1,4 @@
-// Spans of time as people say them.
+// Durations as text for people.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace axisgate {
 
-// "2 h 13 min", "45 s"; whole seconds, cut off.
+// Returns a text such as "2 h 13 min" or "45 s". Fractions are cut off.
 std::string for_people(Duration time);
 
 }  // namespace axisgate

@@ -9,7 +9,7 @@ void Executor::spawn(Task<void> task) {
 }
 
 void Executor::run() {
-  if (running_) return;  // a task's own callback requested more: the loop below gets there
+  if (running_) return;  // a callback of a task requested another run; the loop below resumes its tasks, too
   running_ = true;
   for (std::size_t next = 0; next < ready_.size(); ++next) {
     const auto handle = ready_[next];
@@ -28,7 +28,7 @@ void Executor::advance(TimePoint now) {
 }
 
 std::optional<TimePoint> Executor::next_deadline() const {
-  // A waiter that is gone costs one early wake-up, no more.
+  // A waiter that is gone costs only one early wake-up.
   if (deadlines_.empty()) return {};
   return deadlines_.begin()->first;
 }

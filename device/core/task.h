@@ -1,5 +1,5 @@
-// Coroutines for transactions of many exchanges, so that they read from top to bottom. Sans-I/O like all of core: a
-// suspended task is resumed by Executor::run() only, on the strand of the machine that owns the executor.
+// Coroutines for transactions of many exchanges, so that they read from top to bottom. Sans-I/O like all of core: only
+// Executor::run() resumes a suspended task, on the strand of the machine that owns the executor.
 //
 // Keep awaited arguments in named variables: g++ 12 mishandles some temporaries in a co_await expression.
 #pragma once
@@ -22,7 +22,7 @@ class Task;
 
 namespace detail {
 
-// A task that was spawned notes its end, so that its executor finds it without looking through all that wait.
+// Record in which a spawned task notes its end, so that the executor finds ended tasks without searching all tasks.
 struct Spawned {
   std::uint64_t number = 0;
   std::vector<std::uint64_t>* ended = nullptr;
@@ -44,7 +44,7 @@ struct PromiseBase {
   Spawned spawned;
   std::suspend_always initial_suspend() const noexcept { return {}; }
   FinalAwaiter final_suspend() const noexcept { return {}; }
-  [[noreturn]] void unhandled_exception() { std::terminate(); }  // nothing below throws
+  [[noreturn]] void unhandled_exception() { std::terminate(); }  // no function below throws
 };
 
 template <class T>
@@ -64,7 +64,7 @@ struct Promise<void> : PromiseBase {
 
 }  // namespace detail
 
-// Starts when it is awaited or spawned; owns its frame.
+// A Task starts when it is awaited or spawned, and owns its frame.
 template <class T = void>
 class [[nodiscard]] Task {
  public:
@@ -99,8 +99,8 @@ inline Task<void> detail::Promise<void>::get_return_object() {
   return Task<void>(std::coroutine_handle<Promise<void>>::from_promise(*this));
 }
 
-// Owns the spawned tasks, the tasks ready to go on, and the deadlines they wait for. Destroying it destroys suspended
-// tasks; whatever they refer to must outlive it.
+// An Executor owns the spawned tasks, the tasks that are ready to continue, and the deadlines that tasks wait for.
+// Destroying it destroys suspended tasks; the objects that they refer to must outlive it.
 class Executor {
  public:
   void spawn(Task<void> task);
@@ -109,7 +109,7 @@ class Executor {
   void advance(TimePoint now);
   std::optional<TimePoint> next_deadline() const;
 
-  // Calls `fire` at `deadline` unless `owner` has expired by then.
+  // Interface of an object that waits for a deadline; at() calls timed_out() unless the waiter has expired by then.
   struct Waiter {
     virtual ~Waiter() = default;
     virtual void timed_out() = 0;
@@ -121,7 +121,7 @@ class Executor {
   Executor& operator=(const Executor&) = delete;
 
  private:
-  std::map<std::uint64_t, Task<void>> tasks_;  // by number, in the order in which they were spawned
+  std::map<std::uint64_t, Task<void>> tasks_;  // tasks by number, in the order in which they were spawned
   std::uint64_t next_number_ = 0;
   std::vector<std::uint64_t> ended_;
   std::vector<std::coroutine_handle<>> ready_;
@@ -129,7 +129,7 @@ class Executor {
   std::multimap<TimePoint, std::weak_ptr<Waiter>> deadlines_;
 };
 
-// A value that one task waits for and something else delivers, once. Copies share it.
+// Value that one task waits for and another party delivers once. Copies share the value.
 template <class T>
 class OneShot {
  public:
@@ -155,11 +155,11 @@ class OneShot {
   std::shared_ptr<State> state_;
 };
 
-// Something that may happen again and again, and that tasks wait for with a limit.
+// Event that may happen repeatedly, and that tasks wait for with a time limit.
 class Signal {
  public:
   explicit Signal(Executor& executor) : executor_(executor) {}
-  void notify();  // wakes everyone who waits now
+  void notify();  // wakes all tasks that wait now
 
   // co_await yields true when notified, false when the deadline passed first.
   OneShot<bool> wait_until(TimePoint deadline);

@@ -1,4 +1,4 @@
-// What the tasks of one machine share: the present moment, the executor that resumes them, and pauses.
+// Shared parts of one machine's tasks: the present moment, the executor that resumes them, and pauses.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace axisgate {
 
-// On the strand of its machine, like the executor. Time never passes within one call.
+// Runs on the strand of its machine, like the executor. Time never passes within one call.
 class Tasks {
  public:
   TimePoint now() const { return now_; }
@@ -18,7 +18,7 @@ class Tasks {
   Executor& executor() { return executor_; }
   void spawn(Task<void> task) { executor_.spawn(std::move(task)); }
 
-  // To await. Nothing ends it early.
+  // Pause until a moment, or for a duration; co_await the result. A pause never ends early.
   OneShot<bool> until(TimePoint at) { return pauses_.wait_until(at); }
   OneShot<bool> pause(Duration duration) { return until(now_ + duration); }
 

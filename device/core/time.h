@@ -1,4 +1,4 @@
-// Time as the state machines see it: it is handed to them, never read.
+// Time of the state machines, which is passed to them and which they never read from a clock.
 #pragma once
 
 #include <chrono>
@@ -8,8 +8,8 @@ namespace axisgate {
 
 using Duration = std::chrono::nanoseconds;
 
-// Monotonic time. Deliberately without now(): production reads the clock in device/link and server only,
-// tests and the seeded simulation invent it.
+// Monotonic time. Deliberately without now(): production reads the clock in device/link and server only; tests and the
+// seeded simulation invent the time.
 struct MonotonicClock {
   using rep = std::int64_t;
   using period = std::nano;

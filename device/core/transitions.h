@@ -1,4 +1,4 @@
-// State machines as tables: what is not in the table cannot happen.
+// State machines as tables: a transition that is not in the table cannot happen.
 #pragma once
 
 #include <array>
@@ -14,7 +14,7 @@ struct Transition {
   State to;
 };
 
-// The state after the event; nothing where the table has none.
+// Returns the state after the event; nullopt if the table has no such transition.
 template <class State, class Event, std::size_t Count>
 constexpr std::optional<State> next_in(const std::array<Transition<State, Event>, Count>& table, State state,
                                        Event event) {

@@ -17,7 +17,8 @@
 
 namespace axisgate {
 
-// take() costs the same however much waits, as long as the first work of a caller is admissible. It is not thread safe.
+// Queue of work. The cost of take() does not depend on how much work waits, as long as the first work of a caller is
+// admissible. Not thread safe.
 template <class Work>
 class TurnQueue {
  public:
@@ -34,7 +35,8 @@ class TurnQueue {
     return found == callers_.end() ? 0 : found->second.waiting.size();
   }
 
-  // The first admissible work of the caller whose last turn is the longest ago. Turns are forgotten when nothing waits.
+  // Takes the first admissible work of the caller whose last turn was the longest ago. Turns are forgotten when no work
+  // waits.
   template <class Admissible>
   std::optional<Work> take(Admissible& admissible) {
     for (auto turn = order_.begin(); turn != order_.end(); ++turn) {
@@ -53,7 +55,7 @@ class TurnQueue {
     return {};
   }
 
-  // Removes all work for which chosen(work) holds: in the order in which it came.
+  // Removes all work for which chosen(work) is true. Returns it in the order in which it came.
   template <class Chosen>
   std::vector<Work> remove(Chosen chosen) {
     std::vector<Entry> removed;
@@ -82,7 +84,7 @@ class TurnQueue {
     });
   }
 
-  // By the last turn of each caller, and then as it came.
+  // Visits the work by the last turn of each caller, and then in the order in which it came.
   template <class Visit>
   void for_each_in_turn(Visit visit) const {
     std::vector<std::tuple<std::uint64_t, std::uint64_t, const Work*>> all;
@@ -93,7 +95,7 @@ class TurnQueue {
     for (const auto& [turn, number, work] : all) visit(*work);
   }
 
-  // In no order.
+  // Visits all work in no particular order.
   template <class Visit>
   void for_each(Visit visit) const {
     for (const auto& [place, caller] : order_) {
@@ -110,7 +112,8 @@ class TurnQueue {
     std::deque<Entry> waiting;
     std::uint64_t last_turn = 0;  // 0: none yet
   };
-  using Place = std::pair<std::uint64_t, std::uint64_t>;  // its last turn; the number of its first work
+  // The caller's last turn; the number of the caller's first work.
+  using Place = std::pair<std::uint64_t, std::uint64_t>;
 
   static Place place_of(const Caller& caller) {
     return {guarded(Guard::callers_take_turns) ? caller.last_turn : 0, caller.waiting.front().number};
@@ -120,7 +123,7 @@ class TurnQueue {
   }
 
   std::map<std::string, Caller> callers_;
-  std::map<Place, Caller*> order_;  // of those that have something waiting
+  std::map<Place, Caller*> order_;  // callers that have waiting work
   std::size_t size_ = 0;
   std::uint64_t pushed_ = 0, taken_ = 0;
 };

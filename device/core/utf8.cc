@@ -7,7 +7,7 @@
 namespace axisgate {
 
 std::optional<char32_t> take_character(std::string_view& text) {
-  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};  // by length
+  constexpr std::array<char32_t, 5> kLeast{0, 0, 0x80, 0x800, 0x10000};  // least character by length
   const auto lead = static_cast<unsigned char>(text.front());
   const int ones = std::countl_one(lead);
   const auto length = static_cast<std::size_t>(ones == 0 ? 1 : ones);

@@ -1,4 +1,4 @@
-// Where a state machine reports an event that its table does not have.
+// Receives reports of events that the table of a state machine does not have.
 #pragma once
 
 #include <string_view>
@@ -8,7 +8,7 @@ namespace axisgate {
 class Violations {
  public:
   virtual ~Violations() = default;
-  // An error of the gateway's own. The names are constants: "jog", "running", "begun".
+  // Reports an internal error of the gateway. The names are constants: "jog", "running", "begun".
   virtual void illegal(std::string_view machine, std::string_view state, std::string_view event) = 0;
 };
 

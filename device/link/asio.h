@@ -1,5 +1,5 @@
-// The one place that includes Boost.Asio. Version 1.74 uses std::exchange without including <utility>, which C++20
-// compilers notice: hence the order.
+// The only place that includes Boost.Asio. The order matters: version 1.74 uses std::exchange without including
+// <utility>, which C++20 compilers report.
 #pragma once
 
 // clang-format off
@@ -22,7 +22,7 @@
 
 namespace axisgate {
 
-// All that concerns one line runs on one strand, so that nothing on it needs a lock.
+// All work for one line runs on one strand, so it needs no locks.
 using Strand = boost::asio::strand<boost::asio::io_context::executor_type>;
 
 }  // namespace axisgate

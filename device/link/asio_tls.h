@@ -1,4 +1,4 @@
-// Boost.Asio's TLS, apart from asio.h: it brings OpenSSL's headers.
+// Boost.Asio's TLS, separate from asio.h because it includes OpenSSL's headers.
 #pragma once
 
 // clang-format off

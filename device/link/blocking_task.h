@@ -1,4 +1,4 @@
-// Work that may block, such as asking a name server, kept away from the strands.
+// Runs work that may block, such as a query to a name server, outside of the strands.
 #pragma once
 
 #include <functional>
@@ -12,15 +12,15 @@
 
 namespace axisgate {
 
-// Runs `work` on a thread of its own and hands its result to `done` on the strand. A caller that releases the returned
-// pointer does not wait any more: `done` is not called then, and the thread ends by itself when `work` does. Call it,
-// and release the pointer, on the strand or when no thread runs its io_context. Release it before the io_context ends.
+// Runs `work` on its own thread and passes its result to `done` on the strand. A caller that releases the returned
+// pointer cancels the wait: `done` is not called, and the thread ends when `work` does. Call this function and release
+// the pointer on the strand, or while no thread runs its io_context. Release the pointer before the io_context ends.
 template <class Value>
 [[nodiscard]] std::shared_ptr<void> run_blocking_task(const Strand& strand, std::function<Value()> work,
                                                       std::function<void(Value)> done) {
   struct Waiting {
     std::mutex mutex;
-    // Emptied when nobody waits any more: a strand may not outlive its io_context, as this thread may.
+    // Empty once nobody waits: a strand must not outlive its io_context, but this thread may.
     std::optional<Strand> strand;
     std::function<void(Value)> done;
   };

@@ -1,12 +1,12 @@
-// The one place where device/ reads a clock.
+// The only place in which device/ reads a clock.
 #pragma once
 
 #include "device/core/time.h"
 
 namespace axisgate {
 
-// Nanoseconds of CLOCK_BOOTTIME: never runs backwards, and continues while the host sleeps, so that a lease that nobody
-// could keep alive has expired when it wakes. Thread safe.
+// Returns the time in nanoseconds of CLOCK_BOOTTIME. It never decreases, and it continues while the host sleeps, so
+// that a lease that could not be renewed has expired when the host wakes. Thread safe.
 TimePoint monotonic_now();
 
 }  // namespace axisgate

@@ -15,7 +15,7 @@
 namespace axisgate {
 namespace {
 
-// How long it rests when no connection can be accepted, as when no descriptor is free.
+// Pause after a failure to accept a connection, such as when no descriptor is free.
 constexpr auto kPause = std::chrono::milliseconds(100);
 
 constexpr std::string_view kUnended = "error: the last line has no end; end each line with a line feed\n";
@@ -42,17 +42,17 @@ class ControlServer::Connection : public std::enable_shared_from_this<Connection
   void wait_for(Stream::wait_type what);
   void leave();
 
-  ControlServer& server_;  // closes this before it ends
+  ControlServer& server_;  // closes this connection before it ends
   Stream socket_;
-  std::string line_;               // so far, and no more of it than shows that it is too long
-  std::deque<std::string> lines_;  // whole ones of one read
-  std::string replies_;            // not yet taken
+  std::string line_;               // the line up to now, cut where it is known to be too long
+  std::deque<std::string> lines_;  // complete lines of one read
+  std::string replies_;            // replies that the client has not taken yet
   bool carrying_out_ = false;
   bool ended_ = false;  // the client sends no more
 };
 
-// Everything that can be done without waiting, but one read at most: a client that never stops sending must let others
-// have their turn.
+// Does everything that is possible without waiting, but reads at most once, so that a client that never stops sending
+// leaves time for others.
 void ControlServer::Connection::look() {
   if (closed() || carrying_out_) return;
   if (!write_replies()) return;
@@ -81,7 +81,7 @@ bool ControlServer::Connection::write_replies() {
   return true;
 }
 
-// False when it has to wait, or is over.
+// Returns false if the connection must wait or has ended.
 bool ControlServer::Connection::read_some() {
   std::array<char, 4096> buffer;
   const ssize_t size = ::recv(socket_.native_handle(), buffer.data(), buffer.size(), 0);
@@ -97,14 +97,14 @@ bool ControlServer::Connection::read_some() {
     leave();
     return false;
   }
-  // What has no end may be the half of something else.
+  // A line without an end may be one half of another command.
   ended_ = true;
   if (!line_.empty()) replies_ += kUnended;
   return true;
 }
 
 void ControlServer::Connection::take_in(std::string_view bytes) {
-  // One for the CR of those who end lines with CR LF, one that makes it too long.
+  // One more for the CR of clients that end lines with CR LF, and one more to show that a line is too long.
   constexpr std::size_t kKept = kControlLineMax + 2;
   for (const char byte : bytes) {
     if (byte == '\n') {
@@ -120,7 +120,7 @@ void ControlServer::Connection::carry_out_next() {
   const std::string line = std::move(lines_.front());
   lines_.pop_front();
   const auto self = shared_from_this();
-  // To the end of those that are kept when room is needed.
+  // Moves the connection to the end of the list, whose first connection is closed when room is needed.
   auto& open = server_.open_;
   std::rotate(std::find(open.begin(), open.end(), self), std::find(open.begin(), open.end(), self) + 1, open.end());
   carrying_out_ = true;

@@ -31,16 +31,17 @@ class Inbox::Queue : public std::enable_shared_from_this<Queue> {
   std::optional<Task> take();
   void run();
 
-  const Descriptor bell_;  // an eventfd; outlives `reader_`, since a thread may still ring when that has been closed
+  // An eventfd; outlives `reader_`, because a thread may still write to it after `reader_` was closed.
+  const Descriptor bell_;
   std::uint64_t rings_ = 0;
   std::mutex mutex_;
   std::deque<Task> tasks_;
-  std::optional<boost::asio::posix::stream_descriptor> reader_;  // of bell_; none once closed
+  std::optional<boost::asio::posix::stream_descriptor> reader_;  // reads bell_; nullopt once closed
 };
 
 namespace {
 
-// So many, then the strand looks at its lines.
+// Number of tasks after which the strand serves its lines.
 constexpr int kTasksInTurn = 16;
 
 Descriptor new_bell() {
@@ -58,16 +59,16 @@ void Inbox::Queue::post(std::function<void()> run, std::function<void()> too_lat
   if (!push(task) && task.too_late) task.too_late();
 }
 
-// False, where it is closed.
+// Returns false if the inbox is closed.
 bool Inbox::Queue::push(Task& task) {
   {
     const std::lock_guard lock(mutex_);
     if (!reader_) return false;
     tasks_.push_back(std::move(task));
-    if (tasks_.size() > 1) return true;  // it has rung, and they are not all taken
+    if (tasks_.size() > 1) return true;  // the bell was rung for earlier tasks, which are not all taken
   }
   const std::uint64_t ring = 1;
-  (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only where the count is full: then it rings anyway
+  (void)!::write(bell_.get(), &ring, sizeof ring);  // fails only if the count is full, and then the bell rings anyway
   return true;
 }
 

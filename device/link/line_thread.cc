@@ -5,9 +5,9 @@
 namespace axisgate {
 namespace {
 
-// Two bytes take longer at 115200 baud.
+// Limit for a prompt reply: two bytes take longer at 115200 baud.
 constexpr Duration kPromptReply = std::chrono::microseconds(150);
-// What an instant device needs, and a client on the same machine between two questions.
+// Time that an instant device needs for a reply, and a client on the same machine between two questions.
 constexpr Duration kAwake = std::chrono::microseconds(100);
 
 }  // namespace
@@ -35,7 +35,7 @@ void LineThread::stop() {
 }
 
 void LineThread::run() {
-  // On a single processor what is waited for could not run meanwhile.
+  // On a single processor the other threads could not run while this one stays awake.
   const bool may_stay_awake = std::thread::hardware_concurrency() > 1;
   while (!context_.stopped()) {
     if (may_stay_awake && wakefulness_.is_awake(monotonic_now())) {

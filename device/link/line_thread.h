@@ -1,4 +1,4 @@
-// The thread that drives lines.
+// Thread that drives lines.
 #pragma once
 
 #include <optional>
@@ -9,17 +9,17 @@
 
 namespace axisgate {
 
-// Whether the thread stays awake for a moment. To be put to sleep and woken takes longer than an instant device
-// needs for its reply, and a client for its next question. Such a device is a simulator: nobody stays awake for a line
-// that takes time. On the thread of its lines only.
+// Decides when the thread stays awake for a moment. Sleeping and waking takes longer than an instant device needs for
+// its reply, and longer than a client needs for its next question. Only a simulator is that fast; for a slower line the
+// thread sleeps. Use it only on the thread of its lines.
 class Wakefulness {
  public:
   bool is_awake(TimePoint now) const { return now < until_; }
-  void written(TimePoint now);  // a command
-  void replied(TimePoint now);  // bytes came; those that no command waits for do not count
+  void written(TimePoint now);  // a command was written
+  void replied(TimePoint now);  // bytes came; bytes that no command waits for do not count
 
  private:
-  bool device_is_prompt_ = false;  // whichever replied last
+  bool device_is_prompt_ = false;  // the device that replied last is prompt
   std::optional<TimePoint> written_;
   TimePoint until_{};
 };
@@ -32,7 +32,7 @@ class LineThread {
   LineThread& operator=(const LineThread&) = delete;
 
   void start();
-  // Waits for what runs. What is still posted does not run.
+  // Waits for the running task. Other posted tasks do not run.
   void stop();
 
   boost::asio::io_context& context() { return context_; }

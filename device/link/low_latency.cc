@@ -12,7 +12,7 @@ namespace {
 
 constexpr int kShortest = 1;  // ms
 
-// Drivers that know nothing of it refuse, and have no latency to be asked about.
+// Sets the flag. A driver that does not support it refuses, and has no latency to change.
 void set_flag(int port) {
   serial_struct settings{};
   if (::ioctl(port, TIOCGSERIAL, &settings) != 0) return;

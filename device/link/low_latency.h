@@ -7,10 +7,10 @@
 
 namespace axisgate {
 
-// A USB adapter collects what the controller sends before it passes it on, by default for up to 16 ms at some makes, so
-// that each exchange takes as much longer. Asks its driver not to (ASYNC_LOW_LATENCY). If the adapter still does: a
-// message for people that says how long, and what ends it. `path` is of the open `port`; `classes` is where the kernel
-// shows its ttys.
+// Asks the driver of a serial adapter to pass on bytes at once (ASYNC_LOW_LATENCY). A USB adapter collects the
+// controller's bytes before it passes them on, for up to 16 ms by default with some makes, and each exchange takes that
+// much longer. If the adapter still delays bytes, returns a message for people with the delay and the remedy; otherwise
+// nullopt. `path`: path of the open `port`. `classes`: directory in which the kernel shows its ttys.
 std::optional<std::string> ask_for_low_latency(int port, const std::filesystem::path& path,
                                                const std::filesystem::path& classes = "/sys/class/tty");
 

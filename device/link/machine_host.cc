@@ -23,8 +23,8 @@ void MachineHost::detach() {
 void MachineHost::arm() {
   // settle() may have detached the machine.
   const auto deadline = machine_ == nullptr ? std::nullopt : machine_->next_deadline();
-  // A timer that stands earlier is left, since most deadlines are time limits that do not pass: when it fires, the
-  // machine is asked again.
+  // Leaves an earlier timer as it is, because most deadlines are time limits that never pass. When that timer fires,
+  // the machine's next deadline is read again.
   if (!deadline || (armed_ && *armed_ <= *deadline)) return;
   armed_ = deadline;
   // Asio's clock stops while the host sleeps; monotonic_now() does not.

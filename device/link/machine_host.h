@@ -1,5 +1,5 @@
-// What every shell around a LineMachine needs: calls on one strand with the clock's time, and one timer that never
-// stands later than the machine's next deadline.
+// Base of every shell around a LineMachine: it calls the machine on one strand with the clock's time, and has one
+// timer, which is never later than the machine's next deadline.
 #pragma once
 
 #include <functional>
@@ -13,8 +13,8 @@
 
 namespace axisgate {
 
-// Held by shared pointers only: handlers that wait in the io_context keep it alive. All members on the strand, except
-// attach(), strand() and post().
+// A MachineHost is owned by shared pointers only: handlers that wait in the io_context keep it alive. All members must
+// be called on the strand, except attach(), strand() and post().
 class MachineHost : public std::enable_shared_from_this<MachineHost> {
  public:
   virtual ~MachineHost() = default;
@@ -22,7 +22,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
   MachineHost& operator=(const MachineHost&) = delete;
 
   void attach(LineMachine& machine) { machine_ = &machine; }
-  // After detach() `too_late` is called in its place, if there is one.
+  // Runs the request on the strand. After detach() `too_late` is called instead, if given.
   void post(std::function<void(TimePoint now)> request, std::function<void()> too_late = {});
   const Strand& strand() const { return strand_; }
 
@@ -31,10 +31,11 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
 
   bool attached() const { return machine_ != nullptr; }
 
-  // The machine is never called again.
+  // Ends all calls of the machine.
   void detach();
 
-  // The only way into the machine: afterwards its requests are carried out and its deadline is looked at again.
+  // Calls the machine. All calls must go through here: the machine's requests are then carried out, and its deadline is
+  // read again.
   template <class Call>
   void call(Call&& call) {
     if (machine_ == nullptr) return;
@@ -43,7 +44,7 @@ class MachineHost : public std::enable_shared_from_this<MachineHost> {
     arm();
   }
 
-  // Carries out what the machine requested in the call just ended.
+  // Carries out the requests that the machine made in the call that has just ended.
   virtual void settle() = 0;
 
  private:

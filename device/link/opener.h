@@ -1,4 +1,4 @@
-// How a Runner gets its line: openings take their time, and no strand waits for them.
+// Opens the line of a Runner in the background: opening takes time, and no strand waits for it.
 #pragma once
 
 #include <functional>
@@ -14,17 +14,17 @@ namespace axisgate {
 using OpenedLine = Result<Descriptor>;
 using OnOpened = std::function<void(OpenedLine)>;
 
-// An attempt under way. Releasing it abandons it: nobody is notified, and what still opens is closed.
+// An attempt in progress. Releasing it abandons the attempt: no callback runs, and a line that still opens is closed.
 using Opening = std::shared_ptr<void>;
 
-// Begins to open a line, and never blocks. The answer comes once, on the strand, after this has returned. Call it, and
-// let go of what it returns, on the strand or when no thread runs its io_context.
+// Begins to open a line, and never blocks. The answer comes once, on the strand, after this call has returned. Call it,
+// and release the returned attempt, on the strand or while no thread runs its io_context.
 using Opener = std::function<Opening(const Strand&, OnOpened)>;
 
-// `open` never blocks and is called on the strand.
+// `open` must not block; it is called on the strand.
 Opener opener_on_strand(std::function<OpenedLine()> open);
 
-// `open` may block: each attempt calls it on a thread of its own.
+// `open` may block: each attempt calls it on its own thread.
 Opener opener_on_thread(std::function<OpenedLine()> open);
 
 }  // namespace axisgate

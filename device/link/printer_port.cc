@@ -36,7 +36,7 @@ tl::unexpected<Problem> refuse_to_open_printer(const PrinterSettings& settings, 
   }
 }
 
-// A file would take any job, and a terminal would change its bytes.
+// Reports whether the path may be a printer: a file would accept any job, and a terminal would change its bytes.
 bool may_be_printer(int port) {
   struct stat status {};
   return ::fstat(port, &status) == 0 && !S_ISREG(status.st_mode) && ::isatty(port) == 0;

@@ -1,4 +1,4 @@
-// Opens a printer device of the kernel, behind which a mill is: bytes go one way.
+// Opens a printer device of the kernel to which a mill is connected: bytes are only written.
 #pragma once
 
 #include <string>
@@ -11,9 +11,10 @@ struct PrinterSettings {
   std::string path;  // "/dev/usb/lp0"
 };
 
-// A non-blocking descriptor for writing alone; the caller closes it, which waits for nothing. The driver lets one
-// process have it open. Every failure is link_down, with a message for people: no such device, not permitted, held by
-// another process, a terminal or a file instead of a printer. Thread safe.
+// Returns a non-blocking descriptor for writing alone. The caller must close it; closing does not wait. The driver
+// allows only one process to open the device. Thread safe.
+// Fails with link_down and a message for people: no such device, permission denied, in use by another process, or a
+// terminal or a file instead of a printer.
 Result<int> open_printer(const PrinterSettings& settings);
 
 }  // namespace axisgate

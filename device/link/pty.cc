@@ -72,8 +72,9 @@ bool Pty::is_reserved() const {
   return ::ioctl(trial.get(), TIOCGEXCL, &reserved) == 0 && reserved != 0;
 }
 
-// Two places keep unread bytes: the buffer between the ends, which the master can empty, and the other end's line
-// discipline, which is emptied by setting its mode with TCSAFLUSH; on Linux a master sets its other end's mode.
+// Two places keep unread bytes. One is the buffer between the ends, which the master can empty. The other is the line
+// discipline of the other end, which is emptied when its mode is set with TCSAFLUSH; on Linux a master can set the mode
+// of its other end.
 void Pty::discard_unread() {
   termios mode{};
   ::tcflush(master_.get(), TCOFLUSH);
@@ -95,7 +96,7 @@ Result<Pty> open_pty(const std::string& link_path) {
       ::ptsname_r(master.get(), device.data(), device.size()) != 0) {
     return refuse_pty(link_path, "none to be had: " + error_text(errno));
   }
-  // The master sees that nobody is there only once somebody has been.
+  // Opens the other end once: the master sees that no client is there only after a client has been there.
   Descriptor(::open(device.data(), O_RDWR | O_NOCTTY | O_CLOEXEC)).reset();
   Pty pty(std::move(master), device.data(), {});
   pty.make_raw();

@@ -1,4 +1,4 @@
-// A pseudo terminal under a name of its own: what a program opens as if a device hung on a serial port.
+// Pseudo terminal under a chosen name, which programs open like a serial port with a device.
 #pragma once
 
 #include <string>
@@ -8,28 +8,28 @@
 
 namespace axisgate {
 
-// The master's end, raw and without echo before anyone opens the other end. Removes the symbolic link at its end if
-// that still leads here. Not thread safe.
+// Master's end of a pseudo terminal, raw and without echo before anybody opens the other end. The destructor removes
+// the symbolic link if it still leads to this terminal. Not thread safe.
 class Pty {
  public:
   ~Pty();
   Pty(Pty&&) = default;
   Pty& operator=(Pty&& other) noexcept;
 
-  int master() const { return master_.get(); }           // non-blocking; reading answers EIO while nobody is there
+  int master() const { return master_.get(); }           // non-blocking; reading returns EIO while no client is there
   const std::string& device() const { return device_; }  // "/dev/pts/7"
   const std::string& link() const { return link_; }
 
-  // Does any process have the other end open now?
+  // Reports whether any process has the other end open.
   bool has_client() const;
 
-  // Has a client reserved the other end (TIOCEXCL)? Even when it has gone, nobody but root can open it any more.
+  // Reports whether a client set TIOCEXCL. Only root can open the other end after that, even when the client is gone.
   bool is_reserved() const;
 
-  // Drops what was written to the master and not yet read at the other end; what the clients wrote stays.
+  // Discards bytes that were written to the master and not yet read at the other end. Bytes from the clients stay.
   void discard_unread();
 
-  // Back to raw mode, whatever a client chose; drops what is unread, too.
+  // Restores raw mode, whatever mode a client has set, and discards unread bytes, too.
   void make_raw();
 
  private:
@@ -41,8 +41,8 @@ class Pty {
   std::string link_;
 };
 
-// A new pseudo terminal, and `link_path` as a symbolic link to it. A symbolic link that exists is replaced in one
-// step; anything else there is left alone and is a problem.
+// Opens a new pseudo terminal, and makes `link_path` a symbolic link to it. An existing symbolic link is replaced
+// atomically. Fails with link_down if the path is something else, which stays unchanged.
 Result<Pty> open_pty(const std::string& link_path);
 
 }  // namespace axisgate

@@ -12,7 +12,7 @@
 namespace axisgate {
 namespace {
 
-// Packet mode: each read begins with a status byte. It reports that the input of the other end was emptied.
+// Sets packet mode: each read begins with a status byte, which reports when the input of the other end was flushed.
 void use_packets(const Pty& pty) {
   const int on = 1;
   ::ioctl(pty.master(), TIOCPKT, &on);
@@ -65,15 +65,16 @@ void PtyLine::reopen(Duration) {
   forget_flush();
 }
 
-// Discards the notice that the machine itself has emptied the other end's input. It would come with the next bytes and
-// cost them their answers. A read of one byte takes the notice and no bytes.
+// Discards the notice that the machine itself has flushed the other end's input. The notice would come with the next
+// bytes and discard their answers. A read of one byte takes the notice and no bytes.
 void PtyLine::forget_flush() {
   char changed = TIOCPKT_DATA;
   [[maybe_unused]] const ssize_t size = ::read(pty_.master(), &changed, 1);
 }
 
-// When clients followed each other since the last look, the bytes belong to the last one if it has written at all. A
-// write is reported after its bytes can be read, so bytes without a report yet belong to the last one, too.
+// Assigns bytes to clients. If several clients followed each other since the last look, the bytes belong to the last
+// client if it has written at all. A write is reported after its bytes can be read, so bytes without a report belong to
+// the last client, too.
 void PtyLine::look() {
   if (!attached()) return;
   PtyWatch::Visits visits{0, wrote_after_reading_, false};
@@ -99,7 +100,7 @@ void PtyLine::look() {
   wait_for(visits_, Stream::wait_read, waiting_for_visits_);
 }
 
-// True when no client has the terminal open.
+// Returns true if no client has the terminal open.
 bool PtyLine::read_all(std::string& bytes) {
   std::array<char, 4096> packet;
   for (;;) {
@@ -116,7 +117,7 @@ bool PtyLine::read_all(std::string& bytes) {
 
 void PtyLine::deliver(std::string& bytes) {
   if (!bytes.empty()) client_came();
-  // No more at once than a machine's line buffer takes even if every second byte ends a line.
+  // Limits the bytes passed at once to what a machine's line buffer takes even if every second byte ends a line.
   constexpr std::size_t kPiece = 1024;
   for (std::string_view rest = bytes; !rest.empty(); rest.remove_prefix(std::min(kPiece, rest.size()))) {
     call([&](LineMachine& machine, TimePoint now) { machine.receive(rest.substr(0, kPiece), now); });
@@ -143,12 +144,12 @@ void PtyLine::client_left() {
   call([](LineMachine& machine, TimePoint now) { machine.link_down(now, "the client closed the line"); });
 }
 
-// Who has reserved a pseudo terminal and gone keeps everybody out for as long as it exists: its name leads to another
-// one from then on.
+// Replaces a pseudo terminal that a client reserved before it left: nobody could open the terminal any longer, so its
+// name then leads to another one.
 void PtyLine::replace_if_reserved() {
   if (pty_.has_client()) return;
   const bool reserved = pty_.is_reserved();
-  watch_.drain();  // to find out was no visit
+  watch_.drain();  // is_reserved() opened the terminal, which is not a visit
   if (!reserved || pty_.has_client()) return;
   auto pty = open_pty(pty_.link());
   if (!pty) return;

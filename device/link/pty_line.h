@@ -1,4 +1,5 @@
-// Plays a device behind a pseudo terminal: one client after another, none of which gets its predecessor's bytes.
+// Plays a device behind a pseudo terminal for one client after another; no client receives bytes meant for the previous
+// one.
 #pragma once
 
 #include <string>
@@ -11,21 +12,21 @@
 
 namespace axisgate {
 
-// Made by std::make_shared. The machine receives link_up when a client opens the terminal and link_down when the last
-// one has closed it. What it writes waits for the client to read it, and blocks nothing. What it writes while no client
-// is there, or when kBytesUnsentMax wait already, is lost. A client that empties its input also empties what waits.
-// Threads as for Runner.
+// A PtyLine must be made by std::make_shared. The machine receives link_up when a client opens the terminal, and
+// link_down when the last client has closed it. Bytes that the machine writes wait for the client to read them, and
+// block nothing. Bytes that it writes while no client is there, or while kBytesUnsentMax wait already, are lost. A
+// client that flushes its input also discards the waiting bytes. The rules for threads are those of Runner.
 class PtyLine : public MachineHost, public ByteLink {
  public:
-  static constexpr std::size_t kBytesUnsentMax = 1 << 20;  // beyond what the kernel takes
+  static constexpr std::size_t kBytesUnsentMax = 1 << 20;  // in addition to what the kernel takes
 
   PtyLine(Strand strand, Pty pty, PtyWatch watch);
 
-  void start();     // after attach()
-  void shutdown();  // on the strand, or when no thread runs its io_context
+  void start();     // call after attach()
+  void shutdown();  // call on the strand, or while no thread runs its io_context
 
   void write(std::string_view bytes) override;
-  void reopen(Duration wait) override;  // only empties the line: a device cannot make its host open a port
+  void reopen(Duration wait) override;  // only discards queued bytes: a device cannot make its host open a port
 
   const Pty& pty() const { return pty_; }
 

@@ -1,4 +1,4 @@
-// Who comes and goes at a pseudo terminal's other end, in order.
+// Watches clients come and go at a pseudo terminal's other end, in order.
 #pragma once
 
 #include <cstdint>
@@ -9,15 +9,15 @@
 
 namespace axisgate {
 
-// The master alone reports whether a client is there, but not that one client left and the next came between two looks;
-// inotify does. The kernel merges equal events that follow each other, so with several clients at once the count is a
-// guess: everybody_left() corrects it.
+// Counts clients by inotify. The master alone reports whether a client is there, but not that one client left and
+// another came between two looks. The kernel merges equal events that follow each other, so the count is a guess with
+// several clients at once: everybody_left() corrects it.
 class PtyWatch {
  public:
   struct Visits {
-    int came = 0;               // clients that came when none was there
-    bool last_wrote = false;    // the last of these has written
-    bool others_wrote = false;  // one before it has
+    int came = 0;               // number of clients that came when none was there
+    bool last_wrote = false;    // the last of these clients has written
+    bool others_wrote = false;  // an earlier one of these clients has written
 
     void add(const Visits& later);
   };
@@ -25,7 +25,7 @@ class PtyWatch {
   static Result<PtyWatch> open(const Pty& pty);
 
   int descriptor() const { return events_.get(); }  // readable when drain() has a change
-  Visits drain();                                   // since the last call
+  Visits drain();                                   // visits since the last call
   void everybody_left() { clients_ = 0; }
 
  private:

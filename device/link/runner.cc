@@ -23,8 +23,8 @@ namespace axisgate {
 
 using boost::system::error_code;
 
-// A handler of a closed descriptor may still be queued when the next one is open: it carries the generation it was
-// started in and does nothing when that has passed.
+// Line of a Runner. A handler of a closed descriptor may still be queued when the next descriptor is open: it carries
+// the generation in which it was started, and does nothing if the generation has changed.
 class Runner::Line : public MachineHost {
  public:
   Line(Strand strand, Opener opener, Wakefulness* wakefulness, HeldReader held)
@@ -48,7 +48,7 @@ class Runner::Line : public MachineHost {
  private:
   std::shared_ptr<Line> self() { return std::static_pointer_cast<Line>(shared_from_this()); }
   void settle() override;
-  // Asio's own native_handle() is not const.
+  // Casts const away, because Asio's native_handle() is not const.
   int fd() const { return const_cast<boost::asio::posix::stream_descriptor&>(descriptor_).native_handle(); }
   bool answers() const;
   void start_reading();
@@ -73,7 +73,7 @@ class Runner::Line : public MachineHost {
   bool socket_ = false;
   bool waiting_for_room_ = false;
   bool overflowed_ = false;
-  std::optional<termios> respecting_;  // the tty's mode, while flow control is ignored
+  std::optional<termios> respecting_;  // the tty's original mode, while flow control is ignored
 };
 
 void Runner::Line::attach(LineMachine& machine, std::function<void()> after_call) {
@@ -110,10 +110,10 @@ void Runner::Line::shut() {
   close();
 }
 
-// A command must not reach a device later, when nobody waits for its answer any more. And closing a tty with bytes that
-// flow control holds back would block for as long as its driver waits for them. What has left the driver stays on its
-// way: a flush might call it back, as from a USB converter, or from a pseudo-terminal that its reader has not read. At
-// the end of all, a socket may send.
+// Discards unsent bytes before closing: a command must not reach a device later, when its caller no longer waits for
+// the answer. Closing a tty with bytes that flow control blocks would also wait for as long as its driver does. Bytes
+// that have left the driver are not discarded: a flush might recall them, for instance from a USB converter, or from a
+// pseudo-terminal whose reader has not read them. After shutdown, a socket may still send.
 void Runner::Line::discard_unsent() {
   const int line = descriptor_.native_handle();
   const linger none{.l_onoff = 1, .l_linger = 0};
@@ -145,7 +145,7 @@ void Runner::Line::lose(std::string_view why) {
 void Runner::Line::write(std::string_view bytes) {
   if (!descriptor_.is_open()) return;
   if (queued_.size() + bytes.size() > kOutputBytesMax) {
-    overflowed_ = true;  // reported to the machine when it has returned
+    overflowed_ = true;  // reported to the machine after it has returned
     return;
   }
   queued_ += bytes;
@@ -168,7 +168,8 @@ std::size_t Runner::Line::unsent() const {
 
 bool Runner::Line::held() const { return descriptor_.is_open() && !respecting_ && held_ && held_(fd()); }
 
-// At once: an output that an XOFF has stopped continues without IXON, while tcflow() does not undo an XOFF.
+// Changes the mode at once: an output that an XOFF has stopped continues without IXON, while tcflow() does not undo an
+// XOFF.
 void Runner::Line::ignore_flow_control(bool ignored) {
   if (ignored == respecting_.has_value()) return;
   termios mode{};
@@ -190,10 +191,10 @@ void Runner::Line::settle() {
   if (attached() && after_call_) after_call_();
 }
 
-// A printer device is open for writing alone.
+// Reports whether the line can be read: a printer device is open for writing alone.
 bool Runner::Line::answers() const { return (::fcntl(fd(), F_GETFL) & O_ACCMODE) != O_WRONLY; }
 
-// What a line that is not read reports without a write.
+// Waits for a loss that a line reports even though it is neither read nor written.
 void Runner::Line::await_loss() {
   descriptor_.async_wait(boost::asio::posix::stream_descriptor::wait_error,
                          [self = self(), generation = generation_](const error_code& error) {
@@ -221,7 +222,7 @@ void Runner::Line::on_read(const error_code& error, std::size_t count) {
 
 void Runner::Line::send_queued() {
   while (!queued_.empty() && !waiting_for_room_) {
-    // A socket whose other end is gone must answer EPIPE, not end the process by SIGPIPE.
+    // A socket whose other end is gone must return EPIPE, not end the process by SIGPIPE.
     const int line = descriptor_.native_handle();
     const ssize_t sent = socket_ ? ::send(line, queued_.data(), queued_.size(), MSG_NOSIGNAL)
                                  : ::write(line, queued_.data(), queued_.size());

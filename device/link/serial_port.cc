@@ -19,8 +19,8 @@
 
 #include "device/link/descriptor.h"
 
-// <termios.h> knows only the rates with a B constant; termios2 with BOTHER takes any, but its header cannot be included
-// beside <termios.h>.
+// termios2 with BOTHER accepts any baud rate, while <termios.h> has only the rates with a B constant. The header of
+// termios2 cannot be included together with <termios.h>.
 
 namespace axisgate {
 namespace {
@@ -42,7 +42,7 @@ bool has_open(const fs::path& process, const fs::path& device) {
   return false;
 }
 
-// The other process that has the port open, as far as /proc shows it to us.
+// Returns the id of another process that has the port open, as far as /proc shows it to this process.
 std::optional<int> holder_of(const std::string& path) {
   std::error_code error;
   const fs::path device = fs::canonical(path, error);
@@ -80,8 +80,8 @@ tl::unexpected<Problem> refuse_to_open(const SerialSettings& settings, int error
   }
 }
 
-// A pseudo terminal keeps TIOCEXCL for as long as its master lives, so that after its first user nobody could open it
-// any more: there flock must do alone.
+// Reports whether the port is a pseudo terminal. A pseudo terminal keeps TIOCEXCL for as long as its master lives, so
+// nobody could open it after its first user; flock must be enough for it.
 bool is_pseudo_terminal(int port) {
   constexpr unsigned kFirstMajor = 136, kLastMajor = 143;  // UNIX98_PTY_SLAVE_MAJOR and its count
   struct stat status {};
@@ -111,7 +111,7 @@ termios2 raw_mode(const SerialSettings& settings) {
   return mode;
 }
 
-// A driver reports success if it could do any part of what was asked: what it really did must be read back.
+// Sets the mode and reads it back: a driver reports success if it could carry out any part of the request.
 Result<void> configure(int port, const SerialSettings& settings) {
   const termios2 wanted = raw_mode(settings);
   termios2 actual{};

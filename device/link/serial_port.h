@@ -1,4 +1,4 @@
-// Opens a serial port as the configuration says, for this process alone.
+// Opens a serial port with the configured settings, for this process alone.
 #pragma once
 
 #include <string>
@@ -8,29 +8,30 @@
 namespace axisgate {
 
 enum class Parity { none, even, odd };
-// The driver does the first three. Linux has nothing for DTR/DSR: the port is opened without flow control, with DTR
-// raised for the device to read, and who writes asks is_held() before.
+// The driver implements the first three. Linux has no DTR/DSR flow control: the port is opened without flow control,
+// with DTR raised for the device to read, and the sender must check is_held() first.
 enum class FlowControl { none, rts_cts, xon_xoff, dtr_dsr };
 
-// Always eight data bits.
+// Settings of a serial port; always eight data bits.
 struct SerialSettings {
   std::string path;  // "/dev/ttyUSB0"
-  int baud = 38400;  // any rate that the driver takes, 1 and up
+  int baud = 38400;  // any rate that the driver accepts, 1 and up
   Parity parity = Parity::none;
   int stop_bits = 1;  // 1 or 2
   FlowControl flow = FlowControl::rts_cts;
 };
 
-// A non-blocking descriptor in raw mode, locked against others by TIOCEXCL and flock, its input empty; the caller
-// closes it. Every failure is link_down, with a message for people: no such device, not permitted, not a serial port,
-// held by another process (which one, where that can be seen), a setting that the driver refuses.
-// Thread safe. Does not wait for a modem line or for a lock.
+// Returns a non-blocking descriptor in raw mode with an empty input, locked against others by TIOCEXCL and flock. The
+// caller must close it. Thread safe. Does not wait for a modem line or for a lock.
+// Fails with link_down and a message for people: no such device, permission denied, not a serial port, in use by
+// another process (with its id if it is visible), or a setting that the driver refuses.
 Result<int> open_serial(const SerialSettings& settings);
 
-// Whether the device forbids sending by its modem line. `modem_lines`: of TIOCMGET. The device's RTS arrives as CTS,
-// its DTR as DSR. Thread safe.
+// Reports whether the device forbids sending by its modem line. `modem_lines`: from TIOCMGET. The device's RTS arrives
+// as CTS, its DTR as DSR. Thread safe.
 bool forbids(FlowControl flow, int modem_lines);
-// As the port's lines are now. False for a port without modem lines, as a pseudo-terminal. Does not block.
+// Reports whether the port's lines forbid sending now. False for a port without modem lines, such as a pseudo-terminal.
+// Does not block.
 bool is_held(int port, FlowControl flow);
 
 }  // namespace axisgate

@@ -27,7 +27,8 @@ sockaddr_un address_of(const std::string& path) {
   return address;
 }
 
-// Any other error than a refusal counts as somebody, who is left alone; a full backlog is one (EAGAIN).
+// Reports whether a process listens at the path. Any error other than a refused connection counts as one that must be
+// left alone, such as a full backlog (EAGAIN).
 bool somebody_listens(const std::string& path) {
   const sockaddr_un address = address_of(path);
   const Descriptor probe(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
@@ -80,7 +81,7 @@ Result<SocketFile> SocketFile::open(const std::string& path) {
   if (path.empty() || ::bind(socket.get(), reinterpret_cast<const sockaddr*>(&address), sizeof(address)) != 0) {
     return refuse_path(path, "it cannot be made", path.empty() ? ENOENT : errno);
   }
-  // The file is there from here on, and goes with this. Nobody can connect before it listens.
+  // The file exists from here on, and is removed with this object. Nobody can connect before the socket listens.
   SocketFile file(path, std::move(socket));
   if (::chmod(path.c_str(), S_IRUSR | S_IWUSR) != 0 || ::listen(file.socket_.get(), SOMAXCONN) != 0) {
     return refuse_path(path, "nobody can be let in", errno);

@@ -1,4 +1,4 @@
-// The Unix socket on which a simulator is controlled, as a file: for this user alone, and gone at the program's end.
+// Unix socket file on which a simulator is controlled: for this user alone, and removed at the program's end.
 #pragma once
 
 #include <sys/types.h>
@@ -13,10 +13,11 @@ namespace axisgate {
 
 class SocketFile {
  public:
-  // A non-blocking stream socket that listens at `path`, mode 0600. Removes a socket there that nobody listens on any
-  // more; refuses one that somebody serves, and anything that is no socket.
+  // Opens a non-blocking stream socket that listens at `path`, with mode 0600. Removes a socket at the path if nobody
+  // listens on it any longer. Fails with invalid_request if a process serves the socket, or if the path is something
+  // else.
   static Result<SocketFile> open(const std::string& path);
-  // Removes the file, unless another has been put in its place.
+  // Removes the file, unless it was replaced by another.
   ~SocketFile();
   SocketFile(SocketFile&& other) noexcept;
   SocketFile& operator=(SocketFile&&) = delete;

@@ -27,7 +27,7 @@ struct Address {
   int family = AF_UNSPEC;
 };
 
-// EAI_ code, 0 when all is well.
+// Result of a lookup. `error`: EAI_ code; 0: success.
 struct Lookup {
   int error = 0;
   std::vector<Address> addresses;
@@ -53,11 +53,11 @@ Lookup look_up(const TcpSettings& settings) {
   return result;
 }
 
-// One lookup at a time, however many attempts abandon the wait for its answer. An answer that comes too late for its
-// attempt serves the next one; otherwise a name that takes longer than an attempt would never be known.
+// Runs one lookup at a time, even if many attempts abandon the wait for its answer. An answer that comes too late for
+// its attempt serves the next attempt; otherwise a name whose lookup takes longer than an attempt would never be known.
 class NameServer : public std::enable_shared_from_this<NameServer> {
  public:
-  using Answered = std::function<bool(const Lookup&)>;  // whether somebody still waited
+  using Answered = std::function<bool(const Lookup&)>;  // returns whether the attempt still waited
 
   explicit NameServer(TcpSettings settings) : settings_(std::move(settings)) {}
 
@@ -125,8 +125,8 @@ void set(int socket, int level, int option, Value value) {
   ::setsockopt(socket, level, option, &number, sizeof number);
 }
 
-// Every command waits for its answer, so nothing is gained by collecting bytes. A serial server that was switched off
-// does not report it.
+// Disables the collecting of bytes, which gains nothing because every command waits for its answer, and enables the
+// detection of a serial server that was switched off.
 void set_options(int socket) {
   set(socket, IPPROTO_TCP, TCP_NODELAY, 1);
   set(socket, IPPROTO_TCP, TCP_USER_TIMEOUT, kUnacknowledgedLimit.count());
@@ -136,7 +136,7 @@ void set_options(int socket) {
   set(socket, IPPROTO_TCP, TCP_KEEPCNT, kKeepAliveProbes);
 }
 
-// From the name to the connection. Its handlers hold it weakly: releasing it ends it.
+// One attempt, from the lookup of the name to the connection. Its handlers refer to it weakly, so releasing it ends it.
 class Attempt : public std::enable_shared_from_this<Attempt> {
  public:
   Attempt(const Strand& strand, TcpSettings settings, std::shared_ptr<NameServer> names, OnOpened opened)
@@ -158,7 +158,7 @@ class Attempt : public std::enable_shared_from_this<Attempt> {
   }
 
  private:
-  // A handler of an address before the present one may still be queued.
+  // Ignores a queued handler of an earlier address.
   template <class Then>
   auto in_this_turn(Then then) {
     return [weak = weak_from_this(), turn = next_, then](const error_code& error) {

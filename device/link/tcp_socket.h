@@ -1,4 +1,4 @@
-// The raw port of a serial server: a controller's line at the other end of a TCP connection.
+// Raw port of a serial server: a controller's line at the other end of a TCP connection.
 #pragma once
 
 #include <chrono>
@@ -16,16 +16,16 @@ struct TcpSettings {
 };
 std::string to_string(const TcpSettings& settings);  // "moxa.lab:4001", "[fe80::1]:4001"
 
-// From the asking for the name to the connection. A host with several addresses gets it shared out among them.
+// Time from the lookup of the name to the connection. It is divided among the addresses of a host that has several.
 inline constexpr Duration kConnectLimit = std::chrono::seconds(5);
 
-// A host that has silently gone is noticed within about 11 s when nothing is sent, and 5 s after what is sent.
+// A host that vanished is noticed within about 11 s if nothing is sent, and 5 s after bytes that were sent.
 inline constexpr std::chrono::milliseconds kUnacknowledgedLimit{5000};
 inline constexpr std::chrono::seconds kKeepAliveIdle{5}, kKeepAliveInterval{2};
 inline constexpr int kKeepAliveProbes = 3;
 
-// Each attempt looks up the name again and connects again. Failures are link_down, with a message for people:
-// connection refused, the host is not known, no answer, unreachable.
+// Each attempt looks up the name again and connects again. Fails with link_down and a message for people: connection
+// refused, host not known, no answer, or unreachable.
 Opener tcp_opener(TcpSettings settings);
 
 }  // namespace axisgate

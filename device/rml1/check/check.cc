@@ -11,7 +11,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// "12 s", "3 min 5 s", "2 h 10 min"
+// Returns a text such as "12 s", "3 min 5 s" or "2 h 10 min".
 std::string duration(double seconds) {
   const auto whole = static_cast<long long>(std::llround(seconds));
   if (whole < 60) return fmt::format("{} s", whole);
@@ -62,7 +62,7 @@ void Check::feed(std::string_view bytes) {
   if (opening_.verdict() == Opening::Verdict::job) parser_.feed(bytes);
 }
 
-// Once, when the kind is known.
+// Judges the opening once, when the kind of file is known.
 void Check::judge_opening() {
   switch (opening_.verdict()) {
     case Opening::Verdict::nothing_yet:
@@ -125,14 +125,14 @@ void Check::execute(const Instruction& instruction) {
   state_judge_.executed(instruction);
 }
 
-// Eight bits, a start bit and a stop bit.
+// Each byte takes ten bits: eight of data, a start bit and a stop bit.
 double Check::arrival(std::uint64_t end) const {
   return profile_.baud ? static_cast<double>(end) * 10 / *profile_.baud : 0;
 }
 
 void Check::moved(const Move& move) {
   const Point way = (move.to - move.from) * profile_.step_mm;
-  // The way down from wherever the tool is when a job begins says nothing about the job.
+  // The descent from the height where the tool is when a job begins says nothing about the job.
   const bool first_height = !moved_ && way.x == 0 && way.y == 0;
   moved_ = true;
   summary_.distance_mm += length(way);
@@ -153,7 +153,7 @@ void Check::moved(const Move& move) {
   if (moves_ != nullptr) moves_->moved(move);
 }
 
-// A step waits for the last byte of its command.
+// Adds a step, which begins when the last byte of its command has arrived.
 void Check::take(const StepTime& time, std::uint64_t end) {
   summary_.seconds_low = std::max(summary_.seconds_low, arrival(end)) + time.least;
   summary_.seconds_high = std::max(summary_.seconds_high, arrival(end)) + time.most;

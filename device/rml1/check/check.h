@@ -1,4 +1,4 @@
-// A whole job: read, played, timed and judged, in bounded memory.
+// A Check reads a whole job, plays it, times it and judges it, in bounded memory.
 #pragma once
 
 #include <cstdint>
@@ -22,50 +22,54 @@
 namespace axisgate::rml1 {
 
 struct CheckOptions {
-  std::optional<Origin> origin;  // none: only sizes are judged
+  std::optional<Origin> origin;  // nullopt: only sizes are judged
   std::optional<Stock> stock;
   std::vector<KnownMachine> others;
-  std::optional<double> tool_mm{};  // the diameter, above 0
-  std::string made_for{};           // the name of a machine, as its maker said; empty: it is judged by the job
+  std::optional<double> tool_mm{};  // diameter, above 0
+  // Name of the machine for which the job was made, if its maker named one; empty: the job itself shows it.
+  std::string made_for{};
 };
 
-// Steps of the workpiece system.
+// Lengths are steps of the workpiece system.
 struct Summary {
-  Point final;    // where the tool really is
-  Bounds bounds;  // of what was really driven, but for the height at which the job begins
-  Bounds cut;     // of what of that cuts
+  Point final;    // real place of the tool
+  Bounds bounds;  // bounds of the driven path, without the height at which the job begins
+  Bounds cut;     // bounds of the part of the driven path that cuts
   double seconds_low = 0, seconds_high = 0;
-  double seconds_down = 0;  // of seconds_high: from the height at which the job begins, where that is not known
+  // Part of seconds_high: descent from the height at which the job begins; 0 if the origin is known.
+  double seconds_down = 0;
   double distance_mm = 0, cutting_mm = 0;
   std::uint64_t spin_ups = 0;
-  Reach rpm;  // at which it cuts
+  Reach rpm;  // while cutting
   std::uint64_t commands = 0;
 };
 
 std::string time_text(const Summary& summary);  // "45 s to 1 min 30 s"
-// Why the two ends differ: "at full speed throughout, or by a mill that stops at each point ...".
+// Returns the reason why the two times differ: "at full speed throughout, or by a mill that stops at each point ...".
 std::string time_reason(const Summary& summary, const Profile& profile);
 
 class Check : private MachineListener, private ParserListener {
  public:
-  // `moves` receives each real move, and what clipping leaves out. Everything referred to outlives this.
+  // `moves` receives each real move, and the paths that clipping leaves out. The referenced objects must outlive this
+  // one.
   Check(const Profile& profile, CheckOptions options, MoveListener* moves = nullptr);
 
-  // Takes over the workpiece as `before` has left it, by the tool's depths. Once, before feed().
+  // Takes over the workpiece as `before` has left it, with the depths already cut. Call once, before feed().
   void continues(Check& before) { workload_.continues(before.workload_); }
   void feed(std::string_view bytes);
   void finish();
 
-  // G-code, a picture, a page: then this is the only diagnostic.
+  // Reports whether the file is not a job but G-code, a picture or a page, for instance: this is then the only
+  // diagnostic.
   bool is_other_file() const;
   const Diagnostics& diagnostics() const { return diagnostics_; }
-  const Summary& summary() const { return summary_; }  // after finish()
+  const Summary& summary() const { return summary_; }  // call after finish()
   const std::vector<Section>& sections() const { return workload_.sections(); }
   const Leaves& leaves() const { return state_judge_.leaves(); }
   const std::optional<double>& tool_mm() const { return options_.tool_mm; }
   std::optional<double> speed_not_reached() const { return profile_judge_.speed_not_reached(); }  // mm/s
   const Machine& machine() const { return machine_; }
-  Extent extent() const;  // after finish()
+  Extent extent() const;  // call after finish()
 
  private:
   void execute(const Instruction& instruction) override;

@@ -6,7 +6,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-std::uint32_t tile_of(std::int64_t cell) { return static_cast<std::uint32_t>(cell >> 5); }  // of 32 cells
+std::uint32_t tile_of(std::int64_t cell) { return static_cast<std::uint32_t>(cell >> 5); }  // a tile has 32 cells
 
 }  // namespace
 
@@ -16,10 +16,10 @@ HeightMap::HeightMap(double diameter, double longest)
 HeightMap::Taken HeightMap::cut(const Point& from, const Point& to) {
   const Point way = to - from;
   const double plane = std::hypot(way.x, way.y) / size_;
-  // A tool that only goes down begins another pass.
+  // A tool that moves straight down begins another pass.
   if (plane == 0) path_ += kVisit;
   Taken taken;
-  // Discs that lie so far apart leave nothing between them.
+  // Discs at this distance leave no gap between them.
   const double samples = plane > longest_ ? 1 : std::max(1.0, std::ceil(plane / kRadius));
   for (double sample_number = 1; sample_number <= samples; ++sample_number) {
     path_ += plane / samples;
@@ -29,7 +29,7 @@ HeightMap::Taken HeightMap::cut(const Point& from, const Point& to) {
   return taken;
 }
 
-// A disc of cells, row by row; nearly always a row lies in one tile.
+// Lowers a disc of cells, row by row. A row nearly always lies in one tile.
 void HeightMap::sample(const Point& p, Taken& taken) {
   const auto x = static_cast<std::int64_t>(std::floor(p.x / size_));
   const auto y = static_cast<std::int64_t>(std::floor(p.y / size_));

@@ -3,7 +3,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// Of the byte order mark that some editors put before a text.
+// Reports whether the byte belongs to the byte order mark that some editors put before a text.
 bool is_mark(char c) { return c == '\xEF' || c == '\xBB' || c == '\xBF'; }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 constexpr double kHalfStep = 0.5;
 // Assumed: more than twice the diameter of the tools that these machines take for cutting.
 constexpr double kDeepPassMm = 10;
-// So many paths without an error are no accident, and so many errors behind them no slip of the pen. Assumed.
+// Assumed: ten paths without an error show that the file is a job, and three errors after them are not typing mistakes.
 constexpr std::uint64_t kSoundPaths = 10, kManyErrors = 3;
 
 bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
@@ -44,7 +44,7 @@ void Judge::moved(const Move& move) {
 void Judge::judge_stock(const Move& move) {
   const double x = profile_.steps(stock_->x) + kHalfStep, y = profile_.steps(stock_->y) + kHalfStep;
   const double bottom = -profile_.steps(stock_->z) - kHalfStep;
-  // The stock has no dents: what is below the surface lies inside, if both of its ends do.
+  // The stock is convex, so a cut below the surface lies inside if both of its ends do.
   for (const Point& p : {sunk(move.from, move.to), sunk(move.to, move.from)}) {
     if (p.x < -kHalfStep || p.y < -kHalfStep || p.x > x || p.y > y) {
       warn_once(Warning::outside_stock, move.place, "5-1", [&] {
@@ -67,8 +67,8 @@ void Judge::commanded(const Point& from, const Point& target, bool height_alone,
   if (diagnostics_.count(Severity::error) == 0) ++paths_before_errors_;
   if (!asked_.z.any || target.z < asked_.z.lowest) deepest_ = by.place;
   asked_.z.take(target.z);
-  // A cut begins where the tool is; where it was before it travels, nobody knows. Where the origin is known, what of
-  // the travel is left out is known, too.
+  // Takes the beginning of a cut, but not the beginning of a travel, which is unknown. If the origin is known, a travel
+  // is not taken at all: judge_area() sees the part of it that is left out.
   if (cuts || (!height_alone && !origin_known_)) take_plane(cuts ? from : target, target, by.place);
   if (origin_known_) judge_area(target, box, by.place);
 }
@@ -112,7 +112,7 @@ void Judge::took(double depth_mm, const Move& move) {
 bool Judge::fits(double size, double area_mm, double step_mm) const { return size * step_mm <= area_mm + step_mm / 2; }
 
 void Judge::judge_sizes() {
-  // What lies above the top is clipped (3-2 PU), and no size.
+  // Heights above the top are clipped (3-2 PU), so they do not count as a size.
   Reach depth;
   depth.take(0);
   depth.take(std::min(0.0, asked_.z.lowest));
@@ -145,7 +145,7 @@ void Judge::judge_sizes() {
   }
 }
 
-// A file of another kind has hardly anything but errors. One that has lost bytes is a job up to a line.
+// A file of another kind has hardly anything but errors. A job that has lost bytes is correct up to some line.
 void Judge::judge_errors(std::uint64_t commands) {
   const std::uint64_t errors = diagnostics_.count(Severity::error);
   if (errors < kManyErrors) return;

@@ -1,4 +1,4 @@
-// What saves a workpiece: judged on what is commanded and on what is driven.
+// Warnings that save a workpiece, based on the commanded path and on the driven path.
 #pragma once
 
 #include <optional>
@@ -16,14 +16,14 @@ namespace axisgate::rml1 {
 // Each warning is given once, at the first command that causes it.
 class Judge {
  public:
-  // Everything referred to outlives this.
+  // The referenced objects must outlive this one.
   Judge(const Profile& profile, bool origin_known, std::optional<Stock> stock, const std::vector<KnownMachine>& others,
         Diagnostics& diagnostics)
       : profile_(profile), origin_known_(origin_known), stock_(stock), others_(others), diagnostics_(diagnostics) {}
 
   void moved(const Move& move);
   void commanded(const Point& from, const Point& target, bool height_alone, const Box& box, const Instruction& by);
-  // What `move` takes in one pass, in mm.
+  // Takes the depth that `move` cuts in one pass, in mm.
   void took(double depth_mm, const Move& move);
   void finish(const Machine& machine, std::uint64_t commands);
 
@@ -44,8 +44,8 @@ class Judge {
   const std::vector<KnownMachine>& others_;
   Diagnostics& diagnostics_;
   std::set<Warning> reported_;
-  bool travel_reported_ = false;  // outside the work area
-  Bounds asked_;                  // of what was commanded; X and Y of what cuts alone, where the origin is known
+  bool travel_reported_ = false;  // a travel outside the work area was reported
+  Bounds asked_;                  // bounds of the commanded path; if the origin is known, X and Y of cuts alone
   Place widest_x_, widest_y_, deepest_;
   std::optional<Place> last_;
   std::uint64_t paths_before_errors_ = 0;

@@ -21,7 +21,7 @@ constexpr Beginning kBinary[] = {
     {"PK\x03\x04"sv, "a ZIP archive"}, {"\xFF\xFE"sv, "a text in UTF-16"}, {"\xFE\xFF"sv, "a text in UTF-16"},
 };
 
-// Behind blanks and in either case.
+// Compared with the text after blanks, in capitals.
 constexpr Beginning kText[] = {
     {"<!DOCTYPE HTML", "an HTML page"}, {"<HTML", "an HTML page"},    {"<SVG", "an SVG picture"},
     {"<?XML", "an XML file"},           {"<", "an HTML or XML file"},
@@ -45,7 +45,7 @@ std::string in_capitals(std::string_view text) {
   return capitals;
 }
 
-// Without a mark every second byte is 0, because the text is ASCII.
+// Recognises UTF-16 without a mark: every second byte is 0, because the text is ASCII.
 bool is_utf_16(std::string_view head) {
   constexpr std::size_t kPairs = 8;
   if (head.size() < 2 * kPairs) return false;
@@ -58,8 +58,8 @@ bool is_utf_16(std::string_view head) {
   return alternates(0) || alternates(1);
 }
 
-// An extended command as "%FSLAX24Y24*%", "%TF...", "%MOMM*%", or a comment that "*" ends (Gerber Layer Format
-// Specification 2022.02, 3.5).
+// Recognises an extended command such as "%FSLAX24Y24*%", "%TF..." or "%MOMM*%", or a comment that ends with "*"
+// (Gerber Layer Format Specification 2022.02, 3.5).
 bool is_gerber(std::string_view text) {
   if (text.size() > 2 && text[0] == '%' && is_letter(text[1]) && is_letter(text[2])) {
     return text.substr(0, text.find_first_of("\r\n")).find('*') != std::string_view::npos;
@@ -67,12 +67,12 @@ bool is_gerber(std::string_view text) {
   return text.starts_with("G04") && text.substr(0, text.find_first_of("\r\n")).ends_with('*');
 }
 
-// "solid NAME" and then facets.
+// Recognises "solid NAME" followed by facets.
 bool is_text_stl(std::string_view capitals) {
   return capitals.starts_with("SOLID") && capitals.find("FACET") != std::string::npos;
 }
 
-// A binary STL has a header of 80 bytes, and then numbers, as other binary files have.
+// Recognises binary files, such as an STL, which has a header of 80 bytes and then numbers.
 bool is_binary(std::string_view head) {
   return head.find('\0') != std::string_view::npos && std::ranges::any_of(head, has_eighth_bit);
 }

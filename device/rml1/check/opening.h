@@ -1,4 +1,4 @@
-// What a file is, by its first bytes, whatever pieces they come in.
+// Recognises the kind of a file by its first bytes, in pieces of any size.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ class Opening {
  public:
   enum class Verdict : std::uint8_t { nothing_yet, job, g_code, other_file };
 
-  // Holds as many of the bytes as are needed for a verdict, and returns their number.
+  // Keeps as many of the bytes as are needed for a verdict, and returns their number.
   std::size_t take(std::string_view bytes);
   void finish();  // the file ends here
 
   Verdict verdict() const { return verdict_; }
   const std::string& held() const { return held_; }
-  std::string_view what() const { return what_; }              // an other file is: "a PDF document"
-  const Place& g_code_place() const { return kind_.place(); }  // of the first word
+  std::string_view what() const { return what_; }              // kind of another file, such as "a PDF document"
+  const Place& g_code_place() const { return kind_.place(); }  // place of the first word
 
  private:
   void take(char c);

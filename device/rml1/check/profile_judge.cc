@@ -12,26 +12,28 @@
 namespace axisgate::rml1 {
 namespace {
 
-// Of fewer different coordinates a common divisor says nothing. Assumed.
+// Assumed: with fewer different coordinates a common divisor shows nothing.
 constexpr std::size_t kCoordinates = 8;
-// Below it every drawing has such a raster.
+// Smaller rasters occur in every drawing.
 constexpr std::int64_t kSmallestRaster = 4;
-// A job of fewer paths is a trial, whose depths and lifts show nothing. Assumed.
+// Assumed: a job with fewer paths is a trial, whose depths and lifts show nothing.
 constexpr std::uint64_t kPaths = 20;
-// By odds of 3 to 1 the job was written in the other unit. Assumed: it divides the jobs of tests/jobs.
+// Odds of 3 to 1 from which the job counts as written in the other unit. Assumed: this limit separates the jobs of
+// tests/jobs.
 constexpr double kCertain = 1.1;
-// How much a lift by a whole travel says: some drivers lift by the same number of steps on all machines. Assumed.
+// Assumed weight of a lift by a whole travel: some drivers lift by the same number of steps on all machines.
 constexpr double kTravelOdds = 2.5;
 
 bool same_figure(double a, double b) { return std::abs(a - b) < 1e-9; }
 
-// 1, 2 or 5 of a power of ten: what people draw on.
+// Reports whether the length is 1, 2 or 5 times a power of ten, as people choose for drawings.
 bool is_round(double mm) {
   const double mantissa = mm / std::pow(10, std::floor(std::log10(mm) + 1e-9));
   return same_figure(mantissa, 1) || same_figure(mantissa, 2) || same_figure(mantissa, 5);
 }
 
-// "MDX-50" is no part of "MDX-540", but of "MDX-40A" "MDX-40" is.
+// Returns the position of a machine's name. A name does not match if a digit follows: "MDX-5" is not found in "MDX-50",
+// but "MDX-40" is found in "MDX-40A".
 std::size_t find_name(std::string_view text, std::string_view name) {
   const auto alike = [](char a, char b) {
     return a == b || (is_letter(a) && is_letter(b) && capital(a) == capital(b));
@@ -51,7 +53,7 @@ Place place_at(std::string_view text, std::size_t at) {
 
 }  // namespace
 
-// The first suspicion counts. What somebody has said goes before all that the job shows.
+// Keeps the first suspicion. A named machine (made_for_) takes precedence over everything that the job shows.
 void ProfileJudge::suspect(std::string why, const std::vector<std::string>& names, double step_mm, const Place& place) {
   if (suspicion_ || !made_for_.empty()) return;
   suspicion_ = Suspicion{std::move(why), fmt::format("{}", fmt::join(names, " or ")), step_mm, place};
@@ -75,7 +77,8 @@ void ProfileJudge::executed(const Instruction& instruction) {
   }
 }
 
-// "When the value of the parameter is the model's capacity or higher, the model's maximum speed is used" (3-1 F).
+// Warns if a command sets a speed above the machine's: "When the value of the parameter is the model's capacity or
+// higher, the model's maximum speed is used" (3-1 F).
 void ProfileJudge::judge_speed(const Instruction& instruction, double highest, bool& reported) {
   const double speed = instruction.values[0];
   if (instruction.count == 0 || !instruction.given[0] || speed <= highest) return;
@@ -137,13 +140,13 @@ void ProfileJudge::suspect_as_said() {
   suspicion_ = Suspicion{"its sender says so", other->name, other->step_mm, {}};
 }
 
-// By odds, as natural logarithms.
+// Returns the natural logarithm of the odds.
 double ProfileJudge::odds_of(double step_mm) const {
   const bool is_travel = travel_ && same_figure(step_mm, travel_->step_mm);
   return clues_.odds(step_mm, profile_.step_mm) + (is_travel ? kTravelOdds : 0) - (own_travel_ ? kTravelOdds : 0);
 }
 
-// Depths and lifts that are usual in another unit, and are not in this one.
+// Suspects a unit in which the depths and lifts are usual, if they are not usual in this one.
 void ProfileJudge::suspect_by_clues() {
   if (named_ || (paths_ < kPaths && !travel_)) return;
   double best = kCertain, step_mm = 0;
@@ -170,7 +173,7 @@ void ProfileJudge::finish(const Extent& extent) {
   });
 }
 
-// Coordinates that all lie on whole millimetres of another unit, and on none of this one.
+// Notes coordinates that all lie on a round raster of another unit, and on none of this one.
 void ProfileJudge::judge_raster() {
   if (raster_ < kSmallestRaster || different_.size() < kCoordinates) return;
   const auto raster = static_cast<double>(raster_);

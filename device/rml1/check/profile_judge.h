@@ -1,4 +1,4 @@
-// Whether a job was made for another machine, or for another unit: a job states neither.
+// Recognises a job that was made for another machine, or in another unit: a job states neither.
 #pragma once
 
 #include <cstdint>
@@ -21,32 +21,32 @@ namespace axisgate::rml1 {
 // Each doubt is reported once. Not thread safe.
 class ProfileJudge {
  public:
-  // Everything referred to outlives this. `made_for`: the name of the machine that the job was made for, if somebody
-  // has said it; empty: the job is judged by what it shows.
+  // The referenced objects must outlive this one. `made_for`: name of the machine that the job was made for, if
+  // somebody has named one; empty: the job is judged by its content.
   ProfileJudge(const Profile& profile, const std::vector<KnownMachine>& others, std::string_view made_for,
                Diagnostics& diagnostics)
       : profile_(profile), others_(others), made_for_(made_for), diagnostics_(diagnostics) {}
 
-  // The first bytes of the file.
+  // Takes the first bytes of the file.
   void begins(std::string_view head);
   void executed(const Instruction& instruction);
-  // A lift by so many steps, or to that height above Z0.
+  // Takes a lift by `steps`, or to that height above Z0.
   void lifted(double steps, const Instruction& by);
-  // The end of a straight commanded path, in steps.
+  // Takes the end of a straight commanded path, in steps.
   void commanded(const Point& target, const Instruction& by);
-  // A path that leads below Z0, to the depth of `target`.
+  // Takes a path that leads below Z0, to the depth of `target`.
   void deepened(const Point& target, const Instruction& by);
-  // `extent` is that of the job on this machine.
+  // `extent`: extent of the job on this machine.
   void finish(const Extent& extent);
 
-  // The highest speed in mm/s that the job sets and the machine does not have.
+  // Highest speed in mm/s that the job sets and the machine cannot reach; nullopt if there is none.
   std::optional<double> speed_not_reached() const { return speed_not_reached_; }
 
  private:
-  // A Suspicion is what shows that the job was made for machines with a step of that length.
+  // A Suspicion is a sign that the job was made for machines with this step.
   struct Suspicion {
     std::string why;
-    std::string names;  // of these machines: "MDX-15 and the MDX-20"
+    std::string names;  // names of these machines: "MDX-15 and the MDX-20"
     double step_mm = 0;
     Place place;
   };
@@ -68,14 +68,14 @@ class ProfileJudge {
   bool named_ = false;                  // the file names this machine
   UnitClues clues_;
   std::uint64_t paths_ = 0;
-  bool own_travel_ = false;          // there is a lift by the whole travel of this machine
-  std::optional<Suspicion> travel_;  // likewise of machines with another step
-  std::optional<Place> deep_;        // where the first path leads below Z0
+  bool own_travel_ = false;          // the job has a lift by the whole travel of this machine
+  std::optional<Suspicion> travel_;  // the job has a lift by the whole travel of machines with another step
+  std::optional<Place> deep_;        // place of the first path that leads below Z0
   bool plane_speed_reported_ = false, height_speed_reported_ = false;
   std::optional<double> speed_not_reached_;
-  std::int64_t raster_ = 0;           // of all X and Y, in steps: their greatest common divisor
-  std::set<std::int64_t> different_;  // of these, as many as are needed
-  std::optional<Place> first_;        // where they begin
+  std::int64_t raster_ = 0;           // greatest common divisor of all X and Y, in steps
+  std::set<std::int64_t> different_;  // different X and Y, as many as are needed
+  std::optional<Place> first_;        // place of the first path with X and Y
 };
 
 }  // namespace axisgate::rml1

@@ -26,7 +26,8 @@ void StateJudge::executed(const Instruction& instruction) {
   }
 }
 
-// "There is no change before and after command execution in ... the value of Z0" (3-1 H, 3-2 IN): nothing resets it.
+// Notes that the job sets Z0, which no command resets: "There is no change before and after command execution in ...
+// the value of Z0" (3-1 H, 3-2 IN).
 void StateJudge::set_surface(const Instruction& instruction) {
   if (leaves_.surface) return;
   leaves_.surface = true;
@@ -35,7 +36,7 @@ void StateJudge::set_surface(const Instruction& instruction) {
   });
 }
 
-// DF and IN list what they reset, and the speed of the spindle is not among it (3-2).
+// Notes that the job sets the spindle speed, which is not in the lists of what DF and IN reset (3-2).
 void StateJudge::set_revolutions(const Instruction& instruction) {
   if (revolutions_reported_ || instruction.count == 0) return;
   revolutions_reported_ = true;

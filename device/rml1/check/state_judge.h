@@ -1,5 +1,5 @@
-// What a job leaves behind in the machine, and what it takes from it without setting it: the next job, or the same one
-// on another day, then does something else.
+// Settings that a job leaves in the machine, and settings that it uses without setting them: they change what the next
+// job does, or the same job on another day.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ namespace axisgate::rml1 {
 // Each is reported once. Not thread safe.
 class StateJudge {
  public:
-  // Everything referred to outlives this.
+  // The referenced objects must outlive this one.
   StateJudge(const Profile& profile, Diagnostics& diagnostics) : profile_(profile), diagnostics_(diagnostics) {}
 
   void executed(const Instruction& instruction);
@@ -32,7 +32,7 @@ class StateJudge {
   Diagnostics& diagnostics_;
   Leaves leaves_;
   bool revolutions_reported_ = false;
-  Place relative_, dwell_;  // of the last command that set it
+  Place relative_, dwell_;  // places of the last commands that set them
 };
 
 }  // namespace axisgate::rml1

@@ -1,9 +1,9 @@
-// The workpiece of a job.
+// Workpiece of a job.
 #pragma once
 
 namespace axisgate::rml1 {
 
-// In mm, from the work origin: X and Y to the right and away, Z down from Z0.
+// Size in mm from the work origin: X to the right, Y away from the operator, Z down from Z0.
 struct Stock {
   double x = 0, y = 0, z = 0;
 

@@ -7,7 +7,7 @@
 namespace axisgate::rml1 {
 namespace {
 
-// The figures of this file are assumed: they are those of the programs that write jobs, and of what people mill.
+// The figures of this file are assumptions about the programs that write jobs, and about what people mill.
 
 // Share of jobs whose deepest cut is about `mm` deep. The spread is a factor, as a natural logarithm.
 struct UsualDepth {
@@ -44,7 +44,7 @@ double depth_share(double mm, bool relief) {
   return share;
 }
 
-// People choose round figures; some choose them in steps.
+// Returns the share of jobs with this lift. People choose round figures; some choose them in steps.
 double lift_share(double mm) {
   const auto found = std::ranges::find_if(kLifts, [mm](const UsualLift& one) { return alike(one.mm, mm); });
   if (found != kLifts.end()) return kAnyLift + found->share;

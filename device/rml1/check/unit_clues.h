@@ -10,13 +10,13 @@ namespace axisgate::rml1 {
 // Not thread safe.
 class UnitClues {
  public:
-  // How deep a path leads, in steps below Z0.
+  // Takes the depth of a path, in steps below Z0.
   void deep(double steps);
-  // By how much the tool is lifted between cuts, in steps, or to which height above Z0.
+  // Takes a lift of the tool between cuts in steps, or its height above Z0.
   void lifted(double steps);
 
-  // Returns the natural logarithm of how much likelier these depths and lifts are with one step than with the other, by
-  // what boards, reliefs and signs usually have. 0 if the job shows neither.
+  // Returns the natural logarithm of the odds of the first step against the other, given these depths and lifts, and
+  // the usual ones of boards, reliefs and signs. 0 if the job has neither.
   double odds(double step_mm, double other_mm) const;
 
  private:
@@ -24,7 +24,7 @@ class UnitClues {
 
   static constexpr std::size_t kLevelsOfARelief = 20;
 
-  std::set<double> depths_;     // different ones, in steps, up to those of a relief
+  std::set<double> depths_;     // different depths in steps; at most one more than kLevelsOfARelief
   double deepest_ = 0;          // steps; 0: nothing is cut
   std::optional<double> lift_;  // the lowest one, in steps
 };

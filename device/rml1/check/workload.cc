@@ -41,7 +41,7 @@ Section& Workload::section(bool plunges, double speed, const Place& place) {
   const auto wanted = [&](const Section& one) { return one.plunges == plunges && one.speed == speed; };
   auto found = std::ranges::find_if(sections_, wanted);
   if (found == sections_.end() && sections_.size() + 1 >= kSections) {
-    // The last one holds all further speeds.
+    // The last section collects all further speeds.
     found = std::ranges::find(sections_, 0.0, &Section::speed);
     speed = 0;
     plunges = false;

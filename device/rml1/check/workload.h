@@ -1,4 +1,4 @@
-// What a job demands of the tool: at which speed it cuts, how deep in one pass, and how much it removes.
+// Load of the tool in a job: cutting speed, depth of one pass, and volume removed.
 #pragma once
 
 #include <optional>
@@ -9,28 +9,28 @@
 
 namespace axisgate::rml1 {
 
-// All that is cut with one speed, along or straight down.
+// A Section is everything that is cut with one speed, either along or straight down.
 struct Section {
   bool plunges = false;  // straight down
-  double speed = 0;      // mm/s, as set and within the machine's; 0: of further speeds
-  Place first;           // the command with which it begins
+  double speed = 0;      // mm/s, as set and limited to the machine's; 0: further speeds
+  Place first;           // place of its first command
   double cutting_mm = 0;
   double deepest_mm = 0;                // below Z0
-  double pass_mm = 0;                   // at most in one pass
-  std::optional<double> removed_mm3{};  // where the tool is known, and the map has room for the job
+  double pass_mm = 0;                   // greatest depth of one pass
+  std::optional<double> removed_mm3{};  // nullopt if the tool is unknown, or the map has no room for the job
 };
 
 // Not thread safe.
 class Workload {
  public:
-  // `tool_mm`: the diameter, above 0. Without it 2 mm are assumed, and no volume is given.
+  // `tool_mm`: diameter, above 0. If it is nullopt, 2 mm are assumed, and no volume is given.
   Workload(const Profile& profile, std::optional<double> tool_mm);
 
-  // Takes over what the other one has removed, with a tool of the same diameter. Before moved().
+  // Takes over the material removed in `before`, cut with a tool of the same diameter. Call before moved().
   void continues(Workload& before);
-  // What the move takes in one pass, in mm; 0 where it does not cut. `speed` is the one set, in mm/s.
+  // Returns the depth that the move cuts in one pass, in mm; 0 if it does not cut. `speed`: the speed set, in mm/s.
   double moved(const Move& move, double speed);
-  // In the order of their beginnings; at most kSections.
+  // Sections in the order of their beginnings; at most kSections.
   const std::vector<Section>& sections() const { return sections_; }
 
   static constexpr std::size_t kSections = 12;

@@ -1,4 +1,4 @@
-// The groups of !ZE, byte by byte (guideline 3-3).
+// Reads the groups of !ZE byte by byte (guideline 3-3).
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@ class AxesReader {
       : apart_(apart), diagnostics_(diagnostics) {}
 
   enum class Found : std::uint8_t {
-    nothing,  // yet
-    group,    // is complete: targets()
-    last,     // the same, and the command ends
+    nothing,  // no complete group yet
+    group,    // a group is complete: targets()
+    last,     // a group is complete, and the command ends
     end,      // the command ends without another group
   };
   void begin();
@@ -40,7 +40,7 @@ class AxesReader {
   const std::vector<std::string>& apart_;
   Diagnostics& diagnostics_;
   State state_ = State::letter;
-  bool group_ended_ = false;  // the next letter begins a new one
+  bool group_ended_ = false;  // the next letter begins a new group
   NumberReader number_;
   Place number_place_;
   AxisTarget target_;

@@ -1,19 +1,19 @@
-// ESC sequences are taken out of the bytes before anybody reads them as a job (guideline 4-1).
+// Removes ESC sequences from the bytes before they are read as a job (guideline 4-1).
 #pragma once
 
 #include <cstdint>
 
 namespace axisgate::rml1 {
 
-// ESC . K is a sequence; ESC . and something else is none: ESC and the point are discarded, and that byte is data. ESC
-// and something other than a point are both data.
+// ESC . K is a sequence. After ESC . any other byte is data, and ESC and the point are discarded. If another byte than
+// a point follows ESC, both are data.
 class DeviceControl {
  public:
   enum class Found : std::uint8_t {
-    data,     // the byte itself
-    held,     // nothing yet
-    escape,   // an ESC that began no sequence, and then look at the byte again
-    quit,     // ESC.K is complete: the byte belonged to it
+    data,     // the byte itself is data
+    held,     // no decision yet
+    escape,   // the ESC began no sequence and is data; the byte must be taken again
+    quit,     // the byte completes ESC.K
     unknown,  // error 11; the byte is data
   };
 
@@ -35,7 +35,7 @@ class DeviceControl {
     return c == 'K' ? Found::quit : Found::unknown;
   }
 
-  // At the end of a job: whether a sequence has begun.
+  // Reports whether a job that ends here ends within a sequence.
   bool cut_off() const { return state_ == State::point; }
 
   static constexpr char kEscape = '\x1B';

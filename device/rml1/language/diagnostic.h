@@ -1,4 +1,4 @@
-// What is reported about a job: the guideline's errors, and what saves a workpiece.
+// Diagnostics of a job: the guideline's errors, and warnings that save a workpiece.
 #pragma once
 
 #include <cstddef>
@@ -17,28 +17,28 @@ enum class Severity { note, warning, error };
 std::string_view name(Severity severity);
 
 struct Diagnostic {
-  int number = 0;  // of the guideline: 1, 2, 3, 11; 0 where it has none
+  int number = 0;  // number of the guideline: 1, 2, 3, 11; 0 if it has none
   Severity severity = Severity::error;
   Place place;
-  std::string_view section;  // of the guideline: "2-5"; lives as long as the program
+  std::string_view section;  // section of the guideline: "2-5"; lives as long as the program
   std::string text;
-  std::optional<Warning> warning{};  // its kind, of a warning
+  std::optional<Warning> warning{};  // kind of a warning
 };
 
-// The first ten of each kind in the order of their finding, and a count of all. Each place in the code that reports
-// something is a kind, so that what is kept has a limit. Not thread safe.
+// Keeps the first ten diagnostics of each kind in the order in which they were found, and counts all of them. Each
+// place in the code that reports a diagnostic is a kind, so the number kept is limited. Not thread safe.
 class Diagnostics {
  public:
   static constexpr std::uint64_t kSame = 10;
 
-  // What of a kind is not kept.
+  // Diagnostics of one kind that were not kept.
   struct Omitted {
     Diagnostic first;
     std::uint64_t count = 0;
     Place last;
   };
 
-  // `text` is called only for what is kept: a job may have millions.
+  // `text` is called only for diagnostics that are kept, because a job may have millions.
   template <class Text>
   void error(int number, const Place& place, std::string_view section, Text&& text) {
     add(number, Severity::error, {}, place, section, text);
@@ -53,7 +53,7 @@ class Diagnostics {
   }
 
   const std::vector<Diagnostic>& kept() const { return kept_; }
-  // By place in the job; at one place, what concerns the whole job comes first.
+  // Returns the diagnostics by place in the job. At the same place, diagnostics of the whole job come first.
   std::vector<Diagnostic> in_order() const;
   std::uint64_t count(Severity severity) const { return counts_[static_cast<std::size_t>(severity)]; }
   std::uint64_t omitted_count() const { return counts_[0] + counts_[1] + counts_[2] - kept_.size(); }
@@ -70,7 +70,7 @@ class Diagnostics {
 
   struct Kind {
     const void* id;
-    std::size_t first;  // in kept_
+    std::size_t first;  // index in kept_
     std::uint64_t count = 0;
     Place last;
   };

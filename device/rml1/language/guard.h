@@ -1,5 +1,6 @@
-// The guards of mill jobs, as device/core/guard.h has those of stages: what keeps a job, its abort and its outcome
-// correct on a bad line. Each is queried where it acts. Tests remove each (tests/guards/mill_guards_test.cc).
+// Guards of mill jobs, like the guards of stages in device/core/guard.h: they keep a job, its abort and its outcome
+// correct on a bad line. Each guard is queried at the place where it acts. Tests remove each guard
+// (tests/guards/mill_guards_test.cc).
 #pragma once
 
 #ifdef AXISGATE_REMOVABLE_GUARDS
@@ -9,24 +10,24 @@
 namespace axisgate::rml1 {
 
 enum class MillGuard {
-  // How much is ahead of what the mill has executed
+  // Limits on bytes sent before the mill has executed them
   window,
   window_fits_buffer,
   one_command_unsent,
   nothing_while_held,
   counted_from_arrival,
 
-  // An abort
+  // Aborts
   abort_ends_job,
   abort_is_not_held,
   abort_after_loss,
 
-  // Truth over optimism
+  // Outcomes that must not be reported too early
   fed_by_the_slowest,
   fed_when_arrived,
   converter_in_range,
 
-  // Who may start what
+  // Conditions for starting a job
   void_after_abort,
   void_after_loss,
   settled_before_next,

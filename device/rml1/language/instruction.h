@@ -1,4 +1,4 @@
-// What the parser hands on.
+// Output of the parser.
 #pragma once
 
 #include <array>
@@ -10,28 +10,28 @@
 
 namespace axisgate::rml1 {
 
-// One axis of a group of !ZE.
+// Target of one axis in a group of !ZE.
 struct AxisTarget {
   char letter = 'X';   // a capital
   double value = 0;    // coordinate, or angle
-  bool point = false;  // it was written with a decimal point
-  Place place;         // of the letter
+  bool point = false;  // written with a decimal point
+  Place place;         // place of the letter
 };
 
-// A command, or one set of it: PD with three points comes three times, PD without any once.
+// One command, or one parameter set of it: PD with three points is reported three times, PD without points once.
 struct Instruction {
   const Row* row = nullptr;
-  Place place;                        // of the command's first byte
-  bool first = true;                  // of the command's sets
-  std::uint8_t count = 0;             // of parameters
-  std::array<bool, 4> given = {};     // of the first `count`: false in error
-  std::array<double, 4> values = {};  // within their range
+  Place place;                        // place of the command's first byte
+  bool first = true;                  // first set of the command
+  std::uint8_t count = 0;             // number of parameters
+  std::array<bool, 4> given = {};     // false for a parameter in error, among the first `count`
+  std::array<double, 4> values = {};  // values within the parameters' ranges
   std::array<Place, 4> places = {};
   std::span<const AxisTarget> axes;  // !ZE: each letter once, at least one; valid during the call
-  std::uint64_t end = 0;             // bytes of the job that had to come before it could be executed
+  std::uint64_t end = 0;             // number of bytes of the job that must arrive before it can be executed
 };
 
-// Of the command, or of that set of its coordinates.
+// Returns the place where the command, or this set of its coordinates, begins.
 inline const Place& begin_of(const Instruction& instruction) {
   if (instruction.first) return instruction.place;
   return instruction.axes.empty() ? instruction.places[0] : instruction.axes.front().place;

@@ -4,19 +4,19 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr Parameter kCoordinate{};
-// W, !DW: "0 to 32,767 msec", else error 3.
+// W, !DW: "0 to 32,767 msec"; other values are error 3.
 constexpr Parameter kMilliseconds{true, 0, kIntHighest, true, true};
 // F, VS: "No error is generated"; "float for noninteger values".
 constexpr Parameter kPlaneSpeed{false, kIntLowest, kIntHighest, false, false};
 // V, !VZ: "An out-of-range parameter results in error 3".
 constexpr Parameter kHeightSpeed{false, kIntLowest, kIntHighest, true, true};
-// @, !PZ: "Error3 results if Z1 is higher than zero or if Z2 is less than zero". The machine knows its Z range.
+// @, !PZ: "Error3 results if Z1 is higher than zero or if Z2 is less than zero". Machine checks its Z range.
 constexpr Parameter kZ1{true, kLongLowest, 0, true, true};
 constexpr Parameter kZ2{true, 0, kLongHighest, true, false};
 constexpr Parameter kSwitch{true, kIntLowest, kIntHighest, false, false};
 // !RC: "A negative parameter results in error 3. Parameters exceeding 8388607 also".
 constexpr Parameter kRevolutions{true, 0, kLongHighest, true, true};
-// !ZM, !ZO: "when a float value is input the decimal-fraction portion is ignored". The machine knows its Z range.
+// !ZM, !ZO: "when a float value is input the decimal-fraction portion is ignored". Machine checks its Z range.
 constexpr Parameter kMachineHeight{true, kLongLowest, kLongHighest, true, true};
 
 constexpr Row plot(std::string_view name, Coordinates coordinates, Tool tool) {

@@ -1,4 +1,5 @@
-// Every instruction of RML-1 is one row: what it takes, and what it binds (guideline 1-2, 3, 5-3).
+// Table of all instructions of RML-1: each row has the parameters and the effects of one instruction (guideline 1-2, 3,
+// 5-3).
 #pragma once
 
 #include <array>
@@ -28,29 +29,30 @@ enum class Operation : std::uint8_t {
   pause,         // !NR
   height,        // !ZM
   surface,       // !ZO
-  call,          // ^: the parser's own
-  ignored,       // beyond the guideline, and without effect
+  // : handled by the parser.
+  call,
+  ignored,  // beyond the guideline, and without effect
 };
 
-// What a command leaves in effect (guideline 5-3).
+// Mode that a command leaves in effect (guideline 5-3).
 enum class Coordinates : std::uint8_t { kept, absolute, relative };
 enum class Tool : std::uint8_t { kept, raised, lowered };
 
 enum class Takes : std::uint8_t {
   nothing,
-  up_to,  // `count` numbers, or fewer
-  sets,   // of `count` numbers, as many as one likes
+  up_to,  // at most `count` numbers
+  sets,   // any number of sets of `count` numbers
   axes,   // letters with numbers (3-3 !ZE)
 };
 
-// The types int and long, and that of float, of guideline 2-3.
+// Ranges of the types int and long, and of float (guideline 2-3).
 inline constexpr double kIntLowest = -32768, kIntHighest = 32767;
 inline constexpr double kLongLowest = -8388608, kLongHighest = 8388607;
 
 struct Parameter {
-  bool whole = false;  // what a fraction adds is ignored
+  bool whole = false;  // a fraction is ignored
   double lowest = kLongLowest, highest = kLongHighest;
-  // Beyond lowest or highest is error 3; the nearest of them where it is not stated (2-3, 2-5).
+  // True: a value beyond this limit is error 3. False: the limit itself is used instead (2-3, 2-5).
   bool lowest_stated = false, highest_stated = false;
 };
 
@@ -62,12 +64,13 @@ struct Row {
   std::uint8_t count = 0;
   Coordinates coordinates = Coordinates::kept;
   Tool tool = Tool::kept;
-  std::array<Parameter, 4> parameters = {};  // of a set, or of the command
+  std::array<Parameter, 4> parameters = {};  // parameters of a set, or of the command
   bool beyond_guideline = false;
 };
 
 std::span<const Row> guideline_rows();
-// Beyond the guideline, and taken by some machines: "J" (tool change), "!" (0 or 1: the spindle, an old form).
+// Returns the row of an instruction beyond the guideline that some machines take: "J" (tool change), "!" (0 or 1: the
+// spindle, an old form).
 const Row& tolerated_row(std::string_view name);
 
 // Finds rows by their letters, in either case.
@@ -89,7 +92,7 @@ class InstructionTable {
   }
 
   std::vector<Row> rows_;
-  // One more than the index of the row; 0 is none.
+  // Index of the row plus one; 0: none.
   std::array<std::uint8_t, 256> letters_{};
   std::array<std::uint8_t, 26 * 26> pairs_{}, common_{};
   std::array<bool, 26> begins_pair_{};

@@ -1,4 +1,4 @@
-// One parameter, byte by byte (guideline 2-3, 2-5).
+// Reads one parameter byte by byte (guideline 2-3, 2-5).
 #pragma once
 
 #include <cstdint>
@@ -7,12 +7,12 @@
 
 namespace axisgate::rml1 {
 
-// A sign or none, digits, a point or none, digits. What a number cannot take ends it.
+// A number is an optional sign, digits, an optional point, and digits. Any other byte ends it.
 class NumberReader {
  public:
   // `c` begins a number.
   void begin(char c);
-  // False: the number has ended before `c`.
+  // Returns false if the number has ended before `c`.
   bool take(char c) {
     if (is_digit(c)) {
       digit(c);
@@ -39,10 +39,11 @@ class NumberReader {
     }
   }
 
-  // Below it one more digit fits. What does not is far below anything that a step could show.
+  // Limit below which the mantissa takes one more digit. Digits that do not fit are far below anything that a step
+  // could show.
   static constexpr std::uint64_t kFull = 100'000'000'000'000'000;
   static constexpr int kDecimals = 18;
-  // Digits without end: far beyond any range, but not beyond a double.
+  // Limit for further digits before the point: far beyond any range, but not beyond a double.
   static constexpr int kTens = 200;
 
   std::uint64_t mantissa_ = 0;

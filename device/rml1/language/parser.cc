@@ -13,7 +13,7 @@ namespace {
 
 bool is_of_a_number(char c) { return begins_number(c) || c == ','; }
 
-// More of a run of digits than a message shows.
+// Number of bytes kept of a run of digits; more than a message shows.
 constexpr std::size_t kStrayKept = 32;
 
 std::vector<Row> rows_of(const Dialect& dialect, std::span<const Row> more) {
@@ -77,7 +77,7 @@ void Parser::control(char c) {
   }
 }
 
-// A byte that was held back: it stands in the same line.
+// Takes a byte that was kept back. It is in the same line.
 void Parser::take_at(const Place& place, char c) {
   const auto here = offset_;
   offset_ = place.offset;
@@ -90,7 +90,7 @@ void Parser::take(char c) {
   }
 }
 
-// False: `c` has changed what is looked for, and must be looked at again.
+// Takes a byte. Returns false if the state has changed and the byte must be taken again.
 bool Parser::step(char c) {
   switch (state_) {
     case State::search:
@@ -165,7 +165,7 @@ bool Parser::second_letter(char c) {
     return false;
   }
   unknown(c);
-  // "it is necessary to get one more letter" (2-5).
+  // Consumes a letter: "it is necessary to get one more letter" (2-5).
   return is_letter(c);
 }
 
@@ -285,7 +285,7 @@ bool Parser::in_number(char c) {
   return true;
 }
 
-// Blanks between two numbers are as good as a comma ("PA 100 . 0, 100; = PA100,0;0,100;", 2-5).
+// Blanks between two numbers count as a comma ("PA 100 . 0, 100; = PA100,0;0,100;", 2-5).
 bool Parser::after_number(char c) {
   if (is_blank(c)) return true;
   if (c == ',') {
@@ -357,7 +357,7 @@ void Parser::end_list() {
   });
 }
 
-// Plays it as if a terminator came. Axisgate sends one after each job; other programs may not.
+// Ends the last command as if a terminator came. Axisgate sends a terminator after each job; other programs may not.
 void Parser::end_last_command() {
   const bool in_list = state_ == State::begin_list || state_ == State::number || state_ == State::after_number ||
                        state_ == State::after_comma;

@@ -1,4 +1,4 @@
-// Reads a job: instructions and diagnostics, the same for any split of its bytes, in bounded memory.
+// Reads a job in bounded memory. Its instructions and diagnostics are the same for any split of the bytes.
 #pragma once
 
 #include <cstddef>
@@ -19,40 +19,40 @@ namespace axisgate::rml1 {
 
 class ParserListener : public InstructionListener {
  public:
-  // ESC.K: what is being executed ends, and what is buffered is discarded (guideline 4-2).
+  // Reports ESC.K, which ends the command in execution and discards the buffer (guideline 4-2).
   virtual void quit() = 0;
 };
 
 // Not thread safe. The listener is called while bytes are fed.
 class Parser {
  public:
-  // `more`: rows beside the guideline's, for tests of the parameters' reading.
+  // `more`: rows in addition to the guideline's, for tests of the reading of parameters.
   Parser(const Dialect& dialect, Diagnostics& diagnostics, ParserListener& listener, std::span<const Row> more = {});
 
   void feed(std::string_view bytes);
-  void skip(std::size_t bytes);  // of the first line, which have been judged otherwise
+  void skip(std::size_t bytes);  // bytes of the first line that were judged elsewhere
   void finish();                 // the job ends here
 
-  std::uint64_t commands() const { return commands_; }  // that exist, executed or in error
-  // After finish(): bytes of the job up to what it leaves open without executing it, which is the last group of a !ZE
-  // without a terminator; all bytes elsewhere. The next bytes on the line would have that group executed.
+  std::uint64_t commands() const { return commands_; }  // number of known commands, executed or in error
+  // After finish(): number of bytes up to the part that is left open and not executed, which is the last group of a !ZE
+  // without a terminator; otherwise all bytes. The next bytes on the line would execute that group.
   std::uint64_t executed_size() const { return executed_size_; }
 
  private:
   enum class State : std::uint8_t {
-    search,         // for a command
-    stray,          // in a run of digits that belong to none: stray_
-    second_letter,  // of a mode 2 command
-    common_first,   // behind "!"
+    search,         // searches for a command
+    stray,          // in a run of digits that belong to no command: stray_
+    second_letter,  // second letter of a mode 2 command
+    common_first,   // first letter after "!"
     common_second,
     begin_list,  // no parameter yet
     number,
-    after_number,  // behind blanks
+    after_number,  // blanks after a number
     after_comma,
     axes,  // !ZE
   };
 
-  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // of the next byte
+  Place place() const { return {offset_, line_, offset_ - line_start_ + 1}; }  // place of the next byte
   void control(char c);
   void take(char c);
   void take_at(const Place& place, char c);
@@ -75,7 +75,7 @@ class Parser {
   bool list_full() const { return row_->takes == Takes::up_to && instruction_.count == row_->count; }
   void end_list();
   void emit();
-  void unknown(char second = 0);  // the name that began with first_
+  void unknown(char second = 0);  // `second`: second letter of the name that began with first_
   void end_last_command();
   // A group ends with the letter that begins the next one.
   std::uint64_t begin_of_open_group() const { return emitted_ ? instruction_.end - 1 : begin_; }
@@ -91,18 +91,18 @@ class Parser {
   std::uint64_t offset_ = 0, line_ = 1, line_start_ = 0;
   std::uint64_t commands_ = 0;
   State state_ = State::search;
-  bool called_ = false;  // by ^: a mode 2 name must follow
+  bool called_ = false;  // called by ^: a mode 2 name must follow
   Place call_place_;
-  std::uint64_t begin_ = 0;  // of the command, with the ^ that calls it
+  std::uint64_t begin_ = 0;  // first byte of the command, including the ^ that calls it
   std::uint64_t executed_size_ = 0;
-  char first_ = 0;    // letter of a name
-  Place name_place_;  // of the name's first byte
+  char first_ = 0;    // first letter of a name
+  Place name_place_;  // place of the name's first byte
   std::string stray_;
   Place number_place_, escape_place_;
   NumberReader number_;
   const Row* row_ = nullptr;
   Instruction instruction_;
-  bool emitted_ = false;  // a set of this command
+  bool emitted_ = false;  // a set of this command was emitted
 };
 
 }  // namespace axisgate::rml1

@@ -1,4 +1,4 @@
-// Where something stands in a job.
+// Place in a job.
 #pragma once
 
 #include <cstdint>
@@ -13,12 +13,12 @@ struct Place {
   friend bool operator==(const Place&, const Place&) = default;
 };
 
-// Where the byte behind `c` stands, which stands at `place`.
+// Returns the place after `c`, which is at `place`.
 inline Place behind(const Place& place, char c) {
   return c == '\n' ? Place{place.offset + 1, place.line + 1, 1} : Place{place.offset + 1, place.line, place.column + 1};
 }
 
-// Where something ends that is not known better.
+// Range within which an end lies that is not known exactly.
 struct PlaceRange {
   Place least, most;
 

@@ -1,4 +1,4 @@
-// Bytes of a job as a message shows them.
+// Bytes of a job in the form that messages show.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 
 namespace axisgate::rml1 {
 
-// In quotation marks; what is no printable ASCII as \xNN; at most 24 bytes, then "...".
+// Returns the bytes in quotation marks, with \xNN for bytes that are not printable ASCII; at most 24 bytes, then "...".
 std::string in_quotes(std::string_view bytes);
 
 }  // namespace axisgate::rml1

@@ -1,4 +1,4 @@
-// The kinds of warnings that a check gives. Each has a name, by which people accept it, and says what to do about it.
+// Kinds of warnings that a check gives. Each has a name, by which people accept it, and a remedy.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ std::string_view name(Warning warning);
 std::string_view remedy(Warning warning);
 // Returns nullopt if no warning has that name.
 std::optional<Warning> warning_named(std::string_view name);
-// "beyond-guideline, below-reach, ..."
+// Returns "beyond-guideline, below-reach, ...".
 std::string all_warning_names();
 
 }  // namespace axisgate::rml1

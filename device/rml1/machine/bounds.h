@@ -1,4 +1,4 @@
-// How far something reaches.
+// Range of a value, empty until a value is taken.
 #pragma once
 
 #include <algorithm>

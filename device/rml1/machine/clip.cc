@@ -7,8 +7,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-// The part of a straight path on which X and Y are inside: from `enter` to `leave` of its length; none if enter >
-// leave.
+// Part of a straight path on which X and Y are inside: from `enter` to `leave`, as fractions of its length; empty if
+// enter > leave.
 struct Span {
   double enter = 0, leave = 1;
   bool any() const { return enter <= leave; }
@@ -32,7 +32,8 @@ Span inside(const Box& box, const Point& from, const Point& to) {
   return span;
 }
 
-// Where the path left and where it comes back are computed from different ends: what lies so close is one place.
+// Longest distance of two places that count as the same. The place where the path leaves and the place where it returns
+// are computed from different ends.
 constexpr double kSamePlace = 1e-6;  // steps
 
 bool same_plane(const Point& a, const Point& b) {
@@ -64,7 +65,7 @@ void find_left_out(const Box& box, const Point& from, const Point& to, const Pie
 void Clipper::move_to(const Point& target, const Driven& driven) {
   const Point from = commanded_;
   commanded_ = target;
-  // Nearly always.
+  // The usual case.
   if (!outside_ && box_.over(target)) return follow(from, target, driven);
   const Span span = inside(box_, from, target);
   if (!span.any()) return;
@@ -73,7 +74,8 @@ void Clipper::move_to(const Point& target, const Driven& driven) {
   outside_ = !box_.over(target);
 }
 
-// The commanded place is inside all the way: the tool is there, but for its height, which bottom and top hold.
+// Follows a commanded path whose X and Y are inside all along. The tool is at the commanded place, except that bottom
+// and top limit its height.
 void Clipper::follow(const Point& from, const Point& to, const Driven& driven) {
   const double way = to.z - from.z;
   std::array<double, 2> crossings = {1, 1};
@@ -89,8 +91,8 @@ void Clipper::follow(const Point& from, const Point& to, const Driven& driven) {
   }
 }
 
-// "Raise all the way up once, move only the X and Y axes, then lower only the Z axis" (C); where X and Y are the same,
-// "move only the Z axis" (B 1).
+// Returns to the commanded path. "Raise all the way up once, move only the X and Y axes, then lower only the Z axis"
+// (C); if X and Y are the same, "move only the Z axis" (B 1).
 void Clipper::come_back(const Point& place, const Driven& driven) {
   Point inner = box_.held(place);
   if (same_plane(inner, tool_)) {

@@ -1,4 +1,4 @@
-// The work area, and what of a commanded path the tool really drives (guideline 5-1).
+// Work area, and the part of a commanded path that the tool really drives (guideline 5-1).
 #pragma once
 
 #include <functional>
@@ -7,34 +7,34 @@
 
 namespace axisgate::rml1 {
 
-// In workpiece coordinates. The tool never leaves it.
+// A Box is the work area in workpiece coordinates. The tool never leaves it.
 struct Box {
   Point lowest, highest;
 
-  bool over(const Point& p) const {  // the rectangle of X and Y
+  bool over(const Point& p) const {  // inside in X and Y
     return p.x >= lowest.x && p.x <= highest.x && p.y >= lowest.y && p.y <= highest.y;
   }
-  Point held(const Point& p) const;  // the nearest place inside
+  Point held(const Point& p) const;  // nearest place inside
 };
 
-// How a piece of the real path came about: at whose speed it is driven.
+// Origin of a piece of the real path; decides which speed applies.
 enum class Piece {
-  commanded,  // as it was commanded
-  raise,      // on the way back to where the commanded path comes in
+  commanded,  // part of the commanded path
+  raise,      // while returning to the place where the commanded path comes in
   across,
   descent,
 };
 
 using Piecewise = std::function<void(const Point& from, const Point& to)>;
-// The pieces of a straight commanded path that lie beyond the sides of the box or below it: the tool does not drive
-// them as commanded. Beyond the top nothing is lost.
+// Reports the pieces of a straight commanded path that lie beyond the sides of the box or below it; the tool does not
+// drive them as commanded. Pieces above the top are not lost.
 void find_left_out(const Box& box, const Point& from, const Point& to, const Piecewise& left_out);
 
 class Clipper {
  public:
   using Driven = std::function<void(Piece, const Point& from, const Point& to)>;
 
-  // It begins inside: at the nearest place to `begin`.
+  // The tool begins inside, at the place nearest to `begin`.
   Clipper(const Box& box, const Point& begin) : box_(box), commanded_(box.held(begin)), tool_(commanded_) {}
 
   const Box& box() const { return box_; }
@@ -42,11 +42,12 @@ class Clipper {
   const Point& tool() const { return tool_; }
   bool outside() const { return outside_; }
 
-  // A straight commanded path to there.
+  // Drives a straight commanded path to `target`.
   void move_to(const Point& target, const Driven& driven);
-  // Whatever was commanded: straight to a place inside, which is then the commanded one.
+  // Drives straight to the place nearest to `target` inside, regardless of the path commanded before; this place then
+  // is the commanded one.
   void drive_to(const Point& target, const Driven& driven);
-  // Another Z0: the same machine place has other coordinates.
+  // Sets another Z0, which gives the same machine place other coordinates.
   void shift(double z, const Box& box);
 
  private:

@@ -1,4 +1,4 @@
-// How far a job reaches, for people.
+// Extent of a job, for people.
 #pragma once
 
 #include <string>
@@ -7,20 +7,20 @@
 
 namespace axisgate::rml1 {
 
-// In mm from the work origin and from Z0, upward.
+// Bounds in mm from the work origin and from Z0; Z grows upward.
 struct Extent {
   Bounds driven, cut;
 
   // Adds another part of the job.
   void take(const Extent& other);
-  // Depth of the deepest cut; 0: nothing is cut.
+  // Depth of the deepest cut; 0 if nothing is cut.
   double deepest() const { return cut.z.any ? -cut.z.lowest : 0; }
 };
 
-// The same job where a step is `factor` times as long.
+// Returns the extent of the same job with steps that are `factor` times as long.
 Extent scaled(const Extent& extent, double factor);
 
-// "38.0 x 30.0 mm, 1.70 mm deep", or "cuts nothing".
+// Returns "38.0 x 30.0 mm, 1.70 mm deep", or "cuts nothing".
 std::string size_text(const Extent& extent);
 
 }  // namespace axisgate::rml1

@@ -8,7 +8,7 @@ namespace axisgate::rml1 {
 struct KnownMachine {
   std::string name;
   double step_mm = 0, z_mm = 0;
-  double fastest = 0;  // mm/s, of F VS V !VZ; 0 where it is not known
+  double fastest = 0;  // mm/s, highest speed of F VS V !VZ; 0 if unknown
 };
 
 }  // namespace axisgate::rml1

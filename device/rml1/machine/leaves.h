@@ -1,14 +1,14 @@
-// What a job sets in a machine that DF and IN do not give back, and no later command can: its value before is not
-// known.
+// Leaves are settings that a job leaves in the machine. DF and IN do not reset them, and no later command can restore
+// them, because their previous values are unknown.
 #pragma once
 
 namespace axisgate::rml1 {
 
 struct Leaves {
   bool surface = false;      // Z0 (guideline 3-3 !ZO)
-  bool revolutions = false;  // the spindle speed, where the machine has one to set (3-3 !RC)
-  bool rotation = false;     // where the axis of rotation is (3-3 !ZE)
-  bool tool = false;         // which tool is in, where a mill takes J as its change (beyond the guideline)
+  bool revolutions = false;  // the spindle speed, if the machine has more than one (3-3 !RC)
+  bool rotation = false;     // the position of the axis of rotation (3-3 !ZE)
+  bool tool = false;         // the tool, if the mill takes J as a tool change (beyond the guideline)
 
   Leaves& operator|=(const Leaves& other) {
     surface |= other.surface;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kFar = std::numeric_limits<double>::infinity();  // no edge
 
-// What a decimal number in mm leaves beside a whole number of steps is not meant.
+// Rounds to a whole number of steps if only the conversion from decimal mm caused the difference.
 double snapped(double steps) {
   const double whole = std::round(steps);
   return std::abs(steps - whole) < 1e-6 ? whole : steps;
@@ -54,7 +54,7 @@ Machine::Machine(const Profile& profile, std::optional<Origin> origin, Diagnosti
   set_defaults();
 }
 
-// Where nothing is known of X and Y they have no edge; where nothing is known of Z0 it may lie anywhere on the travel.
+// Returns the work area. If the origin is unknown, X and Y have no edge, and Z0 may lie anywhere on the travel.
 Box Machine::area() const {
   const double top = above_surface(profile_.top);
   Box box{{-kFar, -kFar, top - z0_unsure_ - travel_}, {kFar, kFar, top}};
@@ -120,8 +120,9 @@ void Machine::perform(const Instruction& instruction) {
   }
 }
 
-// D I M R PA PR PU PD. "PA command without parameters effects a change to the absolute-coordinate mode" (3-2), and
-// moves nothing; with parameters PA and PR go to the height of the last command that took the tool up or down (5-3).
+// Executes D I M R PA PR PU PD. "PA command without parameters effects a change to the absolute-coordinate mode" (3-2),
+// and moves nothing. With parameters, PA and PR go to the height of the last command that took the tool up or down
+// (5-3).
 void Machine::plot(const Instruction& instruction) {
   const bool keeps = instruction.row->tool == Tool::kept;
   if (keeps && instruction.count == 0) return;
@@ -134,7 +135,7 @@ void Machine::plot(const Instruction& instruction) {
   move_to(there, lowered ? cutting_speed_ : profile_.speed.travel, instruction);
 }
 
-// Dwell: "just before the PD tool-down operation or just before moving the XY plane", and "just before changing from
+// Dwells "just before the PD tool-down operation or just before moving the XY plane", and "just before changing from
 // tool-down to tool-up with PU" (3-1 W).
 void Machine::take_tool(bool lowered, const Instruction& instruction) {
   if (lowered || lowered_) dwell(instruction);
@@ -154,7 +155,7 @@ void Machine::feed(const Instruction& instruction) {
   move_to(there, z_speed_, instruction);
 }
 
-// !ZE. "Axes for which nothing is specified keep their present location."
+// Executes !ZE. "Axes for which nothing is specified keep their present location."
 void Machine::extension(const Instruction& instruction) {
   const AxisTarget* rotation = nullptr;
   Point there = clipper_.commanded();
@@ -192,8 +193,9 @@ void Machine::turn(const AxisTarget& axis, const Instruction& instruction) {
   listener_.waited(Wait::turn, way / profile_.rotary->degrees_per_s, instruction.end);
 }
 
-// "This moves the tool to the uppermost position, then moves to the workpiece-coordinate origin point on the XY plane.
-// It then stops the spindle motor." Where the origin is outside, to the nearest place (3-1 H).
+// Executes H: "This moves the tool to the uppermost position, then moves to the workpiece-coordinate origin point on
+// the XY plane. It then stops the spindle motor." If the origin is outside, the tool goes to the nearest place inside
+// (3-1 H).
 void Machine::home(const Instruction& instruction) {
   const double top = box().highest.z;
   if (top > 0 && z2() <= 0) {
@@ -208,9 +210,10 @@ void Machine::home(const Instruction& instruction) {
   turning_ = false;
 }
 
-// As DF, the tool to its upper height, the spindle stops, and the present place is the commanded one (3-2 IN).
+// Executes IN: does the same as DF, moves the tool to its upper height, stops the spindle, and makes the present place
+// the commanded one (3-2 IN).
 void Machine::initialize(const Instruction& instruction) {
-  // DF initializes !PZ to a value that "varies according to the model": it may be the one that was set.
+  // DF initializes !PZ to a value that "varies according to the model": the value may be the one that was set.
   const bool set_to_surface = z2() <= 0;
   set_defaults();
   if (box().highest.z > 0 && (z2() <= 0 || set_to_surface)) {
@@ -238,7 +241,8 @@ void Machine::default_heights() {
   z2_ = profile_.default_z2;
 }
 
-// "If an error occurs with either Z1 or Z2, the setting is made for the one for which no error resulted" (3-3 !PZ).
+// Sets each valid height: "If an error occurs with either Z1 or Z2, the setting is made for the one for which no error
+// resulted" (3-3 !PZ).
 void Machine::set_heights(const Instruction& instruction) {
   if (instruction.count == 0) return default_heights();
   if (instruction.given[0] && instruction.values[0] < box().lowest.z) {
@@ -255,8 +259,8 @@ void Machine::set_heights(const Instruction& instruction) {
   listener_.lifted(*z2_, instruction);
 }
 
-// "When parameter n is other than 0 or when the parameter is omitted, the spindle motor is set to a rotatable state"
-// (3-3 !MC).
+// Executes !MC: "When parameter n is other than 0 or when the parameter is omitted, the spindle motor is set to a
+// rotatable state" (3-3 !MC).
 void Machine::set_spindle(const Instruction& instruction) {
   permitted_ = instruction.count == 0 || instruction.values[0] != 0;
   if (!permitted_) turning_ = false;
@@ -264,7 +268,7 @@ void Machine::set_spindle(const Instruction& instruction) {
 
 bool Machine::reachable(double height, const Instruction& instruction) {
   const double below_top = profile_.up * (profile_.top - height);
-  // A relative height counts from a Z0 that may lie higher than it is taken to lie.
+  // A relative height counts from a Z0 that may lie higher than assumed.
   const double lowest = travel_ + (relative_ ? z0_unsure_ : 0);
   if (below_top >= 0 && below_top <= lowest) return true;
   const double bottom = profile_.top - profile_.up * travel_;
@@ -276,7 +280,7 @@ bool Machine::reachable(double height, const Instruction& instruction) {
   return false;
 }
 
-// !ZM. "Coordinate values are specified as machine coordinates. The X and Y axes do not operate" (3-3).
+// Executes !ZM: "Coordinate values are specified as machine coordinates. The X and Y axes do not operate" (3-3).
 void Machine::set_height(const Instruction& instruction) {
   if (instruction.count == 0) return;
   const double height = target(instruction.values[0], height_of(commanded_.z));
@@ -296,7 +300,7 @@ void Machine::set_surface(const Instruction& instruction) {
   clipper_.shift(-shift, area());
 }
 
-// What was unsure before a relative height is unsure behind it, but for what would lie outside of the travel.
+// Sets Z0. A relative height keeps the uncertainty of Z0, except for the part outside of the travel.
 void Machine::take_surface(double height, bool keeps_unsure) {
   const double below_top = profile_.up * (profile_.top - height);
   const double lowest = std::min(below_top, travel_);
@@ -310,13 +314,14 @@ void Machine::pause(const Instruction& instruction) {
                     [] { return "!NR pauses the machine until somebody lets it go on at its panel"; });
 }
 
-// "ends operation of the command now being executed" (4-2): what is commanded is where the tool stands.
+// Executes ESC.K, which "ends operation of the command now being executed" (4-2): the tool's present place becomes the
+// commanded one.
 void Machine::quit() {
   clipper_.drive_to(tool(), [](Piece, const Point&, const Point&) {});
   commanded_ = tool();
 }
 
-// Sets where an axis is commanded to, and returns the step that this means.
+// Sets the commanded coordinate of an axis, and returns it rounded to a step.
 double Machine::aim(double& commanded, double value) const {
   commanded = target(value, commanded);
   return std::round(commanded);
@@ -340,7 +345,7 @@ void Machine::dwell(const Instruction& instruction) {
   if (dwell_s_ > 0) listener_.waited(Wait::dwell, dwell_s_, instruction.end);
 }
 
-// "At the time of a command that involves movement" (5-2), whether there is a way to go or not.
+// Starts the spindle "at the time of a command that involves movement" (5-2), even if the command moves by no distance.
 void Machine::start_spindle(const Instruction& instruction) {
   if (!permitted_ || turning_) return;
   turning_ = true;
@@ -358,7 +363,7 @@ void Machine::drive(Piece piece, const Point& from, const Point& to, double spee
                    by.end, by.row->operation, by.place, begin_of(by)});
 }
 
-// No axis goes faster than it can.
+// Limits a speed to what each axis can reach.
 double Machine::possible(double speed, const Point& way) const {
   const double all = length(way), plane = std::sqrt(way.x * way.x + way.y * way.y), height = std::abs(way.z);
   const double fastest = std::max(profile_.speed.travel, profile_.speed.cutting_maximum);

@@ -1,5 +1,5 @@
-// A mill that plays a job in virtual time, without any clock: what an instruction binds, and what it moves (guideline
-// 3, 5-2, 5-3).
+// A Machine is a mill that plays a job in virtual time, without any clock: the modes that an instruction sets, and the
+// moves that it causes (guideline 3, 5-2, 5-3).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 
 namespace axisgate::rml1 {
 
-// Where the workpiece lies, in mm: X and Y from the machine's home corner, Z as the distance of Z0 below the top.
+// Position of the workpiece in mm: X and Y from the machine's home corner, Z as the distance of Z0 below the top.
 struct Origin {
   double x = 0, y = 0, z = 0;
 };
@@ -21,26 +21,26 @@ struct Origin {
 // A straight piece of the real path.
 struct Move {
   Point from, to;                         // steps, in workpiece coordinates; never the same
-  double speed = 0;                       // mm/s, as commanded and within the axes' highest
-  bool lowered = false;                   // by a command that keeps the tool lowered
-  bool turning = false;                   // whether the spindle turns
-  std::uint64_t end = 0;                  // bytes of the job that had to come before
-  Operation operation = Operation::plot;  // of the command
-  Place place;                            // where that begins
-  Place begin;                            // the same, or where the set of its coordinates begins
+  double speed = 0;                       // mm/s, as commanded, limited to the highest speeds of the axes
+  bool lowered = false;                   // moved by a command that keeps the tool lowered
+  bool turning = false;                   // the spindle turns
+  std::uint64_t end = 0;                  // number of bytes of the job that must arrive before the move
+  Operation operation = Operation::plot;  // operation of the command
+  Place place;                            // place of the command's first byte
+  Place begin;                            // place of the first byte of the command, or of this set of its coordinates
 
   bool below_surface() const { return from.z < 0 || to.z < 0; }
   bool lifts() const { return from.x == to.x && from.y == to.y && to.z > from.z; }
-  // Along the surface too, where the tool is lowered.
+  // Includes moves along the surface with the tool lowered.
   bool cuts() const { return below_surface() || (lowered && from.z == 0 && to.z == 0); }
-  double cutting_part() const;  // of its length, 0 to 1
+  double cutting_part() const;  // fraction of the length that cuts, 0 to 1
 };
 
 class MoveListener {
  public:
   virtual ~MoveListener() = default;
   virtual void moved(const Move& move) = 0;
-  // A straight commanded piece that clipping leaves out. Steps, in workpiece coordinates.
+  // Reports a straight commanded piece that clipping leaves out. Steps, in workpiece coordinates.
   virtual void left_out(const Point& /*from*/, const Point& /*to*/) {}
 };
 
@@ -48,11 +48,12 @@ enum class Wait : std::uint8_t { spin_up, dwell, turn };  // turn: of an axis of
 
 class MachineListener : public MoveListener {
  public:
-  // `end`: bytes of the job that had to come before.
+  // `end`: number of bytes of the job that must arrive before.
   virtual void waited(Wait what, double seconds, std::uint64_t end) = 0;
-  // A straight path was commanded, whatever clipping makes of it; or only a height. Steps, in workpiece coordinates.
+  // Reports a commanded straight path, before clipping; with `height_alone` it is only a height. Steps, in workpiece
+  // coordinates.
   virtual void commanded(const Point& from, const Point& target, bool height_alone, const Instruction& by) = 0;
-  // The tool was lifted by so many steps, or to that height above Z0, by a command.
+  // Reports that a command lifted the tool by `steps`, or to that height above Z0.
   virtual void lifted(double steps, const Instruction& by) = 0;
 };
 
@@ -71,7 +72,7 @@ class Machine : public ParserListener {
   bool spindle_turns() const { return turning_; }
   bool spindle_permitted() const { return permitted_; }
   double z1() const { return z1_; }
-  // The first command that lowers the tool to a Z1 that the job has not set.
+  // Place of the first command that lowers the tool to a Z1 that the job has not set; nullopt if there is none.
   const std::optional<Place>& lowered_by_default() const { return lowered_by_default_; }
   double z2() const { return z2_.value_or(box().highest.z); }
   double cutting_speed() const { return cutting_speed_; }  // mm/s
@@ -109,23 +110,23 @@ class Machine : public ParserListener {
   void drive(Piece piece, const Point& from, const Point& to, double speed, const Instruction& by);
   double possible(double speed, const Point& way) const;
   double height_of(double z) const { return z0_ + profile_.up * z; }                  // machine coordinate
-  double above_surface(double height) const { return profile_.up * (height - z0_); }  // of a machine coordinate
+  double above_surface(double height) const { return profile_.up * (height - z0_); }  // `height`: machine coordinate
 
   const Profile& profile_;
   const std::optional<Origin> origin_;
   Diagnostics& diagnostics_;
   MachineListener& listener_;
 
-  const double travel_;   // of Z, in steps
+  const double travel_;   // travel of Z, in steps
   double z0_ = 0;         // machine coordinate, in steps, of the lowest place where Z0 may lie
-  double z0_unsure_ = 0;  // by how many steps Z0 may lie higher
+  double z0_unsure_ = 0;  // number of steps by which Z0 may lie higher
   Clipper clipper_;
-  Point commanded_;  // not rounded: the sums of PR are not either
+  Point commanded_;  // not rounded, because the sums of PR are not rounded either
   bool relative_ = false, lowered_ = false;
   double z1_ = 0;
   bool z1_set_ = false;
   std::optional<Place> lowered_by_default_;
-  std::optional<double> z2_;  // none: the top
+  std::optional<double> z2_;  // nullopt: the top
   double cutting_speed_ = 0, z_speed_ = 0;
   double dwell_s_ = 0;
   bool permitted_ = true, turning_ = false;

@@ -6,7 +6,8 @@
 namespace axisgate::rml1 {
 namespace {
 
-// A trapezoid, or a triangle where the way is too short for the speed.
+// Returns the time of a trapezoidal speed profile, or of a triangular one if the distance is too short to reach the
+// speed.
 double rest_to_rest(double mm, double speed, double acceleration) {
   const bool reaches = speed * speed <= acceleration * mm;
   return reaches ? mm / speed + speed / acceleration : 2 * std::sqrt(mm / acceleration);

@@ -1,4 +1,4 @@
-// How long a mill may take for one straight move, or for a wait.
+// Time that a mill may take for one straight move, or for a wait.
 #pragma once
 
 #include "device/rml1/machine/machine.h"
@@ -6,19 +6,21 @@
 
 namespace axisgate::rml1 {
 
-// Seconds. A mill does not say how it accelerates, nor whether it stops at each point.
+// Times in seconds. A mill does not report its acceleration, nor whether it stops at each point.
 struct StepTime {
-  double least = 0;    // at full speed throughout
-  double most = 0;     // from rest to rest, or slower throughout by the profile's part, whichever is longer
-  double slowest = 0;  // both: what a bound of what runs on is computed with
+  double least = 0;  // at full speed throughout
+  double most = 0;  // longer one of two times: with a stop at both ends, or slower throughout by the profile's fraction
+  double slowest = 0;  // with a stop at both ends and slower throughout; used to bound the run-on after an abort
 };
 
-// Without `knows_z0` nobody knows how far Z0 lies below the top, and clipping may leave out any way above Z0. Such a
-// way then counts in `most` and `slowest` only.
+// Returns the time of a move. Without `knows_z0` the distance of Z0 below the top is unknown, and clipping may leave
+// out any distance above Z0; such a distance then counts in `most` and `slowest` only.
 StepTime move_time(const Move& move, const Profile& profile, bool knows_z0);
-// `seconds` is the machine's figure. The time that a spindle needs is assumed, so it may need none.
+// Returns the time of a wait. `seconds` is the machine's figure. The time that a spindle needs is assumed, so `least`
+// is 0 for it.
 StepTime wait_time(Wait what, double seconds, const Acceleration& acceleration);
-// A mill may dwell before each point of a list (guideline 3-1 W, "when the cutting direction changes").
+// Returns the time of a dwell before each point of a list, which a mill may add (guideline 3-1 W, "when the cutting
+// direction changes").
 StepTime dwell_between_points(double seconds);
 
 }  // namespace axisgate::rml1

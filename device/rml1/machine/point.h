@@ -1,4 +1,4 @@
-// A place of the tool, in steps.
+// Place of the tool, in steps.
 #pragma once
 
 #include <cmath>
@@ -14,7 +14,8 @@ struct Point {
   friend Point operator*(const Point& a, double factor) { return {a.x * factor, a.y * factor, a.z * factor}; }
 };
 
-// `p`, or where the straight path from it to `other` goes through the surface. One of them is at or below it.
+// Returns `p`, or the point where the straight path from `p` to `other` goes through the surface if `p` is above it. At
+// least one of the two must be at or below the surface.
 inline Point sunk(const Point& p, const Point& other) {
   return p.z <= 0 ? p : p + (other - p) * (p.z / (p.z - other.z));
 }

@@ -1,4 +1,5 @@
-// A machine, as a TOML file describes it: deploy/mills has the known ones, and says where each figure comes from.
+// A Profile describes a machine; it is read from a TOML file. deploy/mills has the known machines, with the source of
+// each figure.
 #pragma once
 
 #include <optional>
@@ -11,14 +12,14 @@
 namespace axisgate::rml1 {
 
 struct Speeds {
-  double travel = 0, travel_z = 0;  // mm/s: X and Y with the tool up; Z's highest
+  double travel = 0, travel_z = 0;  // mm/s: X and Y with the tool up; highest speed of Z
   double cutting_minimum = 0, cutting_maximum = 0, cutting_default = 0;
   double z_minimum = 0, z_maximum = 0, z_default = 0;
 };
 
 struct Acceleration {
-  double best = 0, worst = 0;  // mm/s2: the simulator has both; the gateway counts with the worst
-  double slower = 0;           // by which part a real run may be slower throughout
+  double best = 0, worst = 0;  // mm/s2: the simulator uses both; the gateway computes with the worst
+  double slower = 0;           // fraction by which a real run may be slower throughout
 };
 
 struct Spindle {
@@ -28,7 +29,7 @@ struct Spindle {
   std::optional<double> stage_0_rpm, rpm_per_stage;
   double spin_up_s = 0;
 
-  // What !RC n sets (guideline 3-3).
+  // Returns the spindle speed that !RC n sets (guideline 3-3).
   double rpm(double n) const;
 };
 
@@ -46,11 +47,11 @@ struct Profile {
   int up = 1;                           // -1: machine coordinates grow downward
   double default_z0 = 0;                // machine coordinate, in steps
   double default_z1 = 0;                // steps above Z0
-  std::optional<double> default_z2;     // none: the top of travel
+  std::optional<double> default_z2;     // nullopt: the top of travel
   Speeds speed;
   Acceleration acceleration;
   Spindle spindle;
-  std::optional<int> baud;  // none: the line is faster than the machine
+  std::optional<int> baud;  // nullopt: the line is faster than the machine
   std::string axes = "XYZ";
   std::optional<Rotary> rotary;
   Dialect dialect;
@@ -59,9 +60,9 @@ struct Profile {
   double steps(double mm) const { return mm / step_mm; }
 };
 
-// Every error in the file is reported, in the order of the lines; a syntax error ends the reading.
+// Reads a profile. Reports every error in the file, in the order of the lines; a syntax error ends the reading.
 Configured<Profile> load_profile(const std::string& file);
-// The same of a text already read; `file` names it in errors.
+// Reads a profile from text; `file` names it in errors.
 Configured<Profile> parse_profile(std::string_view text, const std::string& file);
 
 }  // namespace axisgate::rml1

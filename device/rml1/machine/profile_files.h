@@ -1,4 +1,4 @@
-// Where the profiles of machines are found.
+// Finds the profiles of machines.
 #pragma once
 
 #include <filesystem>
@@ -10,15 +10,16 @@
 
 namespace axisgate::rml1 {
 
-// Those installed beside the running program, or in the tree that it was built in, by name.
+// Returns the profiles installed with the running program, or in the tree that it was built in, ordered by name.
 std::vector<std::filesystem::path> shipped_profiles();
 
-// Of a shipped profile's name in either case, "mdx-20"; a path or a name ending in .toml is the file itself, which may
-// be missing. An unknown name is refused, with the known ones.
+// Returns the file of a shipped profile by its name in either case, such as "mdx-20". A path or a name that ends in
+// .toml is the file itself, which may be missing. Fails with invalid_request if the name is unknown; the hint lists the
+// known names.
 Result<std::filesystem::path> profile_file(const std::string& name);
 
-// Returns the machines of all shipped profiles, for each of which a job may have been made. Unreadable profiles are
-// left out.
+// Returns the machines of all shipped profiles: a job may have been made for any of them. Unreadable profiles are left
+// out.
 std::vector<KnownMachine> known_machines();
 
 }  // namespace axisgate::rml1

@@ -8,16 +8,16 @@
 namespace axisgate::rml1 {
 namespace {
 
-constexpr double kWidth = 1000, kNarrowest = 640;  // of the page
+constexpr double kWidth = 1000, kNarrowest = 640;  // pixels, width of the page
 constexpr double kTop = 76, kBetween = 56;
-constexpr double kHighest = 760, kDeepest = 260;  // of a view of X and Y, and of one of Z
+constexpr double kHighest = 760, kDeepest = 260;  // greatest height of a view of X and Y, and of a view of Z
 constexpr double kInset = 180;
 constexpr double kTick = 4, kTicksApart = 50;
-constexpr double kFlat = 60, kStretched = 110;  // a view of Z that is lower than the one is stretched up to the other
+constexpr double kFlat = 60, kStretched = 110;  // a view of Z that is lower than kFlat is stretched up to kStretched
 
 const Reach& reach(const Bounds& bounds, int axis) { return axis == 0 ? bounds.x : axis == 1 ? bounds.y : bounds.z; }
 
-// The largest of 1, 2 and 5 times a power of ten that is at most `most`.
+// Returns the largest of 1, 2 and 5 times a power of ten that is at most `most`.
 double round_below(double most) {
   const double power = std::pow(10, std::floor(std::log10(most)));
   return most >= 5 * power ? 5 * power : most >= 2 * power ? 2 * power : power;
@@ -38,7 +38,7 @@ class Layout {
  public:
   Layout(const Extents& extents, double step_mm) : extents_(extents), step_mm_(step_mm) {
     const double x = extents.shown.x.size(), y = extents.shown.y.size(), z = extents.shown.z.size();
-    // The view from above has the views of Z below and beside it, and the work area in the corner between these.
+    // The view from above has the views of Z below and beside it, and the work area in the corner between them.
     const double free = kWidth - 3 * kMargin, beside = extents.area ? kInset : kStretched;
     scale_ = std::min({(free - beside) / x, free / (x + z), kHighest / y, kDeepest / z});
     stretch_ = stretch_of(z * scale_);
@@ -84,7 +84,7 @@ class Layout {
             across.size() * view.scale_across(), up.size() * view.scale_up()};
   }
 
-  // In mm, along the lower and the left side.
+  // Adds ticks in mm along the lower and the left side.
   void add_ticks(const Picture::View& view, const Reach& across, const Reach& up) {
     const Picture::Rectangle& frame = view.frame;
     const double bottom = frame.y + frame.height;
@@ -118,7 +118,7 @@ class Layout {
     picture_.labels.push_back({left - 8, y + 4, fmt::format("{:g} mm", mm), false, Picture::Anchor::end});
   }
 
-  // What the view from above shows, in the work area.
+  // Adds an overview of the work area, with the frame of the view from above.
   void add_inset(double left, double top) {
     const Bounds& area = *extents_.area;
     Bounds all = area;

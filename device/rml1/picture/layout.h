@@ -1,4 +1,4 @@
-// Where the parts of a picture lie.
+// Layout of the parts of a picture.
 #pragma once
 
 #include "device/rml1/machine/bounds.h"
@@ -8,14 +8,14 @@ namespace axisgate::rml1 {
 
 inline constexpr double kMargin = 52;  // pixels
 
-// In steps.
+// Bounds in steps.
 struct Extents {
-  Bounds shown;  // what the views show: each axis at least a millimetre
+  Bounds shown;  // range of the views: each axis at least a millimetre
   std::optional<Bounds> area;
   std::optional<Bounds> stock;
 };
 
-// The three views with their scales, and beside them the work area as a whole. Nothing else yet.
+// Returns the three views with their scales, and beside them the whole work area, without any strokes.
 Picture lay_out(const Extents& extents, double step_mm);
 
 }  // namespace axisgate::rml1

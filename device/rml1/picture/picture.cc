@@ -12,8 +12,8 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr double kLine = 18, kSwatch = 14;
-constexpr double kCharacter = 7;  // the width of a figure, of text of this size
-constexpr double kPad = 0.04;     // of an extent, beside it
+constexpr double kCharacter = 7;  // width of a figure in text of this size
+constexpr double kPad = 0.04;     // margin, as a fraction of the extent
 constexpr std::size_t kReports = 8;
 constexpr double kAssumedToolMm = 2;  // diameter for reliefs, the same as in the check of passes
 
@@ -26,7 +26,7 @@ Bounds stock_bounds(const Stock& stock, const Profile& profile) {
   return bounds;
 }
 
-// What cuts; `commanded`: also where clipping leaves it out.
+// Returns the bounds of the cuts; with `commanded`, also of cuts that clipping leaves out.
 Bounds cut_bounds(const Strokes& strokes, bool commanded) {
   Bounds bounds;
   for (const Strokes::Stroke& stroke : strokes.all()) {
@@ -38,8 +38,8 @@ Bounds cut_bounds(const Strokes& strokes, bool commanded) {
   return bounds;
 }
 
-// Adds the travel. Its height counts below the top, and no further above Z0 than the cuts lie below it: people look at
-// the cut, and a lift may be many times as high.
+// Adds the travel. Its height counts only below the top, and only as far above Z0 as the cuts lie below it: people look
+// at the cut, and a lift may be many times as high.
 void take_travel(Bounds& bounds, const Strokes& strokes, double top, bool plane) {
   const double highest = bounds.z.any ? std::max(0.0, -bounds.z.lowest) : top;
   for (const Strokes::Stroke& stroke : strokes.all()) {
@@ -92,7 +92,7 @@ std::string size_text(std::string_view axis, const Reach& reach, double step_mm)
                      reach.size() * step_mm);
 }
 
-// "812 mm driven, 600 mm cutting"
+// Returns a text such as "812 mm driven, 600 mm cutting".
 std::string lengths_text(const Strokes& strokes, Strokes::Done done, double step_mm) {
   double driven = 0, cutting = 0;
   for (const Strokes::Stroke& stroke : strokes.all()) {
@@ -118,7 +118,7 @@ void add_remains(std::vector<std::string>& lines, const Strokes& strokes, double
 
 using Parts = std::vector<const Check*>;
 
-// "part 2: "; of a job without parts nothing.
+// Returns a text such as "part 2: ", or an empty text for a job without parts.
 std::string part_text(const Parts& parts, std::size_t index) {
   return parts.size() == 1 ? "" : fmt::format("part {}: ", index + 1);
 }
@@ -142,7 +142,7 @@ std::string speed_text(const Parts& parts, const Strokes& strokes) {
                      not_reached ? fmt::format("; the job sets up to {:g} mm/s", *not_reached) : "");
 }
 
-// Says how wide the cuts are drawn.
+// Returns a text about the width of the drawn cuts.
 std::string width_text(const Picture& picture, double step_mm) {
   if (picture.diameters.empty()) return "";
   std::vector<std::string> widths;
@@ -174,7 +174,7 @@ std::vector<std::string> facts(const Parts& parts, const Profile& profile, const
   return lines;
 }
 
-// At blanks, in lines that fit into the picture.
+// Breaks the text at blanks into lines that fit into the picture.
 std::vector<std::string> wrapped(std::string text, double width) {
   const auto characters = static_cast<std::size_t>((width - 2 * kMargin) / kCharacter);
   std::vector<std::string> lines;
@@ -208,8 +208,8 @@ std::vector<std::string> reports(const Parts& parts, double width) {
   return lines;
 }
 
-// Returns diameters in steps. A relief without a tool has the assumed one; other pictures have hairlines. So have those
-// of what remains, since passes of the tool's width would hide each other.
+// Returns diameters in steps. A relief without a tool uses the assumed one; other pictures use hairlines. So does a
+// picture of what remains, because passes of the tool's width would hide each other.
 std::vector<double> diameters_of(const Parts& parts, const Profile& profile, const Strokes& strokes, bool relief) {
   if (any_executed(strokes)) return {};
   std::vector<double> all;
@@ -270,7 +270,7 @@ Picture make_picture(const std::string& title, const std::vector<const Check*>& 
   picture.shades = shades;
   picture.relief = relief;
   picture.diameters = diameters;
-  // A file's name may be of any bytes; what is no UTF-8 is left out.
+  // The name of a file may contain any bytes; bytes that are not UTF-8 are left out.
   picture.labels.push_back({kMargin, kMargin * 0.7,
                             fmt::format("{}{} on the {}", boost::locale::conv::utf_to_utf<char>(title),
                                         any_executed(strokes) ? ": what remains" : "", profile.name),
