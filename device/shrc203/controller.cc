@@ -52,7 +52,7 @@
 
 namespace axisgate::shrc203 {
 
-// Each room names what it uses; `tasks` is destroyed last, since suspended procedures refer to all others.
+// All rooms, wired to each other. `tasks` is destroyed last, since suspended procedures refer to all the others.
 struct Controller::Rooms {
   Rooms(Profile settings, ByteLink& link, EventSink& events, Permission& keeper)
       : profile(std::move(settings)),
@@ -135,8 +135,8 @@ Controller::Controller(Profile profile, ByteLink& link, EventSink& events, Permi
     : rooms_(std::make_unique<Rooms>(std::move(profile), link, events, permission)) {}
 Controller::~Controller() = default;
 
-// Every call from outside begins with the time and ends by letting the tasks go on, and the motions that have waited
-// for a question which may have been sent now.
+// Runs a call from outside: sets the time first, then lets the tasks continue, and admits the motions that waited for a
+// question which may have been sent now.
 template <class Call>
 void Controller::at(TimePoint now, Call call) {
   rooms_->tasks.now_is(now);

@@ -1,4 +1,4 @@
-// One SHRC-203 as callers see it: the public face of this folder.
+// Public interface of this folder: one SHRC-203, as callers see it.
 #pragma once
 
 #include <memory>
@@ -11,12 +11,12 @@
 
 namespace axisgate::shrc203 {
 
-// What its calls do is said by StageController. A jog is stopped by L:.
+// Implementation of StageController, which documents the functions. A jog is stopped by L:.
 class Controller : public StageController {
  public:
-  // Everybody may use everything.
+  // Gives everybody all rights.
   Controller(Profile profile, ByteLink& link, EventSink& events);
-  // `permission` outlives the controller.
+  // `permission` must outlive the controller.
   Controller(Profile profile, ByteLink& link, EventSink& events, Permission& permission);
   ~Controller() override;
 
@@ -58,7 +58,7 @@ class Controller : public StageController {
   void wind_down(TimePoint now, OnWoundDown done) override;
 
  private:
-  // The rooms, wired to each other: controller.cc.
+  // The rooms are defined and wired in controller.cc.
   struct Rooms;
 
   template <class Call>

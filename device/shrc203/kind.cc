@@ -107,7 +107,7 @@ class Shrc203 final : public stage::Kind {
 
   std::unique_ptr<stage::Simulation> make_simulation(const stage::Words& options, ByteLink& line) const override {
     simulator::Options chosen;
-    for (const auto& [name, value] : options) (void)chosen.set(name, value);  // checked before
+    for (const auto& [name, value] : options) (void)chosen.set(name, value);  // check_option() has checked them
     return std::make_unique<SimulatedUnit>(std::move(chosen), line);
   }
 };

@@ -1,4 +1,4 @@
-// The SHRC-203 as a kind of device: what server/kinds.cc lists.
+// SHRC-203 as a kind of device, for the list in server/kinds.cc.
 #pragma once
 
 #include "device/stage/kind.h"

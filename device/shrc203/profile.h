@@ -1,4 +1,4 @@
-// The configuration of one SHRC-203, checked before the daemon starts.
+// Configuration of one SHRC-203, checked before the daemon starts.
 #pragma once
 
 #include <string>
@@ -8,18 +8,18 @@
 
 namespace axisgate::shrc203 {
 
-// How far one axis's business concerns the others, where the manual does not say (device/shrc203/README.md).
+// Extent to which one axis concerns the others, in cases that the manual leaves open (device/shrc203/README.md).
 enum class Scope { axis, controller };
 
-// What the refills of a running path are to its line. `reserved`: they go before everything but a stop, and the line is
-// free when they are due. The others only show what that is needed for: no configuration names them.
+// Priority of a running path's refills on its line. `reserved`: they go before everything but stops, and the line is
+// kept free when they are due. The others only show why this is needed: no configuration names them.
 enum class Refills { reserved, first, among_questions };
 
 struct Profile : stage::Profile {
-  std::string model = "SHRC-203";  // what *IDN? must say
+  std::string model = "SHRC-203";  // model that *IDN? must report
   Scope busy_scope = Scope::controller;
   Scope prebuffer_scope = Scope::controller;
-  bool wait_for_inputs = false;  // WI: is taken, by which an input pin starts a motion
+  bool wait_for_inputs = false;  // WI: is accepted, which lets an input pin start a motion
   Refills refills = Refills::reserved;
 };
 

@@ -1,4 +1,4 @@
-// What every stage controller is (device/stage) goes by its own name here, too.
+// Names of device/stage, which every stage controller uses, made available in this namespace.
 #pragma once
 
 #include "device/stage/axes.h"

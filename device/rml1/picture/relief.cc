@@ -9,8 +9,8 @@ namespace axisgate::rml1 {
 namespace {
 
 constexpr double kFinest = 2;      // cells a pixel
-constexpr double kWork = 400e6;    // cells that are touched at most, for all cuts together
-constexpr double kDarkest = 0.35;  // of a colour's light
+constexpr double kWork = 400e6;    // maximum number of cells touched, for all cuts together
+constexpr double kDarkest = 0.35;  // fraction of a colour's light
 constexpr double kSteepest = 2;    // a wall is not darker than a slope like this
 constexpr double kLightAcross = -1 / std::numbers::sqrt2 / 1.2, kLightUp = 1 / std::numbers::sqrt2 / 1.2;
 
@@ -18,13 +18,13 @@ double radius_of(const Strokes::Stroke& stroke, const std::vector<double>& diame
   return std::max(0.5, diameters[stroke.part] * scale / 2);
 }
 
-// Returns how far apart discs of the tool are cut. On a level path they leave hardly anything between them; on a slope
-// they would leave stairs.
+// Returns the distance between two discs of the tool. On a level path, discs farther apart leave hardly any gap; on a
+// slope they would leave stairs.
 double apart(const Strokes::Stroke& stroke, double radius) {
   return stroke.from[2] == stroke.to[2] ? std::max(0.5, radius / 2) : 1;
 }
 
-// Returns how many cells all discs have together, at one cell a pixel.
+// Returns the total number of cells of all discs, at one cell a pixel.
 double work_of(const Strokes& strokes, const std::vector<double>& diameters, double scale) {
   double cells = 0;
   for (const Strokes::Stroke& stroke : strokes.all()) {
@@ -35,7 +35,8 @@ double work_of(const Strokes& strokes, const std::vector<double>& diameters, dou
   return cells;
 }
 
-// Flat ground has its own colour; what faces the light becomes paler, what turns away from it darker.
+// Returns a colour under light. Flat ground keeps its colour; a slope towards the light is paler, a slope away from it
+// is darker.
 std::uint32_t lit(const char* colour, double light) {
   unsigned value = 0;
   (void)std::from_chars(colour + 1, colour + 7, value, 16);

@@ -1,4 +1,4 @@
-// The surface that the cuts of a job leave, seen from above.
+// Surface that the cuts of a job leave, seen from above.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ namespace axisgate::rml1 {
 // A picture of the surface with light from the upper left. Flat tools are assumed.
 class Relief {
  public:
-  // `view`: the one from above. `diameters`: of the tool of each part, in steps.
+  // `view`: the view from above. `diameters`: diameter of the tool of each part, in steps.
   Relief(const Strokes& strokes, const Shades& shades, const std::vector<double>& diameters, const Picture::View& view);
 
   std::size_t width() const { return width_; }
   std::size_t height() const { return height_; }
-  // Row by row from above; 0xffrrggbb; 0 if nothing is cut there.
+  // Pixels row by row from above; 0xffrrggbb, or 0 if nothing is cut there.
   const std::vector<std::uint32_t>& pixels() const { return pixels_; }
 
  private:

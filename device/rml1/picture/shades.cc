@@ -26,7 +26,7 @@ Shades::Shades(const Strokes& strokes, double step_mm) : step_mm_(step_mm), part
 
 long Shades::hundredths(double steps) const { return std::lround(steps * step_mm_ * 100); }
 
-// A few depths are far apart in colour, too; a single one is in the middle.
+// Sets the levels so that a few depths are far apart in colour, too; a single depth is in the middle.
 void Shades::set_levels(const Strokes& strokes) {
   std::set<long> depths;
   long shallowest = 0, deepest = 0;
@@ -65,7 +65,7 @@ int Shades::of(const Strokes::Stroke& stroke) const {
   return stroke.done == Strokes::Done::perhaps ? kPerhapsDone : of_cut(depth(stroke), stroke.part);
 }
 
-// "part 2: 0.10 mm deep"; of a job without parts "0.10 mm deep".
+// Adds texts such as "part 2: 0.10 mm deep", or "0.10 mm deep" for a job without parts.
 void Shades::add_depths(std::vector<Entry>& entries, int tint) const {
   std::vector<std::size_t> parts;
   for (auto part = static_cast<std::size_t>(tint); part < parts_; part += kTints) parts.push_back(part + 1);

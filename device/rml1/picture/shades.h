@@ -1,4 +1,4 @@
-// Which colour a stroke has: travel, cuts from shallow to deep in the tint of their part, and those that are done.
+// Colours of strokes: travel, cuts from shallow to deep in the tint of their part, and strokes already done.
 #pragma once
 
 #include <array>
@@ -10,35 +10,36 @@
 
 namespace axisgate::rml1 {
 
-// In the order of drawing. kLeftOut: by clipping. Cutting has kDepths of them, from kShallowest on.
+// Shades in the order of drawing. kLeftOut: left out by clipping. Cuts have kDepths shades, from kShallowest on.
 inline constexpr int kDone = 0, kTravel = 1, kLeftOut = 2, kPerhapsDone = 3, kShallowest = 4, kDepths = 8;
-// Parts take turns in two tints, each with all depths.
+// Parts alternate between two tints, each with all depths.
 inline constexpr int kTints = 2;
 inline constexpr int kShades = kShallowest + kTints * kDepths;
 extern const std::array<const char*, kShades> kShadeColours;  // "#rrggbb"
 
-// One shade for each depth where a job has few; else equal ranges between its shallowest and its deepest cut.
+// Shades of a job. If it has few depths, each depth has its own shade; otherwise each shade is one of kDepths equal
+// ranges between the shallowest and the deepest cut.
 class Shades {
  public:
   Shades(const Strokes& strokes, double step_mm);
 
   int of(const Strokes::Stroke& stroke) const;
-  // Returns the shade of a cut of that part, so many steps deep, and at most as deep as its deepest one.
+  // Returns the shade of a cut of that part. `depth`: steps, at most that of the deepest cut.
   int of_cut(double depth, std::size_t part) const;
-  // Reports whether the cuts have so many depths that a shade is a range of them, as those of a relief have.
+  // Reports whether the cuts have so many depths that each shade is a range of depths, as in a relief.
   bool are_ranges() const { return ranges_; }
 
   struct Entry {
     int shade;
     std::string text;  // "travel", "0.10 mm deep", "to 0.50 mm deep"
   };
-  // Of what is there, and nothing else.
+  // Returns entries for the shades that occur.
   std::vector<Entry> legend() const;
 
  private:
-  // Depths that the legend could not distinguish are one: it shows hundredths of a millimetre.
+  // A Level joins depths that the legend could not distinguish: it shows hundredths of a millimetre.
   struct Level {
-    long hundredths;  // mm below Z0, at most
+    long hundredths;  // greatest depth below Z0, in hundredths of a mm
     int depth;        // from 0, below kDepths
   };
 
@@ -49,7 +50,7 @@ class Shades {
   double step_mm_;
   std::size_t parts_;
   bool ranges_ = false;
-  std::vector<Level> levels_;  // from shallow to deep
+  std::vector<Level> levels_;  // ordered from shallow to deep
   std::array<bool, kShades> used_{};
 };
 

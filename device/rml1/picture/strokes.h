@@ -1,4 +1,4 @@
-// What a job drives, kept to be drawn.
+// Strokes of a job's path, kept to be drawn.
 #pragma once
 
 #include <array>
@@ -11,7 +11,7 @@
 
 namespace axisgate::rml1 {
 
-// Collects the moves while a job is checked: 28 bytes each, as many as there are. Not thread safe.
+// Collects the moves while a job is checked: 28 bytes each, without a limit. Not thread safe.
 class Strokes : public MoveListener {
  public:
   enum class Kind : std::uint8_t { travel, cut, left_out };
@@ -24,11 +24,11 @@ class Strokes : public MoveListener {
     double length() const;  // steps
   };
 
-  // `executed`: where what a mill has executed of the job ends, in lines and columns. By default it has executed
-  // nothing.
+  // `executed`: range within which the executed part of the job ends, in lines and columns. By default nothing was
+  // executed.
   explicit Strokes(const PlaceRange& executed = {}) : executed_(executed) {}
 
-  // The moves that follow are of the next part of the job.
+  // Begins the next part of the job; the following moves belong to it.
   void begin_part() { ++part_; }
   void moved(const Move& move) override;
   void left_out(const Point& from, const Point& to) override;
@@ -36,9 +36,9 @@ class Strokes : public MoveListener {
   const std::vector<Stroke>& all() const { return all_; }
   std::size_t parts() const { return part_ + 1U; }
   const PlaceRange& executed() const { return executed_; }
-  // Whether this one is drilled: straight down, and straight up again.
+  // Reports whether this stroke is drilled: straight down, and straight up again.
   bool is_hole(std::size_t index) const;
-  const Reach& feeds() const { return feeds_; }  // mm/s, of what cuts on its way along or down
+  const Reach& feeds() const { return feeds_; }  // mm/s, of cuts along or down
   bool any_left_out() const { return any_left_out_; }
 
  private:

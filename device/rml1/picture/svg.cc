@@ -1,4 +1,4 @@
-// Coordinates are whole steps, and the view scales them: numbers stay short.
+// Writes pictures as SVG. Coordinates are whole steps, which the view scales, so numbers stay short.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -27,8 +27,8 @@ std::string in_base64(const std::string& bytes) {
 
 struct Path {
   std::string text;
-  std::string holes;  // of the view from above
-  long x = 0, y = 0;  // where it has come to
+  std::string holes;  // holes in the view from above
+  long x = 0, y = 0;  // end of the path up to now
   bool begun = false;
 
   void number(char before, long value) {
@@ -84,7 +84,7 @@ void add_rectangle(std::string& svg, const Picture::Rectangle& one) {
                      swatch ? fmt::format(" fill=\"{}\"", kShadeColours[static_cast<std::size_t>(one.shade)]) : "");
 }
 
-// A line of no length with round ends is a dot.
+// A line without length and with round ends is a dot.
 void add_hole(Path& path, const Strokes::Stroke& stroke) {
   path.holes += fmt::format("M{} {}h0", std::lround(stroke.to[0]), std::lround(stroke.to[1]));
 }
@@ -108,7 +108,8 @@ std::array<Path, kShades> paths_of(const Picture& picture, const Picture::View& 
   return paths;
 }
 
-// Returns how a path differs from the others of its view. `width`: of the tool, in steps; 0: it is not drawn.
+// Returns the attributes in which a path differs from the others of its view. `width`: of the tool, in steps; 0:
+// hairlines.
 std::string style_of(std::size_t shade, double pixel, double width) {
   if (shade == kTravel) {
     return fmt::format("class=\"travel\" stroke-width=\"{:.6g}\" stroke-dasharray=\"{:.6g} {:.6g}\"", 0.6 * pixel,
@@ -125,7 +126,7 @@ std::string style_of(std::size_t shade, double pixel, double width) {
 }
 
 void add_strokes(std::string& svg, const Picture& picture, const Picture::View& view, std::size_t part) {
-  // Not every reader knows strokes that are not scaled.
+  // Line widths are computed, because not every viewer supports strokes that are not scaled.
   const double pixel = 1 / view.scale;
   const double width = drawn_width(picture, view, part) * pixel;
   const std::array<Path, kShades> paths = paths_of(picture, view, part);

@@ -1,4 +1,4 @@
-// What the mill has received and not yet read, and how it holds its host back.
+// Buffer of bytes that the mill has received and not read, and the handshake that stops its host.
 #pragma once
 
 #include <cstddef>
@@ -13,12 +13,12 @@ class Buffer {
  public:
   struct Item {
     char byte = 0;
-    bool escape_k = false;  // one that travels among the data (option escape_k=in-band)
+    bool escape_k = false;  // an ESC.K that travels among the data (option escape_k=in-band)
   };
 
   explicit Buffer(std::size_t capacity) : capacity_(capacity) {}
 
-  // False when there is no room: it is lost (guideline 4-1, error 16).
+  // Returns false if there is no room: the byte is lost (guideline 4-1, error 16).
   bool put(char byte);
   bool put_escape_k();
   std::optional<Item> take();
@@ -36,13 +36,13 @@ class Buffer {
   std::deque<Item> items_;
 };
 
-// Stops the host when a quarter of the buffer is free, and releases it when half is. The margin takes what a host still
-// sends after it was stopped.
+// Stops the host when a quarter of the buffer is free, and releases it when half is free. The margin is for bytes that
+// a host still sends after it was stopped.
 class Handshake {
  public:
   explicit Handshake(Flow flow) : flow_(flow) {}
 
-  // The byte to send, XOFF or XON, if any.
+  // Returns the byte to send, XOFF or XON; nullopt if there is none.
   std::optional<char> update(const Buffer& buffer);
   bool stopped() const { return stopped_; }
 

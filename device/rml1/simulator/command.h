@@ -1,4 +1,4 @@
-// The commands of guideline 1-2, and one of them with its numbers, as the reader hands it to the machine.
+// Commands of guideline 1-2, and orders, which the reader passes to the machine.
 #pragma once
 
 #include <string>
@@ -32,13 +32,13 @@ enum class Mode { unchanged, absolute, relative };
 struct Command {
   std::string_view name;  // in capitals, without blanks
   Action action;
-  int numbers = 0;  // at most; of a set where `sets`
+  int numbers = 0;  // maximum count, per set if `sets`
   bool sets = false;
-  Tool tool = Tool::unchanged;  // of a plot (guideline 5-3, "Tool up/down")
-  Mode mode = Mode::unchanged;  // of a plot (guideline 5-3, "Coordinate Modes")
+  Tool tool = Tool::unchanged;  // effect of a plot (guideline 5-3, "Tool up/down")
+  Mode mode = Mode::unchanged;  // effect of a plot (guideline 5-3, "Coordinate Modes")
 };
 
-// Nothing for a name that does not exist. "J", "!0" and "!1" are found too: whether they exist depends on the machine.
+// Returns null if no command has this name. Also finds "J", "!0" and "!1", which exist only on some machines.
 const Command* find_command(std::string_view name);
 bool is_mode_2(const Command& command);  // may be called by ^ (guideline 3-1)
 
@@ -50,9 +50,9 @@ struct AxisNumber {
 
 struct Order {
   const Command* command = nullptr;
-  std::vector<double> numbers;   // one complete set, or those there are
+  std::vector<double> numbers;   // one complete set, or all numbers of the command
   std::vector<AxisNumber> axes;  // one group of !ZE
-  bool first = true;             // of its command
+  bool first = true;             // first order of its command
 };
 
 }  // namespace axisgate::rml1::simulator

@@ -24,7 +24,7 @@ struct Call {
 };
 
 struct ControlCommand {
-  std::string_view usage;  // device/core/control_language.h
+  std::string_view usage;  // format of device/core/control_language.h
   std::string_view meaning;
   Done (*carry_out)(const Call& call);
 };

@@ -1,4 +1,4 @@
-// What a person at the simulated mill does and sees, as lines of text: `help` lists them all.
+// Control of the simulated mill by a person, as lines of text. `help` lists all commands.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace axisgate::rml1::simulator {
 
-// Carries out one command, without its end of line, at `now` in the mill's time: the values that it answers, often
-// none. What is refused has changed nothing.
+// Carries out one command, given without its end of line, at `now` in the mill's time. Returns the values that answer
+// it, often none. A refused command changes nothing.
 Result<std::string> control(Simulator& mill, std::string_view line, TimePoint now);
 
 }  // namespace axisgate::rml1::simulator

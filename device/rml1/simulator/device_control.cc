@@ -24,7 +24,8 @@ void DeviceControl::take(char byte) {
         state_ = State::after_point;
         return;
       }
-      // No sequence: "the order of characters appearing in the sequence is passed unchanged".
+      // ESC without a point begins no sequence: "the order of characters appearing in the sequence is passed
+      // unchanged".
       sink_.data(kEscape);
       take(byte);
       return;

@@ -1,4 +1,4 @@
-// The sequences that are removed from the bytes before the buffer (guideline 4-1).
+// Removes ESC sequences from the bytes before the buffer (guideline 4-1).
 #pragma once
 
 namespace axisgate::rml1::simulator {

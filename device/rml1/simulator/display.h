@@ -1,4 +1,4 @@
-// The errors that the panel shows.
+// Errors that the panel shows.
 #pragma once
 
 #include <optional>
@@ -9,9 +9,10 @@ namespace axisgate::rml1::simulator {
 
 class Display {
  public:
-  // Of a command: 1 to 3 (guideline 2, 3). Each number is shown once, in the order in which they occurred.
+  // Shows an error of a command, 1 to 3 (guideline 2, 3). Each number is shown once, in the order of occurrence.
   void command_error(int number);
-  // Of communication: 10 to 18. The first is kept, later ones are ignored (guideline 4-1, "Multiple Errors").
+  // Shows an error of communication, 10 to 18. The first is kept, later ones are ignored (guideline 4-1, "Multiple
+  // Errors").
   void line_error(int number);
 
   void clear_command_errors() { command_errors_.clear(); }  // H (guideline 3-1)

@@ -51,7 +51,7 @@ void Drive::run(TimePoint now) {
   }
 }
 
-// False when there is nothing to do.
+// Returns false if there is nothing to do.
 bool Drive::begin_next(TimePoint now) {
   if (running_) return true;
   const bool interlude = !interlude_.empty();
@@ -88,7 +88,7 @@ Travel Drive::travel_to(const Work& work) const {
   const double step = setup_.profile.step_mm;
   const double rise = std::abs(work.to.h - tool_.h) * step;
   const double all = std::hypot((work.to.x - tool_.x) * step, (work.to.y - tool_.y) * step, rise);
-  // Z's own limit holds back the others.
+  // Z's own limit slows down the other axes, too.
   const double limit = rise > 0 ? setup_.profile.speed.travel_z * all / rise : work.mm_per_s;
   return {all, std::min(work.mm_per_s, limit), acceleration(setup_), slower()};
 }
@@ -131,7 +131,7 @@ Position Drive::tool(TimePoint now) const {
   return {between(tool_.x, to.x), between(tool_.y, to.y), between(tool_.h, to.h)};
 }
 
-// What is left of the work under way is first in the queue again, unless it belongs to a pause.
+// Interrupts the work in progress. Its rest becomes the first item of the queue again, unless it belongs to a pause.
 void Drive::interrupt(TimePoint now) {
   if (!running_) return;
   const Position reached = tool(now);

@@ -1,4 +1,4 @@
-// The tool in time: what is queued is done in order, and can be paused or ended at any instant.
+// A Drive moves the tool in time: it does the queued work in order, and can be paused or ended at any instant.
 #pragma once
 
 #include <deque>
@@ -13,34 +13,34 @@
 
 namespace axisgate::rml1::simulator {
 
-// Time never runs backwards from call to call.
+// Time must never decrease from call to call.
 class Drive {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Drive(const MillSetup& setup, SpindleMotor& spindle, Record& record);
 
-  // To the end of the queue; run() begins it.
+  // Each adds work to the end of the queue; run() begins it.
   void move(const Position& to, double mm_per_s);
   void turn(double degrees, double degrees_per_s);
   void dwell(Duration time);
-  void start_spindle();  // if it is permitted and stopped; what follows waits for its spin-up
+  void start_spindle();  // starts only if permitted and stopped; later work waits for its spin-up
   void stop_spindle();
 
-  // Does what is due by now.
+  // Does the work that is due by now.
   void run(TimePoint now);
   std::optional<TimePoint> next() const;
   bool idle() const;  // nothing to do, and not paused
 
-  // Ends what is under way, where the tool is now, and forgets the rest; a pause is over.
+  // Ends the work in progress with the tool at its present place, and discards the queue and any pause.
   void end(TimePoint now);
-  // Stops where it is, stops the spindle, and raises the tool if so set (option pause_position).
+  // Stops the tool at its present place, stops the spindle, and raises the tool if so set (option pause_position).
   void pause(TimePoint now);
-  // The spindle starts again if it has rotated, the tool returns, and the rest is done.
+  // Starts the spindle again if it was rotating, returns the tool, and continues.
   void resume(TimePoint now);
   bool paused() const { return pause_.has_value(); }
 
   Position tool(TimePoint now) const;
-  // When all that is queued has been done; degrees of the axis of rotation.
+  // Place after all queued work, and angle of the axis of rotation in degrees.
   Position planned() const { return planned_; }
   double planned_angle() const { return planned_angle_; }
 
@@ -81,11 +81,11 @@ class Drive {
   Record& record_;
   Position tool_, planned_;
   double angle_ = 0, planned_angle_ = 0;
-  std::deque<Work> interlude_;  // of a pause or the return from it, before the queue
+  std::deque<Work> interlude_;  // movements of a pause or of the return from it, before the queue
   std::deque<Work> queue_;
   std::optional<Running> running_;
   std::optional<Pause> pause_;
-  std::optional<Pause> returning_;  // to where a pause began
+  std::optional<Pause> returning_;  // return to the place where a pause began
 };
 
 }  // namespace axisgate::rml1::simulator

@@ -7,7 +7,7 @@
 namespace axisgate::rml1::simulator {
 namespace {
 
-// "limited to the type's maximum or minimum value" (guideline 2-5), of a float (2-3).
+// Limits a coordinate: "limited to the type's maximum or minimum value" (guideline 2-5), of a float (2-3).
 double coordinate(double number) { return std::clamp(number, -8388608.0, 8388607.0); }
 
 }  // namespace
@@ -96,13 +96,13 @@ void Machine::execute(const Order& order) {
   }
 }
 
-// PU PD PA PR M R D I: first the mode and the height, then X and Y (guideline 3-2 PU/PD, 5-3).
+// Executes PU PD PA PR M R D I: first the mode and the height, then X and Y (guideline 3-2 PU/PD, 5-3).
 void Machine::plot(const Order& order) {
   const Command& command = *order.command;
   const bool was_down = tool_ == Tool::down;
   if (command.mode != Mode::unchanged) absolute_ = command.mode == Mode::absolute;
   if (command.tool != Tool::unchanged) tool_ = command.tool;
-  // PA and PR without numbers only change the mode.
+  // Without numbers PA and PR only change the mode.
   if (command.tool == Tool::unchanged && order.numbers.empty()) return;
   const bool down = tool_ == Tool::down;
   const bool each_point = setup_.options.is("dwell_per", "point") && down;
@@ -114,8 +114,8 @@ void Machine::plot(const Order& order) {
   go_to({x + coordinate(order.numbers[0]), y + coordinate(order.numbers[1]), commanded_.h}, xy_speed(), true);
 }
 
-// The spindle turns before anything moves, also where the tool is there already (guideline 5-2). The dwell is before
-// that (guideline 3-1 W).
+// Starts the spindle before anything moves, even if the tool is already at its target (guideline 5-2). The dwell comes
+// before the spindle (guideline 3-1 W).
 void Machine::begin_motion(bool dwells) {
   if (dwells) drive_.dwell(dwell_);
   drive_.start_spindle();
@@ -153,7 +153,7 @@ void Machine::three_axes(const Order& order) {
   go_to({base.x + coordinate(n[0]), base.y + coordinate(n[1]), base.h + coordinate(n[2])}, speed_z_, false);
 }
 
-// An axis that the machine does not have is ignored (guideline 3-3 !ZE).
+// Ignores an axis that the machine does not have (guideline 3-3 !ZE).
 void Machine::extension(const Order& order) {
   const Profile& profile = setup_.profile;
   const Position base = absolute_ ? Position{origin_x_, origin_y_, z0_} : commanded_;
@@ -179,7 +179,7 @@ void Machine::extension(const Order& order) {
   drive_.turn(absolute_ ? *degrees - drive_.planned_angle() : *degrees, profile.rotary->degrees_per_s);
 }
 
-// To the top, to the origin or the nearest point inside, then the spindle stops (guideline 3-1 H).
+// Moves to the top, then to the origin or the nearest point inside, then stops the spindle (guideline 3-1 H).
 void Machine::home() {
   const Position at = drive_.planned();
   const Position origin = area_.nearest({origin_x_, origin_y_, 0});

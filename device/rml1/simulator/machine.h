@@ -1,4 +1,4 @@
-// What the commands do (guideline 3, 5). The drive carries it out.
+// Execution of the commands (guideline 3, 5). The drive carries out the movements.
 #pragma once
 
 #include <functional>
@@ -16,10 +16,10 @@ namespace axisgate::rml1::simulator {
 // Z1 and Z2, in steps above Z0.
 struct Heights {
   double z1 = 0;
-  std::optional<double> z2;  // none: the top of travel
+  std::optional<double> z2;  // nullopt: the top of travel
 };
 
-// What the machine reports to the panel.
+// Reports to the panel.
 struct PanelEvents {
   std::function<void(int number)> error;
   std::function<void()> clear_command_errors;  // H
@@ -29,28 +29,29 @@ struct PanelEvents {
 
 class Machine {
  public:
-  // All outlive this.
+  // The referenced objects must outlive this one.
   Machine(const MillSetup& setup, Drive& drive, SpindleMotor& spindle, PanelEvents events);
 
-  // Queues its movements at the drive; to be called when the drive is idle.
+  // Queues the command's movements at the drive. Call it while the drive is idle.
   void execute(const Order& order);
 
-  // The command under way was ended: the next relative movement counts from where the tool is.
+  // Call after the command in progress was ended: the next relative movement counts from the tool's present place.
   void forget_target();
-  // Power: everything but the tool's place, the origin and Z0 is as the profile has it.
+  // Resets the machine at power on. The tool's place, the origin, Z0 and the heights set at the panel stay.
   void switch_on();
 
-  // The panel.
+  // Set Z1 and Z2 at the panel.
   void set_panel_z1(double steps);
   void set_panel_z2(double steps);
-  // The work origin, in steps from the home corner, and Z0 as a machine coordinate. False when outside of the area.
+  // Set the work origin, in steps from the home corner, and Z0 as a machine coordinate. Each returns false if the place
+  // is outside of the area.
   bool set_origin(double x, double y);
   bool set_z0(double machine_z);
 
   struct Point {
     double x = 0, y = 0, z = 0;
   };
-  Point workpiece(const Position& position) const;  // in the coordinates of PA
+  Point workpiece(const Position& position) const;  // coordinates of PA
   bool tool_is_down() const { return tool_ == Tool::down; }
 
  private:
@@ -73,7 +74,7 @@ class Machine {
   void go_to(const Position& target, double mm_per_s, bool flat);
   void go_to_tool_height();
   double tool_height() const;
-  std::optional<double> height_from(double parameter) const;  // of !ZM and !ZO
+  std::optional<double> height_from(double parameter) const;  // `parameter`: number of !ZM or !ZO
   double to_height(double machine_z) const;
   double xy_speed() const;
   Heights profile_heights() const;
@@ -84,7 +85,7 @@ class Machine {
   PanelEvents events_;
   WorkArea area_;
   Position commanded_;  // sums of relative amounts keep their fractions
-  Position target_;     // the same on whole steps, but where the tool was stopped between them
+  Position target_;     // the same on whole steps, unless the tool was stopped between steps
   double origin_x_ = 0, origin_y_ = 0;
   double z0_ = 0;  // height from the top, as Position::h
   Heights heights_, panel_heights_;

@@ -1,4 +1,5 @@
-// The commands that set something, and those with machine coordinates of Z: all judge the number as it is written.
+// Commands that set a value, and commands with machine coordinates of Z. They judge the number as written, instead of
+// limiting it like a coordinate.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -50,7 +51,7 @@ void Machine::set_revolutions(const Order& order) {
   spindle_.set_revolutions(std::trunc(wanted));
 }
 
-// @ and !PZ: each of the two numbers is judged by itself (guideline 3-1 @, 3-3 !PZ).
+// Executes @ and !PZ. Each of the two numbers is judged separately (guideline 3-1 @, 3-3 !PZ).
 void Machine::set_heights(const Order& order) {
   const std::vector<double>& numbers = order.numbers;
   if (numbers.empty()) {
@@ -69,7 +70,7 @@ void Machine::set_heights(const Order& order) {
   heights_.z2 = std::trunc(std::min(numbers[1], kLongMaximum));
 }
 
-// Nothing where the height is not within Z's travel.
+// Returns nullopt if the height is not within Z's travel.
 std::optional<double> Machine::height_from(double parameter) const {
   const double whole = std::trunc(parameter);
   const double height = absolute_ ? to_height(whole) : commanded_.h + setup_.profile.up * whole;

@@ -6,7 +6,7 @@ namespace {
 bool is_digit(char byte) { return byte >= '0' && byte <= '9'; }
 bool is_sign(char byte) { return byte == '+' || byte == '-'; }
 
-// Digits after the point beyond these change no step.
+// Divisor from which further digits after the point are ignored: they change no step.
 constexpr double kDivisorMax = 1e9;
 
 }  // namespace

@@ -7,7 +7,7 @@ bool may_begin_number(char byte);  // 0-9 + - .
 
 class Number {
  public:
-  // Whether `byte` belongs to this number; if not, the number has ended before it.
+  // Takes a byte if it belongs to this number. Returns false if the number has ended before it.
   bool take(char byte);
 
   bool empty() const { return !signed_ && !has_point_ && !has_digit_; }
@@ -18,8 +18,8 @@ class Number {
 
  private:
   bool signed_ = false, negative_ = false, has_point_ = false, has_digit_ = false;
-  double digits_ = 0;   // all of them as a whole number
-  double divisor_ = 1;  // 10 for each digit after the point
+  double digits_ = 0;   // all digits as a whole number
+  double divisor_ = 1;  // 10 to the power of the number of digits after the point
 };
 
 }  // namespace axisgate::rml1::simulator

@@ -1,4 +1,4 @@
-// Where the guideline is silent or has several interpretations: README.md gives the place of each.
+// Interpretations of places where the guideline is silent or ambiguous: README.md names each place.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@ class Options : public NamedOptions {
 
 std::span<const OptionName> option_names();
 
-// How the mill holds back what is sent to it.
+// Method by which the mill stops its host.
 enum class Flow { none, xon, rts };
 
 struct MillSetup {
@@ -23,7 +23,7 @@ struct MillSetup {
   Options options;
   std::size_t buffer_bytes = 1024;  // 16 to 1048576
   Flow flow = Flow::none;
-  double slower_percent = 0;  // 0 to 1000: each motion takes so much longer than by the profile
+  double slower_percent = 0;  // 0 to 1000: percent by which each motion takes longer than by the profile
 };
 
 }  // namespace axisgate::rml1::simulator

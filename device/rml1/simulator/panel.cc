@@ -1,4 +1,4 @@
-// What a person does at the mill: the guideline names the panel, and says little of it.
+// Actions of a person at the mill. The guideline mentions the panel, but hardly describes it.
 #include "device/rml1/simulator/simulator.h"
 
 namespace axisgate::rml1::simulator {

@@ -10,7 +10,7 @@ constexpr int kNoSuchCommand = 1, kBadParameters = 2, kOutOfRange = 3;  // guide
 
 bool is_blank(char byte) { return byte == ' ' || byte == '\t'; }
 
-// Before a command (guideline 2-2 [Delimiter]). A byte of 0x80 or more is none.
+// Reports whether a byte may come before a command (guideline 2-2 [Delimiter]). Bytes of 0x80 or more may not.
 bool is_delimiter(char byte) { return static_cast<unsigned char>(byte) <= 0x20 || byte == ';'; }
 
 char capital(char byte) { return byte >= 'a' && byte <= 'z' ? static_cast<char>(byte - 'a' + 'A') : byte; }
@@ -85,7 +85,7 @@ void Reader::begin_name(char byte) {
   }
 }
 
-// D, I and V are commands, and begin DF, IN and VS.
+// D, I and V are commands, and also begin DF, IN and VS.
 bool Reader::second_letter_decides() const {
   return !caret_ && name_.size() == 1 && std::string_view("DIV").find(name_.front()) != std::string_view::npos;
 }

@@ -1,4 +1,4 @@
-// Bytes to commands, as guideline 2 has it. Written from the guideline, apart from device/rml1/language/parser.h.
+// Converts bytes to commands (guideline 2). Written from the guideline, independently of device/rml1/language/parser.h.
 #pragma once
 
 #include <string>
@@ -17,20 +17,20 @@ class ReaderListener {
   virtual void command_error(int number) = 0;  // 1, 2 or 3
 };
 
-// One byte gives at most three orders. Memory is bounded, however long a command is.
+// One byte gives at most three orders. Memory is bounded, even for a very long command.
 class Reader {
  public:
-  // Of the dialect only its data are used. It outlives this.
+  // Uses only the data of the dialect, which must outlive the reader.
   Reader(const Dialect& dialect, ReaderListener& listener) : dialect_(dialect), listener_(listener) {}
 
   void take(char byte);
-  void forget();  // the command under way, and a ^
+  void forget();  // discards the command in progress, and a ^
 
  private:
   enum class State { search, name, one_more_letter, list, group };
   enum class Place { before_number, in_number, after_number, after_comma };
 
-  // Each returns false for a byte that is to be read again in the new state.
+  // Each returns false if the byte must be read again in the new state.
   bool step(char byte);
   bool search(char byte);
   bool name(char byte);
@@ -64,7 +64,7 @@ class Reader {
   Order order_;
   Place place_ = Place::before_number;
   Number number_;
-  char axis_ = 0;  // of !ZE, 0 between axes
+  char axis_ = 0;  // axis of !ZE, 0 between axes
   bool skipping_ = false;
 };
 

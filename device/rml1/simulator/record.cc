@@ -19,7 +19,7 @@ std::string axes_text(const std::vector<AxisNumber>& axes) {
   return text;
 }
 
-// A millionth of a step is no displacement, but the rounding of a computed point.
+// Rounds to a millionth of a step: smaller amounts are the rounding of a computed point, not a displacement.
 double rounded(double steps) { return std::round(steps * 1e6) / 1e6 + 0.0; }
 
 std::string point_text(const Position& p) {

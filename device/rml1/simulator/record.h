@@ -1,4 +1,4 @@
-// What happened, as lines of JSON: README.md lists them.
+// Record of the mill's actions as lines of JSON, which README.md lists.
 #pragma once
 
 #include <cstddef>
@@ -20,7 +20,7 @@ class Record {
 
   explicit Record(Write write) : write_(std::move(write)) {}
 
-  // The time of all that follows; the first call is 0 s.
+  // Sets the time of all following lines, relative to the first call.
   void at(TimePoint now);
 
   void command(const Order& order, std::size_t buffered);

@@ -21,7 +21,8 @@ struct Line {
   }
 };
 
-// Which part of a line lies between 0 and `limit` in one coordinate.
+// Narrows `begin` and `end` to the part of a line that lies between 0 and `limit` in one coordinate. Returns false if
+// no part is left.
 bool narrow(double from, double to, double limit, double& begin, double& end) {
   if (same(from, to)) return from >= -kSameSteps && from <= limit + kSameSteps;
   const auto [enters, leaves] = std::minmax({-from / (to - from), (limit - from) / (to - from)});
@@ -47,8 +48,8 @@ class Legs {
     tool_ = to;
   }
 
-  // 5-1 B to K: "Raise the tool all the way up once, move the X and Y axes to the recovery location, then lower only
-  // the Z axis"; where X and Y have not moved, "Move only the Z axis".
+  // Returns to the path as 5-1 B to K say: "Raise the tool all the way up once, move the X and Y axes to the recovery
+  // location, then lower only the Z axis"; if X and Y have not moved, "Move only the Z axis".
   void come_back(const Position& at) {
     if (!same(at.x, tool_.x) || !same(at.y, tool_.y)) {
       go({tool_.x, tool_.y, 0}, Leg::Kind::vertical);
@@ -82,7 +83,8 @@ std::vector<Leg> route(const WorkArea& area, const Position& from, const Positio
   const auto [begin, end] = *part;
   Legs legs(tool);
   if (!area.holds_xy(from)) legs.come_back(area.nearest(line.at(begin)));
-  // Above the top and below the bottom only X and Y move (F, J): the height bends where the line crosses these.
+  // Above the top and below the bottom only X and Y move (F, J): the path bends at the points where the line crosses
+  // these heights.
   std::vector<double> bends;
   for (const double height : {0.0, -area.depth}) {
     const double bend = same(from.h, to.h) ? 0 : (height - from.h) / (to.h - from.h);

@@ -1,11 +1,11 @@
-// Where the tool really goes when it is sent along a straight line that may leave the work area (guideline 5-1).
+// Real path of the tool for a straight line that may leave the work area (guideline 5-1).
 #pragma once
 
 #include <vector>
 
 namespace axisgate::rml1::simulator {
 
-// In steps. X and Y from the machine's home corner; h is the height from the top of Z's travel, so 0 or less inside.
+// Place in steps: X and Y from the machine's home corner; h is the height from the top of Z's travel, 0 or less inside.
 struct Position {
   double x = 0, y = 0, h = 0;
 
@@ -25,8 +25,8 @@ struct Leg {
   Kind kind = Kind::path;
 };
 
-// From a commanded point to the next, with the tool at `tool`: inside the area if the first is, else where the path has
-// left it. Legs without length are omitted.
+// Returns the legs from one commanded point to the next. The tool is at `tool`: inside the area if `from` is, otherwise
+// where the path left the area. Legs without length are omitted.
 std::vector<Leg> route(const WorkArea& area, const Position& from, const Position& to, const Position& tool);
 
 }  // namespace axisgate::rml1::simulator

@@ -1,4 +1,4 @@
-// Times as the profile has them, and as the clock counts them.
+// Conversion between seconds, which the profile uses, and durations of the clock.
 #pragma once
 
 #include <chrono>

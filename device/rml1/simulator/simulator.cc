@@ -59,7 +59,7 @@ void Simulator::settle() {
   hold_back();
 }
 
-// One command after another, each when the one before has been executed.
+// Executes one command after another; each begins when the previous one has been executed.
 void Simulator::interpret() {
   while (power_ && drive_.idle()) {
     if (!read_.empty()) {
@@ -113,8 +113,8 @@ void Simulator::data(char byte) {
   }
 }
 
-// Guideline 4-2: "ends operation of the command now being executed and discards without executing it all buffered data
-// until the next ESC.K". README.md has the three interpretations.
+// Handles ESC.K, which "ends operation of the command now being executed and discards without executing it all buffered
+// data until the next ESC.K" (guideline 4-2). README.md has the three interpretations.
 void Simulator::escape_k() {
   if (setup_.options.is("escape_k", "in-band")) {
     if (!buffer_.put_escape_k()) line_error(kBufferOverflow);

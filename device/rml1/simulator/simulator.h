@@ -1,5 +1,6 @@
-// A mill without its hardware: bytes, time and what a person does at its panel go in; XON and XOFF, and what it did,
-// come out. It never answers (guideline 4-2, "Other device control commands are basically unsupported").
+// A mill without its hardware. Its input is bytes, time and the actions of a person at its panel; its output is XON,
+// XOFF and a record of its actions. It never answers (guideline 4-2, "Other device control commands are basically
+// unsupported").
 #pragma once
 
 #include <deque>
@@ -22,25 +23,26 @@
 
 namespace axisgate::rml1::simulator {
 
-// Time runs only by the `now` given; what became due before it happens in order, each at its own time. Not thread safe.
+// Time advances only by the given `now`. Everything that became due before `now` happens in order, each at its own
+// time. Not thread safe.
 class Simulator : public LineMachine, private DeviceControlSink, private ReaderListener {
  public:
-  // The line outlives this. `record` receives a line of JSON for everything that happens; it may be empty.
+  // The line must outlive the simulator. `record` receives a line of JSON for everything that happens; it may be empty.
   Simulator(MillSetup setup, ByteLink& line, Record::Write record = {});
   Simulator(const Simulator&) = delete;
   Simulator& operator=(const Simulator&) = delete;
 
-  // A mill does not notice who is at the other end of its line.
+  // A mill does not notice a change at the other end of its line.
   void link_up(TimePoint now) override { advance(now); }
   void link_down(TimePoint now, std::string_view) override { advance(now); }
   void receive(std::string_view bytes, TimePoint now) override;
   void advance(TimePoint now) override;
   std::optional<TimePoint> next_deadline() const override { return drive_.next(); }
 
-  // Whether the host must not send: after XOFF, or while CTS is low.
+  // Reports whether the host must not send: after XOFF, or while CTS is low.
   bool holds_back() const;
 
-  // At the panel.
+  // Actions at the panel
   void press_view(TimePoint now);
   void set_cover(bool open, TimePoint now);
   void press_stop(TimePoint now);
@@ -55,7 +57,7 @@ class Simulator : public LineMachine, private DeviceControlSink, private ReaderL
     bool tool_down = false;
     double rpm = 0;  // 0: the spindle is stopped
     std::size_t buffered = 0;
-    std::string errors;       // as the display shows them, "none"
+    std::string errors;       // errors on the display, or "none"
     std::string_view paused;  // "no", "cover", "not-ready" or "view"
     bool moving = false;
     bool discarding = false;  // until the next ESC.K
@@ -96,12 +98,12 @@ class Simulator : public LineMachine, private DeviceControlSink, private ReaderL
   DeviceControl device_control_;
   Buffer buffer_;
   Handshake handshake_;
-  // Read, and not yet executed or shown: commands, and the numbers of errors between them.
+  // Commands, and numbers of errors between them, that were read and not yet executed or shown.
   std::deque<std::variant<Order, int>> read_;
   bool power_ = true;
   bool view_ = false, cover_open_ = false, not_ready_ = false;
   bool discarding_ = false;
-  std::size_t discarded_ = 0;  // bytes since then
+  std::size_t discarded_ = 0;  // bytes discarded since discarding_ was set
 };
 
 }  // namespace axisgate::rml1::simulator

@@ -8,19 +8,20 @@ namespace axisgate::rml1::simulator {
 
 class SpindleMotor {
  public:
-  // Both outlive this.
+  // The referenced objects must outlive this one.
   SpindleMotor(const Spindle& data, Record& record) : data_(data), record_(record) {}
 
   void permit() { permitted_ = true; }
   void forbid();
-  // Starts it if it is permitted and stopped: true where movement then has to wait for the spin-up.
+  // Starts the motor if it is permitted and stopped. Returns true if it was started, so that movement must wait for the
+  // spin-up.
   bool start();
   void stop();
-  void set_revolutions(double parameter);  // of !RC, 0 to 8388607
-  void switch_off();                       // as the mill's power: all settings are lost
+  void set_revolutions(double parameter);  // parameter of !RC, 0 to 8388607
+  void switch_off();                       // all settings are lost, as when the mill is switched off
 
   bool rotates() const { return rotates_; }
-  double rpm() const;  // as set; 0 while stopped
+  double rpm() const;  // speed that is set; 0 while stopped
 
  private:
   double set_rpm() const;

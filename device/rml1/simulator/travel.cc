@@ -6,7 +6,7 @@
 namespace axisgate::rml1::simulator {
 namespace {
 
-// A trapezoid, or a triangle where the speed is not reached.
+// A trapezoidal speed profile, or a triangular one if the speed is not reached.
 struct Ramp {
   explicit Ramp(const Travel& travel) {
     if (travel.mm_per_s2 <= 0) {

@@ -15,7 +15,7 @@ struct Asked {
   std::string_view line;
 };
 
-// In the order of the enumerators.
+// Lines of the questions, in the order of the enumerators.
 constexpr Asked kAsked[] = {
     {Question::identity, "*IDN?"},          // 1)
     {Question::ready, "!:"},                // 2)
@@ -59,7 +59,7 @@ consteval bool in_order() {
 }
 static_assert(in_order());
 
-// Polls ask all day long, so the table is read once.
+// Polls ask very often, so the lines are parsed only once.
 const Command& command_of(Question question) {
   static const std::vector<Command> commands = [] {
     std::vector<Command> all;

@@ -1,5 +1,5 @@
-// The commands that the gateway itself sends, in the field's words: nothing outside this folder spells their names. A
-// value that does not fit is a defect, and aborts, where nothing else is said. The numbers are the manual's.
+// The commands that the gateway itself sends, named in the field's terms: only this folder knows their letters. Unless
+// stated otherwise, a value that does not fit is a defect and aborts. The numbers are the manual's.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +15,13 @@ namespace axisgate::shrc203::commands {
 using Amounts = std::map<int, std::int64_t>;  // in pulses, or pulses/s, by axis
 using Speeds = std::map<int, SpeedSetting>;   // by axis
 
-// What is asked with always the same line.
+// Questions that are always the same line.
 enum class Question {
   identity,
   ready,
   each_ready,
-  positions,       // by the command counter, in pulses
-  scale_counters,  // likewise, by the scale
+  positions,       // command counters, in pulses
+  scale_counters,  // scale counters, in pulses
   scale_resolution,
   pulse_length,
   speeds,
@@ -52,18 +52,19 @@ enum class Question {
 };
 
 Command ask(Question question);
-std::string_view text(Question question);  // the line
+std::string_view text(Question question);  // line of the question
 const CommandRow& row_of(Question question);
-// The question that reports what the register holds; for none, setpoint_a.
+// Returns the question that reports the register's content; setpoint_a for Register::none.
 Question question_of(Register reg);
 
-// The one setter of a register; E: and EP: have one for each CurveForm.
+// Returns the only setter of a register; E: and EP: have one for each CurveForm instead.
 const CommandRow& setter_of(Register reg);
-// 67) M:, 68) MP:, 69) A:, 70) AP:, 83) K:, 84) KP:. A prebuffer takes speeds as well: a line's one, or all axes'.
+// 67) M:, 68) MP:, 69) A:, 70) AP:, 83) K:, 84) KP:. Prebuffer settings may include speeds: one set for a line, or one
+// for each axis.
 Command set_setpoint(Register reg, const Amounts& amounts, const Speeds& speeds = {});
-// 77) to 82) EP:. out_of_range.
+// 77) to 82) EP:. Fails with out_of_range.
 Result<Command> set_curve(CurveForm form, const Arguments& arguments);
-Command set_jog(const Amounts& directions);     // 88) J:, by the sign
+Command set_jog(const Amounts& directions);     // 88) J:, direction by sign
 Command set_jog_speeds(const Amounts& speeds);  // 93) JD:
 Command clear_setpoints(AxisSet axes);          // 87) GC:
 
@@ -80,7 +81,7 @@ Command go_to_saved(Saved kind, std::string number);  // 131) PIT:GRT, 136) PAV:
 
 Command set_speeds(const Speeds& speeds);         // 89) D:
 Command set_origin_speeds(const Speeds& speeds);  // 94) B:
-bool can_be_set(const SpeedSetting& speed);       // by D: or B:
+bool can_be_set(const SpeedSetting& speed);       // fits D: and B:
 Command set_outputs(int pattern);                 // 96) O:
 Command clear_errors(AxisSet axes);               // 53) BEC:
 

@@ -28,7 +28,7 @@ std::string in_upper_case(std::string_view text) {
   return upper;
 }
 
-// The command that the text begins with, by its longest name. G begins too much.
+// Returns the command with the longest name that begins the text. G is skipped, since it begins too many texts.
 const CommandRow* begun_by(std::string_view text) {
   const std::string upper = in_upper_case(text);
   const CommandRow* begun = nullptr;
@@ -44,7 +44,7 @@ const CommandRow* begun_by(std::string_view text) {
 AxisSet Command::axes(AxisSet controllable) const {
   const auto letter = arguments.first("a");
   const auto parameter = std::ranges::find(row->parameters, "a", &Parameter::letter);
-  const bool time = letter && parameter->kind != Parameter::Kind::choice;  // of T:T (manual 97))
+  const bool time = letter && parameter->kind != Parameter::Kind::choice;  // interval of T:T (manual 97))
   if (!letter || time) return controllable;
   if (row->third_axis) return AxisSet::all();
   return from_command_letter(letter->front(), controllable).value_or(controllable);

@@ -1,4 +1,4 @@
-// From a person's line to a checked command, by the table.
+// Parses a line of text into a checked command, using the command table.
 #pragma once
 
 #include <string>
@@ -14,20 +14,20 @@ namespace axisgate::shrc203 {
 struct Command {
   const CommandRow* row = nullptr;
   Arguments arguments;
-  std::string line;  // strict, without terminator
+  std::string line;  // in the strict form, without terminator
 
-  // The axes it names; all of `controllable` where it names none or W.
+  // Returns the named axes; all of `controllable` if the command names no axes or W.
   AxisSet axes(AxisSet controllable) const;
 };
 
-// A command of this folder's own making, and of tests; see builders.h for the others'. The arguments must fit: a
-// mistake here is a defect, and aborts.
+// Makes a command, for this folder and for tests; other code uses builders.h. The arguments must fit: an error here is
+// a defect and aborts.
 Command make_command(std::string_view name, const Arguments& arguments = {});
 Command make_command(std::string_view name, AxisSet axes);
 Command make_command(const CommandRow& row, const Arguments& arguments);
 
-// A line that a caller wrote. malformed_line for CR, LF, NUL, other control and non-ASCII characters, for more than 200
-// characters, and for a command of the table in another form; unknown_command; out_of_range.
+// Parses a line that a caller wrote. Fails with malformed_line for control or non-ASCII characters (also CR, LF, NUL),
+// for more than 200 characters, and for a known command in another form; with unknown_command; with out_of_range.
 Result<Command> parse_command(std::string_view text);
 
 }  // namespace axisgate::shrc203

@@ -1,4 +1,4 @@
-// The command table for people.
+// The command table as text for people.
 #pragma once
 
 #include <span>

@@ -11,7 +11,7 @@ namespace axisgate::shrc203 {
 namespace {
 
 constexpr int kDecimalDigitsMax = 15;
-__extension__ typedef __int128 Wide;  // two 15-digit decimals brought to the same number of places
+__extension__ typedef __int128 Wide;  // for two 15-digit decimals scaled to the same number of decimal places
 
 const Parameter* find_parameter(const CommandRow& row, std::string_view letter) {
   const auto found = std::ranges::find(row.parameters, letter, &Parameter::letter);
@@ -27,7 +27,7 @@ bool is_choice(std::string_view choices, std::string_view value) {
   return false;
 }
 
-// Of the longest of the words that `text` begins with.
+// Returns the length of the longest word that begins `text`.
 std::size_t choice_length(std::string_view choices, std::string_view text) {
   std::size_t longest = 0;
   while (!choices.empty()) {
@@ -38,7 +38,8 @@ std::size_t choice_length(std::string_view choices, std::string_view text) {
   return longest;
 }
 
-// A number where a choice of numbers is expected, even if it is none of them. Errors then name it, not another form.
+// Returns the number at the start of `text` if the choices are numbers, even if it is not one of them. The error then
+// names the number instead of another form.
 std::string_view number_chosen(std::string_view choices, std::string_view text) {
   const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
   const auto first = std::ranges::find_if(choices, is_digit);
@@ -51,7 +52,7 @@ std::string_view number_chosen(std::string_view choices, std::string_view text) 
   return text.substr(0, of_one_digit ? std::min<std::size_t>(length, 1) : length);
 }
 
-// A bracketed part of a format and what follows it.
+// A bracketed part of a format, and the text after it.
 struct Group {
   std::string_view inner, rest;
 };
@@ -91,7 +92,7 @@ tl::unexpected<Problem> out_of_range(const CommandRow& row, const Parameter& par
       "see `axisctl commands`");
 }
 
-// Exactly, whatever the number of their places.
+// Compares exactly, for any number of decimal places.
 bool exceeds(Decimal one, Decimal other) {
   const auto scaled = [places = std::max(one.decimals, other.decimals)](Decimal decimal) {
     Wide digits = decimal.digits;
@@ -131,10 +132,10 @@ Result<void> check_value(const CommandRow& row, const Parameter& parameter, std:
   std::abort();
 }
 
-// P of a distance, F of a speed (manual 67), 93)).
+// P for a distance, F for a speed (manual 67), 93)).
 bool counts_pulses(std::string_view unit) { return unit == "P" || unit == "F"; }
 
-// Decimals have the range of their parameter only while they count pulses; S may not exceed F in any unit.
+// Checks the ranges of decimals, which apply only to values in pulses, and that S does not exceed F in any unit.
 Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
   bool in_pulses = true, all_in_pulses = true;
   std::string minimum_speed;
@@ -143,7 +144,7 @@ Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
     if (letter == "u") in_pulses = counts_pulses(value);
     all_in_pulses = all_in_pulses && in_pulses;
     if (parameter->kind != Parameter::Kind::decimal) continue;
-    // S and F stand behind all ways, in the units of these.
+    // S and F come after all distances, and use their units.
     const bool behind = letter == "spds" || letter == "spdf";
     if (behind ? all_in_pulses : in_pulses) {
       const auto whole = to_pulses({*parse_decimal(value), Unit::pulses}, Scale{});
@@ -163,7 +164,7 @@ Result<void> check_amounts(const CommandRow& row, const Arguments& arguments) {
   return {};
 }
 
-// How often a {...} must repeat; 0 where W or no axes leave it open.
+// Returns how often a {...} must be repeated; 0 if W or missing axes leave the number open.
 std::size_t axes_named(const Arguments& arguments) {
   const auto letter = arguments.first("a");
   if (!letter || *letter == "W") return 0;
@@ -233,7 +234,7 @@ class Encoder {
   std::string out_;
 };
 
-// Greedy: no format of the table needs to give back what an optional part has taken.
+// Greedy: an optional part of a format never has to return text that it has taken.
 class Decoder {
  public:
   Decoder(const CommandRow& row, std::string_view text) : row_(row), text_(text) {}
@@ -304,7 +305,7 @@ class Decoder {
       } else if (parameter.choices == "+ -") {
         taken = "+";  // "If there is no sign, it will be +" (manual 83), 88)); clients omit it elsewhere too
       } else if (parameter.letter == "u" && !text_.empty() && text_.front() >= '0' && text_.front() <= '9') {
-        taken = parameter.choices.substr(0, 1);  // pulses: P of a way, F of a speed
+        taken = parameter.choices.substr(0, 1);  // pulses: P for a distance, F for a speed
       } else {
         return false;
       }

@@ -1,7 +1,7 @@
-// The formats of command_table.h: how a line is put together from its parameters, and taken apart again.
+// The format language of command_table.h: builds a line from its parameters, and splits a line into them.
 //
-//   text    stands for itself                  <a>     a parameter of the row, by its letter in the manual
-//   [...]   may be left out                    {...|s} once for each axis of <a>, `s` between two
+//   text    literal text                  <a>     parameter of the row, by its letter in the manual
+//   [...]   optional part                 {...|s} repeated for each axis of <a>, separated by `s`
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@
 
 namespace axisgate::shrc203 {
 
-// Parameters in the order in which they stand in the line; a letter stands once for each axis in a {...}.
+// Parameters in the order of the line; inside {...} a letter occurs once for each axis.
 class Arguments {
  public:
   Arguments& add(std::string_view letter, std::string value);
@@ -32,12 +32,12 @@ class Arguments {
   std::vector<std::pair<std::string, std::string>> values_;
 };
 
-// The line without terminator, in the one strict form that the gateway sends. Refuses values out of their range
-// (out_of_range) and arguments that do not fit the format (invalid_request).
+// Returns the line without terminator, in the only form that the gateway sends. Fails with out_of_range for a value
+// outside its range; with invalid_request for arguments that do not fit the format.
 Result<std::string> encode(const CommandRow& row, const Arguments& arguments);
 
-// The other way; takes what clients write: either case, no sign (+), no unit (P), blanks after commas. Nothing where
-// the text is not of this row's shape; a Problem where the shape fits and a value is out of range.
+// Parses a line, in the forms that clients write: either case, no sign (+), no unit (P), blanks after commas. nullopt
+// if the text does not have this row's form; a Problem if the form fits and a value is out of range.
 std::optional<Result<Arguments>> decode(const CommandRow& row, std::string_view text);
 
 }  // namespace axisgate::shrc203

@@ -8,7 +8,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Manual 5) Q:S numbers the bits; which of the errors BEC: clears says 53).
+// Bits as numbered in manual 5) Q:S; manual 53) says which errors BEC: clears.
 template <int kBit>
 constexpr bool bit(const AxisState& axis) {
   return axis.status.bit(kBit);
@@ -17,7 +17,7 @@ bool busy(const AxisState& axis) { return axis.busy.value_or(false); }
 bool off(const AxisState& axis) { return !axis.excited.value_or(true); }
 bool at_limit(const AxisState& axis) { return axis.status.cw_limit() || axis.status.ccw_limit(); }
 
-// That an error stands against motion, and against what makes ready for it, is a reading: 5) names them and no more.
+// Interpretation: an error prevents motion and the commands that prepare motion. Manual 5) only names the errors.
 bool motion(const CommandRow& row) { return row.moves() || row.effect == Effect::motion_setting || row.needs.excited; }
 bool ready(const CommandRow& row) { return row.needs.ready; }
 bool excited(const CommandRow& row) { return row.needs.excited; }

@@ -1,4 +1,4 @@
-// Why the controller answers NG: one table from what an axis shows to the reason and to what helps.
+// Reasons for which the controller answers NG: one table from the status of an axis to the reason and the remedy.
 #pragma once
 
 #include <optional>
@@ -12,34 +12,34 @@
 
 namespace axisgate::shrc203 {
 
-// What an axis may show, and which commands are refused then.
+// A condition that an axis may show, and the commands that the controller refuses then.
 struct AxisCondition {
-  std::string_view name;  // "emergency stop", as tables show it
+  std::string_view name;  // "emergency stop", as shown in tables
   bool (*shown)(const AxisState& axis);
   bool (*refuses)(const CommandRow& row);
-  bool error = false;  // a motion that meets it has not ended well
+  bool error = false;  // a motion that meets the condition has not ended successfully
   Reason reason = Reason::unspecified;
   std::string_view what;  // "axis 1 ..."
-  std::string_view hint;  // {} is the axis
+  std::string_view hint;  // {}: number of the axis
 };
 
-// In the order in which they are looked for: the first that is shown is reported.
+// Returns the conditions in order of priority: the first one shown is reported.
 std::span<const AxisCondition> axis_conditions();
 
-// The first axis, and what it shows, that stands against the command.
+// Returns the first condition that prevents the command, with its axis.
 std::optional<Problem> refusal_by(const CommandRow& row, AxisSet axes, const State& state);
 
-// Likewise against a start, and against whatever needs READY and nothing else.
+// Return the same for a start, and for a command that needs only READY.
 std::optional<Problem> start_refused_by(AxisSet axes, const State& state);
 std::optional<Problem> busy_shown(AxisSet axes, const State& state);
 
-// The first error that one of the axes shows, whatever is asked of it.
+// Returns the first error that one of the axes shows, for any command.
 std::optional<Problem> error_shown(AxisSet axes, const State& state);
 
-// Of what somebody has set on these axes and never started, and no command deletes.
+// Returns the problem of a setting that was never started on these axes and that no command deletes.
 Problem stale_setpoint(AxisSet axes);
 
-// For a refusal that nothing explains: the known facts. `sent` is the line.
+// Returns the known facts for a refusal without an explanation. `sent` is the line.
 Problem unexplained(std::string_view sent, AxisSet axes, const State& state);
 
 }  // namespace axisgate::shrc203

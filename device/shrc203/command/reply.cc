@@ -40,7 +40,7 @@ bool is_decimal(std::string_view text) {
   return all_digits(text.substr(0, point)) && all_digits(text.substr(point + 1));
 }
 
-// Fixed width: a sign, blanks, digits (manual 4) Q:).
+// A coordinate has a fixed width: a sign, blanks, digits (manual 4) Q:).
 bool is_coordinate(std::string_view field) {
   const auto digits = without_sign(field);
   if (digits.size() == field.size()) return false;
@@ -48,7 +48,7 @@ bool is_coordinate(std::string_view field) {
   return begin != std::string_view::npos && all_digits(digits.substr(begin));
 }
 
-// M-1, U+2000, U0.00, or 0 for an invalid axis (manual 5) Q:S).
+// An amount: M-1, U+2000, U0.00, or 0 for an invalid axis (manual 5) Q:S).
 bool is_amount(std::string_view field) {
   if (field == "0") return true;
   if (field.empty() || std::string_view("PNUMD").find(field.front()) == std::string_view::npos) return false;
@@ -57,7 +57,7 @@ bool is_amount(std::string_view field) {
 
 bool is_speed(std::string_view field) { return parse_speed_setting(field).has_value(); }
 
-// NS, or the axes' letter and their signed amounts (manual 24) ?:K).
+// A line setting: NS, or the letter of the axes and their signed amounts (manual 24) ?:K).
 bool is_line_setting(std::string_view line) {
   if (line == "NS") return true;
   const auto fields = split(line);
@@ -66,7 +66,7 @@ bool is_line_setting(std::string_view line) {
                              [](const std::string& field) { return is_decimal(without_sign(field)); });
 }
 
-// NS, or the kind of arc 0 to 5, the axes, the sense of rotation and amounts (manual 22) ?:E).
+// An arc setting: NS, or the kind of arc from 0 to 5, the axes, the direction of rotation and amounts (manual 22) ?:E).
 bool is_arc_setting(std::string_view line) {
   if (line == "NS") return true;
   const auto fields = split(line);
@@ -96,13 +96,13 @@ bool is_echo(std::string_view line) {
          !is_one_of(line, {"OK", "OK_D", "NG", "NG_I"});
 }
 
-// A line of a program: a word or a letter, and what belongs to it (manual 115)).
+// A line of a program: a word or a letter, and its values (manual 115)).
 bool is_step(std::string_view line) {
   return is_echo(line) && is_one_of(line.substr(0, line.find(',')), {"M", "A", "K", "E", "EH", "CM", "CA", "PAV", "H",
                                                                      "Z", "R", "INPUT", "F", "N", "END", "NONE"});
 }
 
-// Takes the next ':'-separated number off `spec`.
+// Removes the next ':'-separated number from `spec` and returns it.
 std::int64_t take_number(std::string_view& spec) {
   const auto end = spec.find(':');
   const auto number = *parse_integer(spec.substr(0, end));
@@ -155,7 +155,7 @@ bool field_matches(std::string_view spec, std::string_view field) {
   return false;
 }
 
-// Replies that are matched whole: commas in them separate nothing that the table knows.
+// Replies that are matched as a whole: their commas do not separate fields.
 std::optional<bool> whole_line_matches(std::string_view spec, std::string_view line) {
   if (spec == "identity") return parse_identity(line).has_value();
   if (spec == "version") return is_version(line);
@@ -171,7 +171,7 @@ std::optional<bool> whole_line_matches(std::string_view spec, std::string_view l
   return {};
 }
 
-// The comma belongs to a mode's name (manual 37) HOST,PROGRAM) and to the line that ?:CMD quotes (manual 40) WI:W,C).
+// A comma is part of a mode's name (manual 37) HOST,PROGRAM) and of the line that ?:CMD quotes (manual 40) WI:W,C).
 bool is_one_field(std::string_view spec) { return spec == "mode" || spec == "echo"; }
 
 bool fields_match(std::string_view specs, const std::vector<std::string>& fields, std::size_t per_axis) {
@@ -186,8 +186,8 @@ bool fields_match(std::string_view specs, const std::vector<std::string>& fields
   return next == fields.size();
 }
 
-// An answer names every controllable axis or, where invalid ones stay as 0 and D (manual 5)), all three; a question
-// that named its axes gets theirs only.
+// An answer has every controllable axis or, if invalid axes are shown as 0 and D (manual 5)), all three; a question
+// that names its axes receives only those.
 bool data_matches(const CommandRow& row, std::string_view line, const std::vector<std::string>& fields,
                   int axis_count) {
   if (const auto whole = whole_line_matches(row.reply, line)) return *whole;
@@ -285,7 +285,7 @@ std::optional<SpeedSetting> parse_speed_setting(std::string_view field) {
   const auto within = [](const std::optional<std::int64_t>& value, std::int64_t most) {
     return value && *value >= 1 && *value <= most;
   };
-  // Manual 89) D:. A number outside that was no speed of an axis; it could not be sent back either.
+  // Range of manual 89) D:. A number outside it is not a speed of an axis, and could not be sent back either.
   if (!within(minimum, 1'000'000) || !within(maximum, 1'000'000) || !within(time, 1000)) return {};
   return SpeedSetting{*minimum, *maximum, static_cast<int>(*time)};
 }

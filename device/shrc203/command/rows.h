@@ -1,4 +1,4 @@
-// The parameters and forms that the rows of the command table are made of, and the rows themselves, by what they do.
+// The parameters and forms from which the rows of the command table are made, and the rows themselves, by effect.
 #pragma once
 
 #include <array>
@@ -9,16 +9,16 @@
 
 namespace axisgate::shrc203::rows {
 
-std::span<const CommandRow> questions();  // what changes nothing
-std::span<const CommandRow> motion();     // what sets axes moving, makes them ready to, or stops them
-std::span<const CommandRow> arcs();       // ... along a curve
-std::span<const CommandRow> settings();   // of the controller and its axes
+std::span<const CommandRow> questions();  // rows that change nothing
+std::span<const CommandRow> motion();     // rows that start, prepare or stop a motion
+std::span<const CommandRow> arcs();       // rows that prepare a motion along a curve
+std::span<const CommandRow> settings();   // settings of the controller and its axes
 std::span<const CommandRow> saved_positions();
 std::span<const CommandRow> other_modes();  // out of HOST and back: modes, dialect, programs, memory switches
 
 using Kind = Parameter::Kind;
 
-// The letters, as manual 4. defines them again and again for its commands.
+// Letters, as manual 4. defines them for its commands.
 inline constexpr Parameter kAxes{"a", "axes: 1, 2, 3, A=1+2, B=1+3, C=2+3, D=1+2+3, W=all controllable", Kind::choice,
                                  "1 2 3 A B C D W"};
 inline constexpr Parameter kLineAxes{"a", "axes of the line: A=1+2, B=1+3, C=2+3, D=1+2+3", Kind::choice, "A B C D"};
@@ -69,7 +69,7 @@ constexpr CommandRow question(std::string_view name, std::string_view format, st
           .meaning = name.starts_with("?:") || name == "*IDN?" ? Meaning::inquiry : Meaning::none};
 }
 
-// A question per axis whose single answer could be a completion: sent for all axes at once.
+// A question for each axis whose single answer could be a completion: it is sent for all axes at once.
 constexpr CommandRow axis_question(std::string_view name, std::string_view format, std::string_view description,
                                    int section, std::span<const Parameter> parameters, std::string_view reply) {
   CommandRow row = question(name, format, description, section, parameters, reply);
@@ -78,7 +78,7 @@ constexpr CommandRow axis_question(std::string_view name, std::string_view forma
   return row;
 }
 
-// A question with one number as its answer, for which no way exists to ask with commas.
+// A question whose answer is one number, and which cannot be asked so that the answer has commas.
 constexpr CommandRow number_question(std::string_view name, std::string_view description, int section,
                                      std::string_view reply) {
   CommandRow row = question(name, name, description, section, kNone, reply);

@@ -1,4 +1,4 @@
-// Rows of the command table that set arcs and helices: manual 71) to 82). Points are relative to where the axes stand.
+// Rows of the command table that set arcs and helices: manual 71) to 82). Points are relative to the present position.
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
@@ -41,7 +41,7 @@ constexpr std::array kHelixByAngle{kHelixPlane, kRotation,    kSign,         kLi
 constexpr std::array kHelixThrough{kHelixPlane, kRotation, kSign, kLineUnit,     kPassing1,     kPassing2,
                                    kEnd1,       kEnd2,     kRise, kMinimumSpeed, kMaximumSpeed, kAcceleration};
 
-// E: has none: S, F and R are those of D: (manual 71)).
+// E: has no speed parameters: it uses S, F and R of D: (manual 71)).
 constexpr std::span<const Parameter> without_speeds(std::span<const Parameter> parameters) {
   return parameters.first(parameters.size() - 3);
 }
@@ -52,7 +52,7 @@ constexpr CommandRow third_axis(CommandRow row) {
   return row;
 }
 
-// As setter(): the last character of the name gives the form.
+// A setter() row whose curve form is the last character of the name.
 constexpr CommandRow curve(std::string_view name, std::string_view format, std::string_view description, int section,
                            std::span<const Parameter> parameters, Register reg, Needs needs) {
   CommandRow row = setter(name, format, description, section, parameters, reg, needs);

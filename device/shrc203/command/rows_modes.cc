@@ -1,11 +1,11 @@
-// Rows of the command table that leave HOST or the dialect, and those that work where they lead: manual 49), 50), 102)
-// to 126).
+// Rows of the command table that leave HOST or change the dialect, and the rows that work in the other modes: manual
+// 49), 50), 102) to 126).
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
 namespace {
 
-// LOAD is in the list of manual 49) and not in that of 37); no answer of ?:MODE names it.
+// LOAD is listed in manual 49) but not in 37); no answer of ?:MODE names it.
 constexpr Parameter kMode{"m", "mode", Kind::choice, "HOST MANUAL REMOTE TEACHING EDIT LOAD TEST"};
 constexpr Parameter kFormat{"f", "command format", Kind::choice, "SHOT_FC HIT"};
 constexpr Parameter kProgram{"p", "program", Kind::integer, {}, 1, 8};
@@ -44,7 +44,7 @@ constexpr CommandRow of_program(std::string_view name, std::string_view format, 
                  whole_controller(command(name, format, description, section, parameters, effect, kReady)));
 }
 
-// Manual 107) and 108) name no condition: a program that runs is what they are for.
+// Manual 107) and 108) name no condition: the commands are meant for a running program.
 constexpr CommandRow while_it_runs(CommandRow row) {
   row.needs.ready = false;
   return row;

@@ -1,4 +1,4 @@
-// Rows of the command table that set axes moving, make them ready to, or stop them: manual 47), 57) to 88).
+// Rows of the command table that start, prepare or stop a motion: manual 47), 57) to 88).
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
@@ -21,10 +21,10 @@ constexpr CommandRow waits(Register reg, CommandRow row) {
 }
 
 constexpr CommandRow kMotionRows[] = {
-    // Waking brings a stage back to where it was when it went to sleep (manual 47)).
+    // Waking up returns the stage to its position before the sleep (manual 47)).
     means(Meaning::sleep, whole_controller(command("SLEEP:", "SLEEP:<s>", "sleep, or wake up", 47, kSleepOnly,
                                                    Effect::motion, kReady))),
-    // Its end, and its cancelling, start what is in the prebuffer (manual 2. 3)).
+    // The end of a wait, or its cancellation, starts the motion in the prebuffer (manual 2. 3)).
     waits(Register::wt,
           command("WT:", "WT:<a>,{<w>|,}", "wait, prebuffer; 0 cancels", 57, kWaits, Effect::motion, kNothing)),
     waits(Register::wi, command("WI:", "WI:<a>,{<i>|,}", "wait for an input pattern, prebuffer; C cancels", 58, kInputs,

@@ -1,5 +1,5 @@
-// Rows of the command table about saved positions: places, PIT:, which no new coordinates move, and coordinates, PAV:
-// (manual 127) to 136)).
+// Rows of the command table for saved positions: places (PIT:), which stay the same place when coordinates are set
+// again, and coordinates (PAV:) (manual 127) to 136)).
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
@@ -16,7 +16,7 @@ constexpr CommandRow of_position(std::string_view name, std::string_view format,
 constexpr CommandRow coordinates(std::string_view name, std::string_view format, std::string_view description,
                                  int section) {
   CommandRow row = question(name, format, description, section, kNumberOnly, "number:-999999999:999999999*");
-  row.separation = Separation::waits;  // of one axis, as a bare number
+  row.separation = Separation::waits;  // the answer of one axis is a bare number
   return row;
 }
 

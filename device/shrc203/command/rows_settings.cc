@@ -1,5 +1,5 @@
-// Rows of the command table that set something, and nothing moves: manual 45), 46), 48), 51) to 56), 63),
-// 64), 89) to 94), 96) to 101).
+// Rows of the command table that change a setting without motion: manual 45), 46), 48), 51) to 56), 63), 64), 89) to
+// 94), 96) to 101).
 #include "device/shrc203/command/rows.h"
 
 namespace axisgate::shrc203::rows {
@@ -26,7 +26,7 @@ constexpr std::array kTriggerTimer{kTimer};
 constexpr std::array kTriggerPulses{kOneAxis, kInterval};
 constexpr std::array kTriggerScale{kOneAxis, kSign, kInterval};
 
-// One for the whole controller, and it counts while anything moves.
+// The whole controller has one trigger, and it counts while any axis moves.
 constexpr CommandRow of_trigger(std::string_view name, std::string_view format, std::string_view description,
                                 int section, std::span<const Parameter> parameters) {
   return whole_controller(command(name, format, description, section, parameters, Effect::setting, kReady));
@@ -70,7 +70,7 @@ constexpr CommandRow kSettingsRows[] = {
                                                     kSpeedsWithUnit, Effect::setting, kReady))),
     means(Meaning::maximum_speed, of_motion(command("DF:", "DF:<a>{<u><spd>}", "set the maximum speed F", 91,
                                                     kSpeedsWithUnit, Effect::setting, kReady))),
-    // All that stands between the axis and the first time is the blank (manual 92)).
+    // Only a blank separates the axis and the first time (manual 92)).
     of_motion(command("DR:", "DR:<a> {<r>|,}", "set the acceleration and deceleration time R", 92, kAxesAndTime,
                       Effect::setting, kReady)),
     means(Meaning::jog, command("JD:", "JD:<a>{<u><spd>}", "change the speed of a running jog", 93, kSpeedsWithUnit,

@@ -1,5 +1,5 @@
-// The positions that the controller keeps, by number: its places, PIT: (manual 127) to 131)), and its sets of
-// coordinates, PAV: (132) to 136)).
+// Positions that the controller saves by number: places, PIT: (manual 127) to 131)), and coordinates, PAV: (132) to
+// 136)).
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@ namespace axisgate::shrc203 {
 
 PositionLines position_lines(const PositionSlot& slot);
 
-// In pulses, by axis, from the answer to PIT:GET or PAV:GET; nothing where it reports none.
+// Returns the coordinates in pulses by axis from the answer to PIT:GET or PAV:GET; empty if the answer has none.
 std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer, AxisSet controllable);
 
 }  // namespace axisgate::shrc203

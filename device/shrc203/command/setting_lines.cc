@@ -22,7 +22,7 @@ constexpr Duration kSettlingStep = std::chrono::milliseconds(100), kSettlingMax 
 
 std::string on_off(bool on) { return on ? "1" : "0"; }
 
-// As the controller's words are written.
+// The controller's words are written in capitals.
 std::string in_capitals(std::string word) {
   for (char& letter : word) letter = static_cast<char>(std::toupper(static_cast<unsigned char>(letter)));
   return word;
@@ -43,11 +43,11 @@ Result<Lines> only(std::string_view row, const Arguments& arguments = {}) {
   return only_line(encode(command_row(row), arguments));
 }
 
-// By the requested setting; the numbers are the manual's.
+// Builds the lines for each setting; the numbers are the manual's.
 struct LinesFor {
   const State& state;
 
-  // 51) F:, where 1 is open.
+  // 51) F:; 1 is open loop.
   Result<Lines> operator()(const SetClosedLoop& set) const {
     return only("F:", of_one(set.axis).add("f", on_off(!set.closed)));
   }
@@ -97,8 +97,8 @@ struct LinesFor {
   Result<Lines> operator()(const ResetController&) const { return only("RESET:"); }
 };
 
-// Only what is given is sent: what is not may be a running motion's for now. S may not exceed F at any time (manual
-// 89)), so a lower F has S go before it, and a higher S goes behind its F.
+// Sends only the given values, since the others may belong to a running motion at present. S may never exceed F (manual
+// 89)): S is sent before a lower F, and a higher S is sent after its F.
 Result<Lines> LinesFor::operator()(const SetSpeeds& set) const {
   const AxisState& present = state.axis(set.axis);
   auto minimum = set.minimum;
@@ -126,7 +126,7 @@ Result<Lines> LinesFor::operator()(const SetSpeeds& set) const {
   return lines;
 }
 
-// In tenths of a second (manual 56) W:).
+// Settling in tenths of a second (manual 56) W:).
 Result<Lines> LinesFor::operator()(const SetSettling& set) const {
   const bool in_range = set.settling >= Duration::zero() && set.settling <= kSettlingMax;
   if (!in_range || set.settling % kSettlingStep != Duration::zero()) {
@@ -136,7 +136,7 @@ Result<Lines> LinesFor::operator()(const SetSettling& set) const {
   return only("W:", Arguments().add("w", std::to_string(set.settling / kSettlingStep)));
 }
 
-// 45) PSET:, of all its axes at once.
+// 45) PSET:, for all its axes at once.
 Result<Lines> LinesFor::operator()(const SetCoordinates& set) const {
   AxisSet axes;
   for (const auto& [axis, pulses] : set.pulses) axes.add(axis);

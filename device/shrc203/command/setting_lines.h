@@ -1,4 +1,4 @@
-// Settings as plain values, as lines of the controller; and its answers as settings.
+// Converts settings to the controller's lines, and its answers to settings.
 #pragma once
 
 #include <span>
@@ -12,13 +12,14 @@
 
 namespace axisgate::shrc203 {
 
-// In the order in which they are sent; none, where nothing is to change. out_of_range, not_representable.
+// Returns the lines in the order in which they are sent; empty if nothing has to change. Fails with out_of_range or
+// not_representable.
 Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state);
 
-// The questions for Settings, each asked by itself: one without an answer at the time does not prevent the others.
+// Questions for Settings, each sent alone: a question without an answer does not prevent the others.
 std::span<const std::string_view> setting_questions();
 
-// An answer to one of them. What is none of its kind changes nothing.
+// Adds the answer to one of these questions to `settings`. An answer of another form changes nothing.
 void read_setting(std::string_view question, std::string_view answer, AxisSet controllable, Settings& settings);
 
 }  // namespace axisgate::shrc203

@@ -10,14 +10,16 @@
 
 namespace axisgate::shrc203 {
 
-// The answer to ?:T: NS, or m,v or m,a,v; nothing where it is none. A sign of v says what m says already.
+// Parses the answer to ?:T: NS, or m,v or m,a,v; nullopt for any other text. The sign of v repeats what m says.
 std::optional<Trigger> parse_trigger(std::string_view answer);
 
-// The line that sets it: of a trigger that was reported, and of one that a caller wants. out_of_range.
+// Return the line that sets the trigger: trigger_command() for a trigger that was reported, trigger_line() for one that
+// a caller requests. trigger_line() fails with out_of_range.
 Command trigger_command(const Trigger& trigger);
 Result<std::string> trigger_line(const Trigger& trigger);
 
-// What an accepted line of T: sets; nothing for any other, and for T:M, which fires once and sets nothing.
+// Returns the trigger that an accepted T: line sets; nullopt for other lines, and for T:M, which fires once and sets
+// nothing.
 std::optional<Trigger> trigger_of(const Command& command);
 
 }  // namespace axisgate::shrc203

@@ -15,7 +15,8 @@ namespace {
 
 using commands::Question;
 
-// ?:CMD answers with a command; no reply of the table looks like one.
+// Reports whether the line can be a reply to ?:CMD: a command. No other reply in the command table looks like a
+// command.
 bool is_known_command(std::string_view line) { return parse_command(line).has_value(); }
 
 }  // namespace
@@ -36,7 +37,7 @@ void Barrier::start(TimePoint now) {
 void Barrier::restart(TimePoint now) {
   expect_answer();
   question_before_stop_ = question_before_stop_ || (step_ == Step::echo && line_in_doubt_ != kAnyLine);
-  // The Stop is now the line before, so ?:CMD can tell nothing more of the line in doubt.
+  // The stop is now the previous line, so ?:CMD can report nothing more about the line in doubt.
   const bool older = step_ != Step::echo && guarded(Guard::older_identities);
   begin(older ? Step::behind_stop : Step::identity, now);
 }
@@ -76,7 +77,7 @@ bool Barrier::is_echo(std::string_view line) const { return line == line_in_doub
 
 bool Barrier::on_line(std::string_view line, TimePoint now) {
   if (step_ == Step::echo && is_echo(line)) {
-    // A repeated ?:CMD is answered with the ?:CMD before it.
+    // The reply to a repeated ?:CMD is the ?:CMD before it.
     if (line == line_in_doubt_) received_ = true;
     if (line != line_in_doubt_ && line != commands::text(Question::previous_command)) received_ = false;
     echo_ = line;
@@ -104,7 +105,7 @@ bool Barrier::on_line(std::string_view line, TimePoint now) {
   return outstanding;
 }
 
-// False for one that is not believed yet.
+// Returns false if the identity is not accepted yet.
 bool Barrier::on_identity(Identity identity, TimePoint now) {
   if (!is_known_(identity) && unconfirmed_ != identity && guarded(Guard::identity_twice)) {
     unconfirmed_ = std::move(identity);

@@ -1,14 +1,14 @@
-// What follows a missing or unreadable reply: nothing else is sent before it is certain again which command an answer
-// belongs to.
+// Recovery after a missing or unreadable reply. No other line is sent until it is certain again which command a reply
+// answers.
 //
-//   ?:CMD    its answer equal to the line in doubt means that the controller received it, not that it accepted it
-//   *IDN?    the configured controller is there, and every answer before this one has been given. One damaged byte
-//            makes another controller of it, so an answer of another controller counts only when it comes twice
-//   silence  completions excepted, for 50 ms, the time of three longest lines, or twice what the identity took: a slow
-//            controller may still have other answers to give
+//   ?:CMD    a reply equal to the line in doubt shows that the controller received the line, not that it accepted it
+//   *IDN?    the reply shows that the configured controller is there and has sent every earlier reply. One damaged byte
+//            turns it into another controller's, so an unknown identity counts only if it is received twice
+//   silence  no lines except completions for the longest of 50 ms, the time of three longest lines, and twice the time
+//            of the identity's reply: a slow controller may still send other replies
 //
-// A probe without an answer is repeated, three in all. The answer to each unanswered probe is outstanding: it may still
-// come, and is discarded wherever it appears.
+// A probe without a reply is repeated, three in all. The reply to each unanswered probe is outstanding: it may still
+// arrive later, and is discarded whenever it does.
 #pragma once
 
 #include <functional>
@@ -21,7 +21,7 @@
 
 namespace axisgate::shrc203 {
 
-// Answers to abandoned probes: they may come at any later time.
+// Number of replies to abandoned probes that may still arrive.
 struct OutstandingAnswers {
   int echoes = 0;
   int identities = 0;
@@ -30,45 +30,45 @@ struct OutstandingAnswers {
 class Barrier {
  public:
   struct Limits {
-    Duration reply;  // for a probe's answer
+    Duration reply;  // time for the reply to a probe
     Duration silence;
   };
 
-  // `line_in_doubt` is empty after a connect, and ?:CMD is then not asked; kAnyLine after a connect that begins with
-  // it: if the controller does not answer ?:CMD, the barrier asks for its identity nevertheless. `is_known`: that of
-  // the controller that is expected. `write` sends one line.
+  // `line_in_doubt` is empty after a connect without ?:CMD, and kAnyLine after a connect that begins with ?:CMD. With
+  // kAnyLine the barrier sends *IDN? even if ?:CMD is not answered. `is_known` reports whether an identity is that of
+  // the expected controller. `write` sends one line.
   static constexpr std::string_view kAnyLine = "?";
   Barrier(std::string line_in_doubt, Limits limits, OutstandingAnswers& outstanding,
           std::function<bool(const Identity&)> is_known, std::function<void(std::string_view)> write);
 
   void start(TimePoint now);
-  // A Stop was written in between: begin again.
+  // Begins again because a stop was written meanwhile.
   void restart(TimePoint now);
 
-  // A complete line that is no completion. False: nothing waited for it.
+  // Takes a complete line that is not a completion. Returns false if nothing waited for the line.
   bool on_line(std::string_view line, TimePoint now);
-  // Part of a line came.
+  // Takes note that part of a line was received.
   void on_half_line(TimePoint now);
   void advance(TimePoint now);
   TimePoint next_deadline() const { return deadline_; }
 
   enum class State { probing, passed, failed };
   State state() const { return state_; }
-  // Why it has failed, for people.
+  // Returns the reason of the failure as text for people.
   std::string why_failed() const;
 
-  // Whether the controller had received the line in doubt; nothing while ?:CMD has shown neither.
+  // Reports whether the controller received the line in doubt; nullopt until ?:CMD has shown it.
   std::optional<bool> received() const { return received_; }
-  // Reports whether no identity has been requested yet.
+  // Reports whether *IDN? has not been sent yet.
   bool in_first_step() const { return step_ == Step::echo; }
-  // Returns the answer to the ?:CMD of the first step, even if a Stop has ended that step.
+  // Returns the reply to the ?:CMD of the first step, even if a stop has ended that step.
   const std::optional<std::string>& echo() const { return echo_; }
-  // The expected one, or the same twice.
+  // Returns the accepted identity: the expected controller's, or another one that was received twice.
   const std::optional<Identity>& identity() const { return identity_; }
 
  private:
-  // behind_stop: a ?:CMD whose answer shows only that all answers before it have come. Otherwise an identity requested
-  // before the Stop and answered twice could pass for the one requested after it.
+  // behind_stop: a ?:CMD whose reply shows only that all earlier replies have arrived. Without it, two replies to an
+  // *IDN? sent before the stop could pass for the reply to the *IDN? sent after it.
   enum class Step { echo, behind_stop, identity, silence };
   void begin(Step step, TimePoint now);
   int older_answers(Step step) const;
@@ -87,10 +87,10 @@ class Barrier {
   State state_ = State::probing;
   Step step_ = Step::echo;
   int probes_ = 0;
-  // Probes of the same kind from before this step began, in an earlier barrier or before a Stop. The controller answers
-  // in order, so their answers come first and prove nothing.
+  // Number of unanswered probes of the same kind from before this step, in an earlier barrier or before a stop. The
+  // controller replies in order, so their replies come first and prove nothing.
   int older_ = 0;
-  bool question_before_stop_ = false;  // the ?:CMD of the first step may still be answered
+  bool question_before_stop_ = false;  // the reply to the first step's ?:CMD may still arrive
   TimePoint deadline_{};
   TimePoint probed_{};
   Duration silence_{};
@@ -98,10 +98,10 @@ class Barrier {
   std::optional<bool> received_;
   std::optional<std::string> echo_;
   std::optional<Identity> identity_;
-  std::optional<Identity> unconfirmed_;  // the newest answer that names another controller
+  std::optional<Identity> unconfirmed_;  // the newest identity of another controller
 };
 
-// Whether `line` may be the answer to an outstanding probe; if so, that answer is no longer outstanding.
+// Reports whether `line` may be the reply to an outstanding probe. If so, removes that reply from `outstanding`.
 bool settle_outstanding(OutstandingAnswers& outstanding, std::string_view line);
 
 }  // namespace axisgate::shrc203

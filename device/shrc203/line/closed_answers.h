@@ -1,4 +1,4 @@
-// The bare numbers that come between a question and the !:S that closes it (command_table.h, Separation::closed).
+// Bare numbers received between a question and the !:S that closes it (command_table.h, Separation::closed).
 #pragma once
 
 #include <algorithm>
@@ -7,17 +7,18 @@
 
 namespace axisgate::shrc203 {
 
-// The numbers of one closed exchange are its answer, and completions. Where they are all alike, the answer is that
-// number. Where they differ, the answers of the other exchanges show which one it is.
+// ClosedAnswers separates replies from completions. The numbers of one closed exchange are its reply and completions.
+// If all are equal, the reply is that number. If they differ, the replies of other exchanges show which number it is.
 class ClosedAnswers {
  public:
-  // What of them are completions for certain.
+  // Adds the numbers of one exchange. Returns the numbers that are certainly completions.
   std::vector<int> take(const std::vector<int>& numbers) {
     const bool alike = std::ranges::count(numbers, numbers.front()) == std::ssize(numbers);
     if (!alike) unclear_.push_back(numbers);
     return alike ? std::vector<int>(numbers.begin() + 1, numbers.end()) : std::vector<int>();
   }
-  // ... and of those that were not clear, once the answer is known. If it was another then, nothing follows from it.
+  // Returns the completions among the unclear numbers, now that the reply is known. Exchanges without this reply are
+  // ignored: the reply was different at that time.
   std::vector<int> settle(int answer) {
     std::vector<int> completions;
     for (std::vector<int>& numbers : unclear_) {

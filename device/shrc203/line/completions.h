@@ -1,4 +1,4 @@
-// Which axis numbers may come over the line by themselves, and until when. Design: a notice is never taken for a reply.
+// Completions that may still arrive from each axis, so that a notice is never taken for a reply.
 #pragma once
 
 #include <array>
@@ -11,45 +11,47 @@ namespace axisgate::shrc203 {
 
 class Completions {
  public:
-  // After a connect nobody knows what was left running: every axis may complete.
+  // Makes a completion of every axis possible: after a connect it is unknown which axes still move.
   void connected();
 
-  // The first byte of HRT:, ZRT: or a G after a prebuffer setting is about to be written.
+  // Called right before the first byte of HRT:, ZRT: or of a G: after a prebuffer setting is written.
   void started(AxisSet axes, TimePoint now);
 
-  // A prebuffer setting for these axes was answered OK_D, or may have been: it begins by itself when what runs has
-  // ended, even before its G.
+  // Called when a prebuffer setting for these axes was answered OK_D, or may have been. The setting starts by itself
+  // when the running motion has ended, even before its G:.
   void chained(AxisSet axes, TimePoint now);
 
-  // A completion was received: one for each start, more in a chain.
+  // Called when a completion was received: one for each start, more in a chain.
   void arrived(int axis);
 
-  // A reading showed these axes as READY, or as busy. Returns those for which it changed anything. An axis that moves
-  // may complete though nothing was started on it: the line may have turned a command for another axis into one for it.
+  // Called when a reading showed these axes as READY, or as busy. Returns the axes for which this changed anything. A
+  // moving axis may complete even if nothing was started on it: the line may have turned a command for another axis
+  // into a command for this one.
   AxisSet ready(AxisSet axes, TimePoint now);
   AxisSet busy(AxisSet axes);
 
-  // An exchange written at `written` was answered. The controller answers in order, so by then every number that it had
-  // sent before has come; one whose time after READY has passed cannot come. Axes that the answer itself shows
-  // as busy are excepted: something has started them since.
+  // Called when the exchange written at `written` was answered. The controller replies in order, so every number that
+  // it sent earlier has arrived. A completion whose time limit after READY has passed by then is no longer possible.
+  // Axes that the reply itself shows as busy are excepted: something has started them since.
   void answered(TimePoint written, AxisSet busy = {});
 
   AxisSet possible() const;
   bool possible(int axis) const { return possible().has(axis); }
 
-  // Axes of which a completion may still come and has not: nothing may start on them, or the late number of one motion
-  // would look like the next one's.
+  // Returns the axes whose completion is possible and has not arrived. Nothing may start on them: the late completion
+  // of one motion would be taken for the completion of the next.
   AxisSet outstanding() const;
 
-  // From when on an exchange would settle the matter for all of `axes`; nothing while one of them may still be moving.
+  // Returns the time from which an exchange settles the matter for all of `axes`. nullopt if one of them may still be
+  // moving, or if none may complete.
   std::optional<TimePoint> settles_from(AxisSet axes) const;
 
  private:
   struct Axis {
     bool possible = false;
     bool arrived = false;
-    std::optional<TimePoint> started{};  // nothing: before the connect
-    std::optional<TimePoint> until{};    // set by READY
+    std::optional<TimePoint> started{};  // nullopt if the start was not seen
+    std::optional<TimePoint> until{};    // set by READY; end of the time in which a completion may arrive
   };
   Axis& axis(int number) { return axes_[static_cast<std::size_t>(number - 1)]; }
   const Axis& axis(int number) const { return axes_[static_cast<std::size_t>(number - 1)]; }

@@ -12,7 +12,8 @@ namespace {
 
 const std::string_view kQuestion = commands::text(commands::Question::previous_command);
 
-// Others may send what the table here has not (PSET: ...): a verb and its colon (manual 4.).
+// Other programs may send commands that are not in the command table (PSET: ...). A command is a verb and its colon
+// (manual 4.).
 bool looks_like_command(std::string_view line) {
   const auto colon = line.find(':');
   return colon != std::string_view::npos && colon > 0 &&
@@ -38,7 +39,7 @@ void Continuity::begin(TimePoint now) {
 }
 
 void Continuity::wrote(std::string_view line, Duration on_the_wire, TimePoint now) {
-  // A controller that restarted in the pause before the line now left unanswered would tell that line as well.
+  // After a restart in the pause before the unanswered line, ?:CMD would report that line as well.
   if (!answered_ && !in_time_) {
     std::erase(before_, newest_);
     unproven_.push_back(newest_);

@@ -1,9 +1,9 @@
-// Whether the controller that answers now has been running ever since it answered before.
+// Check that the controller has not restarted since its previous reply.
 //
-// A restart takes a while in which nothing is read, and afterwards ?:CMD no longer reports the line before it (manual
-// 40), 46) RESET:). So when a line is written soon after an answer, nothing can have happened in between. After a
-// longer pause ?:CMD must be the first line, because ?:CMD would report any other line from then on. The same answer
-// shows whether somebody else has written to the controller.
+// A controller that restarts reads nothing for a while, and afterwards ?:CMD no longer reports the line before it
+// (manual 40), 46) RESET:). So a line written soon after a reply needs no check. After a longer pause ?:CMD must be the
+// first line, because it would report any other line sent since. Its reply also shows whether another program has
+// written to the controller.
 #pragma once
 
 #include <optional>
@@ -18,42 +18,44 @@ namespace axisgate::shrc203 {
 
 class Continuity {
  public:
-  // After a connect nothing is known of what the controller took before.
+  // Forgets all lines: after a connect it is unknown what the controller received before.
   void connected();
-  // The handshake has passed, or other facts show that it is still the same.
+  // Called when the handshake has passed, or when other facts show that the controller has not restarted.
   void begin(TimePoint now);
 
-  // Whether ?:CMD is to be asked before anything else is.
+  // Reports whether ?:CMD must be sent before any other line.
   bool due(TimePoint now) const { return now - alive_ > kRestartMin; }
-  // Nothing shows whether the controller has restarted: other facts must.
+  // Reports whether a restart is possible, so that other facts must decide.
   bool open() const { return open_; }
-  // ... but the only sign of a restart is that an answer came late.
+  // Reports whether a restart is possible only because a reply was late.
   bool only_late() const { return open_ && only_late_; }
 
-  // Its bytes and those of the answer take `on_the_wire` at most.
+  // Called when `line` is written. `on_the_wire` is the longest time for its bytes and those of the reply.
   void wrote(std::string_view line, Duration on_the_wire, TimePoint now);
-  // The newest line was answered. `taken`: not by NG; whether ?:CMD reports a refused line is an open question.
+  // Called when the newest line was answered. `taken` is false for NG; the manual does not say whether ?:CMD reports a
+  // refused line.
   void answered(bool taken, TimePoint now);
 
-  // Whether this can be what ?:CMD reports. After a restart it may report anything; that too is left to other facts.
+  // Reports whether `line` can be the reply to ?:CMD. A restarted controller may report anything; other facts decide
+  // about that case.
   bool could_be(std::string_view line) const;
   enum class Verdict { same, open, foreign };
-  // What ?:CMD was answered.
+  // Compares the reply to ?:CMD with the lines sent.
   Verdict compare(std::string_view line_before, TimePoint now);
 
  private:
   void doubt(bool strongly, TimePoint due, TimePoint now);
 
-  std::vector<std::string> before_;    // what ?:CMD may tell when there was no restart
-  std::vector<std::string> unproven_;  // what it may tell just as well after a restart, and is ours all the same
+  std::vector<std::string> before_;    // lines that ?:CMD may report without a restart
+  std::vector<std::string> unproven_;  // this gateway's lines that ?:CMD may report with or without a restart
   std::string newest_;
-  bool answered_ = true;  // the newest line was
-  bool refused_ = false;  // the line answered last was, and may have come in as another
+  bool answered_ = true;  // the newest line was answered
+  bool refused_ = false;  // the line answered last was refused; it may have arrived as another line
   bool in_time_ = false;  // the newest line was written before any restart could have ended
   bool open_ = false;
   bool only_late_ = false;
-  TimePoint due_{};                        // the newest line's answer, unless the controller is slow
-  std::optional<TimePoint> question_due_;  // that of the oldest ?:CMD without an answer
+  TimePoint due_{};                        // time by which the newest line is answered, unless the controller is slow
+  std::optional<TimePoint> question_due_;  // the same for the oldest unanswered ?:CMD
   TimePoint alive_{};
 };
 

@@ -1,5 +1,5 @@
-// Detects a device that sends without end: in one second, bytes that belong to no reply or notice exceed half of what
-// the line carries. Garbage and late replies never come near that.
+// Detection of a device that sends without end. Its limit: within one second, bytes that belong to no reply or notice
+// exceed half of the line's capacity. Garbage and late replies stay far below this limit.
 #pragma once
 
 #include <cstddef>
@@ -17,7 +17,7 @@ class Flood {
 
   void connected() { unclaimed_ = 0; }
   void received(std::size_t bytes, TimePoint now);
-  // Subtracts received bytes that belonged to an answer or a completion.
+  // Subtracts received bytes that belonged to a reply or a completion.
   void belonged(std::size_t bytes);
   bool too_much() const { return unclaimed_ > limit_; }
 
@@ -25,7 +25,7 @@ class Flood {
   static constexpr int kBitsPerByte = 10;
 
   std::int64_t limit_;
-  TimePoint window_{};  // its beginning
+  TimePoint window_{};  // start of the present window
   std::int64_t unclaimed_ = 0;
 };
 

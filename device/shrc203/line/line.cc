@@ -46,7 +46,7 @@ void Line::link_up(TimePoint now) {
   flood_.connected();
   completions_.connected();
   continuity_.connected();
-  // Whatever ?:CMD answers is new here.
+  // After a connect every reply to ?:CMD is accepted: nothing was sent on this connection.
   barrier_ = make_barrier(std::string(asks_line_before_ ? Barrier::kAnyLine : ""), connect_limits());
   write_open_stops({});
   barrier_->start(now);
@@ -62,7 +62,7 @@ void Line::link_down(TimePoint now, std::string_view why) {
   link_.reopen(pause_before_reopening());
 }
 
-// While a stop is open every moment counts.
+// Returns the pause before the port is opened again; short while a stop is open.
 Duration Line::pause_before_reopening() {
   if (!guarded(Guard::backoff)) return Duration::zero();
   if (listener_.stop_is_open() && guarded(Guard::stop_reopens_soon)) return kReopenBackoffMin;
@@ -123,7 +123,7 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
   now_ = now;
   OneShot<ExchangeResult> answer(executor_);
   const bool is_stop = request.lane == Lane::stop;
-  // A handshake just rests: refused, it would be taken for failed.
+  // Lines of the handshake stay queued: their refusal would look like a failed handshake.
   if (sealed_ && !is_stop && !request.handshake) {
     answer.deliver({.written = false, .problem = *sealed_});
     return answer;
@@ -150,7 +150,8 @@ OneShot<ExchangeResult> Line::exchange(ExchangeRequest request, TimePoint now) {
     }
   }
   const Lane lane = guarded(Guard::stop_lane) || !is_stop ? request.lane : Lane::poll;
-  const bool shares = !request.identity.empty();  // what a motion sends is bounded by the gate, and must not fail here
+  // The gate bounds a motion's lines, so they need no share and must not fail here.
+  const bool shares = !request.identity.empty();
   const std::string turn = shares ? request.identity : request.caller;
   auto waiting = std::make_shared<Waiting>(Waiting{std::move(request), {answer}, now});
   using Queue = LaneQueue<WaitingPtr>;
@@ -235,7 +236,7 @@ void Line::advance(TimePoint now) {
     barrier_moved(now);
   } else if (in_flight_ && now >= in_flight_->limit) {
     listener_.line_event(TimeLimitPassed{TimeLimitPassed::Kind::reply}, now);
-    drop_unended(now);  // or the first answer in the barrier would be its end
+    drop_unended(now);  // otherwise the first reply in the barrier would complete that line
     const auto& sent = in_flight_->waiting->request.command.line;
     Problem late{.reason = Reason::reply_timed_out,
                  .message = fmt::format("\"{}\" was not answered in time", sent),
@@ -274,7 +275,7 @@ Barrier::Limits Line::barrier_limits() const {
   return {profile_.reply_limit + longest_reply, std::max(kBarrierSilenceMin, 3 * longest_reply)};
 }
 
-// A controller that was slow to answer over the line before may do so yet: it is silent once it could have.
+// Extends the silence after a reconnect: a slow controller may still reply to lines of the previous connection.
 Barrier::Limits Line::connect_limits() {
   Barrier::Limits limits = barrier_limits();
   const bool before = std::exchange(connected_before_, true);
@@ -288,7 +289,7 @@ std::unique_ptr<Barrier> Line::make_barrier(std::string line_in_doubt, Barrier::
       [this](std::string_view line) { write_line(line); });
 }
 
-// The configured controller, or the one that was here before.
+// Reports whether the identity is that of the configured controller, or of the controller that was connected before.
 bool Line::is_known(const Identity& identity) const {
   const std::string& serial_number = profile_.serial_number.empty() ? trusted_ : profile_.serial_number;
   return identity.model == profile_.model && (serial_number.empty() || identity.serial_number == serial_number);

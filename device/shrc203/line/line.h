@@ -1,5 +1,5 @@
-// The controller's line: one exchange in flight, completions distinguished from replies, and the barrier after doubt.
-// Its phases and their transitions are in link.h.
+// Line to the controller: one exchange in flight, completions distinguished from replies, and the barrier after doubt.
+// The phases and their transitions are in link.h.
 #pragma once
 
 #include <functional>
@@ -32,34 +32,34 @@ struct ExchangeRequest {
   Command command;
   Lane lane = Lane::question;
   std::string caller;
-  std::string identity{};   // of a caller's own line: whose turn it is, with a share of the lane; empty: the caller's
-  TimePoint not_after{};    // not written later than this
-  MotionId motion = 0;      // the motion it belongs to
-  std::uint64_t lease = 0;  // of one that belongs to none: the lease of its request,
-  AxisSet uses;             // and the axes that it needs the right to
-  bool tidies = false;      // it only undoes what the motion did: no right is needed for that
-  AxisSet completes;        // the axes whose numbers may come once it is written
-  bool handshake = false;   // may be sent before open()
-  bool closed = false;      // an !:S follows a number that could be a completion, so that all of them are in
+  std::string identity{};   // takes the turn, with a share of the lane; empty: `caller`, without one
+  TimePoint not_after{};    // latest time for writing the line
+  MotionId motion = 0;      // motion that the line belongs to; 0 for none
+  std::uint64_t lease = 0;  // lease of the request; for lines without a motion
+  AxisSet uses;             // axes that a line without a motion needs the right to
+  bool tidies = false;      // the line only restores what the motion changed, so it needs no right
+  AxisSet completes;        // axes that may complete once the line is written
+  bool handshake = false;   // the line may be sent before open()
+  bool closed = false;      // an !:S follows a number that could be a completion, and shows that all have arrived
 };
 
 struct ExchangeResult {
-  bool written = false;              // false: the controller has certainly not seen it
-  std::optional<Reply> reply{};      // set when an answer was matched
-  std::optional<Problem> problem{};  // why there is no answer that can be believed; also set for NG_I
-  // Of one in doubt: whether ?:CMD has shown that the controller received it; nothing where it has shown neither.
+  bool written = false;              // false: the controller has certainly not received the line
+  std::optional<Reply> reply{};      // set if a reply was matched
+  std::optional<Problem> problem{};  // reason why no reply can be trusted; also set for NG_I
+  // Evidence from ?:CMD for an exchange in doubt: whether the controller received the line. nullopt if there is none.
   std::optional<bool> received{};
 
-  // Of a closed exchange whose answer could not be distinguished from completions: all numbers. `reply` is the first.
+  // All numbers of a closed exchange whose reply could not be distinguished from completions. `reply` is the first.
   std::vector<int> candidates{};
 
   bool accepted() const { return reply && reply->accepted() && !problem; }
   bool refused() const { return reply && reply->kind == Reply::Kind::ng; }
-  // Written, and nobody knows what the controller made of it.
+  // Reports whether the line was written and its effect is unknown.
   bool in_doubt() const { return written && problem.has_value(); }
 };
 
-// A question that waits until no completion could be taken for its answer.
+// A HeldQuestion is a question that waits until no completion could be taken for its reply.
 struct HeldQuestion {
   std::string line, caller;
   TimePoint since{};
@@ -69,26 +69,28 @@ class LineListener {
  public:
   virtual ~LineListener() = default;
   virtual void line_opened(TimePoint now) = 0;
-  // Returns the stops to write now, before any probe: the port was opened (`heard` is empty), or a line other than an
-  // axis number was received during a barrier. Their answers are not waited for.
+  // Returns the stops to write now, before any probe. Called when the port was opened (`heard` is empty), or when a
+  // line other than an axis number was received during a barrier. The replies to these stops are not awaited.
   virtual std::vector<ExchangeRequest> stops_to_write(std::string_view heard, TimePoint now) = 0;
   // Reports whether a stop is open, so that a closed port is opened again soon.
   virtual bool stop_is_open() const = 0;
-  // The identity was received and the line fell silent: the handshake may run.
-  // `line_before`: what the controller had been sent before, where Line::ask_line_before() was called.
+  // Called when the identity was received and the line fell silent: the handshake may run. `line_before` is the line
+  // that the controller received before the connect, if Line::ask_line_before() was called.
   virtual void line_connected(const Identity& identity, const std::optional<std::string>& line_before,
                               TimePoint now) = 0;
-  virtual void line_trusted(TimePoint now) = 0;  // open() was called; what waits is sent next
+  virtual void line_trusted(TimePoint now) = 0;  // open() was called; waiting lines are sent next
   virtual void line_lost(const std::string& why, TimePoint now) = 0;
   virtual void barrier_entered(const std::string& why, TimePoint now) = 0;
   virtual void barrier_passed(const Identity& identity, TimePoint now) = 0;
-  // Nothing but a stop and what belongs to the handshake is sent before confirm_no_restart() or disconnect().
+  // Called when the controller may have restarted. Only stops and lines of the handshake are sent until
+  // confirm_no_restart() or disconnect().
   virtual void restart_suspected(TimePoint now) = 0;
   virtual void same_controller(TimePoint now) = 0;  // confirm_no_restart() was called
-  // `doubtful`: not expected now, or seen in a barrier.
+  // `doubtful`: the completion was not expected now, or was received in a barrier.
   virtual void completion_seen(int axis, bool doubtful, TimePoint now) = 0;
   virtual void line_event(const Event& event, TimePoint now) = 0;
-  // Asked of what belongs to a motion, right before it is written; with a problem it never is.
+  // Called right before a line that belongs to a motion or uses axes is written. The line is not written if this
+  // returns a problem.
   virtual std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) = 0;
 };
 
@@ -96,7 +98,7 @@ class Line {
  public:
   Line(const Profile& profile, ByteLink& link, Executor& executor, LineListener& listener);
 
-  // From now on a connect begins with ?:CMD, until a controller has answered.
+  // Makes each connect begin with ?:CMD until a controller has answered.
   void ask_line_before() { asks_line_before_ = true; }
   void link_up(TimePoint now);
   void link_down(TimePoint now, std::string_view why);
@@ -104,37 +106,40 @@ class Line {
   void advance(TimePoint now);
   std::optional<TimePoint> next_deadline(TimePoint now) const;
 
-  // A closed port is opened now instead of after its pause: a stop waits.
+  // Opens a closed port now instead of after its pause, because a stop waits.
   void open_at_once(TimePoint now);
 
-  // co_await yields an ExchangeResult, always. Identical questions that wait in one lane share an exchange.
+  // Queues the line. co_await always yields an ExchangeResult. Identical questions that wait in one lane share an
+  // exchange.
   OneShot<ExchangeResult> exchange(ExchangeRequest request, TimePoint now);
 
-  // Ends all waiting exchanges for which chosen(request) holds, unwritten, with `problem`.
+  // Ends, unwritten and with `problem`, all waiting exchanges for which chosen(request) is true.
   void withdraw(const std::function<bool(const ExchangeRequest&)>& chosen, const Problem& problem);
 
-  // The question that has waited longest of those which motions hold back; nothing where none does. Before the
-  // handshake has passed none counts.
+  // Returns the longest waiting question among those that completions may hold back. nullopt if there is none, before
+  // the handshake has passed, and after seal().
   std::optional<HeldQuestion> held_question() const;
 
-  // Nothing but a stop is written from now on: what waits ends unwritten with `problem`, and so does what comes.
+  // Restricts the line to stops. Waiting and later lines end with `problem`, unwritten; lines of the handshake stay
+  // queued.
   void seal(const Problem& problem);
-  // An exchange is in flight, or its answer is held back by the barrier.
+  // Reports whether an exchange is in flight, or the barrier holds back its result.
   bool exchanging() const { return in_flight_ || doubted_waiting_; }
-  // The motion whose start is in flight; 0 for none.
+  // Returns the motion whose start is in flight; 0 for none.
   MotionId starting() const;
 
   void open(AxisSet controllable, TimePoint now);          // the handshake has passed
-  void disconnect(const std::string& why, TimePoint now);  // close, and open again after the backoff
-  void confirm_no_restart(TimePoint now);                  // the suspected restart was none
+  void disconnect(const std::string& why, TimePoint now);  // closes the port, and opens it again after the backoff
+  void confirm_no_restart(TimePoint now);                  // the suspected restart did not happen
   bool restart_only_possible() const { return continuity_.only_late(); }
 
-  // A reading showed these axes as stationary, or as moving.
+  // Called when a reading showed these axes as stationary, or as moving.
   void ready(AxisSet axes, TimePoint now);
   void busy(AxisSet axes, TimePoint now);
 
-  // A path's next refill will be requested at `due`. Until then nothing begins in the lanes below that may not have
-  // ended by then. From then on nothing begins there until the refill is written or kRefillReservedAfterDue has passed.
+  // Keeps the line free for the path's next refill, which will be requested at `due`. Before `due`, lower lanes begin
+  // only exchanges that end by then. After `due`, they begin nothing until the refill is written or
+  // kRefillReservedAfterDue has passed.
   void keep_free(MotionId path, TimePoint due, TimePoint now);
   void release(MotionId path, TimePoint now);
   const LineTiming& timing() const { return timing_; }
@@ -143,7 +148,7 @@ class Line {
   Completions& completions() { return completions_; }
   const Completions& completions() const { return completions_; }
   std::size_t queued(Lane lane) const { return queue_.size(lane); }
-  // Answers to abandoned probes that may still come.
+  // Returns the number of replies to abandoned probes that may still arrive.
   int outstanding() const { return outstanding_.echoes + outstanding_.identities; }
 
  private:
@@ -157,24 +162,24 @@ class Line {
     WaitingPtr waiting;
     TimePoint written, limit;
     std::uint64_t exchange = 0;
-    std::vector<int> numbers;  // not empty: an !:S has been written behind it
-    bool echo_first = false;   // a ?:CMD has been written before it and not been answered
+    std::vector<int> numbers;  // if not empty, an !:S has been written after the line
+    bool echo_first = false;   // a ?:CMD has been written before the line and is not answered yet
   };
 
   static constexpr auto kLineBefore = commands::Question::previous_command, kSettling = commands::Question::ready;
 
   bool can_send() const { return state_.port_open() && !in_flight_ && !barrier_; }
-  // False, and the line is disconnected, for an event that the phase does not permit.
+  // Applies the event. Returns false and disconnects if the phase does not permit it.
   bool change(LinkEvent event, TimePoint now);
   void pump(TimePoint now);
   void send(WaitingPtr waiting, TimePoint now);
   void shut(const std::string& why, TimePoint now);
   bool shut_if_flooded(TimePoint now);
   void send_stops_now(TimePoint now);
-  bool write_waiting_stops();  // whether there were any
+  bool write_waiting_stops();  // returns whether there were any
   bool write_open_stops(std::string_view heard);
   Duration pause_before_reopening();
-  // `cause` is null for what the line asks for itself.
+  // `cause` is null if no request caused the line.
   void write_line(std::string_view line, std::uint64_t exchange = 0, const ExchangeRequest* cause = nullptr);
   ExchangeEnded ended(const InFlight& exchange, const ExchangeResult& result, ExchangeEnded::Outcome outcome,
                       TimePoint now) const;
@@ -225,20 +230,20 @@ class Line {
   Reservations reservations_;
   Completions completions_;
   Continuity continuity_;
-  TimePoint now_{};  // of the call from outside
+  TimePoint now_{};  // time of the newest outside call
   AxisSet controllable_;
   bool asks_line_before_ = false;
   bool connected_before_ = false;
-  std::string answering_;  // the serial number of the connect
-  std::string trusted_;    // that of the newest connect whose handshake has passed; empty before the first
+  std::string answering_;  // serial number read in the present connect
+  std::string trusted_;    // serial number of the newest passed handshake; empty before the first
   LaneQueue<WaitingPtr> queue_;
   std::uint64_t exchanges_ = 0;
   std::optional<InFlight> in_flight_;
-  bool maybe_in_two_ = false;                    // the newest line was answered so that another answer to it may follow
-  std::optional<TimePoint> after_refused_stop_;  // it was a stop: nothing is sent before
-  std::optional<TimePoint> partial_since_;       // an incomplete line has been coming in since then
+  bool maybe_in_two_ = false;  // the newest line may have been cut in two, so a second reply to it may follow
+  std::optional<TimePoint> after_refused_stop_;  // nothing is sent before this time after a refused stop
+  std::optional<TimePoint> partial_since_;       // time at which the present incomplete line was noticed
   std::unique_ptr<Barrier> barrier_;
-  std::optional<ExchangeResult> doubted_;  // the result held back until the barrier has passed
+  std::optional<ExchangeResult> doubted_;  // result that waits until the barrier has passed
   WaitingPtr doubted_waiting_;
   OutstandingAnswers outstanding_;
   std::optional<Problem> sealed_;

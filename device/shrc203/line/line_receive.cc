@@ -1,4 +1,4 @@
-// What comes in over the line: replies, completions, garbage, and the way back to certainty.
+// Input of Line: replies, completions, garbage, and the recovery from doubt.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr auto kClosing = commands::Question::each_ready;  // behind a number that may be a completion
+constexpr auto kClosing = commands::Question::each_ready;  // sent after a number that may be a completion
 
 ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   switch (kind) {
@@ -31,7 +31,7 @@ ExchangeEnded::Outcome outcome_of(Reply::Kind kind) {
   return ExchangeEnded::Outcome::data;
 }
 
-// Comes unasked, and is the answer to nothing (manual 109), 110)).
+// Returns the program notice in `text`; nullopt if there is none. A notice is never a reply (manual 109), 110)).
 std::optional<ProgramNotice::Kind> program_notice(std::string_view text) {
   if (text == "COMP") return ProgramNotice::Kind::ended;
   if (text == "TRIG") return ProgramNotice::Kind::trigger;
@@ -62,8 +62,8 @@ void Line::receive(std::string_view bytes, TimePoint now) {
   pump(now);
 }
 
-// A device that sends without end is heard at each reopening only: reading on would take a core, and fill the
-// recording.
+// Shuts the line of a device that sends without end, until the next reopening. Reading on would occupy a core and fill
+// the recording.
 bool Line::shut_if_flooded(TimePoint now) {
   if (!state_.port_open() || !flood_.too_much() || !guarded(Guard::flooded_line_shut)) return false;
   change(LinkEvent::flooded, now);
@@ -84,7 +84,7 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
     const bool stopped = write_open_stops(line.text) && guarded(Guard::barrier_after_stop);
     const bool first_step = barrier_->in_first_step();
     in_barrier(line.text, now);
-    // An identity that is requested only now is answered after the stop.
+    // A reply to an *IDN? that is only sent now comes after the stop's, so no restart is needed.
     const bool behind = first_step && barrier_ && !barrier_->in_first_step();
     if (stopped && barrier_ && !behind) barrier_->restart(now);
     return;
@@ -97,12 +97,13 @@ void Line::on_line(const LineFramer::Line& line, TimePoint now) {
   const auto& row = *in_flight_->waiting->request.command.row;
   const bool refusal = line.text == "NG" || line.text == "NG_I";
   if (outstanding_.identities > 0 && refusal && guarded(Guard::outstanding_refusals)) {
-    // An outstanding *IDN? may have been received wrongly: this may refuse it, or the command in flight.
+    // A late *IDN? may have arrived damaged, so this refusal may answer it or the command in flight.
     --outstanding_.identities;
     doubt_answer(line.text, now);
     return;
   }
-  // A stop does not wait until no other answer to the line before can come; after another stop it waits a little.
+  // Stops are written even while a second reply to the previous line may follow. Only after a refused stop they wait
+  // for kPauseAfterRefusedStop.
   const bool is_stop = in_flight_->waiting->request.lane == Lane::stop;
   const bool maybe_older = is_stop && maybe_in_two_ && !after_refused_stop_;
   if (refusal && maybe_older && guarded(Guard::refusals_before_stops)) return doubt_answer(line.text, now);
@@ -129,10 +130,11 @@ void Line::in_barrier(std::string_view text, TimePoint now) {
   barrier_moved(now);
 }
 
-// Who else writes may have set anything, and moved the frame: as after a restart, nothing is known any more.
+// Compares the reply to ?:CMD with the lines sent, and disconnects if another program has written. That program may
+// have changed any setting or the frame, so the state is unknown as after a restart.
 void Line::on_last_command(std::string_view line_before, TimePoint now) {
   const auto verdict = continuity_.compare(line_before, now);
-  // Part of the ?:CMD may have been a question of its own.
+  // A part of the ?:CMD may have been received as another question.
   maybe_in_two_ = verdict != Continuity::Verdict::same;
   if (verdict == Continuity::Verdict::foreign && guarded(Guard::foreign_traffic)) {
     disconnect(
@@ -161,7 +163,7 @@ void Line::doubt_answer(std::string_view text, TimePoint now) {
   enter_barrier({.written = true, .problem = std::move(garbage)}, ExchangeEnded::Outcome::garbled, why, now);
 }
 
-// True: the text was an axis number, and has been dealt with as a completion.
+// Handles `text` if it is an axis number that is or may be a completion. Returns false otherwise.
 bool Line::on_axis_number(std::string_view text, TimePoint now) {
   if (text.size() != 1 || text[0] < '1' || text[0] > '3') return false;
   const int axis = text[0] - '0';
@@ -172,7 +174,7 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
     on_number(axis, now);
     return true;
   }
-  // Nothing is in flight that a possible number could answer (conflicts()).
+  // No question whose reply a possible completion could look like is in flight now (conflicts()).
   if (in_flight_) {
     const auto& row = *in_flight_->waiting->request.command.row;
     if (row.separation != Separation::grammar && parse_reply(row, text, controllable_.count())) return false;
@@ -181,8 +183,8 @@ bool Line::on_axis_number(std::string_view text, TimePoint now) {
   return true;
 }
 
-// A number that may be the answer or a completion. The controller answers in order, so once an !:S behind it has been
-// answered, the answer is among the numbers that came.
+// Collects a number that may be the reply or a completion. The controller replies in order, so when the !:S after the
+// number is answered, the reply is among the numbers received.
 void Line::on_number(int number, TimePoint now) {
   continuity_.answered(false, now);
   if (in_flight_->numbers.empty()) {
@@ -263,7 +265,7 @@ ExchangeEnded Line::ended(const InFlight& exchange, const ExchangeResult& result
           .waited = exchange.written - exchange.waiting->asked};
 }
 
-// Returns the axes that a reading shows as busy. The one who requested it reads it only after the next line was sent.
+// Returns the axes that a reading shows as busy. The requester processes the reading only after the next line was sent.
 AxisSet Line::busy_in(const ExchangeRequest& request, const Reply& reply) const {
   AxisSet busy;
   const bool positions = request.command.line.starts_with("Q:") && reply.kind == Reply::Kind::data;
@@ -280,7 +282,7 @@ void Line::finish(ExchangeResult result, ExchangeEnded::Outcome outcome, TimePoi
   if (result.reply) completions_.answered(done.written, busy_in(done.waiting->request, *result.reply));
   if (result.reply) flood_.belonged(result.reply->text.size() + LineTiming::kTerminator);
   const auto& request = done.waiting->request;
-  if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have gone before a stop
+  if (result.reply && done.numbers.empty() && request.lane != Lane::stop) {  // a ?:CMD may have been sent before a stop
     timing_.answered(request.command.line.size(), result.reply->text.size(), now - done.written);
   }
   listener_.line_event(ended(done, result, outcome, now), now);
@@ -315,7 +317,7 @@ void Line::barrier_moved(TimePoint now) {
   const Identity identity = *barrier_->identity();
   const std::optional<bool> barrier_reported = barrier_->received();
   const std::optional<std::string> line_before = barrier_->echo();
-  // The controller answers in order, so whatever preceded the *IDN? has been answered or is lost.
+  // The controller replies in order, so every line before the *IDN? has been answered or is lost.
   outstanding_.echoes = 0;
   maybe_in_two_ = false;
   barrier_.reset();

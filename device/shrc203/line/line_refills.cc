@@ -1,4 +1,4 @@
-// What running paths are to the line: their refills find it free.
+// Reservations of Line for the refills of running paths.
 #include "device/shrc203/line/line.h"
 
 namespace axisgate::shrc203 {
@@ -15,7 +15,8 @@ void Line::release(MotionId path, TimePoint now) {
   pump(now);
 }
 
-// What a handshake asks is not held up: without its answer no refill could be sent either.
+// Reports whether the request delays no refill. Lines of the handshake always may be sent: without their replies no
+// refill could be sent either.
 bool Line::leaves_refills_alone(const ExchangeRequest& request, TimePoint now) const {
   if (profile_.refills != Refills::reserved || request.handshake || request.lane <= Lane::path_refill) return true;
   if (queue_.size(Lane::path_refill) > 0) return false;

@@ -1,4 +1,4 @@
-// What goes out over the line: whose turn it is, what holds it back, and what is written.
+// Output of Line: the order of the waiting lines, the conditions for sending them, and writing.
 #include <algorithm>
 
 #include "device/core/guard.h"
@@ -12,7 +12,7 @@ bool is_line_before(const ExchangeRequest& request) { return request.command.row
 
 }  // namespace
 
-// Those of the axes whose numbers could not be distinguished from the answer.
+// Returns the axes whose completions could not be distinguished from the reply.
 AxisSet Line::ambiguous(const ExchangeRequest& request, AxisSet axes) const {
   const CommandRow& row = *request.command.row;
   if (request.closed || !guarded(Guard::number_questions_wait)) return {};
@@ -29,7 +29,7 @@ AxisSet Line::ambiguous(const ExchangeRequest& request, AxisSet axes) const {
 
 AxisSet Line::conflicts(const ExchangeRequest& request) const { return ambiguous(request, completions_.possible()); }
 
-// When to ask !: on behalf of a question that waits for the last number to have come.
+// Returns the time from which !: may be sent on behalf of a question that waits until all completions have arrived.
 std::optional<TimePoint> Line::conflicts_settle_from() const {
   std::optional<TimePoint> earliest;
   queue_.for_each([&](const WaitingPtr& waiting) {
@@ -40,7 +40,8 @@ std::optional<TimePoint> Line::conflicts_settle_from() const {
   return earliest;
 }
 
-// Until it is written: where others are before it when it may be, the next motion would hold it back again.
+// Counts a question until it is written, even if it may be sent now: if other lines go first, the next motion would
+// hold it back again.
 std::optional<HeldQuestion> Line::held_question() const {
   std::optional<HeldQuestion> oldest;
   if (!state_.trusted() || sealed_) return oldest;
@@ -93,7 +94,7 @@ void Line::pump(TimePoint now) {
   send(std::make_shared<Waiting>(Waiting{std::move(probe), {}, now}), now);
 }
 
-// Null when nothing may be sent. A request that has lost its right while it waited is refused, and never sent.
+// Returns null if nothing may be sent. Requests that lost their right while they waited are refused and never sent.
 Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& may_go, TimePoint now) {
   while (auto next = queue_.take(may_go)) {
     const ExchangeRequest& request = (*next)->request;
@@ -107,16 +108,16 @@ Line::WaitingPtr Line::take_next(const std::function<bool(const WaitingPtr&)>& m
   return nullptr;
 }
 
-// ?:CMD is sent before anything else that may be sent now. After a pause it shows whether the controller has restarted
-// meanwhile. After NG the line may have cut the command in two, and the NG of the other part, however late, is no
-// answer to ?:CMD.
+// Reports whether ?:CMD must be sent before anything else. After a pause it shows whether the controller has restarted
+// meanwhile. After NG the line may have cut the command in two, and a late NG to the other part cannot be the reply to
+// ?:CMD.
 bool Line::asks_first(TimePoint now) const {
   const bool paused =
       state_.trusted() && continuity_.due(now) && !continuity_.open() && guarded(Guard::question_before_pause_ends);
   return paused || (maybe_in_two_ && guarded(Guard::question_after_refusal));
 }
 
-// A stop whose turn it is does not wait for that.
+// Reports whether ?:CMD is sent now. A stop whose turn it is does not wait for ?:CMD.
 bool Line::asks_now(const std::function<bool(const WaitingPtr&)>& may_go, bool settle) const {
   bool any = settle, stop = false;
   queue_.for_each([&](const WaitingPtr& waiting) {
@@ -127,7 +128,8 @@ bool Line::asks_now(const std::function<bool(const WaitingPtr&)>& may_go, bool s
   return any && !(stop && queue_.stops_turn());
 }
 
-// With half a line in, its other half could be mistaken for the next command's answer: only a stop does not wait.
+// Reports whether an incomplete line was received. Its rest could be taken for the reply to the next command, so only
+// stops are sent meanwhile.
 bool Line::line_is_coming(TimePoint now) {
   if (!framer_.mid_line()) {
     partial_since_.reset();
@@ -150,17 +152,17 @@ void Line::send(WaitingPtr waiting, TimePoint now) {
   const auto limit =
       request.command.row->reply_limit > Duration::zero() ? request.command.row->reply_limit : profile_.reply_limit;
   const Duration on_the_wire = timing_.time_of(request.command.line.size() + 2 + LineTiming::kReplyBytesMax);
-  // Only a stop does not wait: what is half in must not end as its answer.
+  // Only a stop is sent after half a line, which must not become the start of the stop's reply.
   if (framer_.mid_line() && guarded(Guard::half_lines_before_stops)) framer_.clear();
   if (!request.completes.empty()) completions_.started(request.completes, now);
-  // A stop does not wait for the answer.
+  // A stop is written right after ?:CMD, without waiting for the reply to it.
   const bool echo_first = request.lane == Lane::stop && state_.trusted() && continuity_.due(now);
   if (echo_first) write_line(commands::text(kLineBefore));
   write_line(request.command.line, ++exchanges_, &request);
   in_flight_ = InFlight{std::move(waiting), now, now + limit + on_the_wire, exchanges_, {}, echo_first};
 }
 
-// Inside a barrier a Stop is written at once; its answer cannot then be distinguished from late replies.
+// Writes stops at once in a barrier. Their replies cannot be distinguished from late replies.
 void Line::send_stops_now(TimePoint now) {
   if (!state_.port_open() || !barrier_ || !guarded(Guard::stop_in_barrier) || !write_waiting_stops()) return;
   if (guarded(Guard::barrier_after_stop)) barrier_->restart(now);
@@ -192,7 +194,7 @@ bool Line::write_waiting_stops() {
 void Line::write_line(std::string_view line, std::uint64_t exchange, const ExchangeRequest* cause) {
   std::string bytes(line);
   bytes += "\r\n";
-  // What is saved may take long, and that is no sign of a restart.
+  // Saving to memory may take long, which is no sign of a restart.
   const Duration saving = cause ? cause->command.row->reply_limit : Duration::zero();
   continuity_.wrote(line, timing_.time_of(bytes.size() + LineTiming::kReplyBytesMax) + saving, now_);
   BytesWritten written;
@@ -207,7 +209,7 @@ void Line::write_line(std::string_view line, std::uint64_t exchange, const Excha
     written.question = cause->command.row->effect == Effect::question;
     if (!written.question) written.axes = cause->command.axes(controllable_);
   }
-  // Before the bytes: who keeps what was written must not be killed in between.
+  // Reported before the bytes are written: a listener that records what was written must not be killed in between.
   listener_.line_event(written, now_);
   link_.write(bytes);
 }

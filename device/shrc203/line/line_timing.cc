@@ -39,9 +39,9 @@ Duration LineTiming::longest_turnaround() const {
 Duration LineTiming::longest_exchange(const Command& command) const {
   const auto lasts = [this](std::size_t bytes) { return time_of(bytes + 2 * kTerminator) + longest_turnaround(); };
   const std::size_t line = command.line.size();
-  // A question is refused where the mode forbids it, and nothing moves along a path there.
+  // Questions need no ?:CMD after NG: a mode that refuses them also prevents motion along a path.
   if (command.row->effect == Effect::question) return lasts(line + kReplyBytesMax);
-  // What follows NG, and is answered by the line that was refused.
+  // The ?:CMD after NG, whose reply is the refused line.
   const std::size_t after_refusal = commands::text(commands::Question::previous_command).size();
   return lasts(line + kLongestAcknowledgement.size()) + lasts(after_refusal + line);
 }

@@ -1,5 +1,5 @@
-// How long exchanges take on one line: what their bytes take at its baud rate, and what the controller and the way to
-// it (the driver, a USB adaptor, a serial server) were seen to add.
+// Duration of exchanges on one line: the time of their bytes at the baud rate, and the measured delay of the controller
+// and its connection (driver, USB adaptor, serial server).
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace axisgate::shrc203 {
 
 class LineTiming {
  public:
-  static constexpr std::size_t kReplyBytesMax = 64;  // the longest reply on a path: Q:SPC with three long coordinates
+  static constexpr std::size_t kReplyBytesMax = 64;  // longest reply during a path: Q:SPC with three long coordinates
   static constexpr std::size_t kTerminator = 2;      // CR LF
-  static constexpr std::size_t kKept = 32;           // so many of the newest exchanges tell the turnaround
+  static constexpr std::size_t kKept = 32;           // number of newest exchanges that the turnaround is measured from
 
   explicit LineTiming(int baud) : baud_(baud) {}
 
@@ -22,14 +22,14 @@ class LineTiming {
   Duration time_of(std::size_t bytes) const;  // ten bits a byte
 
   void connected() { turnarounds_.clear(); }
-  // A line was written and answered by `reply_bytes`, terminators not counted, `latency` later.
+  // Called when a line was answered after `latency` by `reply_bytes`, not counting terminators.
   void answered(std::size_t line_bytes, std::size_t reply_bytes, Duration latency);
 
-  // What an exchange takes beyond its bytes: half of the newest took no longer, and none of them did.
+  // Returns the median, and the maximum, of the time that the newest exchanges took beyond their bytes.
   Duration usual_turnaround() const;
   Duration longest_turnaround() const;
 
-  // From the first byte written to the last of the reply, at most.
+  // Returns the longest time from the first byte written to the last byte of the reply.
   Duration longest_exchange(const Command& command) const;
 
  private:

@@ -5,7 +5,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// README.md has the same, drawn.
+// README.md has a drawing of this table.
 constexpr auto kTransitions = std::to_array<Transition<LinkPhase, LinkEvent>>({
     {LinkPhase::closed, LinkEvent::port_opened, LinkPhase::identifying},
     {LinkPhase::closed, LinkEvent::lost, LinkPhase::closed},

@@ -1,4 +1,4 @@
-// The times for which running paths keep the line free, so that their next refill finds nothing in its way.
+// Times for which running paths keep the line free for their next refill.
 #pragma once
 
 #include <map>
@@ -9,10 +9,10 @@
 
 namespace axisgate::shrc203 {
 
-// A path keeps one at a time:
+// Reservations has at most one entry for each path:
 //
-//   refill written ──── others may begin what ends by `due` ──── due: a segment ends ──── expires: others go on
-//                                                                └ the refill is written, and the next one is kept
+//   refill written ──── others may begin what ends by `due` ──── due: a segment ends ──── expires: others continue
+//                                                                └ the refill is written, and the next one reserved
 class Reservations {
  public:
   void keep(MotionId path, TimePoint due) { due_[path] = due; }
@@ -20,9 +20,9 @@ class Reservations {
   void clear() { due_.clear(); }
   bool empty() const { return due_.empty(); }
 
-  // Whether an exchange of at most `length` that begins now leaves them all alone. A path's own is not in its way.
+  // Reports whether an exchange of at most `length` may begin now. The reservation of `motion` itself does not count.
   bool allow(MotionId motion, Duration length, TimePoint now) const;
-  // When the next of them expires; nothing when none is in force at `now`.
+  // Returns the time at which the next reservation expires; nullopt if none is in force at `now`.
   std::optional<TimePoint> next_expiry(TimePoint now) const;
 
  private:

@@ -19,7 +19,7 @@ Result<std::int64_t> way_of_approach(const AxisMove& move, const Envelope& envel
   return way;
 }
 
-// AP: takes the speeds of all its axes or of none (manual 70)).
+// Adds the known speeds to axes without speeds: AP: takes the speeds of all its axes or of none (manual 70)).
 void fill_speeds(MovePlan& move, const std::map<int, SpeedSetting>& known) {
   if (speeds_of(move).empty()) return;
   for (auto& one : move.axes) {
@@ -65,7 +65,7 @@ Result<PathPlan> Approaches::plan(const MoveRequest& request) const {
   PathPlan path{last->set(), {}, {}};
   for (std::size_t axis = 0; axis < kAxisCount; ++axis) path.begin[axis] = from[axis].value_or(0);
   path.segments = {segment_to(first, from), segment_to(*std::move(last), from)};
-  if (path.segments[0].end == path.begin) path.segments.erase(path.segments.begin());  // it stands there already
+  if (path.segments[0].end == path.begin) path.segments.erase(path.segments.begin());  // already there
   time_moves(path, store_.speeds(path.axes));
   path.segments.back().from_rest = path.axes.count() > 1 || !check_refill_feasibility(path, timing_);
   return path;

@@ -1,6 +1,6 @@
-// Targets that are always approached from the same side, so that backlash does not count. Each takes two moves. A
-// single axis has the second one in its prebuffer (manual 2. About double buffer) while the first runs. Several axes
-// stop in between: whether each would continue by itself is open (README: chain_step_on).
+// Moves that always approach their targets from the same side, so that backlash does not count. Each of them consists
+// of two moves. A single axis has the second one in its prebuffer (manual 2. About double buffer) while the first runs.
+// Several axes stop in between: the manual does not say whether each would continue by itself (README: chain_step_on).
 #pragma once
 
 #include "device/shrc203/line/line_timing.h"
@@ -17,9 +17,9 @@ class Approaches {
   Approaches(Entry& entry, PathFollower& follower, const StateStore& store, Motions& motions, const LineTiming& timing)
       : entry_(entry), follower_(follower), store_(store), motions_(motions), timing_(timing) {}
 
-  // Whether some axis has an approach.
+  // Reports whether any axis has an approach.
   static bool has_any(const MoveRequest& request);
-  // Both moves of it, checked against the envelope.
+  // Returns both moves, checked against the envelope.
   Result<PathPlan> plan(const MoveRequest& request) const;
   Task<void> run(LiveMotionPtr live, MoveRequest request);
 

@@ -1,4 +1,4 @@
-// The end of a scan: its trigger is what it was before.
+// Restoring of the trigger at the end of a scan.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -14,7 +14,8 @@ class Disarming {
   Disarming(Restorer& restorer, PendingRestores& pending, const StateStore& store, Tasks& tasks)
       : restorer_(restorer), pending_(pending), store_(store), tasks_(tasks) {}
 
-  // T: is refused while anything moves, which somebody at the front panel may make it do.
+  // Restores the trigger. T: is refused while anything moves, which somebody at the front panel may cause, so it is
+  // tried again until kTriggerRestoreLimit.
   Task<void> disarm(LiveMotionPtr live);
 
  private:

@@ -27,7 +27,7 @@ Task<bool> Entry::enter(LiveMotionPtr live, std::function<Register()> reg) {
 Task<Result<void>> Entry::prepare(LiveMotionPtr live, Register reg) {
   if (!store_.line_works()) co_return tl::unexpected(store_.not_up());
   const AxisSet axes = live->motion.axes;
-  // Divisions may have been changed while the motion waited.
+  // The divisions may have changed while the motion waited.
   for (const int axis : axes.list()) {
     const auto good = store_.envelope(live->context).check_stage(axis);
     if (!good) co_return good;
@@ -45,7 +45,7 @@ Task<Result<void>> Entry::prepare(LiveMotionPtr live, Register reg) {
   co_return ready;
 }
 
-// The axes are stationary, and no late axis number can come.
+// Waits until the axes are stationary and no late completion is possible.
 Task<Result<void>> Entry::wait_for_axes(LiveMotionPtr live) {
   const AxisSet axes = live->motion.axes;
   const auto late_numbers = [&] {
@@ -86,7 +86,7 @@ Task<Result<void>> Entry::clear_stale_setpoints(LiveMotionPtr live, Register reg
   const auto read = co_await reader_.read_registers(live->context.who);
   if (!read) co_return read;
   AxisSet deletable = registers_.clearable() | registers_.set_in(Register::j);
-  // What another motion has set on its axes a moment ago is not stale.
+  // A setpoint that another motion has just written on its axes is not stale.
   if (guarded(Guard::others_setpoints_stay)) deletable = deletable & motions_.axes_to_itself(*live);
   if (guarded(Guard::stale_setpoints_deleted) && !deletable.empty()) {
     const auto deleted = co_await delete_setpoints(live, deletable);
@@ -124,13 +124,14 @@ Task<Result<void>> Entry::delete_setpoints(LiveMotionPtr live, AxisSet axes) {
   registers_.cleared(axes);
   const AxisSet doubtful = (registers_.set_in(Register::j) | registers_.clearable()) & axes;
   if (doubtful.empty()) co_return Result<void>();
-  // 87) does not name J: among what it deletes, and not what becomes of a line or curve for some of its axes.
+  // Manual 87) does not name J: among the deleted setpoints, and does not say what happens to a line or curve if GC:
+  // names only some of its axes.
   const auto left = co_await reader_.read_registers(live->context.who);
   if (left && registers_.clearable().touches(axes)) co_return tl::unexpected(not_deleted());
   co_return left;
 }
 
-// What no command deletes, and what the motion writes does not overwrite.
+// Returns the axes with setpoints that no command deletes and the motion does not overwrite.
 AxisSet Entry::lasting_setpoints(const LiveMotion& live, Register reg) const {
   AxisSet lasting;
   for (const Register kept :

@@ -1,4 +1,4 @@
-// How a motion is entered: its turn, and then what must be so before anything of it is set.
+// Entry of a motion: its turn, and the conditions for writing its first setting.
 #pragma once
 
 #include <functional>
@@ -28,19 +28,20 @@ class Entry {
         registers_(registers),
         tasks_(tasks) {}
 
-  // What a motion writes first, and whether it sets prebuffers (Motions::enter()). What the register holds on all its
-  // axes is overwritten (manual 2. 2)).
+  // First register that a motion writes, and whether the motion sets prebuffers (Motions::enter()). The motion
+  // overwrites a setpoint in this register on all its axes (manual 2. 2)).
   struct Writes {
     Register reg = Register::none;
     bool prebuffer = false;
   };
-  // The motion's turn, and all of prepare(). False: it was refused, and has its outcome.
+  // Waits for the motion's turn and calls prepare(). Returns false if the motion was refused; it then has its outcome.
   Task<bool> enter(LiveMotionPtr live, Writes writes);
-  // The same for one that sets no prebuffer, or has that to itself: what it writes depends on who has a turn beside it.
+  // Does the same for a motion that sets no prebuffers, or only those of its axes: its register depends on the other
+  // motions that have a turn.
   Task<bool> enter(LiveMotionPtr live, std::function<Register()> reg);
 
-  // Before anything is set: the axes are stationary, no late axis number can come, no setpoint is stale, what is
-  // pending is restored, and the speeds are known.
+  // Prepares the first setting: the axes are stationary, no late completion is possible, no setpoint is stale, pending
+  // settings are restored, and the speeds are known.
   Task<Result<void>> prepare(LiveMotionPtr live, Register reg);
 
  private:

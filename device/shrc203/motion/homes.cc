@@ -65,7 +65,7 @@ Task<void> Homes::run(LiveMotionPtr live) {
     co_return;
   }
   for (auto& result : live->motion.results) result.target_pulses = 0;
-  // Back to the logical origin the axes run at F of D:.
+  // The axes return to the logical origin at F of D:.
   if (!mechanical) ready = co_await speeds_.slow_down(live);
   if (ready) {
     const Command command = mechanical ? commands::home(axes) : commands::return_to_origin(axes);

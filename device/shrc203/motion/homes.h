@@ -1,4 +1,5 @@
-// Origin returns, mechanical (HRT:) and logical (ZRT:): one line sets them going, one number an axis ends them.
+// Origin returns, mechanical (HRT:) and logical (ZRT:): one line starts them, and each axis reports its end by a
+// completion.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -26,7 +27,7 @@ class Homes {
         rights_(rights),
         tasks_(tasks) {}
 
-  // `kind`: home or return_to_origin.
+  // `kind` is home or return_to_origin.
   void home(MotionKind kind, HomeRequest request, StageController::OnStarted started);
 
  private:

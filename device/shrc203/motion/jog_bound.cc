@@ -9,14 +9,14 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Between a position's being true and the stop that follows from it there may be one whole time limit of a reply, and
-// some lines: that of the position, the one ahead, ?:CMD before a stop behind a silence, and the stop itself.
+// Number of lines between a position and the stop that follows from it, apart from a reply's whole time limit: the line
+// of the position, the line ahead, ?:CMD before a stop after a silence, and the stop.
 constexpr int kLines = 4;
 constexpr int kLineBits = 64 * 10;
 
 double seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// The distance that an axis travels from `speed` until it is stationary: down to S by (F - S) / R (manual 89)).
+// Returns the distance that an axis travels from `speed` until it is stationary: down to S by (F - S) / R (manual 89)).
 double stopping_distance(std::int64_t speed, const AxisState& axis) {
   const auto from = static_cast<double>(speed), minimum = static_cast<double>(axis.minimum_speed.value_or(1));
   const double ramp = static_cast<double>(axis.acceleration_ms.value_or(1000)) / 1000;
@@ -40,7 +40,7 @@ std::optional<TimePoint> JogBound::stop_at(int axis, std::int64_t speed) const {
   const Duration reaction =
       profile.reply_limit + kJogHostDelayMax + kLines * Duration(std::chrono::seconds(kLineBits)) / profile.baud;
   const double wait = std::min(free - seconds(reaction), 3600.0);
-  // Until its start it was stationary, however old the reading is.
+  // The axis was stationary until its start, however old the reading is.
   const TimePoint begun = live_.jog->begun;
   const TimePoint read = begun == TimePoint{} ? now_ : std::max(store_.state().read, begun);
   return read + std::chrono::nanoseconds(static_cast<std::int64_t>(wait * 1e9));

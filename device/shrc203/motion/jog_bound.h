@@ -1,4 +1,4 @@
-// When a jog must be stopped, so that it does not come to the end of its travel. Pure computation.
+// Time at which a jog must be stopped before the end of its travel. Pure computation.
 #pragma once
 
 #include <cstdint>
@@ -12,14 +12,14 @@ namespace axisgate::shrc203 {
 
 class JogBound {
  public:
-  // As things are now. All outlive it.
+  // Uses the state at `now`. The referenced objects must outlive this one.
   JogBound(const StateStore& store, const LiveMotion& live, TimePoint now) : store_(store), live_(live), now_(now) {}
 
-  // When at the latest a stop of the axis must be requested: computed from the last reading at the highest speed since
-  // then, or at `speed` pulses/s. Nothing where the axis was not read.
+  // Returns the latest time for requesting a stop of the axis: computed from the last reading with the highest speed
+  // since then, or with `speed` in pulses/s. nullopt if the axis was not read.
   std::optional<TimePoint> stop_at(int axis) const;
   std::optional<TimePoint> stop_at(int axis, std::int64_t speed) const;
-  // The requested speed, or what the distance to the bound still allows; in pulses/s.
+  // Returns the requested speed, or the lower speed that the distance to the bound still allows; in pulses/s.
   std::int64_t speed_that_fits(int axis) const;
 
  private:

@@ -20,7 +20,7 @@ Task<void> JogWatchdog::run(LiveMotionPtr live) {
   Jog& jog = *live->jog;
   while (!live->life.has_outcome()) {
     if (!jog.must_end() && live->life.stop_asked()) {
-      // It may have meant some of the axes only, and the others never end by themselves.
+      // The stop may name only some of the axes, and the others never end by themselves.
       motions_.jog_changed(*live, JogEvent::must_end);
       jog.why = stopped_by(*live);
     }
@@ -29,7 +29,7 @@ Task<void> JogWatchdog::run(LiveMotionPtr live) {
     }
     if (jog.phase == JogPhase::ending) stop(live);
     const bool runs = live->motion.state == MotionState::running && jog.phase == JogPhase::running;
-    // Beside this task: an answer that does not come must not keep a stop waiting.
+    // In another task: a missing reply must not keep a stop waiting.
     if (runs && jog.speeds != jog.sent) tasks_.spawn(change_speeds(live));
     auto changed = jog.changed.wait_until(next_look(*live));
     co_await changed;
@@ -51,7 +51,7 @@ std::optional<Problem> JogWatchdog::must_end(const LiveMotion& live) {
                                           std::chrono::duration_cast<std::chrono::milliseconds>(kSilence).count()),
                    .hint = "renew it several times in that time, from a connection that holds"};
   }
-  // Under a lease that lets motion finish it would never end: the lease itself is checked.
+  // A jog would never end under a lease that lets motion finish, so the lease itself is checked.
   const Use use{live.context.who, live.context.lease, live.uses, 0};
   if (live.context.lease != 0 && guarded(Guard::jog_ends_with_its_right)) {
     if (const auto allowed = rights_.still_authorized(use); !allowed) return allowed.error();
@@ -80,7 +80,7 @@ TimePoint JogWatchdog::next_look(const LiveMotion& live) const {
   const TimePoint now = tasks_.now();
   if (live.jog->must_end()) return now + kJogStopRepeat;
   TimePoint next = live.jog->renewed + kSilence;
-  // The end of a lease is not reported.
+  // No event reports the end of a lease.
   if (live.context.lease != 0) next = std::min(next, now + kJogLeasePoll);
   if (live.jog->begun != TimePoint{}) {
     const JogBound bounds(store_, live, now);
@@ -91,7 +91,7 @@ TimePoint JogWatchdog::next_look(const LiveMotion& live) const {
   return std::max(next, now + std::chrono::milliseconds(1));
 }
 
-// A speed can be set twice without harm, so one that was not answered is sent again.
+// Sends the requested speeds. Setting a speed twice does no harm, so an unanswered setting is sent again.
 Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
   Jog& jog = *live->jog;
   motions_.jog_changed(*live, JogEvent::speed_asked);
@@ -102,7 +102,7 @@ Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
     speed = bounds.speed_that_fits(axis);
     jog.fastest[axis] = std::max(jog.fastest[axis], speed);
   }
-  jog.changed.notify();  // the bound is nearer now
+  jog.changed.notify();  // the stop must come earlier at a higher speed
   for (int attempt = 0; attempt < kJogSpeedTries && !live->life.stop_asked() && !jog.must_end(); ++attempt) {
     auto request = dialogue_.request_of(*live, commands::set_jog_speeds(wanted), Lane::motion);
     request.not_after = tasks_.now() + kJogSpeedWriteLimit;
@@ -113,7 +113,7 @@ Task<void> JogWatchdog::change_speeds(LiveMotionPtr live) {
     }
     if (!result.in_doubt()) break;
   }
-  // Also where it was refused: it is not repeated, and the caller's next request is tried.
+  // Also after a refusal: the speed is not sent again, and the caller's next request is tried.
   jog.sent = asked;
   motions_.jog_changed(*live, JogEvent::speed_answered);
   jog.changed.notify();

@@ -1,4 +1,4 @@
-// Ends a jog when it must, sends new speeds, and stops it again where a stop was not enough.
+// Watchdog of jogs: ends a jog when it must end, sends new speeds, and stops the jog again if one stop was not enough.
 #pragma once
 
 #include <optional>
@@ -16,7 +16,7 @@ class JogWatchdog {
   JogWatchdog(Dialogue& dialogue, Stops& stops, const StateStore& store, Motions& motions, Rights& rights, Tasks& tasks)
       : dialogue_(dialogue), stops_(stops), store_(store), motions_(motions), rights_(rights), tasks_(tasks) {}
 
-  // Until the jog has its outcome.
+  // Runs until the jog has its outcome.
   Task<void> run(LiveMotionPtr live);
 
  private:

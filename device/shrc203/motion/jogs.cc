@@ -21,7 +21,8 @@ tl::unexpected<Problem> near_bound(const Envelope& envelope, int axis, std::int6
                  "move it there, or jog it more slowly");
 }
 
-// Everything but the speeds of the start, which are known at the motion's turn at the latest.
+// Returns the requested speeds in pulses/s. Checks all but the start speeds, which may be unknown before the motion's
+// turn.
 Result<std::map<int, std::int64_t>> check_jog(const JogAxes& axes, const Envelope& envelope) {
   if (axes.empty()) return fail(Reason::invalid_request, "no axis was named", "name an axis and a direction");
   AxisSet named;
@@ -96,7 +97,7 @@ void Jogs::end(MotionId id, std::optional<Problem> why) {
   if (const auto live = motions_.find_live(id)) motions_.end_jog(*live, std::move(why));
 }
 
-// The speeds that are to be lowered first: of axes whose own S is more than they may run at.
+// Returns the speeds to lower first: those of axes whose own S exceeds the speed that the caller may use.
 Result<MovePlan> Jogs::plan(LiveMotion& live, const JogRequest& request) const {
   const Envelope limits = store_.envelope(live.context);
   if (const auto checked = check_jog(request.axes, limits); !checked) return tl::unexpected(checked.error());
@@ -130,7 +131,7 @@ Task<void> Jogs::run(LiveMotionPtr live, JogRequest request) {
   co_await start(live, *std::move(slower));
   live->jog->changed.notify();
   if (store_.state().link != LinkState::down) {
-    // JD: has overwritten F, or not (manual 93), note): it is not known before it was read.
+    // JD: may have overwritten F (manual 93), note), so F is unknown until it is read.
     store_.forget_speeds(live->motion.axes);
     const auto read = co_await reader_.read_speeds(live->context.who);
     if (!read) store_.unsettle();
@@ -138,7 +139,7 @@ Task<void> Jogs::run(LiveMotionPtr live, JogRequest request) {
   co_await restorer_.restore_after(live);
 }
 
-// Set, go, watch, as with a move.
+// Sets, starts and watches the jog, like a move.
 Task<void> Jogs::start(LiveMotionPtr live, MovePlan slower) {
   if (!slower.axes.empty()) {
     const auto lowered = co_await speeds_.set(live, slower);
@@ -159,7 +160,7 @@ Task<void> Jogs::start(LiveMotionPtr live, MovePlan slower) {
   const auto gone = co_await starter_.go(live, {});
   if (!gone) {
     motions_.disconnect(*live, gone.error());
-    // The refusal may be another line's: what ran all the same would never end.
+    // The NG may belong to another line, and a jog that runs despite NG would never end.
     stops_.stop(live->motion.axes, {.who = "the gateway: a jog that was refused"});
     co_return;
   }

@@ -1,5 +1,5 @@
 // Jogs: axes that run until they are stopped (manual 88) J:, 93) JD:). The controller would run them to their limit
-// sensors whatever becomes of the caller, so the gateway stops them (jog_watchdog.h).
+// sensors even if the caller is gone, so the gateway stops them (jog_watchdog.h).
 #pragma once
 
 #include <vector>
@@ -35,7 +35,7 @@ class Jogs {
         rights_(rights),
         tasks_(tasks) {}
 
-  // As StageController has them.
+  // Implement the functions of StageController.
   MotionId jog(JogRequest request, StageController::OnStarted started);
   Result<void> renew(MotionId id, const std::vector<JogRequest::Axis>& speeds);
   void end(MotionId id, std::optional<Problem> why);

@@ -16,7 +16,7 @@ bool any_speed(const MovePlan& plan) {
   return std::ranges::any_of(plan.axes, [](const AxisPlan& axis) { return axis.speed.has_value(); });
 }
 
-// MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
+// Returns the setting command. MP: and AP: take the speeds of all their axes or of none (manual 68), 70)).
 Command prebuffer_setter(const MovePlan& plan, commands::Speeds known) {
   auto speeds = speeds_of(plan);
   if (!speeds.empty()) speeds.merge(known);
@@ -29,7 +29,6 @@ Command execution_setter(const MovePlan& plan) {
 
 }  // namespace
 
-// Where something moves, positions are known at the motion's turn.
 Result<MovePlan> Moves::check(const MoveRequest& request) const {
   const bool stationary = !motions_.anything_moves();
   if (Approaches::has_any(request) && stationary) {
@@ -50,13 +49,13 @@ void Moves::move(MoveRequest request, StageController::OnStarted started) {
   tasks_.spawn(run(live, std::move(request)));
 }
 
-// While another motion runs, its prebuffers are not to be touched.
+// Reports whether the move may use prebuffers: those of another running motion must stay as they are.
 bool Moves::by_prebuffer(const LiveMotion& live) const {
   return !motions_.others_inside(live) || store_.profile().prebuffer_scope == Scope::axis ||
          !guarded(Guard::prebuffers_are_one_motions);
 }
 
-// As the axes are at its turn; the targets are the motion's.
+// Plans the move from the present positions, at the motion's turn. Sets the motion's targets.
 Result<MovePlan> Moves::plan(LiveMotion& live, const MoveRequest& request) const {
   const Envelope limits = store_.envelope(request.context);
   auto plan = plan_move(request.moves, request.relative, store_.positions(), limits);

@@ -1,4 +1,4 @@
-// Moves: set, go, watch.
+// Moves: set, start, watch.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -30,7 +30,7 @@ class Moves {
         tasks_(tasks) {}
 
   void move(MoveRequest request, StageController::OnStarted started);
-  // What is known before the motion's turn. What the envelope refuses.
+  // Checks the request against the envelope before the motion's turn, without positions while anything moves.
   Result<MovePlan> check(const MoveRequest& request) const;
 
  private:

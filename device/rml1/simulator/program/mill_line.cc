@@ -8,9 +8,9 @@
 namespace axisgate::rml1::simulator {
 namespace {
 
-// A fast line brings the bytes of so long at once: no timer is finer.
+// Time whose bytes a fast line brings at once, because timers are not finer.
 constexpr auto kPiece = std::chrono::milliseconds(1);
-// How often a held host's setting is looked at: nothing reports that it was changed.
+// Interval at which the setting of a stopped host is polled: no event reports a change.
 constexpr auto kSettings = std::chrono::milliseconds(5);
 
 }  // namespace
@@ -36,7 +36,7 @@ void MillLine::shutdown() {
   end_->close();
 }
 
-// The mill may have released its host.
+// Continues reading if the mill has released its host.
 void MillLine::settle() {
   if (held_ && !is_held_back_()) look_later(Duration::zero());
 }

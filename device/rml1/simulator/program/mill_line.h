@@ -1,5 +1,4 @@
-// Reads what the host sends, as fast as a line of some baud rate brings it, and not at all while the mill holds it
-// back.
+// Reads the bytes of the host at the speed of a line with some baud rate, and stops while the mill stops its host.
 #pragma once
 
 #include <functional>
@@ -11,16 +10,16 @@
 
 namespace axisgate::rml1::simulator {
 
-// What the kernel has taken from the host and this has not read counts as not sent yet. Made by std::make_shared; all
-// members on the strand, or when no thread runs its io_context.
+// Bytes that the kernel has taken from the host and this object has not read count as not sent. Must be made by
+// std::make_shared. All members must be called on the strand, or while no thread runs its io_context.
 class MillLine : public MachineHost, public ByteLink {
  public:
   static constexpr std::size_t kBytesMax = 4096;  // at once
 
-  // `bytes_at_once`: so many may still come after the mill has stopped its host.
+  // `bytes_at_once`: maximum number of bytes that may still come after the mill has stopped its host.
   MillLine(Strand strand, std::unique_ptr<HostEnd> end, Duration byte_time, std::size_t bytes_at_once);
 
-  // After attach(). `is_held_back` is whether the host sends nothing now, because of the mill.
+  // Call after attach(). `is_held_back` reports whether the mill keeps the host from sending.
   void start(std::function<bool()> is_held_back);
   void shutdown();
 
@@ -41,7 +40,7 @@ class MillLine : public MachineHost, public ByteLink {
   std::function<bool()> is_held_back_;
   boost::asio::steady_timer pace_;
   TimePoint line_free_{};
-  bool held_ = false;  // no bytes are awaited: the mill holds the host back
+  bool held_ = false;  // the mill has stopped its host, so no bytes are awaited
 };
 
 }  // namespace axisgate::rml1::simulator

@@ -28,7 +28,7 @@ class PtyEnd : public HostEnd {
     [[maybe_unused]] const ssize_t size = ::write(pty_.master(), bytes.data(), bytes.size());
   }
 
-  // The settings are those of both ends.
+  // The settings are shared by both ends.
   bool stops_at_xoff() const override {
     termios settings{};
     return ::tcgetattr(far_end_.get(), &settings) == 0 && (settings.c_iflag & IXON) != 0;
@@ -40,7 +40,7 @@ class PtyEnd : public HostEnd {
 
  private:
   Pty pty_;
-  Descriptor far_end_;  // open, so that the terminal lives without a client
+  Descriptor far_end_;  // kept open, so that the terminal lives without a client
   Stream stream_;
 };
 

@@ -1,4 +1,4 @@
-// rml1-sim: a simulated mill behind a pseudo-terminal or a TCP port, for a sender of jobs to open.
+// The program rml1-sim: a simulated mill on a pseudo-terminal or a TCP port, which a sender of jobs can open.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -158,7 +158,7 @@ Result<std::optional<SocketFile>> open_control(const std::string& path) {
   return SocketFile::open(path);
 }
 
-// The simulated mill with its line, and the people at it.
+// A simulated mill with its line and its control socket.
 class Mill {
  public:
   Mill(const MillSetup& setup, double speed, std::shared_ptr<MillLine> line, std::FILE* record)
@@ -168,7 +168,7 @@ class Mill {
           return made;
         }) {
     line_->attach(paced_);
-    // A pseudo-terminal has no CTS: with rts nothing is read instead.
+    // A pseudo-terminal has no CTS, so with rts reading stops instead.
     line_->start([this, obeys = setup.flow == Flow::rts] {
       return simulator_->holds_back() && (obeys || line_->end().stops_at_xoff());
     });
@@ -203,7 +203,7 @@ class Mill {
   }
 
   std::shared_ptr<MillLine> line_;
-  Simulator* simulator_ = nullptr;  // of paced_
+  Simulator* simulator_ = nullptr;  // machine of paced_
   PacedLine paced_;
   std::shared_ptr<ControlServer> server_;
 };
@@ -215,11 +215,11 @@ Duration byte_time(int baud, double speed) {
 
 int run(const Arguments& arguments, const MillSetup& setup) {
   boost::asio::io_context context(1);
-  // Before the link exists, so that anybody who sees it can end this program cleanly.
+  // Catches signals before the link exists, so that anybody who sees the link can end this program cleanly.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
   const auto record = open_record(arguments.record);
   if (!record) return complain(kExitFailed, record.error());
-  // Before the link is made: it may be that of a program that still runs.
+  // Opens the socket before the link is made: the link may belong to a program that still runs.
   auto control = open_control(arguments.control);
   if (!control) return complain(kExitFailed, control.error());
   const Strand strand = boost::asio::make_strand(context);
@@ -227,7 +227,7 @@ int run(const Arguments& arguments, const MillSetup& setup) {
   if (!end) return complain(kExitFailed, end.error());
 
   const int baud = arguments.baud.value_or(setup.profile.baud.value_or(0));
-  // The handshake leaves a quarter of the buffer for what comes after the host was stopped.
+  // The handshake keeps a quarter of the buffer free for bytes that come after the host was stopped.
   const std::size_t at_once = setup.flow == Flow::none ? MillLine::kBytesMax : setup.buffer_bytes / 4;
   const auto line = std::make_shared<MillLine>(strand, std::move(*end), byte_time(baud, arguments.speed), at_once);
   Mill mill(setup, arguments.speed, line, record->get());
