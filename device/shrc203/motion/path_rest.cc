@@ -1,4 +1,4 @@
-// A path's segments that begin while the axes are stationary, and what is found out then about those before.
+// Part of PathRun: segments that begin while the axes are stationary, and finding out which segments ran.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,8 @@ Task<void> PathRun::start_from_rest(int number) {
   if (good) co_await start(number);
 }
 
-// The segment that runs has ended, and its axis numbers are in: they must not be taken for the next one's.
+// Waits until the running segment has ended and its completions have arrived: they must not be taken for the next
+// segment's.
 Task<bool> PathRun::become_stationary() {
   const bool due = co_await parts_.standstill.wait_until(live_, segment_began_ + segment(running_).shortest);
   if (!due) co_return false;
@@ -45,7 +46,8 @@ Task<bool> PathRun::become_stationary() {
   }
 }
 
-// The segment at whose end the axes are; 0: where the path begins. Nothing where that is not one alone.
+// Returns the segment at whose end the axes are; 0 for the beginning of the path. nullopt if no segment, or more than
+// one, fits.
 std::optional<int> PathRun::last_run() const {
   int done = -1, matches = 0;
   for (int candidate = std::max(0, running_ - 1); candidate <= std::min(running_ + 1, count()); ++candidate) {
@@ -58,7 +60,7 @@ std::optional<int> PathRun::last_run() const {
   return matches == 0 || ambiguous ? std::nullopt : std::optional(done);
 }
 
-// The counters at READY show which segment was the last to run; the path continues with the next.
+// Continues the path with the segment after the last one that ran, as the counters show at READY.
 Task<void> PathRun::resume_from_ready() {
   release_line();
   auto pause = parts_.tasks.pause(3 * kReadyPoll);

@@ -43,7 +43,7 @@ Task<void> PathRun::run() {
 
 Task<bool> PathRun::advance() {
   if (!chains(running_ + 1)) {
-    if (running_ == count()) co_return false;  // the last segment runs: READY will end it
+    if (running_ == count()) co_return false;  // the last segment runs and ends at READY
     co_await start_from_rest(running_ + 1);
     co_return true;
   }
@@ -66,12 +66,12 @@ Task<bool> PathRun::advance() {
 Task<void> PathRun::watch_end() {
   live_->goal = running_ < count() ? Goal::none : returns(count()) ? Goal::round_trip : Goal::targets;
   live_->slack = segment(count()).slack;
-  live_->completed = {};  // of the segments before; the last one's are still to come
+  live_->completed = {};  // those of earlier segments; the last one's are still to come
   live_->on_success = [this] { tell(PathProgress::Step::done, count()); };
   co_await parts_.watch.run(live_, Start::accepted, live_->wake_ups);
 }
 
-// A whole circle, or nearly one: within its slack, where it begins looks like its end.
+// Reports whether the segment ends where it begins, within its slack: a whole circle, or nearly one.
 bool PathRun::returns(int number) const {
   const Place& from = begin_of(number);
   return std::ranges::all_of(plan_.axes.list(), [&](int axis) {
@@ -146,12 +146,14 @@ Task<void> PathRun::refill_refused(int number) {
   if (standing) parts_.motions.disconnect(*live_, why);
 }
 
-// The number that ends a segment is believed when it comes neither too soon nor out of a barrier, and none is missing.
+// Reports whether the completion is of the clock axis, whose completions end the segments.
 bool PathRun::completion_counts(const LiveMotion::Completion& completion) {
   if (clock_axis_ == 0) clock_axis_ = completion.axis;
   return completion.axis == clock_axis_ || !guarded(Guard::one_axis_is_the_clock);
 }
 
+// Reports whether the completion certainly ends the running segment: it came neither too early nor in a barrier, and no
+// earlier one is missing.
 bool PathRun::is_believed(const LiveMotion::Completion& completion) {
   const bool early = completion.at < segment_began_ + segment(running_).shortest - kCompletionEarlyMax &&
                      guarded(Guard::early_numbers_checked);

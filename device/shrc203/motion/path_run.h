@@ -1,12 +1,12 @@
-// A path: segment 1 is set and started, each later one is put into the prebuffer as soon as its predecessor has left
-// it.
+// Run of a path: segment 1 is set and started, and each later one is put into the prebuffer as soon as the previous one
+// has left it.
 //
 //   set 1 ── go ── set 2 (OK_D) ── 1 ends: 2 runs, set 3 (OK_D) ── ... ── n ends, READY: the sum must be exact
 //
-// OK where OK_D was due means that the chain had ended (an underrun): the path continues from READY. Whatever is in
-// doubt is settled at READY too, where the command counters show how far the path has come. A segment that waits for
-// something (SegmentPlan::waits()) is set and started at READY, as segment 1 is (segment_halt.h). The phases of a
-// segment are those of state/segment_life.h.
+// OK instead of OK_D means that the chain had ended (an underrun): the path continues from READY. Other doubts are also
+// settled at READY, where the command counters show how far the path has come. A segment that waits for something
+// (SegmentPlan::waits()) is set and started at READY, like segment 1 (segment_halt.h). The phases of a segment are
+// those of state/segment_life.h.
 //
 // The line is kept free for the refill that follows the end of each segment but the last two (reservations.h).
 #pragma once
@@ -29,7 +29,7 @@
 
 namespace axisgate::shrc203 {
 
-// What the run of a path uses.
+// Objects that the run of a path uses.
 struct PathParts {
   Line& line;
   Dialogue& dialogue;
@@ -51,7 +51,7 @@ class PathRun {
   PathRun(PathParts& parts, LiveMotionPtr motion, PathPlan plan)
       : parts_(parts), live_(std::move(motion)), plan_(std::move(plan)) {}
 
-  // The motion has its outcome then.
+  // Runs the path until the motion has its outcome.
   Task<void> run();
 
  private:
@@ -59,7 +59,7 @@ class PathRun {
   const SegmentPlan& segment(int number) const { return plan_.segments[static_cast<std::size_t>(number - 1)]; }
   const Place& begin_of(int number) const { return number == 1 ? plan_.begin : segment(number - 1).end; }
   Command setter(int number) const { return segment_setter(plan_, number); }
-  // The last one that the controller accepted.
+  // Returns the last segment that the controller accepted.
   int sent() const { return phase_ == SegmentPhase::chained ? running_ + 1 : running_; }
   bool chains(int number) const { return number <= count() && !segment(number).waits(); }
   bool stands_at_end(int number) const {
@@ -74,8 +74,8 @@ class PathRun {
   void end(MotionState outcome, Problem problem) { parts_.motions.end(*live_, outcome, std::move(problem)); }
 
   Task<bool> wait_before(int number);
-  Task<bool> start(int number);  // set and go, from READY
-  Task<bool> advance();          // by one segment; false: nothing more can be done but watching
+  Task<bool> start(int number);  // sets and starts the segment, from READY
+  Task<bool> advance();          // continues by one segment; false if only watching is left
   Task<void> refill(int number);
   Task<void> refill_refused(int number);
   Task<bool> wait_for_segment_end();
@@ -95,9 +95,9 @@ class PathRun {
   LiveMotionPtr live_;
   PathPlan plan_;
   SegmentPhase phase_ = SegmentPhase::stationary;
-  int running_ = 0;     // the segment that moves, or moved last
-  int clock_axis_ = 0;  // the first axis to answer in segment 1; the others' numbers are not counted
-  int missed_ = 0;      // ends that were polled because their number had not come; it may still come
+  int running_ = 0;     // segment that runs, or ran last
+  int clock_axis_ = 0;  // first axis to complete; only its completions end segments. 0: none yet
+  int missed_ = 0;      // segment ends found by polling, whose completion may still arrive
   TimePoint segment_began_{};
 };
 

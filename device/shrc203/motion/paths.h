@@ -1,4 +1,4 @@
-// Paths: checked, then run at their turn by path_run.h.
+// Paths: checked, then run in their turn by path_run.h.
 #pragma once
 
 #include <functional>
@@ -16,7 +16,8 @@
 
 namespace axisgate::shrc203 {
 
-// From READY to the outcome; what it has changed is restored then. Approaches and scans are paths, too.
+// A PathFollower runs a path from READY to the outcome, and restores the changed settings then. Approaches and scans
+// are paths, too.
 class PathFollower {
  public:
   PathFollower(PathParts& parts, Disarming& disarming, Restorer& restorer, const StateStore& store)
@@ -44,8 +45,8 @@ class Paths {
         tasks_(tasks) {}
 
   void run(PathRequest request, StageController::OnStarted started);
-  // As plan_path(), and: the line can feed it. Where the axes and their speeds are known, which they are not always
-  // before the motion's turn.
+  // Plans like plan_path(). Also checks that the line can send the refills in time, once the axes and their speeds are
+  // known: at the motion's turn at the latest.
   Result<PathPlan> plan(const PathRequest& request) const;
 
  private:
@@ -60,7 +61,7 @@ class Paths {
   Tasks& tasks_;
 };
 
-// not_allowed, where the profile lets no input pin start a motion. `what` names it.
+// Fails with not_allowed if the profile lets no input pin start a motion. `what` names the request in the message.
 Result<void> may_wait_for_inputs(const Profile& profile, std::string_view what);
 
 }  // namespace axisgate::shrc203

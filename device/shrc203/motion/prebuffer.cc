@@ -9,7 +9,7 @@
 
 namespace axisgate::shrc203 {
 
-// Nothing when nobody can tell.
+// Returns the content of the prebuffer compared with the setter; nullopt if it could not be read.
 Task<std::optional<Held>> Prebuffer::read(LiveMotionPtr live, Command setter) {
   const auto question = commands::question_of(setter.row->reg);
   const auto answer = co_await dialogue_.ask(question, Lane::path_refill, live->context.who);
@@ -20,7 +20,7 @@ Task<std::optional<Held>> Prebuffer::read(LiveMotionPtr live, Command setter) {
 Task<bool> Prebuffer::is_empty(LiveMotionPtr live, Sent sent) {
   auto found = co_await read(live, sent.setter);
   if (found == Held::other && guarded(Guard::wrong_segments_stop)) {
-    // Which axes it moves, and completes, nobody knows. The answer itself may have been misread.
+    // The changed segment may move any axis. The reply itself may have been misread, so it is read again.
     line_.completions().chained(AxisSet::all(), tasks_.now());
     found = co_await read(live, sent.setter);
     if (found == Held::other) co_await stop_wrong_segment(live, std::move(sent));

@@ -1,4 +1,4 @@
-// What a running path's prebuffer holds, asked where an axis number that ends a segment is in doubt.
+// Content of a running path's prebuffer, read when the completion that ends a segment is in doubt.
 #pragma once
 
 #include <optional>
@@ -26,12 +26,13 @@ class Prebuffer {
         motions_(motions),
         tasks_(tasks) {}
 
-  // The segment that was put into it last.
+  // Segment that was put into the prebuffer last.
   struct Sent {
     int number = 0;
     Command setter;
   };
-  // Whether that has gone over into execution. Where it was received wrongly, all axes are stopped and the motion ends.
+  // Reports whether the prebuffer is empty, so that the segment runs. If the segment was received wrongly, all axes are
+  // stopped and the motion ends.
   Task<bool> is_empty(LiveMotionPtr live, Sent sent);
 
  private:

@@ -18,8 +18,8 @@ void ReadyLag::seen_busy(Duration after) {
   if (ready_ && *ready_ <= busy_) ready_.reset();
 }
 
-// What was too soon once may not be for long: another speed, another load. So it is sought again now and then, at the
-// cost of a few questions.
+// Takes note of READY. A delay that was once too short may be enough later, with another speed or load, so the delay is
+// measured again now and then, at the cost of a few questions.
 void ReadyLag::seen_ready(Duration after) {
   if (after > kReadyLagMax) return;
   constexpr int kAgain = 256;

@@ -1,5 +1,5 @@
-// How long after its last axis number a unit is READY, as earlier motions have shown: the manual does not say whether
-// the number comes before or after the settling (open question completion_before_settle). No threads.
+// Delay between a unit's last completion and READY, measured in earlier motions. The manual does not say whether the
+// completion comes before or after the settling (open question completion_before_settle). Not thread safe.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@ namespace axisgate::shrc203 {
 
 class ReadyLag {
  public:
-  // How long the first question waits after the last axis number, so that its answer is READY and comes soon. Nothing,
+  // Returns the delay of the first question after the last completion, so that its reply is READY and comes soon. Zero
   // until a motion has shown that this is too soon.
   Duration first_question() const;
 
-  // What a question so long after the last axis number has shown.
+  // Take note of the reply to a question that was asked this long after the last completion.
   void seen_busy(Duration after);
   void seen_ready(Duration after);
 
  private:
-  Duration busy_{};                // the longest that was too soon
-  std::optional<Duration> ready_;  // the shortest that was not
-  int known_for_ = 0;              // motions since it was sought
+  Duration busy_{};                // longest delay that was too short
+  std::optional<Duration> ready_;  // shortest delay that was long enough
+  int known_for_ = 0;              // motions since the last new measurement
 };
 
 }  // namespace axisgate::shrc203

@@ -29,7 +29,8 @@ std::string in_words(const Coordinates& coordinates) {
   return text;
 }
 
-// Manual 128), 130): a place is gone after a reset; and a number is anybody's who sends PIT:SET.
+// Compares the reported position with the expected one. A place is lost after a reset, and anybody may overwrite a
+// number by PIT:SET (manual 128), 130)).
 Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& reported) {
   if (!reported.empty() && (request.expected.empty() || reported == request.expected)) return {};
   Problem problem{.reason = Reason::epoch_passed, .sent = question_of(request).line};
@@ -46,7 +47,7 @@ Result<void> as_expected(const GoToPositionRequest& request, const Coordinates& 
   return tl::unexpected(std::move(problem));
 }
 
-// Their speeds are not looked at: the axes are slowed down where they would be too fast.
+// Checks the coordinates, but not the speeds: axes that would be too fast are slowed down.
 Result<Positions> within(const Envelope& envelope, const State& state, const Coordinates& coordinates) {
   Positions place{};
   for (const auto& [axis, pulses] : coordinates) place[static_cast<std::size_t>(axis - 1)] = pulses;
@@ -79,7 +80,7 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
     return started(fail(Reason::out_of_range, fmt::format("positions are numbered 1 to {}", kNumbers)));
   }
   auto good = check(request);
-  // Which axes need not move is the controller's business: it is one command for all.
+  // The controller decides which axes need not move: it is one command for all.
   if (good) good = rights_.authorize_motion(request.context, AxisSet::all());
   if (!good) return started(tl::unexpected(good.error()));
   auto live = motions_.create(MotionKind::move, axes, request.context, std::move(started));
@@ -87,7 +88,7 @@ void SavedPositions::go_to(GoToPositionRequest request, StageController::OnStart
   tasks_.spawn(run(live, std::move(request)));
 }
 
-// What the controller holds is what counts, so it is asked at the motion's turn, when nobody else can change it.
+// Reads and checks the saved position in the motion's turn, when nobody else can change it.
 Task<Result<void>> SavedPositions::find(LiveMotionPtr live, GoToPositionRequest request) {
   const auto reported = co_await ask_for_position(dialogue_, live, question_of(request), store_.controllable());
   if (!reported) co_return tl::unexpected(reported.error());

@@ -1,4 +1,4 @@
-// To a position that the controller keeps by number: a place, PIT:, or coordinates, PAV: (manual 127) to 136)).
+// Motion to a position that the controller stores by number: a place, PIT:, or coordinates, PAV: (manual 127) to 136)).
 #pragma once
 
 #include <cstdint>
@@ -37,7 +37,7 @@ class SavedPositions {
         tasks_(tasks) {}
 
   void go_to(GoToPositionRequest request, StageController::OnStarted started);
-  // What is known before the motion's turn. What the envelope refuses.
+  // Checks the expected coordinates against the envelope before the motion's turn.
   Result<void> check(const GoToPositionRequest& request) const;
 
  private:
@@ -57,7 +57,8 @@ class SavedPositions {
   Tasks& tasks_;
 };
 
-// The coordinates that PIT:GET or PAV:GET reports twice in a row; none where nothing is saved there. line_fault.
+// Returns the coordinates that PIT:GET or PAV:GET reports twice in a row; empty if nothing is saved there. Fails with
+// line_fault.
 Task<Result<Coordinates>> ask_for_position(Dialogue& dialogue, LiveMotionPtr live, Command question,
                                            AxisSet controllable);
 

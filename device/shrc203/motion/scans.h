@@ -1,4 +1,4 @@
-// Scans: the axis is moved to where the run starts, the trigger is armed while the axis is stationary (T: is NG while
+// Scans: the axis moves to the start of the run, the trigger is armed while the axis is stationary (T: is NG while
 // busy, manual 98)), the axis runs, and at READY the trigger is restored.
 #pragma once
 
@@ -27,7 +27,7 @@ class Scans {
         tasks_(tasks) {}
 
   void scan(ScanRequest request, StageController::OnStarted started);
-  // What is known before the motion's turn.
+  // Checks the request before the motion's turn.
   Result<void> check(const ScanRequest& request) const;
 
  private:

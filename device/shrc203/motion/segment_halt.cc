@@ -34,7 +34,8 @@ Task<bool> SegmentHalt::wait(LiveMotionPtr live, const SegmentPlan& next, Before
   co_return true;
 }
 
-// Somebody at the front panel may have moved the axes meanwhile: the distances that follow would lead elsewhere.
+// Checks that the axes have not moved meanwhile: somebody at the front panel may have moved them, and the following
+// distances would lead elsewhere.
 Task<bool> SegmentHalt::is_still_there(LiveMotionPtr live, Before before) {
   const bool standing = co_await standstill_.wait(live);
   if (!standing || live->life.stop_asked()) co_return false;
@@ -55,7 +56,8 @@ void SegmentHalt::show_armed(const LiveMotion& live, bool armed) {
   store_.publish();
 }
 
-// Nobody's switch starts it once its owner has lost the right to the axes, whatever becomes of motions that run.
+// Ends the motion if its owner has lost the right to the axes: no input pin may start it then, even if running motions
+// may continue.
 bool SegmentHalt::has_lost_right(LiveMotion& live) {
   const RequestContext& owner = live.context;
   const auto allowed = rights_.still_authorized({owner.who, owner.lease, live.uses, 0});
@@ -64,7 +66,7 @@ bool SegmentHalt::has_lost_right(LiveMotion& live) {
   return true;
 }
 
-// Two answers in a row: one flipped bit must not start a motion.
+// Waits until the inputs show the pattern in two replies in a row: one flipped bit must not start a motion.
 Task<bool> SegmentHalt::wait_for_inputs(LiveMotionPtr live, int pattern) {
   int agreed = 0;
   for (;;) {
@@ -80,7 +82,7 @@ Task<bool> SegmentHalt::wait_for_inputs(LiveMotionPtr live, int pattern) {
   }
 }
 
-// T: sets nothing in motion, and the same twice is the same.
+// Arms the trigger. T: moves nothing and may be repeated without effect.
 Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
   const Command setter = trigger_command(trigger);
   ExchangeResult result;
@@ -94,7 +96,7 @@ Task<bool> SegmentHalt::arm(LiveMotionPtr live, Trigger trigger) {
   }
   Problem why = result.problem.value_or(Problem{});
   if (result.refused()) {
-    store_.note_trigger({});  // the line may have caused the NG: the trigger is read again, to be restored
+    store_.note_trigger({});  // the line may have caused the NG: the trigger is read again before it is restored
     why = co_await explainer_.explain(setter, AxisSet::all(), live->context.who);
   }
   motions_.disconnect(*live, why);

@@ -1,6 +1,7 @@
-// What a segment waits for while the axes are stationary: a rest, inputs, a trigger that is armed. The gateway keeps
-// these times itself, so that a stop need not clear them. Also, whether WT: and WI: answer OK or OK_D after a running
-// segment, and whether a number reports their end, is open (manual 57), 58)).
+// Waits of a segment while the axes are stationary: a rest, inputs, and the arming of a trigger. The gateway itself
+// carries out these waits, so that a stop need not clear them in the controller. The manual does not say whether WT:
+// and WI: are answered by OK or OK_D after a running segment, nor whether a completion reports their end (manual 57),
+// 58)).
 #pragma once
 
 #include "device/core/tasks.h"
@@ -28,13 +29,14 @@ class SegmentHalt {
         rights_(rights),
         tasks_(tasks) {}
 
-  // Where the axes were when the wait began.
+  // Position of the axes at the beginning of the wait.
   struct Before {
-    int number = 0;  // of the segment that waits
+    int number = 0;  // number of the waiting segment
     Place place{};
     std::int64_t slack = 0;
   };
-  // For all that the segment waits for. False: a stop, the loss of the line, or the motion has its outcome.
+  // Waits for everything that the segment needs. Returns false after a stop or the loss of the line, or if the motion
+  // has its outcome.
   Task<bool> wait(LiveMotionPtr live, const SegmentPlan& next, Before before);
 
  private:

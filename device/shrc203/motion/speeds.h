@@ -1,4 +1,4 @@
-// The speeds S, F and time R of D:, set for one motion.
+// Speeds S, F and time R of D:, set for one motion.
 #pragma once
 
 #include "device/core/problem.h"
@@ -15,9 +15,9 @@ class MotionSpeeds {
   MotionSpeeds(Dialogue& dialogue, Explainer& explainer, StateStore& store)
       : dialogue_(dialogue), explainer_(explainer), store_(store) {}
 
-  // Those of the plan, by D:.
+  // Sets the speeds of the plan by D:.
   Task<Result<void>> set(LiveMotionPtr live, MovePlan plan);
-  // Lower ones for axes whose own F is more than the caller may run at; they are restored when the motion is over.
+  // Sets lower speeds for axes whose own F exceeds the caller's limit. They are restored at the end of the motion.
   Task<Result<void>> slow_down(LiveMotionPtr live);
 
  private:

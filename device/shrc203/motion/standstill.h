@@ -1,4 +1,4 @@
-// Waiting until a path's axes are stationary, and where they are then.
+// Waiting until a path's axes are stationary, and comparing their positions.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ class Standstill {
  public:
   Standstill(Reader& reader, const StateStore& store, Tasks& tasks) : reader_(reader), store_(store), tasks_(tasks) {}
 
-  // READY twice in a row at the same place. False: the line was lost.
+  // Waits for READY twice in a row at the same position. Returns false if the line was lost.
   Task<bool> wait(LiveMotionPtr live);
-  // For that time. False: a stop, or the line was lost.
+  // Waits until `limit`. Returns false after a stop, or if the line was lost.
   Task<bool> wait_until(LiveMotionPtr live, TimePoint limit);
-  // Within `slack` pulses on each axis.
+  // Reports whether all axes are at the place, within `slack` pulses.
   bool is_at(AxisSet axes, const Place& place, std::int64_t slack) const;
 
  private:

@@ -12,7 +12,7 @@
 
 namespace axisgate::shrc203 {
 
-// Whether an axis moves, or is elsewhere than before.
+// Reports whether an axis moves, or has another position than before.
 bool Starter::anything_changed(const LiveMotion& live, const Positions& before) const {
   return std::ranges::any_of(live.motion.axes.list(), [&](int axis) {
     const AxisState& state = store_.state().axis(axis);
@@ -39,7 +39,7 @@ Problem Starter::never_came(const LiveMotion& live) {
           .sent = std::string(commands::go(live.motion.axes).row->name)};
 }
 
-// What the setter's register holds; nothing when nobody can tell.
+// Compares the content of the setter's register with the setter; nullopt if it could not be read.
 Task<std::optional<Held>> Starter::read_back(LiveMotionPtr live, Command setter, Lane lane) {
   const auto answer = co_await dialogue_.ask(commands::question_of(setter.row->reg), lane, live->context.who);
   if (!is_data(answer)) co_return std::nullopt;
@@ -71,14 +71,15 @@ Task<Result<Reply>> Starter::set_and_confirm(LiveMotionPtr live, Command setter,
   co_return tl::unexpected(std::move(problem));
 }
 
-// The axes were stationary before the start, so an NG over axes that move was not the controller's.
+// Reports whether the axes move although the start was refused: they were stationary before, so the NG was not the
+// controller's reply to it.
 Task<bool> Starter::moves_despite_ng(LiveMotionPtr live) {
   const Positions before = store_.positions();
   const auto read = co_await reader_.read_positions(Lane::motion, live->context.who);
   co_return !read || anything_changed(*live, before);
 }
 
-// Sent once, whatever becomes of its answer.
+// Sends G: once, whatever becomes of its reply.
 Task<Result<Start>> Starter::go(LiveMotionPtr live, AxisSet completes) {
   if (live->life.stop_asked() && guarded(Guard::stop_before_go)) co_return tl::unexpected(stopped_by(*live));
   const Command command = commands::go(live->motion.axes);

@@ -1,5 +1,5 @@
-// Set and go: a setpoint is written until it is certain that it arrived, and a start once, whatever becomes of its
-// answer.
+// Setting and starting: a setpoint is written until it has certainly arrived, a start only once, whatever becomes of
+// its reply.
 #pragma once
 
 #include <optional>
@@ -13,7 +13,7 @@
 
 namespace axisgate::shrc203 {
 
-// What became of a start that was not refused.
+// Result of a start that was not refused.
 enum class Start { accepted, in_doubt };
 
 class Starter {
@@ -22,13 +22,16 @@ class Starter {
           Tasks& tasks)
       : dialogue_(dialogue), reader_(reader), explainer_(explainer), store_(store), motions_(motions), tasks_(tasks) {}
 
-  // A setpoint starts nothing, so one whose answer was lost is read back, and sent again when it did not arrive.
+  // Writes a setpoint. A setpoint starts nothing, so it is read back if its reply was lost, and sent again if it did
+  // not arrive.
   Task<Result<Reply>> set_and_confirm(LiveMotionPtr live, Command setter, Lane lane);
-  // `completes` are the axes whose numbers will come.
+  // Sends G:. `completes` are the axes whose completions will arrive.
   Task<Result<Start>> go(LiveMotionPtr live, AxisSet completes);
-  // A line that starts by itself, and after which each axis reports its end. Nothing: the motion has its outcome.
+  // Sends a line that starts a motion without G:; each axis then reports its end. Returns nullopt if the motion has its
+  // outcome.
   Task<std::optional<Start>> start(LiveMotionPtr live, Command command);
-  // A start that arrived has taken the setpoint out of its register. True only when it is certain that none did.
+  // Reports whether the start has certainly not arrived: a start that arrived has taken the setpoint out of its
+  // register.
   Task<bool> start_never_came(LiveMotionPtr live, Command setter);
   static Problem never_came(const LiveMotion& live);
 

@@ -17,7 +17,7 @@ Task<std::optional<Decimal>> TriggerCount::read_scale_pulse(int axis, std::strin
   co_return resolution ? std::optional(*resolution) : std::nullopt;
 }
 
-// The counter that the trigger counts by, as it is now.
+// Returns the present value of the counter that the trigger counts; nullopt if unknown.
 Task<std::optional<std::int64_t>> TriggerCount::read(LiveMotionPtr live) {
   const int axis = live->motion.axes.lowest();
   if (live->scan->trigger.target == Trigger::Target::drive_pulses) {

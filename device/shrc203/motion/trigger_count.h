@@ -1,5 +1,5 @@
-// How many trigger pulses a scan has had, by the counter that the trigger counts by: it is read while the axis is
-// stationary, at the arming and whenever a reading may be the end.
+// Number of trigger pulses of a scan, computed from the counter that the trigger counts. The counter is read while the
+// axis is stationary, at arming and after each reading that may be the end.
 #pragma once
 
 #include <optional>
@@ -15,11 +15,11 @@ class TriggerCount {
  public:
   TriggerCount(Dialogue& dialogue, const StateStore& store) : dialogue_(dialogue), store_(store) {}
 
-  // The trigger is about to be armed.
+  // Reads the counter. Call right before the trigger is armed.
   Task<void> begin(LiveMotionPtr live);
-  // Into ScanResult::observed; nothing before begin().
+  // Sets ScanResult::observed. No effect if begin() has not read the counter.
   Task<void> count(LiveMotionPtr live);
-  // What one pulse of the axis's scale is (manual 9) ?:R); nothing where the controller does not tell.
+  // Returns the resolution of the axis's scale (manual 9) ?:R); nullopt if the controller does not report it.
   Task<std::optional<Decimal>> read_scale_pulse(int axis, std::string caller);
 
  private:

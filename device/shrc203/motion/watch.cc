@@ -11,7 +11,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Of axes that are stationary where nobody wanted them, without an error.
+// Returns the problem of axes that are stationary away from their targets, without an error or a stop.
 Problem fell_short_by(const LiveMotion& live, const State& state) {
   auto off = start_refused_by(live.excited, state);
   if (off && off->reason == Reason::not_excited) {
@@ -44,7 +44,7 @@ bool Watch::axis_busy(const LiveMotion& live) const {
                              [&](int axis) { return store_.state().axis(axis).busy.value_or(true); });
 }
 
-// Until every axis number has come, or something else happened to the motion, at most until `limit`.
+// Waits until all completions have arrived or something else happened to the motion, at most until `limit`.
 Task<void> Watch::wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limit) {
   while (tasks_.now() < limit && !live->life.line_lost() && live->wake_ups == seen.wake_ups) {
     auto changed = live->changed.wait_until(limit);
@@ -53,7 +53,7 @@ Task<void> Watch::wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limi
   seen.wake_ups = live->wake_ups;
 }
 
-// Once all axis numbers have come, until this unit is usually READY.
+// Waits, once all completions have arrived, for the time after which this unit is usually READY.
 Task<void> Watch::wait_for_ready(LiveMotionPtr live, Seen& seen) {
   if (seen.completed_at || !live->completed_by_all()) co_return;
   seen.completed_at = tasks_.now();
@@ -91,7 +91,7 @@ Task<void> Watch::run(LiveMotionPtr live, Start start, int wake_ups) {
   watched_.erase(live->motion.id);
 }
 
-// A stop's READY says nothing of settling.
+// Measures the delay of READY, but not after a stop, whose READY is no measure of settling.
 void Watch::learn_lag(const LiveMotion& live, const Seen& seen, TimePoint asked) {
   if (!seen.completed_at || live.life.stop_asked()) return;
   const Duration after = asked - *seen.completed_at;
@@ -111,7 +111,8 @@ Duration Watch::pause_after(const LiveMotion& live, Seen& seen, bool hinted) con
   return hinted || live.completed_by_all() || seen.ready_at ? soon : pause_on_the_way(live);
 }
 
-// An axis number reports the end. The positions on the way are for who follows them, and for a number that is lost.
+// Returns the pause between readings during the motion. A completion reports its end, so these readings serve only
+// callers who follow the state, and the case of a lost completion.
 Duration Watch::pause_on_the_way(const LiveMotion& live) const {
   const Duration moving_poll = store_.profile().moving_poll;
   if (store_.followed() || !live.motion.due || live.life.stop_asked()) return moving_poll;
@@ -119,7 +120,7 @@ Duration Watch::pause_on_the_way(const LiveMotion& live) const {
   return std::clamp(*live.motion.due + moving_poll - tasks_.now(), moving_poll, longest);
 }
 
-// The positions, and what else may tell why the axes are stationary.
+// Reads the positions, and other possible reasons why the axes are stationary.
 Task<Result<void>> Watch::read_end(LiveMotionPtr live, const Seen& seen) {
   const Lane lane = live->completed_by_all() ? Lane::motion : Lane::poll;
   const auto read = co_await reader_.read_positions(lane, live->context.who);
@@ -129,12 +130,12 @@ Task<Result<void>> Watch::read_end(LiveMotionPtr live, const Seen& seen) {
   }
   const bool fell_short = seen.ready_at && !ended_here(*live) && !at_targets(*live);
   if (fell_short && !live->excited.empty()) {
-    (void)co_await reader_.read_excitation(live->context.who);  // a motor that was switched off
+    (void)co_await reader_.read_excitation(live->context.who);  // a motor may have been switched off
   }
   co_return read;
 }
 
-// An abandoned jog would run on, so it is ended.
+// Handles a motion whose positions cannot be read: it ends UNKNOWN. A jog would continue, so it is stopped.
 void Watch::unreadable(LiveMotion& live, const Problem& problem) {
   if (live.jog) {
     motions_.end_jog(live, problem);
@@ -143,7 +144,7 @@ void Watch::unreadable(LiveMotion& live, const Problem& problem) {
   }
 }
 
-// Decides by the newest reading whether the motion has ended, and how.
+// Decides by the newest reading whether the motion has ended, and with which outcome.
 void Watch::judge(LiveMotion& live, Seen& seen) {
   const bool busy = axis_busy(live);
   seen.busy = seen.busy || busy;
@@ -168,20 +169,20 @@ void Watch::judge(LiveMotion& live, Seen& seen) {
 
 bool Watch::has_succeeded(const LiveMotion& live, const Seen& seen, const Positions& here) const {
   const bool completed = live.completed_by_all(), started = !live.life.unstarted();
-  // An axis that stands at 0 may have been there before: only an origin return that was seen to run has ended.
+  // An axis at 0 may have been there before the origin return, which therefore must have been seen to run.
   const bool homed = live.motion.kind != MotionKind::home || completed || started || !guarded(Guard::home_seen_to_run);
-  // A whole circle ends where it began, so it must have been seen to run, or had the time to show.
+  // A whole circle ends where it began, so it must have been seen to run, or have had the time to show.
   const bool ran = completed || seen.busy || (started && tasks_.now() - seen.begun >= kStartVisibleWithin);
   const bool evident = homed && (ran || live.goal != Goal::round_trip || !guarded(Guard::circle_seen_to_run));
-  // One flipped bit makes an R of a B; where no axis number confirms a READY, a second reading does. So it does where
-  // the reading before was READY elsewhere.
+  // One flipped bit turns a B into an R. A second reading is needed if no completion confirms READY, or if the reading
+  // before was READY elsewhere.
   const bool undisputed = completed && !seen.ready_at;
   const bool confirmed = !guarded(Guard::success_seen_twice) || undisputed || seen.ready_at == here;
   const bool good = !error_shown(live.motion.axes, store_.state()) || !guarded(Guard::success_without_error);
   return at_targets(live) && good && evident && confirmed && live.goal != Goal::none;
 }
 
-// The axes are stationary elsewhere.
+// Ends a motion whose axes are stationary without success.
 void Watch::judge_end(LiveMotion& live, const Seen& seen) {
   const auto error = error_shown(live.motion.axes, store_.state());
   if (seen.start == Start::in_doubt && live.life.unstarted() && !error) {
@@ -199,8 +200,8 @@ void Watch::judge_end(LiveMotion& live, const Seen& seen) {
   }
 }
 
-// It is stationary, as the gateway or its caller wanted. There is no target to confirm that, so a controller that may
-// have restarted is looked at first.
+// Ends a stationary jog that had to end. No target confirms the position, so a suspected restart of the controller is
+// decided first.
 void Watch::judge_jog(LiveMotion& live) {
   const Jog& jog = *live.jog;
   if (line_.state().restart_suspected()) return;

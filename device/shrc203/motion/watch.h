@@ -1,5 +1,5 @@
-// A started motion to its outcome: an axis number wakes the check; READY, no error and the exact target make the
-// success.
+// Watch over a started motion until its outcome: a completion triggers the check; READY, no error and the exact target
+// make the success.
 #pragma once
 
 #include <optional>
@@ -21,21 +21,21 @@ class Watch {
   Watch(const Line& line, Reader& reader, TriggerCount& triggers, StateStore& store, Motions& motions, Tasks& tasks)
       : line_(line), reader_(reader), triggers_(triggers), store_(store), motions_(motions), tasks_(tasks) {}
 
-  // Until it has its outcome. `wake_ups`: those of LiveMotion::wake_ups that meant something else.
+  // Watches the motion until it has its outcome. `wake_ups` is the part of LiveMotion::wake_ups that had other causes.
   Task<void> run(LiveMotionPtr live, Start start, int wake_ups = 0);
-  // Whether the positions are read for some motion.
+  // Reports whether the positions of any motion are being read.
   bool watches_any() const;
 
  private:
-  // What has been seen so far.
+  // Observations up to now.
   struct Seen {
     TimePoint begun{};
     Start start = Start::accepted;
     int wake_ups = 0;
-    std::optional<TimePoint> completed_at{};  // all axis numbers had come
-    Duration ready_pause{};                   // the last one since then
+    std::optional<TimePoint> completed_at{};  // time at which all completions had arrived
+    Duration ready_pause{};                   // newest pause since then
     bool busy = false;
-    std::optional<Positions> ready_at{};  // the last reading was READY there; away from the target two must agree
+    std::optional<Positions> ready_at{};  // positions at the last READY; away from the target two must agree
   };
 
   Task<void> wait_for_change(LiveMotionPtr live, Seen& seen, TimePoint limit);

@@ -10,7 +10,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// The coordinates of a line by their letters, in pulses of the axes that they belong to.
+// Returns the coordinates of a line by letter, in pulses of their axes.
 Result<std::map<std::string, std::int64_t>> coordinates_of(const Command& command, const std::array<int, 3>& axes,
                                                            const Envelope& envelope) {
   static const std::map<std::string, std::size_t> kAxisOf = {{"c1", 0}, {"p1", 0}, {"e1", 0}, {"c2", 1},

@@ -1,4 +1,4 @@
-// Arcs and helices as lines give them (manual 71) to 82)), in pulses of their axes.
+// Arcs and helices of command lines (manual 71) to 82)), converted to pulses of their axes.
 #pragma once
 
 #include <array>
@@ -10,20 +10,21 @@
 
 namespace axisgate::shrc203 {
 
-// What an E: or EP: comes to.
+// The curve that an E: or EP: line describes.
 struct ArcLine {
   Arc arc;
-  std::array<int, 3> axes{};  // of ArcEnd's first, second and third; the third 0 where the curve lies in the plane
-  // All that the curve may lead through. Where the direction of E:2 and E:5 does not go with their passing point, the
-  // rest of the circle counts as well: the manual's own examples contradict one another (73), 76)).
+  std::array<int, 3> axes{};  // axes of ArcEnd's first, second and third; third is 0 for a flat curve
+  // Range that the curve may cover. If the direction of E:2 or E:5 contradicts the passing point, the rest of the
+  // circle is included: the manual's own examples contradict one another (73), 76)).
   ArcExtent extent;
 };
 
-// Of a command whose register is e or ep. What the envelope's conversions refuse; invalid_request for three points on
-// one line; out_of_range.
+// Returns the curve of a command whose register is e or ep. Fails as the envelope's conversions do; with
+// invalid_request if three points lie on one line; with out_of_range.
 Result<ArcLine> arc_of(const Command& command, const Envelope& envelope);
 
-// That axes of one curve have pulses of one length, which the controller does not ask: invalid_request.
+// Checks that all axes of a curve have the same resolution, which the controller itself does not check. Fails with
+// invalid_request.
 Result<void> check_scales(AxisSet axes, const State& state);
 
 }  // namespace axisgate::shrc203

@@ -14,7 +14,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// In pulses from where the curve begins.
+// Converts points of a curve to pulses from its start.
 class Places {
  public:
   Places(const Curve& curve, bool relative, const Positions& from, const Envelope& envelope)
@@ -85,7 +85,7 @@ Result<CurvePlan> by_angle(const Curve& curve, const Curve::Around& around, Plan
   return plan;
 }
 
-// The direction that is sent goes with the passing point, so that it does not matter which of them counts.
+// The direction sent matches the passing point, so it does not matter which of the two the controller follows.
 Result<CurvePlan> through(const Curve& curve, PlanePoint point, PlanePoint end, std::optional<std::int64_t> rise) {
   const auto arc = rise ? helix_through(point, end, *rise) : arc_through(point, end);
   if (!arc) return tl::unexpected(arc.error());

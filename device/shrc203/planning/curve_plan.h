@@ -1,4 +1,4 @@
-// What a curve of a path comes to: a line of EP: (manual 77) to 82)), and what is to be expected of it.
+// A curve of a path as a line of EP: (manual 77) to 82)), and the motion expected from it.
 #pragma once
 
 #include <cstdint>
@@ -20,20 +20,21 @@ struct CurvePlan {
 
 struct PlannedCurve {
   CurvePlan curve;
-  MovePlan move;  // its axes, ascending, and where it leads; relative
+  MovePlan move;  // axes in ascending order and the curve's end; relative
 };
 
-// From where the axes are, checked against the envelope along the whole curve. invalid_request, out_of_range,
-// outside_travel, position_unknown and what the envelope's conversions refuse.
-// `slack`: pulses by which the axes may be off `from`.
+// Plans a curve that starts at `from`, and checks the whole curve against the envelope. `slack`: pulses by which the
+// start may differ from `from`. Fails with invalid_request, out_of_range, outside_travel, position_unknown, or as the
+// envelope's conversions do.
 Result<PlannedCurve> plan_curve(const Curve& curve, bool relative, const Positions& from, std::int64_t slack,
                                 const Envelope& envelope);
 
-// Pulses by which the end that the controller computes may differ: for a curve given by an angle ("an error occurs",
-// manual 72), 75)), unless it ends on whole pulses.
+// Returns the number of pulses by which the end computed by the controller may differ: 1 for a curve given by an angle
+// ("an error occurs", manual 72), 75)) unless it ends on whole pulses, else 0.
 std::int64_t slack_of(const CurvePlan& curve);
 
-// The highest part of the path speed that each axis of the move makes on the way: 1 in the plane of the circle.
+// Returns the highest share of the path speed that an axis reaches: 1 in the plane of the circle, rise divided by
+// length for the third axis.
 double share_of_speed(const Arc& arc, bool third_axis);
 
 }  // namespace axisgate::shrc203

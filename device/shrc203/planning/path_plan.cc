@@ -42,7 +42,7 @@ tl::unexpected<Problem> in_segment(std::size_t index, Problem problem) {
   return tl::unexpected(std::move(problem));
 }
 
-// A path's segments in their order, each from where the one before it leads.
+// Plans a path's segments in order, each from the end of the previous one.
 class PathPlanner {
  public:
   PathPlanner(const Positions& from, const Envelope& envelope) : at_(from), envelope_(envelope) {
@@ -66,11 +66,11 @@ class PathPlanner {
 
   Positions at_;
   const Envelope& envelope_;
-  SpeedSetting speed_{};  // of the first axis, by now
+  SpeedSetting speed_{};  // present speeds of the first axis
   PathPlan path_;
 };
 
-// KP: knows ways only (manual 84)).
+// KP: accepts displacements only (manual 84)).
 Result<SegmentPlan> PathPlanner::plan_straight(const Segment& segment) const {
   auto move = plan_move(segment.moves, segment.relative, at_, envelope_);
   if (!move) return tl::unexpected(move.error());
@@ -122,14 +122,14 @@ Result<void> PathPlanner::check(const Segment& segment, const SegmentPlan& plann
   return check_scales(path_.axes, envelope_.state());
 }
 
-// A path speed is the lower axis's S; one axis's speed is its F.
+// The path speed is the lowest axis's S; the speed of a single axis is its F.
 Result<void> PathPlanner::plan_speed(const Segment& segment, SegmentPlan& planned) {
   const int axis = path_.axes.lowest();
   auto own = planned.move.axes.front().speed;
   for (auto& one : planned.move.axes) one.speed.reset();
   if (segment.speed || segment.acceleration_ms) {
     const bool single = path_.axes.count() == 1;
-    // One axis runs at F, which may be more than the caller may run at.
+    // A single axis runs at F, which may exceed the caller's limit.
     SpeedSetting speed = single ? own.value_or(speed_) : speed_;
     speed.acceleration_ms = segment.acceleration_ms.value_or(speed_.acceleration_ms);
     if (auto good = check_acceleration(axis, speed.acceleration_ms); !good) return good;
@@ -159,7 +159,7 @@ std::vector<double> PathPlanner::ways_of(const SegmentPlan& planned) const {
   return ways;
 }
 
-// Of the path speed, what an axis makes at most.
+// Returns the highest share of the path speed on this axis.
 double PathPlanner::share_of(const SegmentPlan& planned, const std::vector<double>& ways, std::size_t place) const {
   if (planned.curve) return share_of_speed(planned.curve->arc, place == 2);
   return std::abs(ways[place]) / std::max(1.0, length_of(ways));
@@ -174,8 +174,8 @@ Result<void> PathPlanner::check_speeds(const SegmentPlan& planned, const std::ve
   return {};
 }
 
-// How long the segment's pulses take: a line and a curve run at their lower axis's S throughout (manual 71), 83)), one
-// axis accelerates from S to F in R (manual 89)).
+// Computes the segment's duration: a line or curve runs at its lowest axis's S throughout (manual 71), 83)), and a
+// single axis accelerates from S to F in R (manual 89)).
 void PathPlanner::plan_time(SegmentPlan& planned, const std::vector<double>& ways) const {
   if (planned.curve) {
     planned.shortest = planned.longest = duration_of(planned.curve->arc, speed_.minimum);

@@ -1,5 +1,5 @@
-// What a path comes to in pulses, checked against units, travel and speed limits before anything is sent: straight
-// lines, curves, and one axis's moves, with rests between.
+// A path in pulses, checked against units, travel and speed limits before anything is sent: straight lines, curves and
+// moves of one axis, with pauses between them.
 #pragma once
 
 #include <array>
@@ -17,33 +17,35 @@
 namespace axisgate::shrc203 {
 
 struct SegmentPlan {
-  MovePlan move;  // of a curve: where it leads; of a line and a curve the speeds are the first axis's
+  MovePlan move;  // for a curve: its end; for lines and curves the speeds are those of the first axis
   std::optional<CurvePlan> curve{};
-  std::array<std::int64_t, kAxisCount> end{};  // where each axis stands after it
-  std::int64_t slack = 0;                      // pulses by which the end that the controller computes may differ
-  Duration shortest{};                         // by its speeds; it cannot be over sooner
-  Duration longest{};                          // it should be over by then, settling aside
-  // What must be before it starts. Any of them: the axes stand, and nothing was put into the prebuffer.
+  std::array<std::int64_t, kAxisCount> end{};  // position of each axis after the segment
+  std::int64_t slack = 0;                      // pulses by which the end computed by the controller may differ
+  Duration shortest{};                         // shortest possible duration at its speeds
+  Duration longest{};                          // longest expected duration, without settling
+  // Conditions before the segment starts. If any is set, the segment is sent only when the axes are stationary.
   bool from_rest = false;
   Duration rest{};
   std::optional<int> inputs{};
   std::optional<Trigger> arm{};
 
   bool waits() const { return from_rest || rest > Duration{} || inputs || arm; }
-  Register reg() const;  // the prebuffer that it is put into
+  Register reg() const;  // prebuffer register to which the segment is written
 };
 
 struct PathPlan {
   AxisSet axes;
-  std::array<std::int64_t, kAxisCount> begin{};  // where each axis stands before it
+  std::array<std::int64_t, kAxisCount> begin{};  // position of each axis before the path
   std::vector<SegmentPlan> segments;
 };
 
-// As plan_move and plan_curve, and: the same axes in every segment, lines and curves of axes of one scale, no segment
-// without any way, rests and inputs within their ranges. Every axis of the path must be known in `from`.
+// Plans a path. Fails as plan_move() and plan_curve() do, and if the segments have different axes, the axes of a line
+// or curve have different scales, a segment has no length, or a pause or input pattern is out of range. `from` must
+// know every axis of the path.
 Result<PathPlan> plan_path(const PathRequest& request, const Positions& from, const Envelope& envelope);
 
-// The times of segments whose axes each run at their own speeds: those of the move, else the known ones.
+// Computes the durations of segments whose axes each run at their own speed: the move's speed if set, else the `known`
+// one.
 void time_moves(PathPlan& path, const std::map<int, SpeedSetting>& known);
 
 }  // namespace axisgate::shrc203

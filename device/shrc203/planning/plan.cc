@@ -14,7 +14,8 @@ Result<void> check_acceleration(int axis, int milliseconds) {
 
 namespace {
 
-// The speeds to send: those requested, or the device's own where they exceed what the caller may run at.
+// Returns the speeds to send: the requested ones, or a reduced profile if the device's own speed exceeds the caller's
+// limit.
 Result<std::optional<SpeedSetting>> plan_speed(const AxisMove& move, const Envelope& envelope) {
   const auto& axis = envelope.state().axis(move.axis);
   if (move.profile) {

@@ -1,4 +1,4 @@
-// What a move comes to in pulses, checked against units, travel and speed limits before anything is sent.
+// A move in pulses, checked against units, travel and speed limits before anything is sent.
 #pragma once
 
 #include <array>
@@ -15,9 +15,9 @@ namespace axisgate::shrc203 {
 
 struct AxisPlan {
   int axis = 0;
-  std::int64_t amount = 0;             // as sent: a way or a target
-  std::optional<std::int64_t> target;  // nothing where a relative move's start is not known
-  std::optional<SpeedSetting> speed;   // to be sent with the move
+  std::int64_t amount = 0;             // as sent: displacement or target
+  std::optional<std::int64_t> target;  // nullopt for a relative move from an unknown position
+  std::optional<SpeedSetting> speed;   // speeds to send with the move
 };
 
 struct MovePlan {
@@ -26,18 +26,18 @@ struct MovePlan {
   AxisSet set() const;
 };
 
-// What is to be sent, and the speeds to be sent with it, by axis.
+// Return the amounts to send, and the speeds to send with them, by axis.
 std::map<int, std::int64_t> amounts_of(const MovePlan& plan);
 std::map<int, SpeedSetting> speeds_of(const MovePlan& plan);
-// out_of_range outside 1 to 1000 ms.
+// Fails with out_of_range outside 1 to 1000 ms.
 Result<void> check_acceleration(int axis, int milliseconds);
 
-// Where the axes stand when the motion begins; nothing for an axis that nobody knows.
+// Positions of the axes when the motion begins; nullopt if unknown.
 using Positions = std::array<std::optional<std::int64_t>, kAxisCount>;
 Positions positions_of(const State& state);
 
-// What the envelope refuses, not_representable, out_of_range, invalid_request. Where `from` does not know an axis, its
-// relative way is not checked against the travel limits.
+// Plans a move. Fails as the envelope does, or with not_representable, out_of_range or invalid_request. If `from` does
+// not know an axis, its relative displacement is not checked against the travel limits.
 Result<MovePlan> plan_move(const std::vector<AxisMove>& moves, bool relative, const Positions& from,
                            const Envelope& envelope);
 

@@ -18,7 +18,7 @@ constexpr std::size_t kChainedBytes = 4 + LineTiming::kTerminator;  // OK_D
 
 double milliseconds_of(Duration duration) { return std::chrono::duration<double, std::milli>(duration).count(); }
 
-// Rounded up, so that a segment of the reported time is feasible.
+// Rounds up, so that a segment of the reported duration is feasible.
 std::string in_milliseconds(Duration duration) {
   return fmt::format("{} ms", std::ceil(milliseconds_of(duration) * 10) / 10);
 }
@@ -32,7 +32,7 @@ Command segment_setter(const PathPlan& plan, int number) {
   Arguments arguments = segment.curve->arguments;
   for (const auto& [axis, speed] : speeds) arguments.speeds(speed.minimum, speed.maximum, speed.acceleration_ms);
   auto setter = commands::set_curve(segment.curve->form, arguments);
-  if (!setter) std::abort();  // the plan has passed it
+  if (!setter) std::abort();  // the plan was encoded once already
   return *std::move(setter);
 }
 
@@ -47,7 +47,7 @@ Result<void> check_refill_feasibility(const PathPlan& plan, const LineTiming& ti
   int too_short = 0;
   Duration longest_needed{};
   for (int number = 1; number < count; ++number) {
-    if (plan.segments[static_cast<std::size_t>(number)].waits()) continue;  // the next one is set at READY
+    if (plan.segments[static_cast<std::size_t>(number)].waits()) continue;  // the next segment is set at READY
     const Duration needed = shortest_feasible(plan, number, timing);
     longest_needed = std::max(longest_needed, needed);
     const Duration lasts = plan.segments[static_cast<std::size_t>(number - 1)].shortest;

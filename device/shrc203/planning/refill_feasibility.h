@@ -1,5 +1,5 @@
-// What a path asks of its line: the controller holds one segment beside the running one (manual 2. Double buffer), so
-// while each segment runs, all of the next one's setting must pass.
+// Checks that the line is fast enough for a path: the controller stores one segment besides the running one (manual 2.
+// Double buffer), so the next segment must be set completely while each segment runs.
 #pragma once
 
 #include "device/shrc203/command/codec.h"
@@ -8,14 +8,15 @@
 
 namespace axisgate::shrc203 {
 
-// The line that sets segment `number`, counted from 1.
+// Returns the line that sets segment `number`, counted from 1.
 Command segment_setter(const PathPlan& plan, int number);
 
-// How long segment `number`, which is not the last, must run at least: the axis numbers that end the one before, the
-// next one's line and its OK_D, what the controller usually takes to answer, and what a host takes to notice.
+// Returns the shortest feasible duration of segment `number`, which is not the last: the time for the completions of
+// the segment before it, the line for the next segment and its OK_D, the controller's usual response time, and the
+// host's reaction time.
 Duration shortest_feasible(const PathPlan& plan, int number, const LineTiming& timing);
 
-// too_fast where a segment is shorter. The last one may last as short as it likes.
+// Fails with too_fast if a segment is shorter than that. The last segment may have any duration.
 Result<void> check_refill_feasibility(const PathPlan& plan, const LineTiming& timing);
 
 }  // namespace axisgate::shrc203

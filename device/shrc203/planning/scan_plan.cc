@@ -12,7 +12,7 @@ __extension__ typedef __int128 Wide;
 
 constexpr std::int64_t kIntervalMin = 2, kIntervalMax = 30'000;  // pulses (manual 98), 101))
 
-// A pulse of the drive in pulses of the scale, as a fraction.
+// Scale pulses per drive pulse, as a fraction.
 struct Ratio {
   std::int64_t above = 1, below = 1;
 };
@@ -23,7 +23,7 @@ std::int64_t power_of_ten(int exponent) {
   return value;
 }
 
-// Nothing where the scale has no resolution, or one outside the range of the computation.
+// Returns nullopt if the scale's resolution is unknown or outside the range of the computation.
 std::optional<Ratio> drive_to_scale(const Decimal& drive_pulse, const std::optional<Decimal>& scale_pulse) {
   constexpr std::int64_t kDigitsMax = 1'000'000'000;
   if (!scale_pulse || scale_pulse->digits <= 0) return {};
@@ -63,7 +63,7 @@ Result<SpeedSetting> speed_of(const ScanRequest& request, const Envelope& envelo
                  "give a lower speed");
 }
 
-// From S to F in R; rounded up.
+// Returns the distance from S to F in R, in pulses; rounded up.
 std::int64_t way_of_ramp(const SpeedSetting& speed) {
   return ((speed.minimum + speed.maximum) * speed.acceleration_ms + 1999) / 2000;
 }
@@ -112,7 +112,7 @@ Result<ScanPlan> plan_scan(const ScanRequest& request, const Positions& from, st
   if (!trigger) return tl::unexpected(trigger.error());
 
   const std::int64_t ramp = way_of_ramp(*speed);
-  // A whole number of intervals, so that a pulse falls on the beginning of the range.
+  // The run-up is a whole number of intervals, so that a trigger pulse falls on the start of the range.
   const std::int64_t intervals = std::max<std::int64_t>(1, (ramp + request.interval - 1) / request.interval);
   const std::int64_t before = request.by_scale ? ramp : intervals * request.interval;
   ScanPlan plan{{}, *trigger, {}};

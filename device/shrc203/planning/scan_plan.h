@@ -1,5 +1,5 @@
-// What a scan comes to: one axis over a range at constant speed, with pulses at the trigger output (manual 98) T:P,
-// 101) T:E). The controller compares no positions: it counts pulses from the arming on.
+// A scan: one axis runs over a range at constant speed, with pulses at the trigger output (manual 98) T:P, 101) T:E).
+// The controller compares no positions: it counts pulses from the moment the trigger is armed.
 //
 //   run_from ──── speeds up ──── from ════ constant speed ════ to ──── slows down ──── run_to
 //       armed         T        T     T     T     T     T     T    T                      disarmed at READY
@@ -15,21 +15,23 @@
 
 namespace axisgate::shrc203 {
 
-// Above it pulses may be missing (manual 98), 101): "set the operating speed ... to 56 kpps or less").
+// Highest speed in pulses/s without missing trigger pulses (manual 98), 101): "set the operating speed ... to 56 kpps
+// or less").
 inline constexpr std::int64_t kTriggeredSpeedMax = 56'000;
 
 struct ScanPlan {
-  PathPlan path;  // to where the run starts, unless the axis is there, and the run
+  PathPlan path;  // move to the start of the run, unless the axis is there already, then the run
   Trigger trigger;
   ScanResult due;
 };
 
-// What the envelope refuses for the whole run; invalid_request for a range without length; out_of_range; too_fast above
-// kTriggeredSpeedMax. `scale_pulse`: what one pulse of the axis's scale is, in the unit of its Scale (manual 9) ?:R).
+// Plans a scan. `scale_pulse`: length of one scale pulse of the axis, in the unit of its Scale (manual 9) ?:R). Fails
+// as the envelope does for the whole run; with invalid_request for a range without length; with out_of_range; with
+// too_fast above kTriggeredSpeedMax.
 Result<ScanPlan> plan_scan(const ScanRequest& request, const Positions& from, std::optional<Decimal> scale_pulse,
                            const Envelope& envelope);
 
-// How many trigger pulses a counter gives on a way of so many pulses.
+// Returns the number of trigger pulses over a distance of that many pulses.
 inline std::int64_t triggers_on(std::int64_t way, const Trigger& trigger) {
   return (way < 0 ? -way : way) / trigger.interval;
 }

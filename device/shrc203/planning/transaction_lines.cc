@@ -26,7 +26,7 @@ std::string_view name_of(Mode mode) {
   return "memory switch edit mode";
 }
 
-// Out of HOST nobody else is answered, so who goes there comes back in the same lines.
+// Outside HOST no other caller is answered, so the lines that leave HOST must also come back to it.
 Result<void> check_modes(const std::vector<Command>& commands) {
   Mode mode = Mode::host;
   const bool leaves = leaves_host(commands);
@@ -58,7 +58,8 @@ Result<void> check_modes(const std::vector<Command>& commands) {
               "come back in the same lines: exec MS:ON ... MS:OFF, or P:R P:ON ... P:OFF P:H");
 }
 
-// A motion setting left without a start would run on somebody else's; a start without one would run what is there.
+// A motion setting without a start would run with another caller's start; a start without a setting would run whatever
+// is set.
 Result<void> check_transaction(const std::vector<Command>& commands) {
   const auto any = [&](auto of) { return std::ranges::any_of(commands, of); };
   const bool frame = any([](const Command& c) { return c.row->shifts_frame; });
@@ -191,7 +192,7 @@ std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable) {
 
 std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable) {
   std::vector<AxisSpeeds> speeds;
-  std::vector<Unit> units;  // of the ways, in the order of the axes: speeds are in the same
+  std::vector<Unit> units;  // units of the distances, in the order of the axes; speeds use the same units
   const auto axes = command.axes(controllable).list();
   for (const auto& [letter, value] : command.arguments.values()) {
     if (letter == "u") units.push_back(unit_of(value));

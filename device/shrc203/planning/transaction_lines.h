@@ -1,4 +1,4 @@
-// What the lines of a caller's transaction come to, before and after they are sent.
+// Checks and properties of a caller's own lines, used before and after they are sent.
 #pragma once
 
 #include <optional>
@@ -12,53 +12,56 @@
 
 namespace axisgate::shrc203 {
 
-// Parsed and checked as a whole: what parse_command() refuses, incomplete_transaction for a setting without a start or
-// a start without a setting, invalid_request for too many lines or a stop among others.
+// Parses the lines and checks them as a whole. Fails as parse_command() does; with incomplete_transaction for a setting
+// without a start or a start without a setting; with invalid_request for too many lines or a stop among other lines.
 Result<std::vector<Command>> check_lines(const std::vector<std::string>& lines);
 
-// Whether the lines must not come between another's.
+// Reports whether the lines must not come between another caller's lines.
 bool needs_gate(const std::vector<Command>& commands);
 
-// Whether they lead out of HOST, and back.
+// Reports whether the lines leave HOST and come back.
 bool leaves_host(const std::vector<Command>& commands);
 
-// The axes that they set in motion or make ready to be.
+// Returns the axes that the lines move or prepare to move.
 AxisSet axes_moved(const std::vector<Command>& commands, AxisSet controllable);
 
-// The axes that they change anything of: all, where a command concerns the whole controller.
+// Returns the axes that the lines change in any way: all, if a command concerns the whole controller.
 AxisSet axes_used(const std::vector<Command>& commands, AxisSet controllable);
 
-// Whether axis numbers follow.
+// Reports whether completions follow the lines.
 bool completes(const std::vector<Command>& commands);
 
-// Of a letter u.
+// Returns the unit of a letter u.
 Unit unit_of(std::string_view letter);
 
-// The question where a line leads that goes to a saved position (manual 130), 131), 135), 136)); nothing for any other.
+// Returns the question for the target of a line that moves to a saved position (manual 130), 131), 135), 136)); nullopt
+// for any other line.
 std::optional<Command> destination_question(const Command& command);
 
-// The ways or targets that a setter names, as a request of ours, for the same checks of travel.
+// Returns the displacements or targets of a setter as AxisMoves, for the same travel checks as a move request.
 std::vector<AxisMove> moves_of(const Command& command, AxisSet controllable);
 
 struct AxisSpeeds {
   int axis = 0;
   std::optional<Quantity> minimum, maximum;  // S and F, per second
 };
-// The speeds that a line names: of each axis, or of a straight line's lower one (manual 68), 84), 89) to 91), 94)).
+// Returns the speeds in a line: for each axis, or for the lowest axis of a straight line (manual 68), 84), 89) to 91),
+// 94)).
 std::vector<AxisSpeeds> speeds_of(const Command& command, AxisSet controllable);
 
-// The axes whose speeds of that kind they set for good.
+// Returns the axes whose speeds of that kind the lines change permanently.
 AxisSet axes_sped(const std::vector<Command>& commands, SetsSpeeds which, AxisSet controllable);
 
-// The question for all axes in place of one for some, so that the answer has commas; any other command as it is.
+// Replaces a question for some axes by the question for all axes, so that the answer contains commas. Returns any other
+// command unchanged.
 Command as_sent(const Command& command);
 
-// The requested fields of the answer to as_sent(asked).
+// Returns the requested fields from the answer to as_sent(asked).
 std::string picked(const Command& asked, const Reply& reply, AxisSet controllable);
 
-// What a line of WT: or WI: does; the end of a wait starts what is in the prebuffer (manual 2. 3)).
+// Effect of a WT: or WI: line. The end of a wait starts the motion in the prebuffer (manual 2. 3)).
 struct Waits {
-  bool set = false, cancelled = false;  // on some axis
+  bool set = false, cancelled = false;  // on at least one axis
 };
 Waits waits_of(const Command& command);
 

@@ -27,7 +27,7 @@ Result<void> TransactionPrediction::add(const Command& command) {
 Result<void> TransactionPrediction::add_speeds(const Command& command) {
   for (const auto& [axis, minimum, maximum] : speeds_of(command, controllable_)) {
     if (const auto good = envelope_.check_axis(axis); !good) return good;
-    // Of a straight line S is what it runs at (manual 83)); F is for what comes after.
+    // S is the speed of a straight line (manual 83)); F applies to later motions.
     for (const auto& [asked, set] : {std::pair{minimum, &SpeedSetting::minimum}, {maximum, &SpeedSetting::maximum}}) {
       if (!asked) continue;
       const auto speed = envelope_.speed(axis, *asked);
@@ -38,7 +38,7 @@ Result<void> TransactionPrediction::add_speeds(const Command& command) {
   return {};
 }
 
-// That it may be set or started, and where it ends.
+// Checks that the motion may be set or started, and computes its end.
 Result<void> TransactionPrediction::add_motion(const Command& command) {
   const AxisSet axes = command.axes(controllable_);
   if (command.row->meaning == Meaning::clear_setpoints) delete_settings(axes);
@@ -46,17 +46,17 @@ Result<void> TransactionPrediction::add_motion(const Command& command) {
   if (!command.row->moves()) return {};
   if (is_origin_return(command)) return add_origin_return(command);
   if (command.row->needs.mode == Mode::program) return add_program();
-  // A sleeper comes back to its place (manual 47)), and a wait moves nothing before it ends.
+  // Waking up returns the stage to its position (manual 47)), and a wait moves nothing until it ends.
   if (command.row->meaning == Meaning::sleep || waits_of(command).set) return {};
   for (const int axis : axes.list()) {
     if (const auto good = start(axis); !good) return good;
   }
-  // What was in doubt has run by now, or was gone: at_ knows of each axis what is left of it.
+  // Doubtful settings have run by now or were gone: at_ reflects for each axis what is still known.
   if (axes.contains(uncertain_)) uncertain_ = {};
   return {};
 }
 
-// The mechanical origin return is how the axis comes to know its places.
+// The mechanical origin return needs no known position: the axis learns its coordinates from it.
 Result<void> TransactionPrediction::add_origin_return(const Command& command) {
   const bool logical = command.row->meaning == Meaning::logical_return;
   for (const int axis : command.axes(controllable_).list()) {
@@ -87,7 +87,7 @@ Result<void> TransactionPrediction::go_to(const Positions& place) {
   return {};
 }
 
-// Where a stored program leads is not known.
+// The targets of a stored program are unknown.
 Result<void> TransactionPrediction::add_program() {
   for (const int axis : controllable_.list()) {
     if (envelope_.is_bounded(axis)) {
@@ -101,14 +101,14 @@ Result<void> TransactionPrediction::add_program() {
   return {};
 }
 
-// Whether both buffers of one axis run, or which, is an open question: each alone was checked, and here both together;
-// where it is afterwards is not known then.
+// Unclear from the manual: whether both buffers of an axis run, or which one. Each was checked alone, and both together
+// are checked here; the position afterwards is then unknown.
 Result<void> TransactionPrediction::start(int axis) {
   started_.add(axis);
   auto& at = at_[static_cast<std::size_t>(axis - 1)];
   const auto pending = std::exchange(pending_[axis], {});
   for (const auto& one : pending) {
-    // S may have been set again since.
+    // S may have been changed since then.
     const auto paced =
         one.paced_by == 0 ? 0 : std::llround(one.share * static_cast<double>(speeds_[one.paced_by].minimum));
     if (const auto good = envelope_.check_speed(axis, paced); !good) return good;
@@ -121,7 +121,8 @@ Result<void> TransactionPrediction::start(int axis) {
   return {};
 }
 
-// Of a line or curve, GC: for some of its axes may delete all or nothing (manual 87)): it stays, and is in doubt.
+// GC: for only some axes of a line or curve may delete all of it or nothing (manual 87)), so the setting stays and is
+// doubtful.
 void TransactionPrediction::delete_settings(AxisSet axes) {
   for (const Register reg : {Register::m, Register::a, Register::k, Register::e}) {
     const AxisSet set = axes_of(reg);
@@ -160,7 +161,7 @@ Result<void> TransactionPrediction::add_setting(const Command& command) {
   return {};
 }
 
-// The whole curve, and the speed S of its lower axis in every direction (manual 71) to 82)).
+// Checks the whole curve, with the speed S of its lowest axis in every direction (manual 71) to 82)).
 Result<void> TransactionPrediction::add_arc(const Command& command) {
   const auto line = arc_of(command, envelope_);
   if (!line) return tl::unexpected(line.error());
@@ -182,7 +183,8 @@ Result<void> TransactionPrediction::add_arc(const Command& command) {
     if (auto good = envelope_.check_homed(axis); !good) return good;
     const auto part = i < 2 ? speed : std::llround(slope * static_cast<double>(speed));
     if (auto good = envelope_.check_speed(axis, part); !good) return good;
-    // A prebuffer setting may start by itself, and one setting may take another's place: each is checked alone, too.
+    // Each setting is also checked alone: a prebuffer setting may start without a G, and one setting may replace
+    // another.
     if (auto good = check_extent(axis, ways[i].second, ways[i].first); !good) return good;
     Pending one{command.row->reg, true, lasting, ways[i].first, ways[i].second};
     one.paced_by = line->axes[0];
@@ -217,7 +219,7 @@ void TransactionPrediction::drop(int axis, Register reg) {
   std::erase_if(pending_[axis], [reg](const Pending& one) { return one.reg == reg; });
 }
 
-// The line or curve before is gone on all its axes: each register holds one, whatever its axes (manual 22) to 25)).
+// Removes the previous line or curve from all its axes: each register holds one, whatever its axes (manual 22) to 25)).
 Result<void> TransactionPrediction::overwrite(Register reg, bool lasting) {
   for (const int axis : axes_of(reg).list()) {
     if (const auto good = lasting ? check_chain(axis) : Result<void>(); !good) return good;
@@ -226,7 +228,7 @@ Result<void> TransactionPrediction::overwrite(Register reg, bool lasting) {
   return {};
 }
 
-// The one before may have chained, or not: where the next one would start from is not certain.
+// The previous prebuffer setting may have chained or not, so the start of the next one would be uncertain.
 Result<void> TransactionPrediction::check_chain(int axis) {
   if (!started_.has(axis) || std::ranges::none_of(pending_[axis], &Pending::lasting)) return {};
   return fail_on(axis, Reason::invalid_request,
@@ -237,7 +239,7 @@ Result<void> TransactionPrediction::check_chain(int axis) {
 Result<void> TransactionPrediction::add_pending(int axis, const Pending& one) {
   if (const auto good = one.lasting ? check_chain(axis) : Result<void>(); !good) return good;
   drop(axis, one.reg);
-  // A setting of several axes is in doubt for all of them when one of these axes is set again.
+  // A setting of several axes is doubtful on all of them when one of these axes is set again.
   for (const auto& before : pending_[axis]) {
     if (before.paced_by != 0) uncertain_ = uncertain_ | axes_of(before.reg);
   }

@@ -1,4 +1,5 @@
-// Where a caller's own lines would move the axes, and how fast: checked against the caller's envelope before sending.
+// Predicts where a caller's own lines move the axes, and how fast, and checks this against the caller's envelope before
+// sending.
 #pragma once
 
 #include <map>
@@ -14,16 +15,17 @@ namespace axisgate::shrc203 {
 
 class TransactionPrediction {
  public:
-  // From where the axes are and how fast they are set, by axis.
+  // Starts the prediction at the positions `at` with the `speeds` set, by axis.
   TransactionPrediction(const Envelope& envelope, const Positions& at, std::map<int, SpeedSetting> speeds,
                         AxisSet controllable)
       : envelope_(envelope), at_(at), speeds_(std::move(speeds)), controllable_(controllable) {}
 
-  // The next line. What the envelope refuses; invalid_request where nobody can tell where it would lead.
+  // Adds the next line. Fails as the envelope does; with invalid_request if the line's target cannot be predicted.
   Result<void> add(const Command& command);
-  // To a saved position, each controllable axis by itself at its own speed. What the envelope refuses.
+  // Adds a move to a saved position; each controllable axis moves independently at its own speed. Fails as the envelope
+  // does.
   Result<void> go_to(const Positions& place);
-  // Where the axes are then; nothing where that is not known.
+  // Returns the predicted positions; nullopt for an axis whose position cannot be predicted.
   const Positions& at() const { return at_; }
 
  private:
@@ -32,9 +34,9 @@ class TransactionPrediction {
     bool relative = false;
     bool lasting = false;  // GC: does not delete it
     std::int64_t amount = 0;
-    Extent extent = {};  // of its way, what has to lie within the travel: the end, or all of a curve
-    int paced_by = 0;    // of a line or curve: the axis whose S it runs at
-    double share = 1;    // of that speed, what this axis makes at most
+    Extent extent = {};  // part of the displacement that must lie within the travel: the end, or all of a curve
+    int paced_by = 0;    // for a line or curve: the axis whose S is the path speed
+    double share = 1;    // highest share of the path speed on this axis
   };
   Result<void> add_speeds(const Command& command);
   Result<void> add_motion(const Command& command);
@@ -43,7 +45,7 @@ class TransactionPrediction {
   Result<void> add_pending(int axis, const Pending& pending);
   Result<void> overwrite(Register reg, bool lasting);
   Result<void> check_chain(int axis);
-  AxisSet axes_of(Register reg) const;  // on which it is set
+  AxisSet axes_of(Register reg) const;  // axes on which the register is set
   void drop(int axis, Register reg);
   void delete_settings(AxisSet axes);
   Result<void> check_extent(int axis, const Extent& extent, std::int64_t end);
@@ -55,9 +57,9 @@ class TransactionPrediction {
   Positions at_;
   std::map<int, SpeedSetting> speeds_;
   AxisSet controllable_;
-  std::map<int, std::vector<Pending>> pending_;  // by axis, what a G would start
+  std::map<int, std::vector<Pending>> pending_;  // motions that a G would start, by axis
   AxisSet started_;
-  AxisSet uncertain_;  // what was set there may have been dropped
+  AxisSet uncertain_;  // axes whose setting may have been dropped
 };
 
 }  // namespace axisgate::shrc203

@@ -1,4 +1,4 @@
-// How long the pulses of a move take, by its speeds.
+// Duration of a move, computed from its speeds.
 #pragma once
 
 #include <map>
@@ -9,12 +9,12 @@
 
 namespace axisgate::shrc203 {
 
-// Of one axis, from rest to rest, `way` pulses: from S towards F, which R milliseconds would lead to, and back, with or
-// without a stretch at F (manual 89) D:).
+// Returns the duration of a move of one axis over `way` pulses, from standstill to standstill: from S towards F with an
+// acceleration that reaches F in R milliseconds, and back, with or without a part at F (manual 89) D:).
 Duration travel_time(double way, const SpeedSetting& speed);
 
-// Of the axis that takes longest, by the speeds of the move, else the `known` ones. Nothing where a way or a speed is
-// not known.
+// Returns the duration for the slowest axis, at the move's own speeds if set, else the `known` ones. nullopt if a
+// distance or speed is unknown.
 std::optional<Duration> travel_time(const MovePlan& move, const Positions& from,
                                     const std::map<int, SpeedSetting>& known);
 

@@ -87,7 +87,7 @@ class Replay : LineListener, ByteLink {
   void line_event(const Event& event, TimePoint) override;
   std::optional<Problem> may_write(const ExchangeRequest&, TimePoint) override { return {}; }
 
-  // ByteLink: what is written is heard as an event, and the recording says when the line comes up.
+  // ByteLink: written bytes are reported as an event, and the recording says when the line comes up.
   void write(std::string_view) override {}
   void reopen(Duration) override {}
 
@@ -99,10 +99,10 @@ class Replay : LineListener, ByteLink {
   TimePoint now_{};
   bool up_ = false, suspected_ = false;
   std::uint64_t last_exchange_ = 0;
-  std::size_t fed_ = 0;               // the moment that the line is fed now
-  std::deque<Operation> operations_;  // of the core, not yet compared
+  std::size_t fed_ = 0;               // moment that the line is receiving now
+  std::deque<Operation> operations_;  // operations of the core not compared yet
   std::set<std::size_t> asked_;       // moments whose exchange has been requested
-  std::set<std::size_t> applied_;     // moments that have been fed ahead of others
+  std::set<std::size_t> applied_;     // moments that were fed early
   ReplayReport report_;
 };
 
@@ -145,7 +145,7 @@ void Replay::let_time_pass(TimePoint until) {
   now_ = std::max(now_, until);
 }
 
-// The controller that answers in the recording; any where none does.
+// Returns the identity that the recorded controller reports; a default identity if the recording has none.
 std::string Replay::first_identity() const {
   for (const Moment& moment : moments_) {
     const std::string_view line = std::string_view(moment.text).substr(0, moment.text.find('\r'));
@@ -154,7 +154,7 @@ std::string Replay::first_identity() const {
   return "SIGMAKOKI,SHRC-203,0,V0\r\n";
 }
 
-// A line that has been up for long and rests, but for what the header says.
+// Puts the line into the state of one that has been up for long without motion, except for what the header says.
 void Replay::connect_before(TimePoint first) {
   line_.link_up(first - 4 * kReplayConnectStep);
   line_.receive(first_identity(), first - 4 * kReplayConnectStep);
@@ -177,7 +177,7 @@ ReplayReport Replay::run() {
     take(i);
     if (full()) break;
   }
-  // What the core has done last may stand behind the recording's end.
+  // Remaining operations are no difference: their records may come after the recording's end.
   return std::move(report_);
 }
 
@@ -199,7 +199,7 @@ void Replay::take(std::size_t index) {
   }
 }
 
-// Stops that wait while an exchange runs are written together when it ends in a barrier: they must be there before.
+// Requests stops in advance: stops that wait during an exchange are written together when it ends in a barrier.
 void Replay::let_stops_wait(std::size_t index) {
   const TimePoint at = moments_[index].at;
   const auto same = [&](std::size_t next) {
@@ -213,8 +213,8 @@ void Replay::let_stops_wait(std::size_t index) {
   }
 }
 
-// The recording says which stops were open: those that it has directly after what the line has done with what it is
-// fed.
+// Returns the stops that were open according to the recording: those recorded directly after what the line did with its
+// present input.
 std::vector<ExchangeRequest> Replay::stops_to_write(std::string_view, TimePoint) {
   std::vector<ExchangeRequest> stops;
   for (std::size_t next = fed_ + 1 + operations_.size(); is_stop_at_once(next, moments_[fed_].at); ++next) {
@@ -256,13 +256,13 @@ void Replay::expect(std::size_t index) {
   if (operations_.empty()) return differ(moment.line, recorded, "nothing");
   const Operation did = std::move(operations_.front());
   operations_.pop_front();
-  // The reason is in words, which may change.
+  // A reason is text for people, which may change between versions.
   const bool in_words = moment.what == What::barrier || moment.what == What::down;
   if (did.what == moment.what && (in_words || did.text == moment.text)) return;
   differ(moment.line, recorded, describe(did.what, did.text));
 }
 
-// Exchanges are numbered without a gap.
+// Checks that exchanges are numbered without a gap.
 void Replay::check_number(const Moment& moment) {
   const std::uint64_t number = moment.begins->exchange;
   if (last_exchange_ > 0 && number != last_exchange_ + 1) {
@@ -272,7 +272,8 @@ void Replay::check_number(const Moment& moment) {
   last_exchange_ = number;
 }
 
-// Lets happen what made the line do it: time, somebody who asks, or the loss of the line.
+// Causes the recorded operation if the line has not done it yet: by the passing of time, a caller's request, or the
+// loss of the line.
 void Replay::provoke(std::size_t index) {
   const Moment& moment = moments_[index];
   advance();
@@ -293,15 +294,15 @@ void Replay::lose(std::size_t index) {
 void Replay::ask_for(std::size_t index) {
   const Moment& moment = moments_[index];
   if (!moment.begins) {
-    // Before a stop the line asks ?:CMD.
+    // The line asks ?:CMD before a stop.
     if (!moment.of_exchange && is_stop_at_once(index + 1, moment.at)) ask(index + 1);
     return;
   }
   if (asked_.contains(index)) return;
   if (moment.begins->who.empty()) {
-    // The line asks on behalf of a caller who waits. A caller who withdrew before their turn is not in the recording.
-    // The request is made again when its turn has come. A path, or a restart that was suspected meanwhile, may have
-    // decided when that is.
+    // The line asks on behalf of a waiting caller. A caller who withdrew before their turn is not in the recording. The
+    // request is withdrawn here and made again at its turn, since a path or a suspected restart may have decided when
+    // that turn comes.
     const std::size_t cause = next_asked_by_somebody(index);
     if (waited_at(cause, moment)) {
       ask(cause);
@@ -323,7 +324,8 @@ std::size_t Replay::next_asked_by_somebody(std::size_t index) const {
   return index;
 }
 
-// Whether the exchange that begins at `index` was waiting when the line wrote `question` for itself, and may be why.
+// Reports whether the exchange that begins at `index` was waiting when the line wrote its own `question`, and may be
+// the reason for it.
 bool Replay::waited_at(std::size_t index, const Moment& question) const {
   if (index >= moments_.size() || asked_.contains(index)) return false;
   const Moment& waits = moments_[index];
@@ -344,7 +346,7 @@ void Replay::ask(std::size_t index) {
   if (auto request = request_of(moments_[index])) line_.exchange(*std::move(request), now_);
 }
 
-// nullopt for a line that is no command: nothing is written then, which is a difference.
+// Returns nullopt for a line that is not a command: nothing is written then, which counts as a difference.
 std::optional<ExchangeRequest> Replay::request_of(const Moment& moment) const {
   auto command = command_of(moment);
   if (!command) return std::nullopt;

@@ -1,5 +1,5 @@
-// Feeds a recording to the line's core of today and compares: the bytes written, in their order, the exchanges'
-// outcomes, and what was made of all that came.
+// Feeds a recording to the present line core and compares the results: the written bytes and their order, the outcomes
+// of the exchanges, and the interpretation of all received bytes.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,25 @@
 namespace axisgate::shrc203 {
 
 struct ReplayDifference {
-  int line = 0;          // of the recording's text
-  std::string recorded;  // such as: ended ok; nothing
-  std::string now;       // the same of the core
+  int line = 0;          // line number in the recording
+  std::string recorded;  // for example "ended ok" or "nothing"
+  std::string now;       // result of the present core, in the same form
 };
 
 struct ReplayReport {
-  // In the recording's order. Where the core has taken another way much that follows differs as well, so that after
-  // kDifferencesMax the replay ends.
+  // Differences in the recording's order. After the first one, much of the rest often differs as well, so the replay
+  // ends after kDifferencesMax.
   static constexpr std::size_t kDifferencesMax = 20;
   std::vector<ReplayDifference> differences;
 
-  // From here on there was enough to know the line's state: nothing before it was compared. 0: nowhere.
+  // First line that was compared: the line's state is known from there on. 0: never known, nothing was compared.
   int first_line = 0;
-  std::uint64_t exchanges = 0;  // compared
+  std::uint64_t exchanges = 0;  // number of exchanges compared
   std::uint64_t bytes_written = 0, bytes_received = 0;
 };
 
-// Deterministic: time is the recording's. Commands are requested when they were written, in their lane and for their
-// caller, and bytes come in when they came.
+// Deterministic: all times come from the recording. Commands are requested at the times when they were written, in
+// their lane and for their caller, and bytes are received at their recorded times.
 ReplayReport replay(const Recording& recording);
 
 }  // namespace axisgate::shrc203

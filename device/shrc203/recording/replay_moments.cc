@@ -10,7 +10,7 @@ namespace {
 
 using What = Moment::What;
 
-// Far enough from the beginning of time for a connect before the first moment.
+// Time of the first moment, late enough for a connect before it.
 constexpr TimePoint kBegin{std::chrono::hours(1)};
 
 What what_of(RecordedItem::Kind kind) {
@@ -50,8 +50,8 @@ What what_of(RecordedRemark::Kind kind) {
   }
 }
 
-// What the line asks for itself, and a stop, depend on what was before them. So do the answer to ?:CMD, for every
-// caller, and an exchange that was not accepted.
+// Reports whether this exchange's result is independent of everything before it. Questions of the line itself and stops
+// depend on earlier events; the answer to ?:CMD and an exchange that was not accepted do so for every caller.
 bool depends_on_nothing(const std::vector<Moment>& moments, std::size_t index) {
   const Moment& moment = moments[index];
   if (!moment.begins || moment.begins->who.empty() || moment.begins_in(Lane::stop)) return false;

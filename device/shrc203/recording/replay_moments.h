@@ -1,4 +1,4 @@
-// A recording as one row of happenings: what came to the line, and what the line did about it.
+// A recording as one sequence of moments: input to the line, and what the line did.
 #pragma once
 
 #include <string>
@@ -29,21 +29,23 @@ struct Moment {
   std::string text{};  // bytes, outcome, axis number, line or reason
   AxisSet axes{};
   TimePoint at{};
-  int line = 0;                              // of the recording's text
-  const RecordedExchange* begins = nullptr;  // with the bytes that begin an exchange
-  bool of_exchange = false;                  // belongs to an exchange with a number
+  int line = 0;                              // line number in the recording
+  const RecordedExchange* begins = nullptr;  // set if these bytes begin an exchange
+  bool of_exchange = false;                  // part of a numbered exchange
 
   bool begins_in(Lane lane) const { return begins && begins->lane == lane; }
 };
 
-// In time. They point into `recording`.
+// Returns the moments in order of time. They point into `recording`.
 std::vector<Moment> moments_of(const Recording& recording);
 
-// The first from which on the line's state is known: the line comes up, or is up and somebody's exchange begins. The
-// number of moments where there is none. `header` becomes that of a recording which begins there.
+// Returns the index of the first moment from which the line's state is known: the line comes up, or it is up and a
+// caller's exchange begins. Returns the number of moments if there is none. `header` becomes the header of a recording
+// that begins there.
 std::size_t first_known(const std::vector<Moment>& moments, RecordingHeader& header);
 
-// For people: wrote "?:V\r\n", ended ok, ...
+// Describes a moment for people: wrote "?:V\r
+// ", ended ok, ...
 std::string describe(Moment::What what, const std::string& text);
 
 }  // namespace axisgate::shrc203

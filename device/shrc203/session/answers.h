@@ -1,4 +1,4 @@
-// Whether a question was answered.
+// Test for questions that were answered with data.
 #pragma once
 
 #include "device/shrc203/line/line.h"

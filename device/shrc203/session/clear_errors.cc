@@ -14,7 +14,7 @@ void ErrorClearing::clear(AxisSet axes, RequestContext context, StageController:
   tasks_.spawn(run(axes, std::move(context), std::move(done)));
 }
 
-// The axes to clear.
+// Returns the axes to clear, or the reason why they may not be cleared.
 Result<AxisSet> ErrorClearing::check(AxisSet axes, const RequestContext& context) {
   const AxisSet named = axes.empty() ? store_.controllable() : axes;
   if (named.empty()) return tl::unexpected(store_.not_up());
@@ -60,13 +60,14 @@ Task<void> ErrorClearing::run(AxisSet axes, RequestContext context, StageControl
   }
 }
 
-// While the latch holds, nobody can move: the caller who has a lease over some axes loses nothing by it.
+// Reports whether BEC: for these axes lifts the latch. It then needs no right to the axes: nobody can move while the
+// latch is set, so the holder of a lease loses nothing.
 bool ErrorClearing::lifts_latch(AxisSet axes) const {
   const bool all = axes.contains(store_.controllable()) || !guarded(Guard::emergency_cleared_for_all);
   return store_.state().emergency && all;
 }
 
-// The latch stays if another emergency stop was requested in the meantime.
+// Lifts the latch, unless another emergency stop was requested in the meantime.
 Result<void> ErrorClearing::lift_latch(AxisSet axes, const std::string& who) {
   if (!lifts_latch(axes) || open_stops_.including(store_.controllable(), StopKind::emergency)) return {};
   for (const int axis : store_.controllable().list()) {

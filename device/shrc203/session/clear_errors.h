@@ -1,4 +1,5 @@
-// BEC: (manual 53)), on request only: it clears limit, overflow and emergency errors, and what they say of BUSY.
+// Clearing of errors by BEC: (manual 53)), on request only: limit, overflow and emergency errors, and the BUSY that
+// they report.
 #pragma once
 
 #include <string>
@@ -26,9 +27,9 @@ class ErrorClearing {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // No axes: all. Only for all axes it lifts the latch of an emergency stop, once the controller reports none of them
-  // in emergency stop (bit 6 of manual 5)). Fails with link_down, wrong_mode, what Rights refuse, device_refused;
-  // stop_unconfirmed while an emergency stop is open.
+  // Clears the errors of the axes, or of all if `axes` is empty. Only for all axes, the latch of an emergency stop is
+  // lifted once the controller reports no axis in emergency stop (bit 6 of manual 5)). Fails with link_down,
+  // wrong_mode, device_refused, or a refusal of Rights; with stop_unconfirmed while an emergency stop is open.
   void clear(AxisSet axes, RequestContext context, StageController::OnDone done);
 
  private:

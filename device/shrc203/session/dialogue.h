@@ -1,4 +1,4 @@
-// One exchange and its answer, as the gateway's own lines and those of motions have it.
+// Single exchanges for the gateway's own lines and those of motions.
 #pragma once
 
 #include <string>
@@ -16,7 +16,7 @@ class Dialogue {
 
   Dialogue(Line& line, const Tasks& tasks) : line_(line), tasks_(tasks) {}
 
-  // To await: it yields an ExchangeResult, always.
+  // Sends one line. co_await always yields an ExchangeResult.
   OneShot<ExchangeResult> exchange(ExchangeRequest request) { return line_.exchange(std::move(request), tasks_.now()); }
 
   Task<ExchangeResult> ask(Command command, Lane lane, std::string caller, bool in_handshake = false);
@@ -24,9 +24,10 @@ class Dialogue {
     return ask(commands::ask(question), lane, std::move(caller), in_handshake);
   }
 
-  // A line of the motion: to be written by its not_after while it has not started, then within kStepWriteLimit.
+  // Returns the request for a line of the motion. The line is written by the motion's not_after while the motion is
+  // queued, otherwise within kStepWriteLimit.
   ExchangeRequest request_of(const LiveMotion& live, Command command, Lane lane) const;
-  // The same answer in a row: one byte that the line lost would make another of it. line_fault.
+  // Asks until two replies in a row agree, since one lost byte makes another reply. Fails with line_fault.
   Task<Result<Reply>> ask_twice(LiveMotionPtr live, Command question);
 
  private:

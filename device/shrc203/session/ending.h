@@ -1,4 +1,4 @@
-// Whether the gateway is ending.
+// State of the gateway's end.
 #pragma once
 
 #include <optional>
@@ -7,7 +7,7 @@
 
 namespace axisgate::shrc203 {
 
-// What everybody receives who comes too late; nothing before the end has begun.
+// Problem for all requests that come after the end has begun; nullopt before.
 using Ending = std::optional<Problem>;
 
 }  // namespace axisgate::shrc203

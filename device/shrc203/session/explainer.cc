@@ -30,10 +30,9 @@ Problem asleep_problem() {
 
 }  // namespace
 
-// Each question in turn; the first answer that explains it ends the search.
 Task<Problem> Explainer::explain(Command command, AxisSet axes, std::string caller) {
   const auto explained = [&](Problem problem) { return refusal_of(command, std::move(problem)); };
-  if (non_host_.edits()) {  // no Q: is answered there
+  if (non_host_.edits()) {  // Q: is not answered in these modes
     const auto wrong = co_await wrong_mode(caller);
     co_return explained(wrong ? *wrong : values_refused());
   }
@@ -48,7 +47,7 @@ Task<Problem> Explainer::explain(Command command, AxisSet axes, std::string call
   }
   (void)co_await reader_.read_excitation(caller);
   if (const auto shown = refusal_by(*command.row, axes, store_.state())) co_return explained(*shown);
-  // Whether other axes' motion counts is an open question (busy_scope).
+  // The manual does not say whether the motion of other axes counts (busy_scope).
   if (command.row->needs.ready && store_.profile().busy_scope == Scope::controller) {
     const auto other = busy_shown(store_.controllable(), store_.state());
     if (other) co_return explained(*other);
@@ -61,7 +60,6 @@ Task<Problem> Explainer::explain(Command command, AxisSet axes, std::string call
   co_return wrong ? explained(*wrong) : unexplained(command.line, axes, store_.state());
 }
 
-// A question is refused where the mode is another, or for its values.
 Task<std::optional<Problem>> Explainer::explain_question(Command question, std::string caller) {
   const auto wrong = co_await wrong_mode(std::move(caller));
   if (wrong) co_return refusal_of(question, *wrong);
@@ -69,7 +67,7 @@ Task<std::optional<Problem>> Explainer::explain_question(Command question, std::
   co_return std::nullopt;
 }
 
-// In the edit modes nothing reports which axes move, and no other cause is left (manual 111), 117)).
+// Returns the only cause that is left in the edit modes, where nothing reports which axes move (manual 111), 117)).
 Problem Explainer::values_refused() const {
   if (non_host_.in_switches()) {
     return {.reason = Reason::device_refused,
@@ -82,7 +80,8 @@ Problem Explainer::values_refused() const {
           .hint = "compare the step with manual 114), and see that nothing moves: axisctl status"};
 }
 
-// Manual 41): 1 it runs, 2 it pauses, 3 it runs one line.
+// Returns the refusal due to the program's status; nullopt if there is none. Status 1: runs, 2: pauses, 3: runs one
+// line (manual 41)).
 Task<std::optional<Problem>> Explainer::refusal_by_program(Command command, std::string caller) {
   const auto reported = co_await dialogue_.ask(Dialogue::Question::program, Lane::motion, std::move(caller));
   const auto program = program_status(reported);
@@ -102,7 +101,8 @@ Task<std::optional<Problem>> Explainer::refusal_by_program(Command command, std:
   co_return std::nullopt;
 }
 
-// S: where the stage sets its own divisions, one speed that does not fit the other, and a start of what two have set.
+// Returns the refusal due to settings: S: although the stage sets its own divisions, one speed that does not fit the
+// other, or a start with setpoints of two commands.
 Task<std::optional<Problem>> Explainer::refusal_by_settings(Command command, AxisSet axes, std::string caller) {
   const Meaning meaning = command.row->meaning;
   if (meaning == Meaning::go) {
@@ -149,7 +149,8 @@ std::optional<Problem> Explainer::refusal_by_speeds(const Command& command, cons
   return {};
 }
 
-// Somebody has changed the mode or the dialect at the front panel, where Q: is refused too, or leads it through P:R.
+// Returns wrong_mode if the mode or the dialect is not the expected one: somebody has changed it at the front panel,
+// where Q: is refused too, or it is changed by P:R.
 Task<std::optional<Problem>> Explainer::wrong_mode(std::string caller) {
   const Mode mode = non_host_.mode();
   const std::string_view expected_mode = mode == Mode::host              ? "HOST"
@@ -168,8 +169,8 @@ Task<std::optional<Problem>> Explainer::wrong_mode(std::string caller) {
   co_return std::nullopt;
 }
 
-// A bare 1 could be an axis number, so this waits until none of those that were refused may come; not for others'
-// motion to end.
+// Reports whether the controller sleeps. A bare 1 could be an axis number, so this waits until no completion of the
+// refused axes is possible, but not until the motion of others has ended.
 Task<bool> Explainer::sleeps(std::string caller) {
   if (!line_.completions().possible().empty()) {
     auto quiet = tasks_.pause(kNoCompletionAfterReady);
@@ -186,7 +187,6 @@ Task<bool> Explainer::sleeps(std::string caller) {
   co_return reported.reply && !reported.problem && reported.reply->text == "1";
 }
 
-// Reads again what is known to prevent a motion: somebody may have fixed it at the device.
 Task<Result<void>> Explainer::check_excitation(AxisSet axes, std::string caller) {
   const auto off = [&] {
     for (const int axis : axes.list()) {

@@ -1,4 +1,5 @@
-// Why NG: asks the controller until an answer explains it. Also refuses a motion where the reason is known already.
+// Explanation of NG: asks the controller until a reply explains it. Also refuses a motion if the reason is already
+// known.
 #pragma once
 
 #include <optional>
@@ -26,11 +27,13 @@ class Explainer {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // Why the command for these axes was refused: each question in turn; the first that explains it ends the search.
+  // Returns the reason why the command for these axes was refused. Questions are asked in turn, and the first reply
+  // that explains the refusal ends the search.
   Task<Problem> explain(Command command, AxisSet axes, std::string caller);
-  // Why a question was: the mode is another, or it does not take its values; nothing where neither is so.
+  // Returns the reason why a question was refused: another mode, or its values. nullopt if neither is the reason.
   Task<std::optional<Problem>> explain_question(Command question, std::string caller);
-  // not_excited and the like, known to prevent a motion; read again, since somebody may have fixed it.
+  // Fails with not_excited and other known obstacles to a motion. They are read again, since somebody may have fixed
+  // them.
   Task<Result<void>> check_excitation(AxisSet axes, std::string caller);
 
  private:

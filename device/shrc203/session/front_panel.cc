@@ -7,8 +7,8 @@
 
 namespace axisgate::shrc203 {
 
-// A refused Q: means that somebody has changed the mode or the dialect at the front panel
-// (hazard 19).
+// Reads the mode and the format after a refused Q:, and disconnects if somebody has changed one of them at the front
+// panel (hazard 19).
 Task<void> FrontPanel::follow_mode() {
   if (non_host_.away()) co_return;
   const std::uint64_t connection = store_.connection();

@@ -1,4 +1,4 @@
-// What the front panel decides: the controller's mode and dialect. Neither is ever switched back from here.
+// Settings of the front panel: the controller's mode and dialect. The gateway never switches them back.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class FrontPanel {
   FrontPanel(Dialogue& dialogue, Line& line, StateStore& store, const NonHost& non_host, Tasks& tasks)
       : dialogue_(dialogue), line_(line), store_(store), non_host_(non_host), tasks_(tasks) {}
 
-  // A refused Q: means that somebody has changed the mode or the dialect: if so, the gateway disconnects.
+  // Called after a refused Q:. Disconnects if somebody has changed the mode or the dialect.
   void position_refused() { tasks_.spawn(follow_mode()); }
 
  private:

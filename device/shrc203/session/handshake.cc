@@ -13,7 +13,8 @@
 
 namespace axisgate::shrc203 {
 
-// Gives the line up where another unit answers than the configured one, or than the first that passed.
+// Disconnects and returns false if the unit is neither the configured one nor, without configuration, the first that
+// passed a handshake.
 bool Handshake::is_expected(const Identity& identity) {
   if (!guarded(Guard::serial_number) || store_.is_expected(identity)) return true;
   const Profile& profile = store_.profile();
@@ -50,7 +51,7 @@ Task<void> Handshake::run(Identity identity, std::uint64_t connection) {
   store_.publish();
 }
 
-// Nothing where another connection has come.
+// Returns nullopt if another connection has begun.
 Task<std::optional<FrontPanelRead>> Handshake::read_panel(std::uint64_t connection) {
   const auto mode = co_await dialogue_.ask(Dialogue::Question::mode, Lane::question, kGateway, true);
   if (connection != store_.connection()) co_return std::nullopt;
@@ -68,7 +69,8 @@ Task<std::optional<FrontPanelRead>> Handshake::read_panel(std::uint64_t connecti
   co_return is_data(format) ? FrontPanelRead::wrong : FrontPanelRead::format_unreadable;
 }
 
-// The front panel chooses the mode and the dialect; neither is ever switched back from here.
+// Waits until the controller is in HOST mode with the SHOT_FC format. The gateway never switches the mode or the
+// dialect that was chosen at the front panel.
 Task<bool> Handshake::wait_for_host_mode(std::uint64_t connection) {
   for (int failures = 0; connection == store_.connection() && failures < kHandshakeTries;) {
     const auto panel = co_await read_panel(connection);
@@ -86,7 +88,7 @@ Task<bool> Handshake::wait_for_host_mode(std::uint64_t connection) {
   co_return false;
 }
 
-// A visit to a non-host mode was cut off: the handshake takes back what the gateway began, and ends the program.
+// Ends an interrupted visit to a non-host mode: returns to HOST, and ends the program.
 Task<void> Handshake::come_back() {
   if (!non_host_.away()) co_return;
   if (store_.state().mode == "HOST,PROGRAM") {
@@ -95,8 +97,8 @@ Task<void> Handshake::come_back() {
   (void)co_await step_to_host(dialogue_, store_, Lane::question, "the gateway", true);
 }
 
-// Nobody knows what was left running, so every axis number may still come, until the first !:S that is all R and 200 ms
-// of quiet.
+// Waits until all axes are READY. It is unknown what was left running, so every completion is possible until the first
+// !:S with only R, and 200 ms of quiet after it.
 Task<bool> Handshake::wait_until_all_ready(std::uint64_t connection) {
   int failures = 0;
   while (connection == store_.connection() && failures < kHandshakeTries) {

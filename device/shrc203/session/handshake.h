@@ -1,5 +1,4 @@
-// Who is there after a connect, and whether it is fit for use: identity, mode and dialect, everything stationary, and
-// what is set.
+// Handshake after a connect: identity, mode and dialect, all axes stationary, and the settings.
 #pragma once
 
 #include <cstdint>
@@ -20,7 +19,7 @@
 
 namespace axisgate::shrc203 {
 
-// What ?:MODE and ?:FMT have reported.
+// Result of ?:MODE and ?:FMT.
 enum class FrontPanelRead { fit, wrong, unreadable, format_unreadable };
 
 class Handshake {
@@ -42,7 +41,7 @@ class Handshake {
         permission_(permission),
         tasks_(tasks) {}
 
-  // Opens the line where all is well, else gives it up. Ends where another connection has come.
+  // Opens the line if all checks pass, and disconnects otherwise. Ends early if another connection has begun.
   Task<void> run(Identity identity, std::uint64_t connection);
 
  private:

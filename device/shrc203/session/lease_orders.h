@@ -1,4 +1,4 @@
-// What the keeper of leases orders: stops of those who may move axes no longer, and settings that are restored.
+// Orders of the keeper of leases: stops for callers who lost the right to axes, and settings to restore.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -13,7 +13,7 @@ class LeaseOrders {
   LeaseOrders(Permission& permission, Stops& stops, Restorer& restorer, const Tasks& tasks)
       : permission_(permission), stops_(stops), restorer_(restorer), tasks_(tasks) {}
 
-  // Lets the keeper's time pass.
+  // Advances the keeper to the present time, and carries out its orders.
   void carry_out();
 
  private:

@@ -14,7 +14,7 @@ std::optional<int> outputs_of(const Command& command) {
   return static_cast<int>(*parse_integer(*command.arguments.first("s")));
 }
 
-// The S, F and R that a B: names, by its axes in their order.
+// Returns the S, F and R that a B: names, in the order of its axes.
 std::vector<SpeedSetting> speed_settings_of(const Command& command) {
   std::vector<SpeedSetting> speeds;
   for (const auto& [letter, value] : command.arguments.values()) {
@@ -29,7 +29,6 @@ std::vector<SpeedSetting> speed_settings_of(const Command& command) {
 
 }  // namespace
 
-// What the lines set has to be known before, to be set back. Not D:, which learn_speeds() is for.
 Task<Result<void>> LeaseSettings::learn(const std::vector<Command>& commands, std::string caller) {
   Result<void> read;
   for (const Command& command : commands) {
@@ -54,7 +53,6 @@ Task<Result<void>> LeaseSettings::learn(const std::vector<Command>& commands, st
   co_return read;
 }
 
-// Before it goes out.
 void LeaseSettings::remember(const RequestContext& context, const Command& command) {
   if (context.lease == 0 || store_.profile().settings_at_lease_end == AtLeaseEnd::kept) return;
   const PendingRestores::Change change{axes_sped({command}, SetsSpeeds::of_motion, store_.controllable()),
@@ -65,7 +63,6 @@ void LeaseSettings::remember(const RequestContext& context, const Command& comma
   permission_.settings_changed(context.lease);
 }
 
-// After its answer; where that was lost it may have been taken.
 void note_setting(StateStore& store, const Command& command, const ExchangeResult& result) {
   if (!result.accepted() && !result.in_doubt()) return;
   const auto outputs = outputs_of(command);

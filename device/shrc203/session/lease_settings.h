@@ -1,5 +1,5 @@
-// What a lease's holder sets for good, speeds (manual 89) D: to 92), 94) B:), outputs (96) O:) and the trigger (97) to
-// 101) T:): known before, so that it can be restored when the lease has ended.
+// Lasting settings made under a lease: speeds (manual 89) D: to 92), 94) B:), outputs (96) O:) and the trigger (97) to
+// 101) T:). The values before are read first, so that they can be restored when the lease has ended.
 #pragma once
 
 #include <string>
@@ -18,9 +18,10 @@ class LeaseSettings {
   LeaseSettings(Reader& reader, const StateStore& store, PendingRestores& pending, Permission& permission)
       : reader_(reader), store_(store), pending_(pending), permission_(permission) {}
 
-  // What the lines set has to be known before. Not the speeds of D:, which Reader::learn_speeds() is for. line_fault.
+  // Reads unknown values of the settings that the lines will change. Not the speeds of D:; Reader::learn_speeds() reads
+  // these. Fails with line_fault.
   Task<Result<void>> learn(const std::vector<Command>& commands, std::string caller);
-  // Before the line goes out.
+  // Notes the settings to restore. Call before the line is sent.
   void remember(const RequestContext& context, const Command& command);
 
  private:
@@ -30,7 +31,7 @@ class LeaseSettings {
   Permission& permission_;
 };
 
-// After its answer: what the line has set is known; where the answer was lost it may have been taken.
+// Notes the settings of a line after its reply. If the reply was lost, the settings are unknown.
 void note_setting(StateStore& store, const Command& command, const ExchangeResult& result);
 
 }  // namespace axisgate::shrc203

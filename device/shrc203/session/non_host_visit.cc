@@ -33,7 +33,6 @@ std::optional<SwitchAudit::Values> values_of(const Reply& reply) {
 
 }  // namespace
 
-// Before the first line of that transaction: what others have requested is not sent in a non-host mode.
 void NonHostVisit::leave_host(MotionId motion) {
   non_host_.began();
   if (!guarded(Guard::non_host_alone)) return;
@@ -61,8 +60,8 @@ Task<void> NonHostVisit::read_switches_left(LiveMotionPtr live, SwitchAudit& aud
   }
 }
 
-// A program runs independently of the gateway, and ?:L reports how far it is (manual 41)): axes are READY between its
-// lines, too.
+// Waits for ?:L to report the end of the program (manual 41)). The program runs independently of the gateway, and axes
+// are READY between its lines, too.
 Task<Result<void>> NonHostVisit::wait_for_program(LiveMotionPtr live) {
   Problem problem;
   for (int failures = 0; failures < kProgramReadTries;) {
@@ -87,7 +86,7 @@ Task<Result<void>> NonHostVisit::wait_for_program(LiveMotionPtr live) {
   co_return tl::unexpected(std::move(problem));
 }
 
-// P:E, too, lets the axes slow down.
+// Waits until the axes are stationary: they also slow down after P:E.
 Task<bool> NonHostVisit::wait_for_axes(LiveMotionPtr live) {
   for (const TimePoint limit = tasks_.now() + kReturnToHostLimit; tasks_.now() < limit && !live->life.line_lost();) {
     const auto read = co_await reader_.read_positions(Lane::motion, live->context.who);
@@ -112,7 +111,7 @@ Task<bool> step_to_host(Dialogue& dialogue, StateStore& store, Lane lane, std::s
     if (left.accepted()) co_return false;
     const auto edited = co_await dialogue.ask(commands::leave_program_edit(), lane, caller, in_handshake);
     if (edited.accepted()) co_return false;
-    (void)co_await dialogue.ask(commands::stop_program(), lane, caller, in_handshake);  // a program pauses
+    (void)co_await dialogue.ask(commands::stop_program(), lane, caller, in_handshake);  // for a program that pauses
   }
   co_return false;
 }
@@ -127,7 +126,7 @@ Task<bool> NonHostVisit::wait_for_host(LiveMotionPtr live) {
   co_return false;
 }
 
-// What is set may have changed, and with memory switches everything that is read at connecting. A program may have set
+// Settings may have changed, with memory switches even everything that is read after a connect. A program may have set
 // new coordinates.
 Task<void> NonHostVisit::come_back(LiveMotionPtr live, Course course) {
   const bool program = !live->motion.axes.empty();

@@ -1,5 +1,5 @@
-// Out of HOST by P:R or MS:ON and back (manual 102) to 126)): while a transaction is in a non-host mode, nobody else is
-// answered. Afterwards what it has changed is read again.
+// Visits to non-host modes by P:R or MS:ON (manual 102) to 126)). Other callers get no replies during a visit, and the
+// changed state is read again after it.
 #pragma once
 
 #include <string>
@@ -30,19 +30,21 @@ class NonHostVisit {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // Before the first line of that transaction: what others have requested is not sent in a non-host mode.
+  // Begins a visit. Call before the transaction's first line. Lines of others are withdrawn, since they may not be sent
+  // in a non-host mode.
   void leave_host(MotionId motion);
-  // What the item of the line says before any of it is set, and all items before they are left: for the audit.
+  // Read switches for the audit: those of the line's item before the first change, and those of all changed items
+  // before the return.
   Task<Result<void>> read_switches_before(LiveMotionPtr live, SwitchAudit& audit, Command command);
   Task<void> read_switches_left(LiveMotionPtr live, SwitchAudit& audit);
-  // outcome_unknown, device_error, stopped.
+  // Waits for the end of the program. Fails with outcome_unknown, device_error or stopped.
   Task<Result<void>> wait_for_program(LiveMotionPtr live);
 
-  // How the transaction has gone out there.
+  // Course of the transaction in the non-host mode.
   struct Course {
     bool sent_all = false, set_switches = false;
   };
-  // Whatever became of its lines; the motion has its outcome then.
+  // Returns to HOST, whatever became of the transaction's lines, and gives the motion its outcome.
   Task<void> come_back(LiveMotionPtr live, Course course);
 
  private:
@@ -61,8 +63,8 @@ class NonHostVisit {
   Tasks& tasks_;
 };
 
-// One step back to HOST, by what ?:MODE reports. An answer that was lost may have left the controller in another mode
-// than expected. True when it is in HOST.
+// Takes one step back to HOST, depending on what ?:MODE reports: after a lost reply the controller may be in another
+// mode than expected. Returns true if the controller is in HOST.
 Task<bool> step_to_host(Dialogue& dialogue, StateStore& store, Lane lane, std::string caller, bool in_handshake);
 
 }  // namespace axisgate::shrc203

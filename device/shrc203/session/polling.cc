@@ -45,13 +45,14 @@ Task<void> Polling::poll() {
   }
 }
 
-// False if somebody has just asked, unless that reading showed a change that a second one must confirm.
+// Reports whether the positions are due: not read recently, or a change that a second reading must confirm.
 bool Polling::positions_due() const {
   if (store_.conditions().status_doubtful()) return true;
   return !watched_() && tasks_.now() - store_.state().read >= interval();
 }
 
-// No position shows that a motor was switched off at the front panel while its axis was stationary.
+// Reports whether the excitation is due. Positions do not show that a stationary axis's motor was switched off at the
+// front panel.
 bool Polling::excitation_due() const {
   if (!reader_.may_poll_excitation()) return false;
   const Duration age = tasks_.now() - store_.conditions().motors_last_read();
@@ -82,7 +83,7 @@ bool Polling::is_fresh(Duration max_age) const {
   return store_.state().read != TimePoint{} && tasks_.now() - store_.state().read <= max_age;
 }
 
-// The answer to a question in flight is of when that was written, or later: it serves callers who may have it so old.
+// Waits for a reading in flight if its reply is fresh enough for the caller: it is not older than its question.
 Task<void> Polling::join(Duration max_age) {
   if (is_fresh(max_age) || !reading_since_ || tasks_.now() - *reading_since_ > max_age) co_return;
   auto ended = reading_ended_.wait_until(tasks_.now() + kCallerWriteLimit);

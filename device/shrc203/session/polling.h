@@ -1,4 +1,4 @@
-// Polling keeps the state fresh, and is the net below the completions: slow when nothing moves.
+// Polling, which keeps the state current and detects motion ends whose completion was lost. Slow while nothing moves.
 #pragma once
 
 #include <functional>
@@ -15,11 +15,11 @@ namespace axisgate::shrc203 {
 
 class Polling {
  public:
-  // `watched`: whether somebody reads at the same pace anyway.
+  // `watched` reports whether a procedure already reads the positions at the same pace.
   Polling(Reader& reader, StateStore& store, Motions& motions, const NonHost& non_host, Tasks& tasks,
           std::function<bool()> watched);
 
-  // The state, read again where it is older than `max_age`. wrong_mode, link_down.
+  // Passes on the state, which is read again if it is older than `max_age`. Fails with wrong_mode or link_down.
   void refresh(Duration max_age, RequestContext context, StageController::OnState done);
 
  private:
@@ -38,7 +38,7 @@ class Polling {
   const NonHost& non_host_;
   Tasks& tasks_;
   std::function<bool()> watched_;
-  std::optional<TimePoint> reading_since_;  // the newest question for a caller was asked then, and is not answered
+  std::optional<TimePoint> reading_since_;  // time of the newest unanswered question for a caller
   Signal reading_ended_;
 };
 

@@ -7,14 +7,14 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// No answer does (manual 4. and 6.); `?:CMD` answers with one (manual 40)).
+// Reports whether the text is a command. Only ?:CMD is answered by one (manual 4., 6. and 40)).
 bool names_a_command(std::string_view text) {
   return text.find(':') != std::string_view::npos || text.starts_with('*') || text == "G";
 }
 
 }  // namespace
 
-// A stop that this run has written at the opening of the port is no other program's.
+// Reports whether the line was sent by the previous run, or is a stop that this run wrote when the port opened.
 bool PreviousRun::is_ours(std::string_view line_before) const {
   return line_before.starts_with("L:") ||
          std::ranges::find(unfinished_->last_lines, line_before) != unfinished_->last_lines.end();

@@ -1,5 +1,5 @@
-// This file handles the motions of an earlier run of the gateway that was killed. They are stopped, or may finish, as
-// soon as the controller says that nobody else has used the line since.
+// Motions of an earlier run of the gateway that was killed. They are stopped, or may finish, as soon as the controller
+// shows that no other program has used the line since.
 #pragma once
 
 #include <optional>
@@ -18,16 +18,16 @@ class PreviousRun {
  public:
   PreviousRun(Stops& stops, StateStore& store) : stops_(stops), store_(store) {}
 
-  // Before the line is opened.
+  // Takes over the unfinished motions. Call before the line is opened.
   void inherit(std::optional<stage::Unfinished> unfinished) { unfinished_ = std::move(unfinished); }
-  // A line has come in on the first connect. If it answers ?:CMD (manual 40)) with a line of that run, or is the
-  // identity of the same unit and no answer named another program's line, the stop is requested now, before any other
-  // question.
+  // Called for each line received during the first connect. Requests the stop at once, before any other question, if
+  // the line is one of that run's lines, as the reply to ?:CMD (manual 40)), or the identity of the same unit and no
+  // reply was another program's line.
   void heard(std::string_view text);
-  // A controller has answered: what was inherited is judged, once. It is left alone if another unit answers, or
-  // `line_before` is another program's; nullopt if the controller did not say.
+  // Decides once about the unfinished motions, when a controller was identified. They are left alone if another unit
+  // answers, or `line_before` is another program's line. `line_before` is nullopt if the controller did not report it.
   void identified(const Identity& identity, const std::optional<std::string>& line_before);
-  // Everything was seen to be stationary.
+  // Called when all axes were seen stationary.
   void all_stationary();
 
  private:
@@ -36,7 +36,7 @@ class PreviousRun {
 
   Stops& stops_;
   StateStore& store_;
-  std::optional<stage::Unfinished> unfinished_;  // until everything is stationary
+  std::optional<stage::Unfinished> unfinished_;  // kept until all axes are stationary
   bool names_another_ = false;                   // ?:CMD was answered by another program's line
 };
 

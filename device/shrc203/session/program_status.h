@@ -1,4 +1,4 @@
-// How far the controller's program is (manual 41) ?:L).
+// Status of the controller's program (manual 41) ?:L).
 #pragma once
 
 #include <optional>
@@ -11,11 +11,11 @@ namespace axisgate::shrc203 {
 struct ProgramStatus {
   std::string program, status, line;  // as ?:L reports them
 
-  // It runs, or runs one line. Where it pauses it waits for somebody.
+  // Reports whether the program runs, or runs one line. A paused program waits for a person.
   bool runs() const { return status == "1" || status == "3"; }
 };
 
-// Nothing where the answer does not report it.
+// Returns nullopt if the reply is not a program status.
 std::optional<ProgramStatus> program_status(const ExchangeResult& result);
 
 }  // namespace axisgate::shrc203

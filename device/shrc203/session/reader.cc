@@ -12,7 +12,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Faster than this no axis runs (manual 89) D:); a reading beyond it is read again before it is believed.
+// Highest speed of any axis (manual 89) D:). A reading that implies a greater one is read again before it is accepted.
 constexpr double kPulsesPerSecondMax = 1'000'000;
 constexpr std::int64_t kJumpMargin = 10'000;
 
@@ -27,7 +27,7 @@ Problem unreadable(commands::Question question, const ExchangeResult& result) {
 
 }  // namespace
 
-// Whether an axis would have gone faster than any does.
+// Reports whether an axis would have moved faster than any axis can.
 bool Reader::implausible(const Reply& reply) const {
   const Positions before = store_.positions();
   const auto readings = parse_positions(reply, store_.controllable());
@@ -50,7 +50,7 @@ Task<Result<void>> Reader::read_positions(Lane lane, std::string caller, bool in
       if (!in_handshake) panel_.position_refused();
       co_return tl::unexpected(unreadable(Dialogue::Question::positions, result));
     }
-    // The second reading is believed whatever it says: origin returns and presets make true jumps.
+    // The second reading is always accepted: origin returns and presets cause real jumps.
     if (attempt == 0 && implausible(*result.reply) && guarded(Guard::jumps_read_again)) continue;
     if (apply_positions(*result.reply)) co_return Result<void>();
   }
@@ -61,7 +61,7 @@ void Reader::note_positions(const Reply& reply) {
   if (reply.kind == Reply::Kind::data && !implausible(reply)) apply_positions(reply);
 }
 
-// Axes that move as asked and will not tell when they are stationary.
+// Returns the axes that move as requested and will not send a completion.
 AxisSet Reader::moving_silently() const { return motions_.running() - line_.completions().possible(); }
 
 bool Reader::apply_positions(const Reply& reply) {
@@ -98,7 +98,6 @@ Task<Result<void>> Reader::read_speeds(std::string caller) {
   co_return Result<void>();
 }
 
-// After S: (manual 55)). Twice, since everything hangs on it.
 Task<Result<void>> Reader::read_scales(std::string caller) {
   std::string before;
   for (int attempt = 0; attempt < kAgreeingAnswerTries; ++attempt) {
@@ -131,7 +130,6 @@ Task<Result<void>> Reader::read_origin_speeds(std::string caller) {
   co_return Result<void>();
 }
 
-// The front panel and an emergency stop switch motors too, so what is known is asked again where it matters.
 Task<Result<void>> Reader::read_excitation(std::string caller, Lane lane) {
   const auto result = co_await dialogue_.ask(Dialogue::Question::excitation, lane, std::move(caller));
   if (result.problem) co_return tl::unexpected(*result.problem);
@@ -166,7 +164,6 @@ Task<Result<void>> Reader::read_trigger(std::string caller) {
   co_return Result<void>();
 }
 
-// The speeds of those axes, read where they are not known: line_fault.
 Task<Result<void>> Reader::learn_speeds(AxisSet axes, std::string caller) {
   const auto missing = [&] { return store_.speeds(axes).size() < static_cast<std::size_t>(axes.count()); };
   for (int attempt = 0; attempt < kSettingReadTries && missing(); ++attempt) {

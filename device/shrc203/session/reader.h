@@ -1,4 +1,4 @@
-// Readings: questions of the gateway's own, and their answers noted in the StateStore.
+// Readings: the gateway's own questions, whose replies are noted in the StateStore.
 #pragma once
 
 #include <string>
@@ -13,7 +13,8 @@
 
 namespace axisgate::shrc203 {
 
-// What each of them refuses: the problem of its exchange; device_refused where the answer does not report it.
+// A Reader sends questions. Each reading fails with the problem of its exchange, or with device_refused if the reply
+// has no data.
 class Reader {
  public:
   Reader(Dialogue& dialogue, Line& line, FrontPanel& panel, StateStore& store, Registers& registers, Motions& motions,
@@ -26,23 +27,23 @@ class Reader {
         motions_(motions),
         tasks_(tasks) {}
 
-  // Also line_fault.
+  // Also fails with line_fault.
   Task<Result<void>> read_positions(Lane lane, std::string caller, bool in_handshake = false);
-  // A caller's own question was answered so. What is not plausible is left to the next reading.
+  // Notes the reply to a caller's own question. An implausible reply is ignored; the next reading decides.
   void note_positions(const Reply& reply);
   Task<Result<void>> read_registers(std::string caller);
   Task<Result<void>> read_speeds(std::string caller);
   Task<Result<void>> read_origin_speeds(std::string caller);
-  // After S: (manual 55)). Twice, since everything hangs on it.
+  // Reads the resolutions after S: (manual 55)), twice, since everything depends on them.
   Task<Result<void>> read_scales(std::string caller);
-  // The front panel and an emergency stop switch motors, too.
+  // Reads which motors are on. The front panel and an emergency stop switch motors, too.
   Task<Result<void>> read_excitation(std::string caller, Lane lane = Lane::motion);
-  // False while the answer of a controller with one axis could be a completion, so that the question would keep
+  // Returns false while the reply of a controller with one axis could be a completion, so that the question would keep
   // motions out.
   bool may_poll_excitation() const;
   Task<Result<void>> read_outputs(std::string caller);
   Task<Result<void>> read_trigger(std::string caller);
-  // The speeds of those axes, read where they are not known. Also line_fault.
+  // Reads the speeds of the axes if any of them is unknown. Also fails with line_fault.
   Task<Result<void>> learn_speeds(AxisSet axes, std::string caller);
 
  private:

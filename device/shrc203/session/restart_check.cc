@@ -11,7 +11,7 @@ namespace axisgate::shrc203 {
 
 namespace {
 
-// Whether `check` is true of the index of any of these axes.
+// Reports whether `check` is true for the index of any of these axes.
 template <class Check>
 bool any_index(AxisSet axes, Check check) {
   for (int axis = 1; axis <= kAxisCount; ++axis) {
@@ -42,10 +42,10 @@ Task<bool> RestartCheck::read_positions(std::uint64_t connection) {
   co_return false;
 }
 
-// After a restart every command counter shows 0 until something moves, and nothing is moved before this has been
-// decided. One damaged byte turns a 0 into another number, so a position that was not known before must be read twice.
-// Where all showed 0 before, positions prove nothing, and a controller not known to be the same counts as restarted.
-// Where only an answer was late, that would be a false alarm on every slow host, so an unchanged resolution suffices.
+// Decides by the positions. After a restart every command counter shows 0 until something moves, and nothing is moved
+// before the decision. One damaged byte turns a 0 into another number, so a position that was not known before must be
+// read twice. If all counters showed 0 before, positions prove nothing, and the controller counts as restarted. That
+// would be a false alarm on every slow host if only a reply was late; in this case an unchanged resolution is enough.
 Task<void> RestartCheck::run(std::uint64_t connection) {
   const Positions before = store_.positions();
   const bool all_at_zero =

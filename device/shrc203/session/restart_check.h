@@ -1,4 +1,4 @@
-// Whether the controller has restarted behind an answer that came late or after a pause.
+// Check whether the controller has restarted, after a late reply or a pause.
 #pragma once
 
 #include <cstdint>
@@ -16,13 +16,13 @@ class RestartCheck {
   RestartCheck(Dialogue& dialogue, Line& line, Reader& reader, const StateStore& store, const Tasks& tasks)
       : dialogue_(dialogue), line_(line), reader_(reader), store_(store), tasks_(tasks) {}
 
-  // Confirms the controller to the line, or gives the line up. Ends where another connection has come.
+  // Confirms to the line that there was no restart, or disconnects. Ends early if another connection has begun.
   Task<void> run(std::uint64_t connection);
 
  private:
   bool anywhere_but_zero() const;
-  bool still_at(const Positions& before) const;  // an axis shows the nonzero position that was known before
-  // False where no answer made sense in several attempts, or another connection has come.
+  bool still_at(const Positions& before) const;  // whether an axis still has its nonzero position
+  // Returns false if no attempt gave a sensible reply, or another connection has begun.
   Task<bool> read_positions(std::uint64_t connection);
 
   Dialogue& dialogue_;

@@ -16,9 +16,11 @@ constexpr std::array kTrigger{RestoredSetting::trigger};
 constexpr std::array kBothSpeeds{RestoredSetting::speeds, RestoredSetting::origin_speeds};
 constexpr std::array kAllButSpeeds{RestoredSetting::origin_speeds, RestoredSetting::outputs, RestoredSetting::trigger};
 
-// Where others wait for the line to come back, speeds stay pending: the next motion on their axes restores them.
+// Reports whether the restore waits for the line. Speeds stay pending instead: the next motion on their axes restores
+// them.
 constexpr bool waits_for_line(RestoredSetting setting) { return setting != RestoredSetting::speeds; }
-// What cannot be restored is read, so that the state is true: motions are computed with it.
+// Reports whether the setting is read if it cannot be restored. Motions are computed from speeds, so their state must
+// be true.
 constexpr bool read_when_not_restored(RestoredSetting setting) { return setting == RestoredSetting::speeds; }
 
 ExchangeRequest request_for(const std::string& caller) {
@@ -30,12 +32,13 @@ ExchangeRequest request_for(const std::string& caller) {
 
 }  // namespace
 
-// In that order, until all is as it was before (the answer), or no try is left. `request` says for whom.
+// Restores the settings in this order, until all have their old values or no try is left. Returns whether all are
+// restored. `request` names the caller.
 Task<bool> Restorer::restore(PendingRestores what, std::span<const RestoredSetting> order, int tries,
                              ExchangeRequest request) {
   bool restored = false;
   for (int attempt = 0; attempt < tries && !restored; ++attempt) {
-    // Somebody else has restored it meanwhile, or has set a trigger of their own.
+    // Another procedure has restored the trigger meanwhile, or somebody has set their own.
     if (what.has_scan() && !pending_.has_scan()) co_return true;
     restored = true;
     for (const RestoredSetting setting : order) {
@@ -70,11 +73,11 @@ Task<bool> Restorer::restore_one(PendingRestores what, RestoredSetting setting, 
   co_return false;
 }
 
-// A speed belongs to one motion, but the controller keeps it (manual 68)): the next user gets back what was set
-// before.
+// Speeds belong to one motion, but the controller keeps them (manual 68)), so the next user gets the earlier speeds
+// back.
 Task<void> Restorer::restore_after(LiveMotionPtr live) {
   if (!live->restores()) co_return;
-  // What was sent last may have been taken though its answer was lost.
+  // The newest setting may have been accepted although its reply was lost.
   if (live->motion.state != MotionState::succeeded) store_.forget_speeds(live->motion.axes);
   auto request = dialogue_.request_of(*live, {}, Lane::motion);
   request.tidies = true;
@@ -84,7 +87,6 @@ Task<void> Restorer::restore_after(LiveMotionPtr live) {
   motions_.leave(*live);
 }
 
-// What could not be restored when a motion ended, because the line was lost: before the next one on these axes.
 Task<void> Restorer::restore_speeds(AxisSet axes, std::string caller) {
   const auto what = pending_.take(axes);
   const auto request = request_for(caller);
@@ -92,8 +94,6 @@ Task<void> Restorer::restore_speeds(AxisSet axes, std::string caller) {
   if (!restored) pending_.keep(what);
 }
 
-// What a scan has armed and could not disarm, because the line was lost: before anything moves again. Whether nothing
-// is pending any more.
 Task<bool> Restorer::restore_trigger(std::string caller) {
   if (!guarded(Guard::scans_disarm)) co_return true;
   const auto what = pending_.of_scan();
@@ -103,8 +103,8 @@ Task<bool> Restorer::restore_trigger(std::string caller) {
   co_return !pending_.has_scan();
 }
 
-// D: and T: are refused while axes move (manual 89), 97)), which somebody at the front panel may make them do; others
-// have their turns meanwhile.
+// Restores the settings in the lease's turn on the axes. D: and T: are refused while axes move (manual 89), 97)), which
+// somebody at the front panel may cause; others have their turns meanwhile.
 Task<bool> Restorer::restore_in_turn(EndedLease lease, PendingRestores what) {
   const AxisSet axes = what.stationary_axes();
   if (axes.empty()) co_return true;
@@ -112,7 +112,7 @@ Task<bool> Restorer::restore_in_turn(EndedLease lease, PendingRestores what) {
   auto turn = motions_.gate().enter(lease.token, axes, lease.who, TimePoint::max());
   const auto entered = co_await turn;
   if (!entered) co_return false;
-  pending_.forget_speeds(what.sped());  // older is what was there before the lease
+  pending_.forget_speeds(what.sped());  // the lease's values are older than the motions'
   const auto request = request_for("the gateway on behalf of " + lease.who);
   const bool speeds = co_await restore(what, kBothSpeeds, 1, request);
   bool trigger = co_await restore_trigger(request.caller);
@@ -122,7 +122,7 @@ Task<bool> Restorer::restore_in_turn(EndedLease lease, PendingRestores what) {
   co_return restored;
 }
 
-// The lease has ended and its axes are nobody's yet. A line that is down is waited for.
+// Restores until all settings have their old values, or kLeaseRestoreLimit has passed on a working line.
 Task<void> Restorer::restore_settings_of(EndedLease lease) {
   std::optional<TimePoint> abandon_at;
   const auto request = request_for("the gateway on behalf of " + lease.who);
@@ -139,11 +139,10 @@ Task<void> Restorer::restore_settings_of(EndedLease lease) {
     auto pause = tasks_.pause(kLeaseRestorePause);
     co_await pause;
   }
-  if (!ending_) pending_.forget_lease(lease.token);  // the end restores by itself
+  if (!ending_) pending_.forget_lease(lease.token);  // restore_everything() restores them at the gateway's end
   permission_.settings_restored(lease.token, tasks_.now());
 }
 
-// At the gateway's end, when nothing moves any more: no lease outlives it.
 Task<void> Restorer::restore_everything() {
   const auto request = request_for("the gateway (it is ending)");
   co_await restore_speeds(AxisSet::all(), request.caller);

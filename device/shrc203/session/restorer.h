@@ -1,4 +1,4 @@
-// Restores what is pending (state/pending_restores.h): at a motion's end, before the next motion on its axes, at a
+// Restoring of pending settings (state/pending_restores.h): at a motion's end, before the next motion on its axes, at a
 // lease's end, and at the end of the gateway.
 #pragma once
 
@@ -29,15 +29,18 @@ class Restorer {
         ending_(ending),
         tasks_(tasks) {}
 
-  // The motion has its outcome: its speeds are restored, and it leaves its axes. Nothing where it changed none.
+  // Restores the speeds of a motion that has its outcome, and makes the motion leave its axes. No effect if it changed
+  // none.
   Task<void> restore_after(LiveMotionPtr live);
-  // What could not be restored when a motion ended, because the line was lost: before the next one on these axes.
+  // Restores speeds that could not be restored at the end of a motion because the line was lost. Call before the next
+  // motion on these axes.
   Task<void> restore_speeds(AxisSet axes, std::string caller);
-  // Likewise what a scan has armed, before anything moves again. Whether nothing is pending any more.
+  // Restores a trigger that a scan could not disarm because the line was lost. Call before anything moves again.
+  // Returns whether no scan is pending any longer.
   Task<bool> restore_trigger(std::string caller);
-  // The lease has ended and its axes are nobody's yet. A line that is down is waited for.
+  // Restores the settings of an ended lease, whose axes are not free until then. Waits if the line is down.
   void lease_ended(const EndedLease& lease) { tasks_.spawn(restore_settings_of(lease)); }
-  // At the gateway's end, when nothing moves any more: no lease outlives it.
+  // Restores all pending settings at the gateway's end, when nothing moves any longer: no lease outlives the gateway.
   Task<void> restore_everything();
 
  private:

@@ -60,7 +60,7 @@ void Session::line_lost(const std::string& why, TimePoint) {
   store_.publish();
 }
 
-// A jog never ends by itself.
+// Stops all jogs, since a jog never ends by itself.
 void Session::stop_jogs() {
   AxisSet axes;
   for (const auto& [id, live] : motions_.live()) {
@@ -106,7 +106,7 @@ void Session::completion_deduced(int axis) {
 
 void Session::line_event(const Event& event, TimePoint) {
   if (std::holds_alternative<IllegalTransition>(event)) {
-    // The stop outlives the line that is about to be disconnected, and is sent first on the next one.
+    // The stop stays open when the line is disconnected, and is sent first on the next connection.
     stops_.stop(AxisSet::all(), {.who = kGateway});
   }
   const auto* notice = std::get_if<ProgramNotice>(&event);
@@ -123,7 +123,7 @@ void Session::illegal(std::string_view machine, std::string_view state, std::str
                    tasks_.now());
 }
 
-// The first at once, and then those that came meanwhile as one.
+// Emits the first notice at once, and then those that arrived meanwhile as one event.
 Task<void> Session::tell_notices(ProgramNotice::Kind kind) {
   NoticeCount& count = notices_[kind];
   while (count.untold > 0) {
@@ -139,7 +139,7 @@ std::optional<Problem> Session::may_write(const ExchangeRequest& request, TimePo
   if (live && store_.state().emergency) {
     if (auto forbidden = rights_.motion_forbidden(live->motion.axes)) return forbidden;
   }
-  // What was abandoned at the gateway's end sends nothing more.
+  // Motions abandoned at the gateway's end send nothing more.
   if (!live && ending_) return ending_;
   const bool alone = request.motion == 0 && !request.uses.empty();
   if ((!live && !alone) || !guarded(Guard::lease_asked_as_bytes_go)) return {};

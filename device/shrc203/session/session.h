@@ -1,5 +1,5 @@
-// What the line reports, and what follows from it: the session's beginning and loss, completions, and whether a line
-// may still be written. Also what follows from an internal error of the gateway.
+// Reactions to the reports of the line: connect and loss, completions, and whether a line may still be written. Also
+// the reaction to an internal error of the gateway.
 #pragma once
 
 #include <cstdint>
@@ -54,13 +54,13 @@ class Session : public LineListener, public Violations {
   void same_controller(TimePoint now) override;
   void completion_seen(int axis, bool doubtful, TimePoint now) override;
   void line_event(const Event& event, TimePoint now) override;
-  // The right may have ended since the exchange was queued: this is the last look before the bytes go out.
+  // Checks the right once more before the bytes are sent: it may have ended since the exchange was queued.
   std::optional<Problem> may_write(const ExchangeRequest& request, TimePoint now) override;
 
-  // Stops everything, and opens the line again: motions that run end UNKNOWN, and nothing starts before a handshake.
+  // Stops all axes, and opens the line again. Running motions end UNKNOWN, and nothing starts before a handshake.
   void illegal(std::string_view machine, std::string_view state, std::string_view event) override;
 
-  // An axis number that was known only when two answers agreed.
+  // Called for a completion that was recognised only when two replies agreed.
   void completion_deduced(int axis);
 
  private:

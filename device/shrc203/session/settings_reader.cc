@@ -12,7 +12,7 @@ namespace axisgate::shrc203 {
 
 struct SettingsReader::Answers {
   ExchangeResult axes, axes_again, serial, scale, speeds, excitation;
-  ExchangeResult outputs, trigger, origin_speeds;  // what sets these reads them then, if need be
+  ExchangeResult outputs, trigger, origin_speeds;  // may stay unread; code that sets them reads them if necessary
 };
 
 Task<bool> SettingsReader::read(std::uint64_t connection) {
@@ -29,7 +29,7 @@ Task<bool> SettingsReader::ask(Answers& answers, std::uint64_t connection) {
     Question question;
     ExchangeResult* answer;
   };
-  // The axes are read twice: everything else depends on that one digit, and a line can turn a 6 into a 2.
+  // The axes are read twice: everything else depends on this one digit, and the line can turn a 6 into a 2.
   for (const Step step : {Step{Question::axes, &answers.axes}, Step{Question::axes, &answers.axes_again},
                           Step{Question::serial_number, &answers.serial}, Step{Question::pulse_length, &answers.scale},
                           Step{Question::speeds, &answers.speeds}, Step{Question::excitation, &answers.excitation}}) {

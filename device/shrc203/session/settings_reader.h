@@ -1,5 +1,5 @@
-// What is read at connecting, and again after memory switches may have changed it: axes, resolutions, speeds,
-// excitation, outputs, trigger, positions.
+// Settings that are read after a connect, and again after memory switches may have changed them: axes, resolutions,
+// speeds, excitation, outputs, trigger, positions.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@ class SettingsReader {
   SettingsReader(Dialogue& dialogue, Reader& reader, StateStore& store)
       : dialogue_(dialogue), reader_(reader), store_(store) {}
 
-  // False where not everything was reported, or another connection came: StateStore::connection().
+  // Returns false if not everything was reported, or another connection has begun (StateStore::connection()).
   Task<bool> read(std::uint64_t connection);
 
  private:

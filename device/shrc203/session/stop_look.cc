@@ -11,7 +11,7 @@
 
 namespace axisgate::shrc203 {
 
-// A reading of another unit, or on a link that is not up, shows nothing.
+// Reports whether readings count: those of another unit, or on a link that is not up, do not.
 bool StopLook::counts(const StopJob& job) const {
   const bool same_unit = job.stop.serial_number.empty() || job.stop.serial_number == store_.state().serial_number;
   return store_.line_works() && same_unit;
@@ -32,15 +32,15 @@ Task<void> StopLook::look(StopJobPtr job) {
   const Prebuffers prebuffers = co_await read_prebuffers(job);
   if (!job->open() || !job->stationary || prebuffers != Prebuffers::empty || !counts(*job)) co_return;
   if (job->stop.kind == StopKind::emergency) {
-    // Whether the motors stay excited depends on a memory switch (manual 66)).
+    // A memory switch decides whether the motors stay excited (manual 66)).
     const auto excitation = co_await reader_.read_excitation(job->context.who);
     if (!excitation) store_.unsettle();
   }
   if (job->open() && job->stationary) confirm(job);
 }
 
-// One flipped bit makes an R of a B, and a start may show late: one READY is enough only behind a stop that was
-// received.
+// Reports whether the readings are certain. One flipped bit turns a B into an R, and a start may show late, so one
+// READY is enough only after a stop that was received.
 bool StopLook::is_certain(const StopJob& job) const {
   return job.taken || job.stationary_looks > 1 || !guarded(Guard::stop_seen_twice);
 }
@@ -52,7 +52,7 @@ void StopLook::confirm(const StopJobPtr& job) {
   open_.change(job, job->stop.state == StopState::asked ? StopEvent::returned_stationary : StopEvent::seen_stationary);
 }
 
-// Reads whether the axes are stationary and no program runs.
+// Reads the state, and reports whether the axes are stationary and no program runs.
 Task<bool> StopLook::read(StopJobPtr job) {
   const auto read = co_await reader_.read_positions(Lane::motion, job->context.who);
   if (!guarded(Guard::stop_confirmed_stationary)) co_return true;
@@ -75,7 +75,8 @@ Task<bool> StopLook::program_runs(const StopJob& job) {
   co_return !program || program->runs();
 }
 
-// Whether L: clears the prebuffer is not documented (manual 65), 87)); what it left would run on the next start.
+// Reads the prebuffers: the manual does not say whether L: clears them (manual 65), 87)), and a remaining setpoint
+// would run on the next start.
 Task<StopLook::Prebuffers> StopLook::read_prebuffers(StopJobPtr job) {
   if (!guarded(Guard::stop_looks_at_prebuffer)) co_return Prebuffers::empty;
   auto reading = registers_.begin_reading();
@@ -93,7 +94,8 @@ Task<StopLook::Prebuffers> StopLook::read_prebuffers(StopJobPtr job) {
   co_return Prebuffers::empty;
 }
 
-// A kept segment may start by itself, so the stop is written once more. After that only a reset helps.
+// Notes a segment that the prebuffer has kept. It may start by itself, so the stop is written once more. After that
+// only a reset helps.
 void StopLook::note_kept(StopJob& job, const ExchangeResult& answer, std::string_view question) {
   if (++job.kept_looks == 1) {
     job.write_at = tasks_.now();

@@ -1,4 +1,4 @@
-// Looks whether a stop is obeyed: its axes stationary on a link that is up, and their prebuffers empty.
+// Confirmation of stops: axes stationary on a link that is up, and their prebuffers empty.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -23,7 +23,7 @@ class StopLook {
         non_host_(non_host),
         tasks_(tasks) {}
 
-  // Reads once, and confirms the stop if that shows it obeyed.
+  // Reads once, and confirms the stop if the reading shows that it was obeyed.
   Task<void> look(StopJobPtr job);
 
  private:

@@ -21,14 +21,14 @@ std::vector<ExchangeRequest> StopWriter::lines_due(std::string_view heard) {
   }
   std::vector<ExchangeRequest> lines;
   if (takes_none() || other_unit_) return lines;
-  // On a line that stayed open OK may be the late answer to the stop itself; the next line, for which ?:CMD or *IDN?
-  // has asked, decides.
+  // On a line that stayed open, OK may be the late reply to the stop itself. The next line, which answers ?:CMD or
+  // *IDN?, decides.
   if (heard == "OK" && line_.state().trusted()) return lines;
   const bool first = !opened && !std::exchange(heard_, true);
   const bool written = opened ? guarded(Guard::stop_written_at_open) : first && guarded(Guard::stop_written_when_heard);
   const bool refused = !opened && !first && heard == "NG" && guarded(Guard::stop_one_axis_at_a_time);
   for (const StopJobPtr& job : open_.all()) {
-    // ?:CMD answers with the stop itself: the controller has received it.
+    // The reply to ?:CMD is the stop itself: the controller has received it.
     if (heard == command_for(*job, excited(*job)).line) continue;
     if (written && !job->taken) write_blindly(job, false, lines);
     if (refused && job->named_several) write_blindly(job, true, lines);
@@ -80,8 +80,8 @@ ExchangeRequest StopWriter::request_for(const StopJob& job, Command command) con
   return request;
 }
 
-// The excitation that was read last may be out of date: if no motor seems to be on, the stop names every axis, and the
-// controller decides.
+// Returns the axes that the stop names. The known excitation may be out of date: if no motor seems to be on, the stop
+// names every axis, and the controller decides.
 AxisSet StopWriter::excited(const StopJob& job) const {
   AxisSet named = job.stop.axes;
   for (const int axis : job.stop.axes.list()) {
@@ -110,7 +110,8 @@ Task<void> StopWriter::write(StopJobPtr job) {
   if (result.refused() && job->stop.kind == StopKind::stop && named.count() > 1) co_await write_one_at_a_time(job);
 }
 
-// The answer goes into the report. When the stop is repeated depends only on whether the controller received it.
+// Notes the reply in the report. The time of the next repetition depends only on whether the controller received the
+// stop.
 void StopWriter::note_result(StopJob& job, AxisSet named, const ExchangeResult& result) const {
   const bool received = (result.reply && !result.problem) || result.received.value_or(false);
   const bool in_barrier = result.in_doubt() && result.problem->reason == Reason::outcome_unknown;

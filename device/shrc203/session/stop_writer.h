@@ -1,5 +1,5 @@
-// Writes the lines of open stops: when their turn has come on a line that answers, and without waiting for any answer
-// where nobody knows whether it does.
+// Writing of open stops: in their turn on a line that answers, and without waiting for replies if it is unknown whether
+// the line answers.
 #pragma once
 
 #include <string>
@@ -21,21 +21,22 @@ class StopWriter {
              const Tasks& tasks)
       : dialogue_(dialogue), line_(line), store_(store), open_(open), non_host_(non_host), tasks_(tasks) {}
 
-  // LineListener::stops_to_write(). Each open stop is due when the port opens, and again after the first line that is
-  // heard. NG to several axes is followed by each of them alone, since one motor may be off (manual 65)).
+  // Implements LineListener::stops_to_write(). Each open stop is due when the port opens, and again after the first
+  // line that is received. After NG to several axes each axis is stopped alone, since one motor may be off (manual
+  // 65)).
   std::vector<ExchangeRequest> lines_due(std::string_view heard);
-  // A barrier begins on an open port: the next line is the first again.
+  // Called when a barrier begins on an open port: the next line counts as the first again.
   void barrier_entered() { heard_ = false; }
-  // Another unit is at the line, and must not receive any stop.
+  // Called when another unit is at the line; it must not receive any stop.
   void other_unit_answered() { other_unit_ = true; }
-  // A stop that was written without an answer is due again: the line answers now, or was closed.
+  // Make a stop that was written without a reply due again: the line answers now, or was closed.
   void line_answers();
   void line_lost();
 
   // Reports whether the controller accepts no stop in its present mode (manual 111), 117); section 4, last note).
   bool takes_none() const;
   bool can_write() const { return line_.state().port_open() && !takes_none() && !other_unit_; }
-  // Writes the stop, and says in its report what the controller answered.
+  // Writes the stop, and notes the controller's reply in its report.
   Task<void> write(StopJobPtr job);
   // Returns the time that the axes of a stop need to slow down (manual 89) D:).
   Duration slowing(AxisSet axes) const;
@@ -54,7 +55,7 @@ class StopWriter {
   OpenStops& open_;
   const NonHost& non_host_;
   const Tasks& tasks_;
-  bool heard_ = false;  // a line has come in since the port was opened, or since the barrier began
+  bool heard_ = false;  // a line was received since the port was opened, or since the barrier began
   bool other_unit_ = false;
 };
 

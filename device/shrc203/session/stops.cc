@@ -24,7 +24,7 @@ void Stops::stop(AxisSet axes, StopKind kind, const RequestContext& context, OnS
   if (!job) {
     job = begin(named, kind, context);
   } else if (job->taken) {
-    job->write_at = tasks_.now();  // the caller who asks again has a reason
+    job->write_at = tasks_.now();  // a caller who asks again has a reason
   }
   add_caller(job, named, context, std::move(done));
   line_.open_at_once(tasks_.now());
@@ -39,7 +39,7 @@ StopJobPtr Stops::begin(AxisSet axes, StopKind kind, const RequestContext& conte
   return job;
 }
 
-// A stop that the wider one includes is over; who waits for it, waits for the wider one.
+// Ends the stops that the wider one includes. Their callers then wait for the wider one.
 void Stops::replace_narrower(const StopJobPtr& wider) {
   for (const StopJobPtr& job : open_.all()) {
     const bool emergency = wider->stop.kind == StopKind::emergency;
@@ -77,7 +77,7 @@ void Stops::inherit(const stage::Inheritance& left) {
   }
 }
 
-// The queue of motion on these axes is emptied: what was not written never will be.
+// Withdraws the motions on these axes: lines not written yet never will be.
 void Stops::withdraw_motions(AxisSet axes, const RequestContext& context) {
   const auto stopped = motions_.stop_asked(axes, context.who);
   const auto is_stopped = [&stopped](MotionId id) { return std::ranges::find(stopped, id) != stopped.end(); };
@@ -139,8 +139,8 @@ void Stops::axes_move() {
   wake();
 }
 
-// Stationary axes whose motion has an outcome, and whose user has left them: what GetMotion and AcquireLease then say
-// agrees with the answer.
+// Reports whether the stop is over: the axes are stationary, their motion has an outcome and has left them. The answers
+// of GetMotion and AcquireLease then agree with the stop's.
 bool Stops::is_over(const StopJob& job) const {
   return !job.open() && (!motions_.occupied().touches(job.excluded()) || !guarded(Guard::stop_awaits_outcomes));
 }
@@ -160,7 +160,7 @@ TimePoint Stops::limit_of(const StopJob& job, const StopJob::Caller& caller) con
   TimePoint limit = caller.asked + kStopStationaryLimit;
   if (job.open()) {
     if (writer_.takes_none() || job.stop.stale) limit = caller.asked;
-    // Questions that follow once the axes are stationary must not delay the answer on a line that garbles them.
+    // Questions after the axes are stationary must not delay the answer on a line that garbles them.
     const bool occupied = motions_.occupied().touches(job.excluded());
     if (job.stationary) limit = std::min(limit, job.rest_since + (occupied ? 2 : 1) * kStopAnswerLimit);
     if (!store_.line_works()) limit = std::min(limit, caller.asked + kStopReopenLimit);
@@ -168,7 +168,7 @@ TimePoint Stops::limit_of(const StopJob& job, const StopJob::Caller& caller) con
   return caller.answer_by ? std::min(limit, *caller.answer_by) : limit;
 }
 
-// Once. What was seen is the outcome, whatever became of the reply; before that the outcome is unknown.
+// Answers the caller once. The outcome is what was seen, whatever became of the reply; it is unknown before that.
 void Stops::answer(StopJob& job, std::size_t caller) {
   const OnStopped done = std::exchange(job.callers[caller].done, {});
   if (!done) return;
@@ -192,7 +192,8 @@ StopReport Stops::report_for(const StopJob& job, const StopJob::Caller& caller) 
   return report;
 }
 
-// In a non-host mode no stop is accepted and no position reported (manual 4., last note); the caller learns it at once.
+// Returns the reason why the axes were not seen stationary. In a non-host mode no stop is accepted and no position
+// reported (manual 4., last note); the caller receives this at once.
 Problem Stops::unseen(const StopJob& job) const {
   constexpr const char* kHint = "use the front panel, or the wired emergency stop, if the axes move";
   if (job.stop.state == StopState::withdrawn) {

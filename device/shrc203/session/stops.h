@@ -1,5 +1,6 @@
-// Stop goes first: L: and L:E, who requested them, and when each caller is answered. A stop stays open until it was
-// seen to be obeyed, over barriers, reconnects and restarts of the gateway. Not a safety function.
+// Stops by L: and L:E, which go before everything else: who requested them, and when each caller is answered. A stop
+// stays open until it was seen to be obeyed, over barriers, reconnects and restarts of the gateway. Not a safety
+// function.
 #pragma once
 
 #include <cstddef>
@@ -36,27 +37,27 @@ class Stops {
 
   // Stops these axes, or all if empty. Joins an open stop that includes them, and replaces open stops that it includes.
   void stop(AxisSet axes, StopKind kind, const RequestContext& context, OnStopped done);
-  // The same, without a caller who waits.
+  // Stops these axes without a caller who waits.
   void stop(AxisSet axes, const RequestContext& context) {
     stop(axes, StopKind::stop, context, [](const StopReport&) {});
   }
-  // Stops the motion, or turns it away while it waits. A motion that ended UNKNOWN is stopped as long as its axes were
-  // not seen stationary. Fails with not_found, and with what the stop reports.
+  // Stops the motion, or withdraws it while it waits. A motion that ended UNKNOWN is stopped until its axes were seen
+  // stationary. Fails with not_found, and with the problem that the stop reports.
   void cancel(MotionId id, const RequestContext& context, OnDone done);
   // Abandons an open stop. Fails with not_found.
   void withdraw(StopId id, const RequestContext& context, const OnDone& done);
-  // Takes over the stops that the previous run left open. Call before the line is opened.
+  // Takes over the open stops of the previous run. Call before the line is opened.
   void inherit(const stage::Inheritance& left);
 
   // Reports whether a caller waits for an answer.
   bool pending() const { return answering_ > 0; }
 
-  // The line reports these.
+  // Called when the line reports these events.
   void line_opened() { wake(); }
   void barrier_entered();
   void line_answers();
   void line_lost();
-  // The handshake has seen an axis move.
+  // Called when the handshake has seen an axis move.
   void axes_move();
 
  private:
@@ -82,9 +83,9 @@ class Stops {
   OpenStops& open_;
   Motions& motions_;
   Tasks& tasks_;
-  Signal due_;         // for those who carry stops out: something is to be written or looked at
-  Signal seen_;        // for those who wait for an answer
-  int answering_ = 0;  // callers who wait
+  Signal due_;         // wakes carry_out(): a stop must be written or looked at
+  Signal seen_;        // wakes callers who wait for an answer
+  int answering_ = 0;  // number of callers who wait
 };
 
 }  // namespace axisgate::shrc203

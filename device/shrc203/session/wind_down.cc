@@ -9,7 +9,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-constexpr std::int64_t kBitsOfAStop = 20 * 10;  // and of the probe after it
+constexpr std::int64_t kBitsOfAStop = 20 * 10;  // of a stop and the probe after it
 
 }  // namespace
 
@@ -23,7 +23,7 @@ Task<void> WindDown::run(StageController::OnWoundDown done) {
   motions_.gate().withdraw([](MotionId) { return true; }, *ending_);
   if (store_.profile().at_exit == AtExit::finish) {
     stop(Whom::unstarted, report);
-    for (const auto& [id, live] : motions_.live()) motions_.end_jog(*live, ending_);  // it never ends by itself
+    for (const auto& [id, live] : motions_.live()) motions_.end_jog(*live, ending_);  // a jog never ends by itself
     co_await wait_for_rest(tasks_.now() + StageController::kFinishLimit);
   }
   stop(Whom::everybody, report);
@@ -43,7 +43,7 @@ Task<void> WindDown::run(StageController::OnWoundDown done) {
   done(*report);
 }
 
-// What is in flight is answered, and nothing follows it. A last stop that failed has time to leave the driver.
+// Waits for the exchange in flight, after which nothing is sent. A last stop that failed has time to leave the driver.
 Task<void> WindDown::finish_line(bool stop_failed) {
   line_.seal(*ending_);
   while (line_.exchanging()) {
@@ -55,7 +55,8 @@ Task<void> WindDown::finish_line(bool stop_failed) {
   co_await pause;
 }
 
-// A motion whose start has not been written never starts; it may have set something, which the stop clears or finds.
+// Stops motions. A motion whose start was not written never starts, but it may have set registers, which the stop
+// clears or finds.
 void WindDown::stop(Whom whom, Report report) {
   AxisSet axes;
   for (const auto& [id, live] : motions_.live()) {
@@ -70,7 +71,7 @@ void WindDown::stop(Whom whom, Report report) {
   });
 }
 
-// Until every motion has its outcome, every stop its answer, and every speed changed for a motion its old value.
+// Waits until every motion has its outcome, every stop its answer, and every speed changed for a motion its old value.
 Task<void> WindDown::wait_for_rest(TimePoint limit) {
   while (tasks_.now() < limit && !(motions_.live().empty() && !stops_.pending() && !motions_.gate().others_inside(0))) {
     auto pause = tasks_.until(std::min(limit, tasks_.now() + kEndPoll));

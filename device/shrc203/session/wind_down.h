@@ -1,4 +1,5 @@
-// The end: what waits is withdrawn, what runs is stopped or waited for, and what is in flight is answered.
+// End of the gateway: waiting motions are withdrawn, running ones are stopped or awaited, and the exchange in flight is
+// finished.
 #pragma once
 
 #include <memory>
@@ -25,7 +26,7 @@ class WindDown {
         ending_(ending),
         tasks_(tasks) {}
 
-  // StageController::wind_down().
+  // Implements StageController::wind_down().
   Task<void> run(StageController::OnWoundDown done);
 
  private:

@@ -1,4 +1,4 @@
-// Sets of axes 1..3 and the letters that the manual writes them with, kept apart from the gateway's own on purpose.
+// Sets of axes 1 to 3 and the manual's letters for them, deliberately separate from the gateway's own.
 #pragma once
 
 #include <array>
@@ -35,7 +35,7 @@ class Axes {
     }
     return axes;
   }
-  int lowest() const { return list().front(); }  // not of an empty set
+  int lowest() const { return list().front(); }  // must not be called for an empty set
 
   bool within(const Axes& other) const;
   bool touches(const Axes& other) const;
@@ -45,15 +45,15 @@ class Axes {
   std::array<bool, kAxes> member_{};
 };
 
-// The `a` of a command: 1 2 3, A=1+2, B=1+3, C=2+3, D=all three, W=all controllable (manual 3) !:S and everywhere).
-// Nothing for another letter, and for a set that names an axis outside `controllable`.
+// Converts the `a` of a command: 1 2 3, A=1+2, B=1+3, C=2+3, D=all three, W=all controllable (manual 3) !:S and many
+// others). nullopt for any other letter, and for a set with an axis outside `controllable`.
 std::optional<Axes> axes_of_letter(char letter, Axes controllable);
 char letter_of(Axes axes);
 
-// The status field of Q: and SRQ: (manual 4), 6)), where C=1+2, D=1+3, E=2+3 and W=all.
+// Returns the letter of the status field in Q: and SRQ: (manual 4), 6)), where C=1+2, D=1+3, E=2+3 and W=all.
 char limit_stop_letter(Axes axes);
 
-// ?:AXIS (manual 44)): 0 to 6.
+// Converts the digit of ?:AXIS (manual 44)): 0 to 6.
 Axes axes_of_setting(int setting);
 
 }  // namespace axisgate::shrc203::simulator

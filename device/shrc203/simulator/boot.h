@@ -1,4 +1,4 @@
-// How the device comes back from a reboot.
+// The state of the device after a reboot.
 #pragma once
 
 #include <string>
@@ -7,11 +7,12 @@
 
 namespace axisgate::shrc203::simulator {
 
-// What a reboot (manual 46) RESET:, or the power switch) ends in: the memory switches of a real unit.
+// State after a reboot (manual 46) RESET:, or the power switch), which a real controller takes from its memory
+// switches.
 struct Boot {
-  std::string mode = "HOST";                   // as ?:MODE answers (manual 37)); HOST: as MODE SEL has it
-  std::string format = "SHOT_FC";              // as ?:FMT answers (manual 38)), or HIT; SHOT_FC: as CMD FORMAT has it
-  Duration silence = std::chrono::seconds(1);  // nothing is read or answered meanwhile
+  std::string mode = "HOST";                   // as ?:MODE answers (manual 37)); HOST: set by MODE SEL
+  std::string format = "SHOT_FC";              // as ?:FMT answers (manual 38)), or HIT; SHOT_FC: set by CMD FORMAT
+  Duration silence = std::chrono::seconds(1);  // time in which nothing is read or answered
 };
 
 }  // namespace axisgate::shrc203::simulator

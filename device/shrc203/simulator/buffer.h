@@ -1,4 +1,4 @@
-// The execution buffer and the prebuffer (manual 2): what the setting commands leave behind for a G.
+// The execution buffer and the prebuffer (manual 2): settings that a G starts.
 #pragma once
 
 #include <array>
@@ -37,15 +37,16 @@ struct Arc {
 struct Setting {
   Kind kind = Kind::relative;
   Axes axes;
-  // Per axis: pulses to go, the coordinate to go to, the sign of a jog, tenths of a second, or the inputs waited for.
+  // Value of each axis: displacement in pulses, target coordinate, sign of a jog, tenths of a second, or the inputs
+  // waited for.
   std::array<std::int64_t, kAxes> values{};
-  // They overwrite D:, those of MP: and the like when it starts, those of JD: when the jog ends.
+  // Speeds that overwrite D:, at the start for MP: and similar commands, at the end of the jog for JD:.
   std::array<std::optional<Speed>, kAxes> speeds;
   std::optional<Arc> arc;
-  char letter = ' ';  // the axis letter of a line or arc as it was sent
+  char letter = ' ';  // axis letter of a line or arc, as sent
 
   bool is_prebuffer = false;  // set by a command of section 2: its end sends the axis number
-  bool chains = false;        // starts by itself when its axes are free
+  bool chains = false;        // starts without a G when its axes are free
 
   bool indivisible() const { return kind == Kind::line || kind == Kind::arc; }
   Setting only(int axis) const;
@@ -53,14 +54,14 @@ struct Setting {
 
 class Buffer {
  public:
-  // What others held of the setting's axes is overwritten.
+  // Stores a setting. It overwrites other settings of its axes.
   void put(Setting setting);
 
-  // A line or an arc that uses one of the axes goes as a whole.
+  // Removes the axes from all settings. A line or an arc that uses one of them is removed as a whole.
   void disconnect(const Axes& axes);
   void clear() { settings_.clear(); }
 
-  // Cuts what concerns named and other axes in two, except a line or an arc.
+  // Splits each setting that has named and other axes into two, except a line or an arc.
   void split(const Axes& axes);
 
   const Setting* find(Kind kind, int axis) const;
@@ -69,7 +70,7 @@ class Buffer {
   const std::vector<Setting>& settings() const { return settings_; }
 
  private:
-  std::vector<Setting> settings_;  // no two share an axis
+  std::vector<Setting> settings_;  // no two settings share an axis
 };
 
 }  // namespace axisgate::shrc203::simulator

@@ -55,7 +55,7 @@ Done limit(const Call& call) {
   return {};
 }
 
-// In the order of the usage.
+// Errors and flags in the order of the usage.
 constexpr std::array kErrors = {AxisError::scale,  AxisError::disconnection, AxisError::overflow, AxisError::hunting,
                                 AxisError::system, AxisError::overheat,      AxisError::s9};
 constexpr std::array kFlags = {
@@ -96,11 +96,11 @@ Done sleep(const Call& call) {
 
 Done be_stuck(const Call& call) {
   call.device.be_stuck(call.seconds(0), call.now);
-  call.device.advance(call.now);  // at 0, what was held back comes now
+  call.device.advance(call.now);  // with 0 seconds, the delayed replies are sent now
   return {};
 }
 
-// One field for the axis named, or for each of the three.
+// Returns one field for the named axis, or for each of the three axes.
 template <class Field>
 Done each_axis(const Call& call, Field field) {
   call.device.advance(call.now);

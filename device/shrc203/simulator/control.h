@@ -1,4 +1,4 @@
-// What a person at the simulated device does and sees, as lines of text: `help` lists them all.
+// Commands of a person at the simulated device, as lines of text: `help` lists them all.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace axisgate::shrc203::simulator {
 
-// Carries out one command, without its end of line, at `now` in the device's time: the values that it answers, often
-// none. What is refused has changed nothing.
+// Carries out one command, without its end of line, at `now` in the device's time. Returns the values that the command
+// reports, often none. A refused command changes nothing.
 Result<std::string> control(Simulator& device, std::string_view line, TimePoint now);
 
 }  // namespace axisgate::shrc203::simulator

@@ -13,7 +13,7 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// Clients send lower case, and blanks as the manual's examples have them; both mean nothing.
+// Removes differences without a meaning: clients send lower case, and blanks as in the manual's examples.
 std::string plain(std::string_view text) {
   std::string result;
   for (const char c : text) {
@@ -34,7 +34,7 @@ std::string_view text_of(Answer answer) {
   return "NG";
 }
 
-// Manual 4: these work in every mode.
+// Commands that work in every mode (manual 4).
 bool works_in_every_mode(std::string_view command) {
   return command == "*IDN?" || command == "?:MODE" || command == "?:CMD" || command.starts_with("MODE:");
 }
@@ -74,7 +74,7 @@ void Machine::advance(TimePoint now) {
   run_to(now);
 }
 
-// What happens by itself until then.
+// Processes the events that occur without a command until then.
 void Machine::run_to(TimePoint now) {
   run_until(rig_, now);
   rig_.now = std::max(rig_.now, now);
@@ -151,7 +151,7 @@ void Machine::respond(const std::string& command, const std::string& as_sent) {
     rig_.command_error = false;
   }
   if (accepted || rig_.options.is("previous_command_counts_refused", "yes")) rig_.previous_line = as_sent;
-  // Immediate effects of a command, such as the end of a move of no length, may be reported before its reply.
+  // Immediate effects of a command, such as the end of a move without length, may be reported before its reply.
   run_until(rig_, rig_.now);
   const bool completion_first = rig_.options.is("late_go_order", "completion_first");
   if (completion_first) send_completions();

@@ -1,4 +1,4 @@
-// The controller as its line sees it: lines in, replies and completion characters out, in their order.
+// The controller as seen on its line: lines in, replies and completions out, in order.
 #pragma once
 
 #include <deque>
@@ -18,9 +18,9 @@ namespace axisgate::shrc203::simulator {
 
 class Machine {
  public:
-  // received() keeps this many lines at least, and at most twice as many.
+  // Number of lines that received() keeps at least; it keeps at most twice as many.
   static constexpr std::size_t kReceivedKept = 100'000;
-  // So many unanswered lines are kept while it is slow or stuck; more are lost.
+  // Number of unanswered lines kept while the device is slow or stuck; further ones are lost.
   static constexpr std::size_t kWaitingMax = 1000;
 
   Machine(Options options, ByteLink& line) : rig_(std::move(options)), line_(line) {}
@@ -30,15 +30,15 @@ class Machine {
   void forget_unfinished_line() { cutter_.clear(); }
   void reboot(TimePoint now);
   void set_boot(Boot boot) { boot_ = std::move(boot); }
-  // Every line is carried out and answered so much after it came, or after its predecessor was.
+  // Delays each line: it is carried out and answered `delay` after it arrived, or after the previous line was due.
   void set_answer_delay(Duration delay) { answer_delay_ = delay; }
-  // Until then what comes and what is written is lost; the device notices nothing.
+  // Loses all received and written bytes until then; the device does not notice.
   void be_unplugged(TimePoint until) { unplugged_until_ = until; }
-  // Until then lines are read but neither carried out nor answered, and no completion is sent.
+  // Reads lines until then, but neither carries them out nor answers them, and sends no completion.
   void be_stuck(TimePoint until) { stuck_until_ = until; }
   void send_completions();
   std::optional<TimePoint> next_event() const;
-  bool answering() const { return answering_; }  // what is being written answers a line
+  bool answering() const { return answering_; }  // the bytes being written answer a line
 
   Rig& rig() { return rig_; }
   const Rig& rig() const { return rig_; }

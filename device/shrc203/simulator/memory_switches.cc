@@ -11,7 +11,7 @@ namespace axisgate::shrc203::simulator {
 namespace {
 
 constexpr std::int64_t kPulsesMax = 999'999'999;    // manual 45)
-constexpr std::int64_t kBaseRateMax = 100'000'000;  // 10 nm each
+constexpr std::int64_t kBaseRateMax = 100'000'000;  // in units of 10 nm
 constexpr int kSpeedNumbers = 4;
 
 using Initial = std::int64_t (*)(const Options& options, int axis);
@@ -33,7 +33,7 @@ std::int64_t emergency_excitation(const Options& options, int) {
   return options.is("emergency_excitation", "on") ? 1 : 0;
 }
 
-// Manual 10): a pulse is BASE RATE * 10 / DIVIDE nanometres; the setup's are those of DIVIDE 200.
+// Manual 10): a pulse is BASE RATE * 10 / DIVIDE nanometres; the pulses of the setup are those of DIVIDE 200.
 std::int64_t base_rate(const Options& options, int axis) {
   const std::int64_t rate = (options.axes[index_of(axis)].nm_per_pulse_e6 * 20 + 500'000) / 1'000'000;
   return std::clamp<std::int64_t>(rate, 1, kBaseRateMax);
@@ -49,17 +49,17 @@ struct Row {
 
 enum class Repeat { once, each_axis, each_speed_and_axis };
 
-// Rows that stand together, repeated together.
+// Consecutive rows that are repeated together.
 struct Block {
   std::int64_t item;
   Repeat repeat;
   std::vector<Row> rows;
 };
 
-// GENERAL is as listed in manual 122) to 126). Of the others the manual gives only the names that it uses elsewhere,
-// and one number: SPEED12 (S) is 4 of SPEED (manual 119)). A public client sets a value of each axis by the numbers 9,
-// 12 and 15 of ORG. The rest of the order is an interpretation, and so are the switches of INTERFACE, SENSOR, FEEDBACK
-// and SOFT LIMIT and the first three of ORG (README.md).
+// GENERAL is as listed in manual 122) to 126). For the other items the manual gives only the names that it uses
+// elsewhere, and one number: SPEED12 (S) is 4 of SPEED (manual 119)). A public client sets one value of each axis by
+// the numbers 9, 12 and 15 of ORG. The rest of the order is an interpretation, and so are the switches of INTERFACE,
+// SENSOR, FEEDBACK and SOFT LIMIT and the first three of ORG (README.md).
 std::vector<Block> blocks() {
   using A = AxisSetup;
   return {

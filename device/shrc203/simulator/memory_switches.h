@@ -1,5 +1,4 @@
-// The memory switches: what the controller keeps without power, and what they say when it comes on (manual 117) to
-// 126)).
+// The memory switches, which the controller keeps without power and applies at power-on (manual 117) to 126)).
 #pragma once
 
 #include <cstddef>
@@ -16,21 +15,22 @@ namespace axisgate::shrc203::simulator {
 struct MemorySwitch {
   std::int64_t item = 0;  // k of manual 119): 0 GENERAL to 8 SOFT LIMIT
   std::string_view name;
-  int axis = 0;       // 0: of the whole controller
-  int selection = 0;  // which speed number of SPEED SEL it belongs to, from 0
+  int axis = 0;       // 0: the whole controller
+  int selection = 0;  // speed number of SPEED SEL to which it belongs, from 0
   std::int64_t minimum = 0;
   std::int64_t maximum = 0;
-  bool (*allowed)(std::int64_t value) = nullptr;  // where not every number between them is
+  bool (*allowed)(std::int64_t value) = nullptr;  // null if every value in the range is allowed
 
   bool takes(std::int64_t value) const {
     return value >= minimum && value <= maximum && (allowed == nullptr || allowed(value));
   }
 };
 
-// All of them, one item after the other, and in each the content number n counts from 0.
+// Returns all switches, item by item. Within an item they are in the order of the content number n, which counts from
+// 0.
 std::span<const MemorySwitch> memory_switches();
 
-// Some that stand behind each other in memory_switches().
+// A range of consecutive switches in memory_switches().
 struct SwitchRange {
   std::size_t first = 0;
   std::size_t count = 0;
@@ -41,18 +41,18 @@ class MemorySwitches {
  public:
   using Values = std::vector<std::int64_t>;
 
-  // A unit whose switches are set to what `options` say.
+  // Sets the switches to the values of `options`.
   explicit MemorySwitches(const Options& options);
 
   std::int64_t saved(std::string_view name, int axis = 0, int selection = 0) const;
-  bool as_built(std::string_view name, int axis) const;  // saved, and as the options say
+  bool as_built(std::string_view name, int axis) const;  // the saved value is that of the options
 
   void start_editing() { edited_ = saved_; }
   void save() { saved_ = edited_; }
   const Values& edited() const { return edited_; }
   void edit(std::size_t place, std::int64_t value) { edited_[place] = value; }
 
-  static const Values& initial();  // what MS:DEF sets and MS:DEFR reports
+  static const Values& initial();  // values that MS:DEF sets and MS:DEFR reports
 
  private:
   Values built_;

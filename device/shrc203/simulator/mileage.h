@@ -1,4 +1,4 @@
-// How far an axis has gone since the counting began: what a trigger output counts (manual 98), 101)).
+// Distance that an axis has moved since counting began, as counted by the trigger output (manual 98), 101)).
 #pragma once
 
 #include <algorithm>
@@ -7,14 +7,14 @@
 
 namespace axisgate::shrc203::simulator {
 
-// Pulses. `highest` and `lowest` are the furthest that it has been from where the counting began.
+// Distances in pulses. `highest` and `lowest` are the extreme positions, relative to the start of counting.
 struct Mileage {
   std::int64_t total = 0;
   std::int64_t net = 0;
   std::int64_t highest = 0;
   std::int64_t lowest = 0;
 
-  // On by so much without turning round.
+  // Adds a movement without a change of direction.
   void add(std::int64_t amount) {
     total += std::abs(amount);
     net += amount;

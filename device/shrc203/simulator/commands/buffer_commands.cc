@@ -20,7 +20,7 @@ bool limit_seen(const Rig& rig, const Axes& axes) {
   return std::any_of(list.begin(), list.end(), [&](int axis) { return rig.axis(axis).any_limit_sensor(rig.now); });
 }
 
-// The execution buffer: NG when BUSY or not excited. The prebuffer: not excited only (manual 67), 68)).
+// The execution buffer answers NG when BUSY or not excited, the prebuffer only when not excited (manual 67), 68)).
 Answer store(Rig& rig, Setting setting, bool prebuffer) {
   if (!rig.can_move(setting.axes)) return Answer::ng;
   if (setting.indivisible() && limit_seen(rig, setting.axes)) return Answer::ng;
@@ -34,7 +34,7 @@ Answer store(Rig& rig, Setting setting, bool prebuffer) {
   return Answer::ok;
 }
 
-// One amount for each axis of the setting, in order; the units are kept for the speeds behind them.
+// Reads one amount for each axis of the setting, in order; the units are kept for the speeds that follow.
 bool take_amounts(const Rig& rig, Reader& reader, std::string_view units, Setting& setting,
                   std::array<char, kAxes>& unit_of) {
   for (const int axis : setting.axes.list()) {
@@ -47,7 +47,7 @@ bool take_amounts(const Rig& rig, Reader& reader, std::string_view units, Settin
   return true;
 }
 
-// The `,SspdsFspdfRr` of the given axes, each in the unit of its amount (manual 68)); may be missing as a whole.
+// Reads the `,SspdsFspdfRr` of the given axes, each in the unit of its amount (manual 68)); all of it may be missing.
 bool take_speeds(const Rig& rig, Reader& reader, const std::vector<int>& axes, Setting& setting,
                  const std::array<char, kAxes>& unit_of) {
   if (reader.done()) return true;
@@ -77,7 +77,7 @@ Answer relative_next(Rig& rig, Reader reader) { return set_move(rig, reader, Kin
 Answer absolute(Rig& rig, Reader reader) { return set_move(rig, reader, Kind::absolute, false); }
 Answer absolute_next(Rig& rig, Reader reader) { return set_move(rig, reader, Kind::absolute, true); }
 
-// Two or three axes by their own letters; W is not among them (manual 71), 83)).
+// Two or three axes by their own letters; W is not allowed (manual 71), 83)).
 std::optional<Axes> take_plane(const Rig& rig, Reader& reader, std::string_view letters) {
   if (reader.done() || letters.find(reader.rest().front()) == std::string_view::npos) return std::nullopt;
   return reader.take_axes(rig.controllable);
@@ -98,7 +98,7 @@ Answer set_line(Rig& rig, Reader reader, bool prebuffer) {
 Answer line(Rig& rig, Reader reader) { return set_line(rig, reader, false); }
 Answer line_next(Rig& rig, Reader reader) { return set_line(rig, reader, true); }
 
-// What each of E:0 to E:5 consists of (manual 71) to 76)).
+// Parts of each of E:0 to E:5 (manual 71) to 76)).
 struct ArcShape {
   bool turns;
   int pairs;  // of coordinates in the plane
@@ -110,7 +110,7 @@ constexpr std::array kShapes = {ArcShape{false, 1, 0, false},      ArcShape{fals
                                 ArcShape{false, 2, 0, false},      ArcShape{true, 1, 0, true},
                                 ArcShape{false, 1, 360'000, true}, ArcShape{false, 2, 0, true}};
 
-// Degrees, more than 0.
+// Reads degrees, more than 0.
 std::optional<Number> take_angle(Reader& reader, std::int64_t highest) {
   const auto angle = reader.take('D') ? reader.take_number() : std::nullopt;
   if (!angle || angle->digits == 0) return std::nullopt;
@@ -147,7 +147,7 @@ bool take_arc(const Rig& rig, Reader& reader, Setting& setting, std::array<char,
   return true;
 }
 
-// Three points on a straight line are no arc (manual 73), 79)).
+// Three points on a straight line do not form an arc (manual 73), 79)).
 bool is_straight(const Arc& arc) {
   if (arc.points.size() < 4) return false;
   const auto& p = arc.points;
@@ -186,7 +186,7 @@ Answer jog(Rig& rig, Reader reader) {
   return reader.done() ? store(rig, std::move(setting), false) : Answer::ng;
 }
 
-// WT:a,0 and WI:a,C end a wait that runs (manual 57), 58)); section 2 writes WT:a,C.
+// WT:a,0 and WI:a,C end a running wait (manual 57), 58)); section 2 writes WT:a,C.
 bool is_cancel(std::string_view value, Kind kind) { return value == "C" || (kind == Kind::wait_time && value == "0"); }
 
 Answer set_wait(Rig& rig, Reader reader, Kind kind, std::int64_t highest) {

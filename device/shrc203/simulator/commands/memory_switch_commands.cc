@@ -9,16 +9,16 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// As MODE SEL counts them: the order of manual 37), in which MANUAL is the 1 of manual 119).
+// Modes as numbered by MODE SEL: the order of manual 37), in which MANUAL is the 1 of manual 119).
 constexpr std::array<std::string_view, 6> kModesAtPowerOn = {"HOST", "MANUAL", "REMOTE", "TEACHING", "EDIT", "TEST"};
 
 constexpr std::string_view kStageUnits = "PNUMD";                               // manual 5)
 constexpr std::string_view kAxisNames = "123456789ABCDEFGHIJKLMNOPQRSTUVWXYZ";  // manual 12)
 
-// SET, GETK and so on: what stands behind MS: up to the first comma.
+// Returns the text after MS: up to the first comma: SET, GETK and so on.
 std::string_view word_of(std::string_view arguments) { return arguments.substr(0, arguments.find(',')); }
 
-// `,k,n`, or `,k` for all of the item where the word ends in K (manual 123) to 126)).
+// Reads `,k,n`, or `,k` for the whole item if the word ends in K (manual 123) to 126)).
 std::optional<SwitchRange> take_switches(Reader& reader, std::string_view word) {
   if (!reader.take(',')) return std::nullopt;
   const auto item = reader.take_integer(0, 8);
@@ -89,7 +89,7 @@ constexpr Command kCommand{"MS:", memory_switch};
 
 Speed speed_saved(const MemorySwitches& memory, std::array<std::string_view, 3> names, int axis, int selection) {
   const std::int64_t maximum = memory.saved(names[1], axis, selection);
-  // Nothing refuses an S above its F when it is saved, and D: knows no such speed.
+  // A saved S may exceed its F, which D: does not allow.
   return {std::min(memory.saved(names[0], axis, selection), maximum), maximum,
           static_cast<int>(memory.saved(names[2], axis, selection))};
 }
@@ -101,7 +101,7 @@ void apply_to_axis(Rig& rig, int number) {
   axis.speed = speed_saved(memory, {"SPEED (S)", "SPEED (F)", "SPEED (R)"}, number, selected);
   axis.origin_speed = speed_saved(memory, {"ORG (S)", "ORG (F)", "ORG (R)"}, number, 0);
   axis.set_divide(memory.saved("DIVIDE", number));
-  // A setup may have a pulse that no BASE RATE makes.
+  // A setup may have a pulse that no BASE RATE gives.
   axis.set_base(memory.as_built("BASE RATE", number)
                     ? rig.options.axes[index_of(number)].nm_per_pulse_e6 * Axis::kDefaultDivide
                     : memory.saved("BASE RATE", number) * 10'000'000);

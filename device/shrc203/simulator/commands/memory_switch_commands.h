@@ -1,4 +1,4 @@
-// The edit mode of the memory switches, and what the switches bring about at power-on (manual 117) to 126)).
+// The edit mode of the memory switches, and the effect of the switches at power-on (manual 117) to 126)).
 #pragma once
 
 #include <optional>
@@ -11,10 +11,10 @@ namespace axisgate::shrc203::simulator {
 
 inline constexpr std::string_view kMemorySwitchMode = "HOST,MS";  // manual 37)
 
-// Manual 117) lists what does.
+// Reports whether the line works in this mode, as listed in manual 117).
 bool works_in_memory_switch_mode(std::string_view line);
 
-// MS:GET, MS:DEFR, MS:GETK and MS:DEFRK.
+// Reports whether the line is MS:GET, MS:DEFR, MS:GETK or MS:DEFRK.
 bool is_memory_switch_question(std::string_view line);
 std::optional<std::string> answer_memory_switch(const Rig& rig, std::string_view line);
 

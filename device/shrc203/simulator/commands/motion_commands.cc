@@ -6,7 +6,8 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// H: HRT: Z: ZRT: (manual 59) to 62)). The origin methods 0 to 4 differ in sensors that a simulated stage has not.
+// H: HRT: Z: ZRT: (manual 59) to 62)). The origin methods 0 to 4 differ in sensors that a simulated stage does not
+// have.
 Answer go_back(Rig& rig, Reader reader, Kind kind, bool reports) {
   const auto axes = reader.take_axes_or_all(rig.controllable);
   if (!axes || !reader.done() || !rig.is_free(*axes) || !rig.can_move(*axes)) return Answer::ng;

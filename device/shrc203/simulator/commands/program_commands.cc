@@ -13,7 +13,7 @@ namespace {
 
 using Status = ProgramRun::Status;
 
-// A program that runs or pauses counts as BUSY.
+// A running or paused program counts as BUSY.
 bool all_rest(const Rig& rig) { return !rig.program.run.active() && !rig.motions.busy(rig.controllable); }
 
 // --- program mode ----------------------------------------------------------------------------------------------------
@@ -103,7 +103,7 @@ Answer save(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// The n of P:DEL, P:SET and P:GET, with the comma of the formats or the colon of one example (manual 114) (1)).
+// Reads the n of P:DEL, P:SET and P:GET, after the comma of the formats or the colon of one example (manual 114) (1)).
 std::optional<int> take_line(Reader& reader) {
   if (!reader.take(',') && !reader.take(':')) return std::nullopt;
   const auto line = reader.take_integer(1, Program::kLines);
@@ -132,7 +132,7 @@ Answer delete_all(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// --- which, and where ------------------------------------------------------------------------------------------------
+// --- commands by mode ------------------------------------------------------------------------------------------------
 
 enum class Where { host, program, editing };
 
@@ -147,7 +147,7 @@ struct ProgramCommand {
   Answer (*run)(Rig& rig, Reader arguments);
 };
 
-// Where one name begins with another, the longer one comes first.
+// A name that begins with another name comes before it.
 constexpr std::array kProgramCommands = {
     ProgramCommand{"R", Where::host, enter},
     ProgramCommand{"H", Where::program, leave},
@@ -183,7 +183,7 @@ const Command* find_program_command(std::string_view verb) {
   return verb == kProgramCommand.verb ? &kProgramCommand : nullptr;
 }
 
-// Manual 102) and 111).
+// Returns true for the commands of manual 102) and 111).
 bool works_in_program_mode(const Rig& rig, std::string_view command) {
   if (command.starts_with("P:")) return true;
   if (rig.program.editing) return false;

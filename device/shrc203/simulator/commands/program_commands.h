@@ -1,4 +1,4 @@
-// Program mode as the line sees it (manual 102) to 116), 41)).
+// Program mode as seen on the line (manual 102) to 116), 41)).
 #pragma once
 
 #include <optional>
@@ -9,10 +9,11 @@
 
 namespace axisgate::shrc203::simulator {
 
-// Whether program mode, or its edit mode, has such a command. Of P: it has those that work there, the others are NG.
+// Reports whether program mode, or its edit mode, knows the command. It knows all P: commands, and answers NG to those
+// that do not work there.
 bool works_in_program_mode(const Rig& rig, std::string_view command);
 
-// P:GET, which manual 115) writes P:GEL in its formats. In upper case and without blanks.
+// Reports whether the line is P:GET, which manual 115) also writes as P:GEL. `line` is in upper case and has no blanks.
 bool asks_for_program_line(std::string_view line);
 std::optional<std::string> answer_program_line(const Rig& rig, std::string_view line);
 

@@ -35,7 +35,7 @@ constexpr std::array kPlain = {
     PlainQuestion{"AXIS", [](const Rig& rig) { return std::to_string(rig.axis_setting); }},
     PlainQuestion{"MODE", [](const Rig& rig) { return rig.mode; }},
     PlainQuestion{"FMT", [](const Rig& rig) { return std::string(rig.hit_format ? "HIT" : "SHOT_FC"); }},
-    // Nothing was sent since power-on: NS, as the other ?: have it.
+    // NS if nothing was sent since power-on, as for the other ?: questions.
     PlainQuestion{"CMD", [](const Rig& rig) { return rig.previous_line.empty() ? "NS" : rig.previous_line; }},
     PlainQuestion{"O", [](const Rig& rig) { return std::to_string(rig.outputs); }},
     PlainQuestion{"W", [](const Rig& rig) { return std::to_string(rig.motions.wait_tenths); }},
@@ -46,14 +46,14 @@ constexpr std::array kPlain = {
     PlainQuestion{"T", [](const Rig& rig) { return rig.triggers.describe(); }},
 };
 
-// One field for each axis named.
+// One field for each named axis.
 struct AxisQuestion {
   std::string_view name;
   std::string (*field)(const Rig& rig, int axis);
 };
 
 constexpr std::array kByAxis = {
-    // The scale resolution of a stage whose pulse is one count of its scale (manual 9)).
+    // Scale resolution of a stage whose pulse is one count of its scale (manual 9)).
     AxisQuestion{"R", [](const Rig& r, int axis) { return from_pulses(1, 'N', r.axis(axis).pitch()); }},
     AxisQuestion{"P", [](const Rig& r, int axis) { return from_pulses(1, 'N', r.axis(axis).pitch()); }},
     AxisQuestion{"S", [](const Rig& r, int axis) { return std::to_string(r.axis(axis).divide()); }},
@@ -121,7 +121,7 @@ std::optional<std::string> answer(const Rig& rig, std::string_view line) {
   }
   if (line == "I:") return std::to_string(rig.inputs);
   if (line.starts_with("PIT:") || line.starts_with("PAV:")) return answer_saved_position(rig, line);
-  // Manual 31), 32), 39) write these three differently in one place.
+  // Manual 31), 32), 39) write these three commands differently in one place.
   if (line == "BEEP?") return answer_setting(rig, "BEEP");
   if (line.starts_with("?J:")) return answer_setting(rig, fmt::format("J{}", line.substr(3)));
   if (line.starts_with("?ACS")) return answer_setting(rig, line.substr(1));

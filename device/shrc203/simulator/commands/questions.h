@@ -1,4 +1,4 @@
-// The commands that ask: *IDN? !: Q: SRQ: I: and everything that begins with ?: (manual 1) to 44), 95)).
+// The questions: *IDN? !: Q: SRQ: I: and all that begin with ?: (manual 1) to 44), 95)).
 #pragma once
 
 #include <optional>
@@ -10,22 +10,23 @@
 
 namespace axisgate::shrc203::simulator {
 
-// Whether the line is of this kind, well formed or not.
+// Reports whether the line is a question, well formed or not.
 bool is_question(std::string_view line);
 
-// The answer, or nothing for NG. `line` is in upper case and has no blanks.
+// Returns the answer; nullopt for NG. `line` is in upper case and has no blanks.
 std::optional<std::string> answer(const Rig& rig, std::string_view line);
 
-// !: !:S Q: Q:S SRQ: SRQ:S (manual 2) to 7)).
+// Answers !: !:S Q: Q:S SRQ: SRQ:S (manual 2) to 7)).
 std::optional<std::string> answer_status(const Rig& rig, std::string_view line);
 
-// What HIT format knows of them.
+// Answers the questions that exist in HIT format.
 std::optional<std::string> answer_in_hit_format(const Rig& rig, std::string_view line);
 
-// ?:M and the other registers of the two buffers (manual 18) to 25), 28), 29), 31)). The reader stands behind the name.
+// Answers ?:M and the other registers of the two buffers (manual 18) to 25), 28), 29), 31)). `arguments` follows the
+// name.
 std::optional<std::string> answer_register(const Rig& rig, std::string_view name, Reader arguments);
 
-// One field per named axis, separated by commas.
+// Joins one field for each named axis, separated by commas.
 template <class Field>
 std::string join_fields(const Axes& axes, Field field) {
   std::string text;

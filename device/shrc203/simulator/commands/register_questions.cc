@@ -19,7 +19,7 @@ constexpr std::array kRegistersByAxis = {
     Register{"J", Kind::jog, false},
 };
 
-// Interpolations: one for the whole controller.
+// Registers of lines and arcs: one for the whole controller.
 constexpr std::array kWhole = {
     Register{"K", Kind::line, false},
     Register{"KP", Kind::line, true},
@@ -29,7 +29,7 @@ constexpr std::array kWhole = {
 
 bool has_unit(Kind kind) { return kind == Kind::relative || kind == Kind::absolute; }
 
-// The `,u` at the end; pulses when there is none.
+// Reads the `,u` at the end; pulses if there is none.
 std::optional<char> take_unit(Reader& reader) {
   if (reader.done()) return 'P';
   if (!reader.take(',')) return std::nullopt;
@@ -54,7 +54,7 @@ std::string line_text(const Rig& rig, const Setting& setting, char unit) {
                      }));
 }
 
-// Manual 22) ?:E: shape, axes, direction, turns, points, angle, linear movement; each shape has its own of them.
+// Manual 22) ?:E: shape, axes, direction, turns, points, angle, linear movement; each shape has only some of these.
 std::string arc_text(const Rig& rig, const Setting& setting, char unit) {
   const Arc& arc = *setting.arc;
   std::string text = fmt::format("{},{},{}", arc.shape, setting.letter, arc.direction);

@@ -16,7 +16,7 @@ constexpr std::array<std::string_view, 7> kModes = {"HOST", "MANUAL", "REMOTE", 
 
 bool all_free(const Rig& rig) { return !rig.motions.busy(rig.controllable) && !rig.program.run.active(); }
 
-// A command that switches one thing of the whole controller between 0 and 1, not while anything is BUSY.
+// Switches one flag of the whole controller to 0 or 1; NG while anything is BUSY.
 Answer switch_flag(Rig& rig, Reader reader, bool Rig::*flag) {
   const auto value = reader.take_digit(1);
   if (!value || !reader.done() || !all_free(rig)) return Answer::ng;
@@ -30,7 +30,7 @@ Answer beep(Rig& rig, Reader reader) { return switch_flag(rig, reader, &Rig::bee
 
 Answer reset(Rig&, Reader reader) { return answer_if(reader.done()); }
 
-// Manual 49) lists TEACHING as TEACH in its text.
+// Manual 49) writes TEACHING as TEACH in its text.
 Answer change_mode(Rig& rig, Reader reader) {
   const std::string_view wanted = reader.rest() == "TEACH" ? "TEACHING" : reader.rest();
   const auto mode = std::find(kModes.begin(), kModes.end(), wanted);
@@ -60,7 +60,7 @@ Answer outputs(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// F: and C: give all the axes named the same value (manual 51), 52)).
+// F: and C: give all named axes the same value (manual 51), 52)).
 Answer switch_axes(Rig& rig, Reader reader, bool Axis::*flag) {
   const auto axes = reader.take_axes(rig.controllable);
   const auto value = reader.take_digit(1);
@@ -125,7 +125,7 @@ Answer divide(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// Manual 89) refuses D: only when BUSY; a unit was seen to refuse it without excitation as well.
+// Manual 89) refuses D: only when BUSY; a real unit was observed to refuse it without excitation as well.
 bool may_set_speed(const Rig& rig, const Axes& axes) {
   return rig.is_free(axes) && (rig.options.is("speed_when_unexcited", "accepted") || rig.is_excited(axes));
 }
@@ -142,7 +142,7 @@ Answer speeds(Rig& rig, Reader reader, Speed Axis::*target) {
 Answer move_speeds(Rig& rig, Reader reader) { return speeds(rig, reader, &Axis::speed); }
 Answer origin_speeds(Rig& rig, Reader reader) { return speeds(rig, reader, &Axis::origin_speed); }
 
-// One speed in a unit of its own (manual 90), 91), 93)).
+// Reads one speed with its own unit (manual 90), 91), 93)).
 std::optional<std::int64_t> take_speed_with_unit(const Rig& rig, Reader& reader, int axis) {
   const auto amount = reader.take_amount(kSpeedUnits);
   const auto pulses = amount ? rig.to_pulses(amount->number, amount->unit, axis) : std::nullopt;
@@ -176,7 +176,7 @@ Answer ramp(Rig& rig, Reader reader) {
   return Answer::ok;
 }
 
-// Manual 93): only while J: drives every axis named.
+// Manual 93): accepted only while J: drives every named axis.
 Answer jog_speed(Rig& rig, Reader reader) {
   const auto axes = reader.take_axes(rig.controllable);
   if (!axes || !rig.motions.jogging(*axes)) return Answer::ng;

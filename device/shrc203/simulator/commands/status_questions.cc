@@ -9,7 +9,7 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// Bits as the manual numbers them, from 1 (manual 5) Q:S).
+// Bits numbered from 1, as in the manual (manual 5) Q:S).
 enum StatusBit {
   kNormal = 1,
   kCommandError = 2,
@@ -27,7 +27,7 @@ enum StatusBit {
 
 constexpr std::uint32_t kAllBits = 0x1FFFFFF;
 
-// Nine digits and a sign.
+// Largest coordinate that the counter shows: nine digits and a sign.
 constexpr std::int64_t kCounterMax = 999'999'999;
 
 bool counter_overflows(const Rig& rig, int axis) { return std::abs(rig.axis(axis).coordinate(rig.now)) > kCounterMax; }
@@ -67,7 +67,7 @@ std::string status_fields(const Rig& rig, const Axes& axes) {
   return join_fields(axes, [&](int axis) { return fmt::format("{:X}", status_of(rig, axis)); });
 }
 
-// e,s,r of Q: and SRQ: (manual 4), 6)).
+// The e,s,r of Q: and SRQ: (manual 4), 6)).
 std::string summary(const Rig& rig) {
   Axes at_limit;
   bool error = false;
@@ -94,7 +94,7 @@ std::string unit_coordinate(const Rig& rig, int number, char named_unit) {
   return fmt::format("{}{}{}", unit, value < 0 ? "" : "+", from_pulses(value, unit, axis.pitch()));
 }
 
-// Without a unit, the memory switch STAGE UNIT decides. Both counters agree on a simulated stage.
+// The memory switch STAGE UNIT decides if no unit is given. Both counters agree on a simulated stage.
 std::optional<std::string> answer_coordinates(const Rig& rig, Reader reader) {
   char unit = '\0';
   for (const char candidate : {'N', 'U', 'M', 'D', 'P'}) {
@@ -127,7 +127,7 @@ std::optional<std::string> answer_detailed_status(const Rig& rig, const Axes& ax
          join_fields(three, [&](int axis) { return valid_or(axis, ready_fields(rig, {axis}), "D"); });
 }
 
-// The `aS` behind !: and SRQ:, and the axes it means.
+// Reads the `aS` after !: and SRQ:, and returns its axes.
 std::optional<Axes> take_axes_and_s(const Rig& rig, Reader& reader) {
   if (reader.rest() == "S") return rig.controllable;
   const auto axes = reader.take_axes(rig.controllable);

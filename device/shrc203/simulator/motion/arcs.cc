@@ -19,7 +19,7 @@ Point point_at(const Arc& arc, std::size_t index) {
 
 double degrees_of(const Number& number) { return static_cast<double>(number.digits) / std::pow(10.0, number.decimals); }
 
-// Through the point where it stands now, which is 0,0.
+// Returns the center of the circle through the present position, which is 0,0, and both points.
 Point center_of(const Point& passing, const Point& end) {
   const double cross = 2 * (passing.x * end.y - passing.y * end.x);
   const double p = passing.x * passing.x + passing.y * passing.y;
@@ -33,7 +33,7 @@ struct Circle {
   double sweep = 0;  // radians, negative for CW
 };
 
-// E:0, E:1, E:3 and E:4. X to the right and Y up, CW is where the angle falls.
+// E:0, E:1, E:3 and E:4. With X to the right and Y up, the angle decreases for CW.
 Circle around(const Arc& arc) {
   const Point center = point_at(arc, 0);
   const double sense = arc.direction == 0 ? -1 : 1;
@@ -41,8 +41,8 @@ Circle around(const Arc& arc) {
   return {center, std::atan2(-center.y, -center.x), sense * angle};
 }
 
-// E:2 and E:5. The manual's two examples bear the same direction, and through their points one is CW, the other CCW
-// (manual 73), 76)): the passing point decides.
+// E:2 and E:5. The manual's two examples have the same direction, although the arcs through their points turn CW and
+// CCW (manual 73), 76)): the passing point decides.
 Circle through(const Arc& arc) {
   const Point passing = point_at(arc, 0);
   const Point end = point_at(arc, 2);
@@ -55,7 +55,7 @@ Circle through(const Arc& arc) {
   return {center, start, sweep};
 }
 
-// Manual 74): the amount is of one rotation; 75): of one rotation too, from a whole one on.
+// Manual 74): the amount is for one rotation. Manual 75): likewise from one whole rotation on.
 std::int64_t linear_of(const Arc& arc) {
   const std::int64_t amount = arc.points.back();
   if (arc.turns) return amount * *arc.turns;
@@ -71,7 +71,7 @@ ArcPath path_of(const Arc& arc) {
   const Circle circle = has_passing_point ? through(arc) : around(arc);
   const double radius = std::hypot(circle.center.x, circle.center.y);
   ArcPath path;
-  // The sine of an angle is the cosine of what is a quarter turn behind it.
+  // The sine of an angle is the cosine of the angle minus a quarter turn.
   path.plane[0] = {radius, circle.start, circle.sweep, 0};
   path.plane[1] = {radius, circle.start - kTurn / 4, circle.sweep, 0};
   if (has_passing_point) {

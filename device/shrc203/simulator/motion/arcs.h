@@ -1,4 +1,5 @@
-// What E:0 to E:5 and EP:0 to EP:5 (manual 71) to 82)) mean as a path: a circle of two axes, and the third with them.
+// The curves of E:0 to E:5 and EP:0 to EP:5 (manual 71) to 82)) as paths: a circle of two axes, and for a helix the
+// third axis with them.
 #pragma once
 
 #include <array>
@@ -10,13 +11,13 @@
 namespace axisgate::shrc203::simulator {
 
 struct ArcPath {
-  std::array<Curve, 2> plane;  // of the axis with the smaller number, and of the other
+  std::array<Curve, 2> plane;  // curves of the axis with the smaller number, and of the other axis
   bool helical = false;
-  std::int64_t linear = 0;  // what the third axis goes meanwhile, pulses
-  double length = 0;        // of all of it together, pulses
+  std::int64_t linear = 0;  // displacement of the third axis over the whole curve, pulses
+  double length = 0;        // length of the whole curve, pulses
 };
 
-// Not of three points on one line, which the manual refuses.
+// Returns the path. Must not be called for three points on one line, which the manual refuses.
 ArcPath path_of(const Arc& arc);
 
 }  // namespace axisgate::shrc203::simulator

@@ -8,10 +8,11 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// How far beside the origin sensor the fast part of an origin return ends, and the approach at S begins.
+// Distance from the origin sensor at which the fast part of an origin return ends and the approach at S begins, in
+// pulses.
 constexpr std::int64_t kOriginClearance = 1000;
 
-// A pulse counts as made when it is due to within this fraction of itself; time has whole nanoseconds.
+// Fraction of a pulse by which it may be early and still counts as made; time has whole nanoseconds.
 constexpr double kPulseTolerance = 1e-3;
 
 int sign_of(std::int64_t amount) { return amount < 0 ? -1 : 1; }
@@ -139,7 +140,7 @@ void Axis::follow(const Curve& curve, const MotionProfile& path, TimePoint now) 
   watch_limits(now);
 }
 
-// A curve may turn round and meet either sensor; the first that it comes to ends it.
+// A curve may turn back and meet either sensor; the first sensor that it meets ends it.
 void Axis::watch_limits(TimePoint now) {
   leg_meets_limit_ = false;
   event_ = leg_.start + leg_.path.duration();
@@ -164,7 +165,7 @@ void Axis::jog(int direction, TimePoint now) {
             direction * std::max<std::int64_t>(free, 1), speed, now);
 }
 
-// The pulse that is under way now continues in the new leg: however often the speed changes, none is lost.
+// The unfinished pulse continues in the new leg, so no pulse is lost however often the speed changes.
 void Axis::change_jog(std::int64_t to_speed, TimePoint now) {
   const Duration elapsed = now - leg_.start;
   const std::int64_t here = place_at(now);
@@ -197,7 +198,7 @@ void Axis::wait(std::optional<TimePoint> until) {
 }
 
 void Axis::decelerate(TimePoint now) {
-  if (leg_.curve) {  // it runs at S
+  if (leg_.curve) {  // an arc runs at S
     halt(now);
     return;
   }

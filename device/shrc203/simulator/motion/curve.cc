@@ -7,10 +7,10 @@
 namespace axisgate::shrc203::simulator {
 namespace {
 
-// Radians; what doubles leave over of a multiple of pi.
+// Tolerance in radians: the rounding error of doubles near a multiple of pi.
 constexpr double kAngleTolerance = 1e-9;
 
-// How far `angle` is ahead, above 0 and up to a whole `turn`.
+// Returns the angle ahead, above 0 and up to a whole `turn`.
 double ahead(double angle, double turn) {
   double rest = std::fmod(angle, turn);
   if (rest < 0) rest += turn;
@@ -24,7 +24,7 @@ std::int64_t Curve::offset(double fraction) const {
   return std::llround(radius * (std::cos(phase + sweep * fraction) - std::cos(phase)));
 }
 
-// It turns where the angle is a multiple of pi.
+// The coordinate turns back where the angle is a multiple of pi.
 double Curve::turning_after(double fraction) const {
   const double angle = (phase + sweep * fraction) * (sweep < 0 ? 1 : -1);
   return fraction + ahead(angle, std::numbers::pi) / std::abs(sweep);

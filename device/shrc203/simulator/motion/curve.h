@@ -1,4 +1,4 @@
-// One coordinate of a stage that goes round a circle: where it is, where it turns, and when it gets somewhere.
+// One coordinate of a stage that moves along a circle: its position, its turning points, and when it reaches a level.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +8,26 @@
 
 namespace axisgate::shrc203::simulator {
 
-// radius * cos(phase + sweep * fraction), seen from where it began; the fraction of the path runs from 0 to 1.
+// The coordinate is radius * cos(phase + sweep * fraction), relative to its start; fraction is the covered part of the
+// path, 0 to 1.
 struct Curve {
   double radius = 0;     // pulses
   double phase = 0;      // radians
-  double sweep = 0;      // radians, not 0; its sign is the sense
-  std::int64_t end = 0;  // exactly, whatever the arithmetic of the circle leaves over
+  double sweep = 0;      // radians, not 0; the sign is the direction
+  std::int64_t end = 0;  // exact end, without the rounding errors of the circle
 
   std::int64_t offset(double fraction) const;  // whole pulses, rounded
-  // Adds the way from the beginning up to there, back and forth.
+  // Adds the distance from the start to this fraction, back and forth.
   void cover(double fraction, Mileage& mileage) const;
-  // The first fraction at which it stands `level` away from its beginning; none when it never does. Not for 0.
+  // Returns the first fraction at which the coordinate is `level` away from its start; nullopt if it never is. Must not
+  // be called for 0.
   std::optional<double> reaches(double level) const;
-  // The first fraction from `from` on at which it goes that way, +1 or -1.
+  // Returns the first fraction from `from` on at which the coordinate moves in this direction, +1 or -1; nullopt if it
+  // never does.
   std::optional<double> heads(int direction, double from) const;
 
  private:
-  double turning_after(double fraction) const;  // may be beyond 1
+  double turning_after(double fraction) const;  // may be above 1
 };
 
 }  // namespace axisgate::shrc203::simulator

@@ -8,14 +8,14 @@ namespace {
 
 double to_seconds(Duration duration) { return std::chrono::duration<double>(duration).count(); }
 
-// Up to a whole nanosecond, but not for the rounding errors of double arithmetic.
+// Rounds up to a whole nanosecond, but ignores the rounding errors of double arithmetic.
 Duration round_up(double seconds) { return Duration(static_cast<std::int64_t>(std::ceil(seconds * 1e9 - 1e-3))); }
 
 double slope(const Speed& speed) {
   return static_cast<double>(speed.maximum - speed.minimum) / (static_cast<double>(speed.ramp_ms) / 1000.0);
 }
 
-// Seconds until `length` is covered from `start_speed` on.
+// Returns the seconds needed to cover `length`, starting at `start_speed`.
 double seconds_for(double length, double start_speed, double acceleration) {
   if (acceleration == 0) return length / start_speed;
   const double square = std::max(0.0, start_speed * start_speed + 2 * acceleration * length);

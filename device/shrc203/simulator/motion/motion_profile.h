@@ -1,4 +1,4 @@
-// How far along its path an axis is, and how fast, from S, F and R (manual 89) D:): a pure function of time.
+// Distance and speed of an axis along its path, from S, F and R (manual 89) D:): a pure function of time.
 #pragma once
 
 #include <cstdint>
@@ -15,22 +15,23 @@ struct Speed {
   int ramp_ms = 0;
 };
 
-// Distances are pulses along the path, never negative; speeds pulses/s; times seconds since the start.
+// Distances are pulses along the path, never negative; speeds are pulses/s; times are seconds since the start.
 class MotionProfile {
  public:
-  // From S up to F within R, on at F, and down to S within R; a short path turns round below F.
+  // Accelerates from S to F within R, runs at F, and slows down to S within R; a short path does not reach F.
   static MotionProfile trapezoid(double distance, const Speed& speed);
   static MotionProfile constant(double distance, double speed);
-  // From `from_speed` down to S as steeply as R says, and then stationary. Empty at or below S.
+  // Slows down from `from_speed` to S at the rate given by R, and stops. Empty at or below S.
   static MotionProfile slowing(double from_speed, const Speed& speed);
-  // From `from_speed` up or down to `to_speed` as steeply as R says, and on at that; it may end before.
+  // Changes from `from_speed` to `to_speed` at the rate given by R, and continues at that speed; the path may end
+  // earlier.
   static MotionProfile changing(double distance, double from_speed, double to_speed, const Speed& speed);
 
   double distance() const { return distance_; }
   Duration duration() const;  // rounded up to a whole nanosecond
   double distance_at(Duration since_start) const;
   double speed_at(Duration since_start) const;
-  Duration time_at(double distance) const;  // when that far; at most duration()
+  Duration time_at(double distance) const;  // when this distance is covered; at most duration()
 
  private:
   struct Section {

@@ -17,7 +17,7 @@ void Motions::power_on() {
   wait_tenths = 0;
 }
 
-// --- looking ---------------------------------------------------------------------------------------------------------
+// --- state -----------------------------------------------------------------------------------------------------------
 
 Motions::Run* Motions::run_of(int number) {
   for (Run& run : runs_) {
@@ -37,7 +37,7 @@ bool Motions::any_operating(const Axes& axes) const {
   return std::any_of(list.begin(), list.end(), [this](int number) { return operating(number); });
 }
 
-// An axis that has arrived, but whose next segment waits for another axis, is BUSY as well.
+// An axis that has arrived is BUSY as well while its next segment waits for another axis.
 bool Motions::busy(int number) const {
   if (axis(number).phase() != Axis::Phase::idle || operating(number)) return true;
   const auto& next = prebuffer_.settings();
@@ -118,12 +118,12 @@ bool Motions::on_double_buffer(const Axes& axes) const {
          std::any_of(migrated_.settings().begin(), migrated_.settings().end(), counts);
 }
 
-// While an axis slows down after a stop, its operation has no successor.
+// Reports whether an axis slows down after a stop; its operation then has no successor.
 bool Motions::stopping(const Axes& axes) const {
   return std::any_of(runs_.begin(), runs_.end(), [&](const Run& run) { return run.stopped.touches(axes); });
 }
 
-// Whether a prebuffer setting that comes now will start by itself.
+// Returns whether a prebuffer setting that arrives now will start without a G.
 Motions::Accepted Motions::acceptance(const Axes& axes) const {
   if (any_operating(axes)) {
     if (stopping(axes) && !is("stop_keeps_prebuffer", "starts_next")) return Accepted::waits_for_go;
@@ -257,7 +257,7 @@ void Motions::start(const Setting& setting, TimePoint now) {
   for (const int number : setting.axes.list()) start_axis(setting, number, now);
 }
 
-// Manual 53) names BEC: as what cancels a limit error, and does not say that nothing else does.
+// Manual 53) says that BEC: cancels a limit error; it does not say that nothing else does.
 void Motions::forget_limit(int number) {
   if (is("limit_error_until", "next_start")) axis(number).limit_error = false;
 }
@@ -296,7 +296,7 @@ void Motions::start_axis(const Setting& setting, int number, TimePoint now) {
   if (moved.stepped()) ++starts_[index_of(number)];
 }
 
-// A jog may be slower than S, but F may not (manual 89)).
+// A jog may be slower than S, but F must not be (manual 89)).
 void Motions::override_jog(int number, std::int64_t to_speed, TimePoint now) {
   Axis& driven = axis(number);
   driven.change_jog(to_speed, now);
@@ -323,7 +323,7 @@ void Motions::start_line(const Setting& setting, TimePoint now) {
   }
 }
 
-// Manual 71), 77): as the line, and the circle first in the order of its axes.
+// Manual 71), 77): starts an arc as a line is started; the axes of the circle come first, in order.
 void Motions::start_arc(const Setting& setting, TimePoint now) {
   const ArcPath arc = path_of(*setting.arc);
   const auto speed = static_cast<double>(axis(setting.axes.lowest()).speed.minimum);

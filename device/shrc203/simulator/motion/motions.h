@@ -1,4 +1,4 @@
-// What the axes do with their buffers: starts, ends, completion characters, and the double buffer of manual section 2.
+// Motions of the axes with their buffers: starts, ends, completions, and the double buffer of manual section 2.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ class Motions {
  public:
   enum class Accepted { no, waits_for_go, chained };
 
-  // From the last pulse to READY, where W: adds nothing.
+  // Time from the last pulse to READY, if W: adds nothing.
   static constexpr Duration kSettling = std::chrono::milliseconds(5);
 
   Motions(const Options& options, std::array<Axis, kAxes>& axes) : options_(options), axes_(axes) {}
@@ -26,44 +26,45 @@ class Motions {
 
   bool busy(int axis) const;
   bool busy(const Axes& axes) const;
-  bool returning(int axis, Kind kind) const;  // bits 18 and 19 of the status
+  bool returning(int axis, Kind kind) const;  // for bits 18 and 19 of the status
 
   void set_execution(Setting setting);
   Accepted set_prebuffer(const Setting& setting);
   void delete_execution(const Axes& axes);  // manual 87) GC:
 
-  // What an execution register shows: set, or being executed just now.
+  // Returns the content of an execution register: set, or being executed.
   const Setting* execution(Kind kind, int axis) const;
   const Setting* execution(Kind kind) const;
   const Buffer& prebuffer() const { return prebuffer_; }
 
-  // Manual 85), 86). False when nothing of these axes can start.
+  // Starts what is set (manual 85), 86)). False if nothing of these axes can start.
   bool go(const Axes& axes, TimePoint now);
-  void start_each(const Setting& setting, bool reports, TimePoint now);  // at once, each axis on its own
-  // Past both buffers.
+  void start_each(const Setting& setting, bool reports, TimePoint now);  // at once, each axis independently
+  // Starts a setting without using the buffers.
   void start_at_once(const Setting& setting, TimePoint now) { start(setting, now); }
   void start_return(Kind kind, const Axes& axes, bool reports, TimePoint now);
 
-  // Manual 93) JD:. Whether J: drives each of these axes, and none is being stopped; pulses/s from now on.
+  // JD: (manual 93)). jogging() reports whether J: drives each of these axes and none is being stopped; override_jog()
+  // sets the speed from now on, in pulses/s.
   bool jogging(const Axes& axes) const;
   void override_jog(int axis, std::int64_t to_speed, TimePoint now);
 
   void stop(const Axes& axes, TimePoint now);
   void emergency_stop(TimePoint now);
   void lose_excitation(int axis, TimePoint now);
-  void error_stop(int axis, TimePoint now);       // no further pulse; counts as a stop by L:
-  void release(const Axes& axes, TimePoint now);  // manual 53) BEC: ends the wait for READY
+  void error_stop(int axis, TimePoint now);       // without a further pulse; counts as a stop by L:
+  void release(const Axes& axes, TimePoint now);  // ends the wait for READY, for BEC: (manual 53))
   void end_wait(Kind kind, const Axes& axes, TimePoint now);
   void inputs_are(int pattern, TimePoint now);
 
-  // W:, in tenths of a second.
+  // Wait of W:, in tenths of a second.
   int wait_tenths = 0;
 
   std::optional<TimePoint> next_event() const;
-  // Every event up to `now`, in order and each at its own time.
+  // Processes every event up to `now`, in order and each at its own time.
   void process(TimePoint now);
 
-  // The axis numbers due on the line since the last call, in order.
+  // Returns the axis numbers that became due on the line since the last call, in order.
   std::vector<int> take_completions();
   int starts(int axis) const { return starts_[index_of(axis)]; }
 
@@ -107,7 +108,7 @@ class Motions {
   std::array<Axis, kAxes>& axes_;
   Buffer execution_;
   Buffer prebuffer_;
-  Buffer migrated_;  // in the execution buffer, to start when their axes are READY
+  Buffer migrated_;  // in the execution buffer; started when their axes are READY
   std::vector<Run> runs_;
   std::vector<int> completions_;
   std::array<int, kAxes> starts_{};

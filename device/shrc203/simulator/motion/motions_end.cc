@@ -1,4 +1,4 @@
-// How motions end: by themselves, at a limit, or stopped; and what follows then.
+// The ends of motions: at the target, at a limit, or after a stop; and the operations that follow.
 #include <algorithm>
 #include <utility>
 
@@ -53,8 +53,8 @@ void Motions::pulses_ended(int number, TimePoint now) {
   if (is("completion_before_settle", "yes")) finish(number, now);
 }
 
-// The axis's part of its operation is over. Manual 2: the prebuffer migrates, then the completion character is sent,
-// then the next operation starts.
+// Ends this axis's part of its operation. Manual 2: the prebuffer migrates, then the completion is sent, then the next
+// operation starts.
 void Motions::finish(int number, TimePoint now) {
   const auto found = std::find_if(runs_.begin(), runs_.end(), [&](const Run& run) {
     return run.setting.axes.has(number) && run.unfinished.has(number);
@@ -72,7 +72,7 @@ void Motions::finish(int number, TimePoint now) {
   start_migrated(now);
 }
 
-// Manual 93): at the end of the jog, F of D: is overwritten.
+// Manual 93): F of D: is overwritten at the end of the jog.
 void Motions::leave_jog(const Run& run, int number) {
   if (run.setting.kind != Kind::jog) return;
   if (const auto& speed = run.setting.speeds[index_of(number)]) axis(number).speed = *speed;
@@ -109,8 +109,8 @@ void Motions::stop_run(Run& run, const Axes& axes, bool slowly, TimePoint now) {
   }
 }
 
-// Concerned are the settings of stopped axes, and those that wait for other axes to end. What has migrated already
-// belongs to the operation that is stopped.
+// Affects the settings of stopped axes, and those that wait for other axes to end. A setting that has migrated already
+// belongs to the stopped operation.
 void Motions::apply_stop_to_prebuffer(const Axes& axes) {
   if (is("stop_keeps_prebuffer", "starts_next")) return;
   migrated_.disconnect(axes);

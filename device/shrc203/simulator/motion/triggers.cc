@@ -13,7 +13,7 @@ constexpr Duration kTimerUnit = std::chrono::milliseconds(10);
 Answer arm_on_axis(Rig& rig, Reader reader, bool scale) {
   const auto number = reader.take_digit(kAxes);
   if (!number || *number == 0 || !rig.controllable.has(*number) || !reader.take('P')) return Answer::ng;
-  // "Sign cannot be omitted" (manual 101)); drive pulses count in both directions and have none (manual 98)).
+  // "Sign cannot be omitted" (manual 101)); drive pulses count in both directions and have no sign (manual 98)).
   const bool minus = scale && reader.take('-');
   if (scale && !minus && !reader.take('+')) return Answer::ng;
   const auto interval = reader.take_integer(2, 30'000);
@@ -77,7 +77,7 @@ std::string Triggers::describe() const {
 
 std::int64_t Triggers::emitted(TimePoint now) const { return emitted_ + emitted_since_armed(now); }
 
-// Manual 101): going back and forth over the same place gives no second trigger.
+// Manual 101): passing the same position again, back and forth, gives no second trigger.
 std::int64_t Triggers::emitted_since_armed(TimePoint now) const {
   const Mileage gone = axes_[index_of(axis_)].mileage(now);
   switch (target_) {

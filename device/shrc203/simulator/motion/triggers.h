@@ -13,15 +13,16 @@ namespace axisgate::shrc203::simulator {
 
 class Triggers {
  public:
-  // The numbers of ?:T, and none after T:S and at power-on.
+  // Numbers as in ?:T; none after T:S and at power-on.
   enum class Target { pulses, timer, scale_plus, scale_minus, none };
 
   explicit Triggers(std::array<Axis, kAxes>& axes) : axes_(axes) {}
 
-  // From `now` on: every so many pulses of the axis, or hundredths of a second (and then the axis means nothing).
+  // Triggers from `now` on: every `interval` pulses of the axis, or hundredths of a second for the timer, which ignores
+  // the axis.
   void arm(Target target, int axis, std::int64_t interval, TimePoint now);
   void disarm(TimePoint now) { arm(Target::none, 1, 1, now); }
-  void fire() { ++emitted_; }  // manual 100) T:M: one pulse, and what is armed stays armed
+  void fire() { ++emitted_; }  // manual 100) T:M: one pulse; an armed trigger stays armed
 
   std::string describe() const;               // as ?:T answers
   std::int64_t emitted(TimePoint now) const;  // since construction
@@ -34,7 +35,7 @@ class Triggers {
   int axis_ = 1;
   std::int64_t interval_ = 1;
   TimePoint armed_{};
-  std::int64_t emitted_ = 0;  // before it was armed last, and by T:M
+  std::int64_t emitted_ = 0;  // before the last arming, and by T:M
 };
 
 }  // namespace axisgate::shrc203::simulator
