@@ -18,15 +18,15 @@ constexpr double kArcDegreesMax = 360;       // manual 72) E:1
 constexpr double kHelixDegreesMax = 360000;  // manual 75) E:4
 constexpr int kTurnsMax = 1000;              // manual 74) E:3
 
-// No curve that stays within what the controller counts leads further from where it begins.
+// Longest distance from the start to any point of a curve within the counter's range.
 constexpr double kReachMax = 2.0 * static_cast<double>(kPulsesMax);
 
-// In pulses: more than doubles leave over of a curve within kReachMax, and less than anybody can tell.
+// Tolerance in pulses: larger than the rounding error of doubles for a curve within kReachMax, and too small to matter.
 constexpr double kRemainder = 1e-3;
 
-constexpr double kSecondsMax = 1e9;  // what a Duration holds, several times over
+constexpr double kSecondsMax = 1e9;  // upper limit, well within the range of Duration
 
-// From where the curve begins, in pulses.
+// Displacement from the start of the curve, in pulses.
 struct Way {
   double first = 0;
   double second = 0;
@@ -36,7 +36,7 @@ double norm(PlanePoint point) {
   return std::hypot(static_cast<double>(point.first), static_cast<double>(point.second));
 }
 
-// It starts at a right angle to the center, which lies to its left if it turns counterclockwise.
+// The curve starts at a right angle to the center, which lies to its left if the curve turns counterclockwise.
 Arc around(PlanePoint center, double degrees, Rotation rotation) {
   const double sense = rotation == Rotation::clockwise ? -1 : 1;
   const double heading =
@@ -50,7 +50,7 @@ Result<Arc> by_angle(PlanePoint center, double degrees, Rotation rotation, doubl
                                                 degrees, degrees_max, where));
 }
 
-// A chord's direction lies halfway between those of the curve at its ends.
+// The direction of a chord lies halfway between the curve's directions at the chord's ends.
 Way way_after(const Arc& arc, double turned) {
   const double chord = 2 * arc.radius * std::sin(std::abs(turned) / 2);
   const double direction = arc.heading + turned / 2;
@@ -80,7 +80,8 @@ struct PlaneSpan {
   }
 };
 
-// An axis turns back where the curve goes along the other one: where its direction is a whole number of quarter turns.
+// An axis turns back at each point where the curve runs parallel to the other axis: its direction there is a whole
+// number of quarter turns.
 PlaneSpan span_of(const Arc& arc) {
   PlaneSpan span;
   span.take(way_after(arc, arc.sweep));
@@ -123,7 +124,7 @@ Result<Arc> arc_through(PlanePoint passing, PlanePoint end) {
                     passing.first, passing.second, end.first, end.second),
         "give three different points, or a straight line");
   }
-  // At the passing point the way turns by half of what the whole arc turns by (inscribed angle).
+  // At the passing point, the direction changes by half of the whole arc's turn (inscribed angle).
   const double half = std::atan2(static_cast<double>(cross), static_cast<double>(dot));
   const double radius = norm(passing) * norm(rest) * norm(end) / (2 * std::abs(static_cast<double>(cross)));
   const double chord = std::atan2(static_cast<double>(end.second), static_cast<double>(end.first));
@@ -165,7 +166,7 @@ ArcEnd end_of(const Arc& arc) {
 }
 
 bool ends_on_whole_pulses(const Arc& arc) {
-  constexpr double kRounding = 1e-6;  // pulses: far above what doubles lose here, far below a half
+  constexpr double kRounding = 1e-6;  // pulses: far above the rounding error of doubles here, far below one half
   const Way way = way_after(arc, arc.sweep);
   const auto whole = [](double place) { return std::abs(place - std::round(place)) < kRounding; };
   return whole(way.first) && whole(way.second) && whole(arc.rise);

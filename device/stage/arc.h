@@ -1,5 +1,5 @@
-// The curves of E: and EP: (manual 71) to 82)): where one ends, how far out it leads, how long it is. The whole of it
-// is checked against the travel limits before its line is sent.
+// The curves of E: and EP: (manual 71) to 82)): their ends, extents and lengths. The whole curve is checked against the
+// travel limits before its line is sent.
 #pragma once
 
 #include <cstdint>
@@ -9,8 +9,8 @@
 
 namespace axisgate::stage {
 
-// In the plane of two axes, the one with the smaller number first (manual 71), c1 and c2): whole pulses from where they
-// stand when the curve begins, as to_pulses() gives them: +-kPulsesMax at most.
+// A point in the plane of two axes, the axis with the smaller number first (manual 71), c1 and c2). Whole pulses from
+// the start of the curve, as to_pulses() returns them: at most +-kPulsesMax.
 struct PlanePoint {
   std::int64_t first = 0;
   std::int64_t second = 0;
@@ -18,43 +18,43 @@ struct PlanePoint {
   friend bool operator==(const PlanePoint&, const PlanePoint&) = default;
 };
 
-// The command's d, 0 and 1, where the first axis points to the right and the second one up.
+// The command's d, 0 and 1, seen with the first axis pointing right and the second one up.
 enum class Rotation { clockwise, counterclockwise };
 
-// A piece of a circle, or several turns of it. Described by its course and not by its center, which is too far off to
-// compute with where three points lie nearly on one line.
+// A piece of a circle, or several turns of it. Described by its start and sweep and not by its center: with three
+// points nearly on one line, the center is too far off to compute with.
 struct Arc {
   double radius = 0;   // pulses
-  double heading = 0;  // radians: the direction of its start, 0 along the first axis, a quarter turn along the second
-  double sweep = 0;    // radians by which it turns, above 0 counterclockwise; not 0
-  double rise = 0;     // pulses that the third axis goes meanwhile, evenly; 0 where the curve lies in the plane
+  double heading = 0;  // radians: direction at the start, 0 along the first axis, a quarter turn along the second
+  double sweep = 0;    // radians: total turn, above 0 counterclockwise; not 0
+  double rise = 0;     // pulses of the third axis over the whole curve, at a constant rate; 0 for a flat curve
 };
 
-// E:0. With its center where the axes stand it has no length.
+// E:0. A center at the present position gives a length of 0.
 Arc whole_circle(PlanePoint center, Rotation rotation);
-// E:1, above 0 and up to 360 degrees. out_of_range.
+// E:1, above 0 and up to 360 degrees. Fails with out_of_range.
 Result<Arc> arc_by_angle(PlanePoint center, double degrees, Rotation rotation);
-// E:2. The passing point says which way around, whatever d does: see other_way(). invalid_request for three points on
-// one line, also where two are the same; out_of_range where it would leave what the controller counts.
+// E:2. The passing point decides the direction, whatever d is: see other_way(). Fails with invalid_request if the three
+// points lie on one line or two of them are the same; with out_of_range if the curve leaves the counter's range.
 Result<Arc> arc_through(PlanePoint passing, PlanePoint end);
 
-// E:3, 1 to 1000 turns. The rise is that of one turn. out_of_range.
+// E:3, 1 to 1000 turns. The rise is per turn. Fails with out_of_range.
 Result<Arc> helix_of_turns(PlanePoint center, int turns, Rotation rotation, std::int64_t rise_of_turn);
-// E:4, above 0 and up to 360000 degrees. The rise is that of one turn from a whole one on, below it is that of all.
-// out_of_range.
+// E:4, above 0 and up to 360000 degrees. The rise is per turn for one turn or more, and the total rise for less than
+// one turn. Fails with out_of_range.
 Result<Arc> helix_by_angle(PlanePoint center, double degrees, Rotation rotation, std::int64_t rise);
-// E:5. Otherwise as arc_through().
+// E:5. Rise: in total. Otherwise as arc_through().
 Result<Arc> helix_through(PlanePoint passing, PlanePoint end, std::int64_t rise);
 
-// The d that goes with it.
+// Returns the d that matches the curve's direction.
 Rotation rotation_of(const Arc& arc);
 
-// From the same start to the same end by the rest of the circle: what E:2 or E:5 would be if its d counted and not its
-// passing point. Of less than one turn. out_of_range as arc_through().
+// Returns the curve from the same start to the same end along the rest of the circle: the meaning of E:2 or E:5 if d
+// decided and not the passing point. `arc` must be less than one turn. Fails with out_of_range as arc_through() does.
 Result<Arc> other_way(const Arc& arc);
 
-// Pulses from the start, the nearest whole ones. The end that the controller computes for E:1, E:4 and their EP: may
-// differ (manual 72), 75): "an error occurs").
+// Displacements in pulses from the start, rounded to the nearest pulse. The end that the controller computes for E:1,
+// E:4 and their EP: may differ (manual 72), 75): "an error occurs").
 struct ArcEnd {
   std::int64_t first = 0;
   std::int64_t second = 0;
@@ -64,10 +64,11 @@ struct ArcEnd {
 };
 ArcEnd end_of(const Arc& arc);
 
-// Whether the curve ends on them exactly, as far as can be computed.
+// Reports whether the curve ends exactly on whole pulses, within the precision of the computation.
 bool ends_on_whole_pulses(const Arc& arc);
 
-// Whole pulses from the start, both inclusive, rounded outwards: the controller's rounding is not known.
+// A range in whole pulses from the start, both ends inclusive, rounded outwards: the controller's rounding is not
+// known.
 struct Extent {
   std::int64_t lowest = 0;
   std::int64_t highest = 0;
@@ -80,14 +81,14 @@ struct ArcExtent {
 
   friend bool operator==(const ArcExtent&, const ArcExtent&) = default;
 };
-// Start and end, and wherever an axis turns back in between.
+// Returns the range that each axis covers: the start, the end, and each point between where the axis turns back.
 ArcExtent extent_of(const Arc& arc);
 
-// Of circle and rise together, in pulses.
+// Returns the length in pulses, of circle and rise together.
 double length_of(const Arc& arc);
 
-// At the speed S of the lower axis in pulses/s, 1 or more, which is that of the curve throughout (manual 71) to 82),
-// "composite speed"). Thirty years stand for anything longer.
+// Returns the duration at speed S of the lowest axis, in pulses/s and at least 1; the curve runs at this speed
+// throughout (manual 71) to 82), "composite speed"). Durations above about thirty years are cut to that.
 Duration duration_of(const Arc& arc, std::int64_t path_speed);
 
 }  // namespace axisgate::stage

@@ -7,7 +7,7 @@
 
 namespace axisgate::stage {
 
-// What the largest controller here has. One with fewer leaves the others out of its controllable axes.
+// Number of axes of the largest supported controller. With fewer axes, the others are not controllable.
 inline constexpr int kAxisCount = 3;
 
 // A set of axes 1..3.

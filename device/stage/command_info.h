@@ -10,12 +10,12 @@ namespace axisgate::stage {
 
 struct CommandInfo {
   std::string name;
-  std::string format;  // how its line is written, with the letters of `parameters`
+  std::string format;  // syntax of its line, with the letters of `parameters`
   std::string description;
-  std::vector<std::string> parameters;  // what each may be, with range and unit
-  std::string section;                  // of the controller's manual, as it stands there
+  std::vector<std::string> parameters;  // allowed values of each parameter, with range and unit
+  std::string section;                  // section of the controller's manual, as printed there
   Lane lane = Lane::question;
-  bool moves = false;  // it may set something moving
+  bool moves = false;  // the command may start a motion
 };
 
 }  // namespace axisgate::stage

@@ -14,7 +14,7 @@ struct Row {
   bool reported = true;
 };
 
-// Out of position, returning, and the NEAR and ORG sensors belong to every motion.
+// Positioning, origin returns, and the NEAR and ORG sensors change with every motion.
 constexpr bool kInMotion = false;
 
 constexpr std::array kRows = {
@@ -49,7 +49,7 @@ constexpr std::array kRows = {
     Row{Condition::format, "format", "command format", "command format"},
 };
 
-// Bits of manual 5) Q:S that are no conditions: normal, and an error in the last command.
+// Bits of manual 5) Q:S that are not conditions: normal, and an error in the last command.
 constexpr ConditionBits kNormal = 1, kCommandError = 2;
 
 constexpr auto kReported = [] {

@@ -1,4 +1,4 @@
-// The conditions of a stage that somebody at it, a sensor or an error brings about, and their names.
+// The conditions of a stage, which a person at the stage, a sensor or an error causes, and their names.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace axisgate::stage {
 
-// The numbers up to 25 are those of the bits of manual 5) Q:S. They are in files and in the API: they never change.
+// Values up to 25 are the bit numbers of manual 5) Q:S. Files and the API use them, so they must never change.
 enum class Condition {
-  unnamed_error = 1,  // bit 1 is off, and no other bit says why: S9, for instance
+  unnamed_error = 1,  // bit 1 is off, and no other bit explains it: S9, for instance
   scale_error = 3,
   disconnection = 4,
   overflow = 5,
@@ -38,29 +38,29 @@ enum class Condition {
   near_sensor = 24,
   origin_sensor = 25,
   motor_off = 30,  // manual 33) ?:C
-  mode = 31,       // another one than HOST (manual 37) ?:MODE)
-  format = 32,     // another command format than SHOT/FC (manual 38) ?:FMT)
+  mode = 31,       // not HOST (manual 37) ?:MODE)
+  format = 32,     // not SHOT/FC (manual 38) ?:FMT)
 };
 
-// "emergency_stop". "condition_77" for a number that has no name.
+// Returns the name: "emergency_stop"; "condition_77" if the number has no name.
 std::string name(Condition condition);
-// The condition with that name; Condition{} if there is none.
+// Returns the condition with that name; Condition{} if there is none.
 Condition condition_named(std::string_view name);
 
-// Conditions whose beginning and end are events: all but those that come and go with every motion.
+// Returns the conditions whose beginning and end are events: all but those that come and go with every motion.
 std::span<const Condition> reported_conditions();
 
 // A set of conditions: bit n - 1 is the condition with number n.
 using ConditionBits = std::uint32_t;
 constexpr ConditionBits bit_of(Condition condition) { return ConditionBits{1} << (static_cast<int>(condition) - 1); }
-// Conditions that a status of manual 5) Q:S shows.
+// Returns the conditions that a status of manual 5) Q:S shows.
 ConditionBits conditions_in(std::uint32_t status);
 std::vector<Condition> listed(ConditionBits conditions);
 
-// "emergency stop", "CW limit sensor on": the condition as it is.
+// Describes the condition: "emergency stop", "CW limit sensor on".
 std::string words(Condition condition);
-// "axes 1 and 2: emergency stop", "axis 3: motor on", "controller in MANUAL mode": what has begun or ended. `value` is
-// the mode or the format.
+// Describes the beginning or end of a condition: "axes 1 and 2: emergency stop", "axis 3: motor on", "controller in
+// MANUAL mode". `value` is the mode or the command format.
 std::string words(Condition condition, AxisSet axes, bool begun, std::string_view value);
 
 }  // namespace axisgate::stage

@@ -157,7 +157,7 @@ std::string Envelope::as_text(int axis, std::int64_t pulses) const {
   return value ? to_string(*value) + std::string(symbol(unit)) : fmt::format("{} pulses", pulses);
 }
 
-// Two limits may be in different units, so each is converted before they are compared.
+// Two limits may have different units, so each is converted to pulses before the comparison.
 Result<std::optional<Envelope::Bound>> Envelope::innermost(int axis, std::optional<Quantity> AxisLimits::*limit,
                                                            int sign) const {
   std::optional<Bound> found;

@@ -1,5 +1,5 @@
-// How far and how fast a caller may move each axis: the travel envelope of the configuration, checked before anything
-// is sent.
+// The travel envelope: the configured travel and speed limits of each axis for each caller, checked before anything is
+// sent.
 #pragma once
 
 #include <cstdint>
@@ -17,50 +17,52 @@ namespace axisgate::stage {
 
 inline constexpr std::int64_t kSpeedMax = 1'000'000;  // pulses/s (manual 89) D:)
 
-// Of one caller, at one moment. Both others outlive it.
+// The envelope of one caller at one moment. The profile and the state must outlive it.
 class Envelope {
  public:
-  // `role` is a word of the configuration, "operator"; with `who` it chooses the overrides of the caller.
+  // `role` is a role of the configuration, such as "operator"; with `who` it selects the overrides for the caller.
   Envelope(const Profile& profile, const State& state, std::string_view who, std::string_view role);
 
-  // unknown_axis, link_down, position_unknown where nothing can be converted yet, or as check_stage().
+  // Fails with unknown_axis, with link_down, with position_unknown if the resolution is not known yet, or as
+  // check_stage().
   Result<void> check_axis(int axis) const;
-  // identity_mismatch, where a pulse is not what the profile of the axis's stage says. Looked at whenever the axis is
-  // to move, since S: makes another way of it (manual 55)).
+  // Fails with identity_mismatch if the resolution differs from the profile of the axis's stage. Checked at each motion
+  // of the axis, since S: changes the resolution (manual 55)).
   Result<void> check_stage(int axis) const;
-  // not_homed, where the axis must have found its origin before it moves otherwise.
+  // Fails with not_homed if the axis must home before any other motion.
   Result<void> check_homed(int axis) const;
-  // outside_travel, out_of_range. Of an axis that check_axis() passed, as all that follows.
+  // Fails with outside_travel or out_of_range. Call this and all following functions only after check_axis() has
+  // succeeded.
   Result<void> check_target(int axis, std::int64_t target_pulses) const;
-  // The furthest that the axis may go in that direction (1 or -1).
+  // Returns the last position that the axis may reach in that direction (1 or -1).
   Result<std::int64_t> bound(int axis, int direction) const;
 
-  // Whether any travel limit or speed cap applies to the caller there.
+  // Reports whether any travel limit or speed limit applies to the caller on this axis.
   bool is_bounded(int axis) const;
 
-  // Pulses per second: out_of_range, too_fast.
+  // Converts a speed to pulses/s. Fails with out_of_range or too_fast, or as pulses().
   Result<std::int64_t> speed(int axis, const Quantity& asked) const;
-  // too_fast.
+  // Fails with too_fast.
   Result<void> check_speed(int axis, std::int64_t pulses_per_second) const;
-  // Nothing where the controller's own limit is the only one.
+  // Returns the highest speed allowed in pulses/s; nullopt if only the controller's own limit applies.
   Result<std::optional<std::int64_t>> speed_cap(int axis) const;
 
-  // unknown_unit, not_representable, out_of_range.
+  // Converts a distance to pulses. Fails with unknown_unit, not_representable or out_of_range.
   Result<std::int64_t> pulses(int axis, const Quantity& distance) const;
 
-  // What is answered where a target cannot be computed: position_unknown.
+  // Returns the error position_unknown, for a target that cannot be computed.
   tl::unexpected<Problem> position_unknown(int axis) const;
 
   const State& state() const { return state_; }
   std::string label(int axis) const;                         // "axis 1 (sample)"
-  std::string as_text(int axis, std::int64_t pulses) const;  // "1.5mm", as the axis is shown
+  std::string as_text(int axis, std::int64_t pulses) const;  // "1.5mm", in the axis's display unit
 
  private:
   struct Bound {
     std::int64_t pulses = 0;
-    std::string whose;  // of the override; empty: everybody's
+    std::string whose;  // `whose` of the override; empty: the general limit
   };
-  // The innermost of those that apply to the caller: the lowest, or with -1 the highest.
+  // Returns the strictest limit that applies to the caller: the lowest, or the highest if `sign` is -1.
   Result<std::optional<Bound>> innermost(int axis, std::optional<Quantity> AxisLimits::*limit, int sign) const;
   std::vector<const LimitOverride*> overrides_for(int axis) const;
   const AxisProfile& profile(int axis) const { return profile_.axes[static_cast<std::size_t>(axis - 1)]; }
@@ -72,7 +74,7 @@ class Envelope {
   const std::string role_;
 };
 
-// A refusal that means one axis.
+// Returns a failure that concerns one axis.
 tl::unexpected<Problem> fail_on(int axis, Reason reason, std::string message, std::string hint = {});
 
 }  // namespace axisgate::stage

@@ -1,4 +1,4 @@
-// What a controller reports: facts, each delivered once and in order, and that there is a newer state.
+// Events of a controller: facts, each delivered once and in order, and notifications of a newer state.
 #pragma once
 
 #include <cstdint>
@@ -21,37 +21,37 @@ struct MotionChanged {
   Motion motion;
 };
 
-// A completion was received. `motion` is 0 when none of ours was waiting for it.
+// A completion was received. `motion` is 0 if no motion of the gateway waited for it.
 struct CompletionSeen {
   int axis = 0;
   MotionId motion = 0;
-  bool deduced = false;  // from two answers that agree, not when it came in
+  bool deduced = false;  // deduced later from two answers that agree, not recognised on arrival
 };
 
 struct PathProgress {
   enum class Step { sent, started, done, underrun };
   MotionId motion = 0;
   Step step = Step::sent;
-  int segment = 0;         // counts from 1
-  std::string wire_reply;  // OK or OK_D, where the step is a sent one
+  int segment = 0;         // from 1
+  std::string wire_reply;  // OK or OK_D, for Step::sent
 };
 
 struct LinkChanged {
   LinkState link = LinkState::down;
   std::string why;
-  AxisSet controllable{};       // when up
-  std::string serial_number{};  // of the controller, when up
+  AxisSet controllable{};       // if the link is up
+  std::string serial_number{};  // serial number of the controller, if the link is up
 };
 
 struct StopRequested {
   AxisSet axes;
   bool emergency = false;
   std::string who;
-  bool moved = false;      // something moved, or waited to
-  std::int64_t count = 1;  // identical stops by the same caller since the last of these events
+  bool moved = false;      // an axis moved, or a motion waited
+  std::int64_t count = 1;  // identical stops by the same caller since the last StopRequested event
 };
 
-// A stop has another state, or another caller. It is a fact once the stop is no longer open; until then the event only
+// The state or the callers of a stop changed. The event is a fact once the stop is no longer open; until then it only
 // keeps the record of open stops current.
 struct StopChanged {
   Stop stop;
@@ -63,123 +63,125 @@ struct EmergencyLatchChanged {
   std::string who;
 };
 
-// Axes move that the gateway did not start: the front panel did, or a gateway before this one.
+// Axes move that this gateway did not start: the front panel did, or an earlier run of the gateway.
 struct ForeignMotion {
   AxisSet axes;
 };
 
-// A condition of the stage has begun or ended. Nobody here need have caused that: a person at the front panel may have,
-// a sensor, an error, or a request of before.
+// A condition of the stage began or ended. The cause may be a person at the front panel, a sensor, an error, or an
+// earlier request.
 struct ConditionChanged {
   Condition condition{};
   AxisSet axes{};  // empty: of the whole controller
   bool begun = true;
-  std::string value{};  // the mode or the command format
-  TimePoint before{};   // the last reading that did not show it; TimePoint{}: there was none
-  TimePoint seen{};     // the first reading that did
+  std::string value{};  // mode or command format
+  TimePoint before{};   // time of the last reading without the change; TimePoint{}: there was none
+  TimePoint seen{};     // time of the first reading with the change
 };
 
-// What became of the motions of a run that was killed (unfinished.h). For the log; not a fact with a revision.
+// The gateway's decision about the motions of a run that was killed (unfinished.h). For the log; not a fact with a
+// revision.
 struct UnfinishedJudged {
   enum class What {
-    not_ours,    // another controller answers, or another program has used the line since
+    not_ours,    // another controller answers, or another program has used the line since then
     stopped,     // these axes are being stopped
     finishes,    // these axes may finish
-    stationary,  // all axes were seen to be stationary
+    stationary,  // all axes were confirmed stationary
   };
   What what = What::not_ours;
   AxisSet axes;
   std::string motions;
 };
 
-// A visit to their edit mode has changed memory switches for good (manual 117) MS:ON).
+// Memory switches were changed permanently in a visit to their edit mode (manual 117) MS:ON).
 struct SwitchesChanged {
   struct Change {
-    int item = 0, number = 0;  // 0 to 8 (manual 119)); from 0
+    int item = 0, number = 0;  // item 0 to 8 (manual 119)), number from 0
     std::string before, after;
   };
   std::string who;
   std::vector<Change> changes;  // by item and number
-  bool unknown = false;         // some may be others, too: the line was lost, or the controller did not tell
+  bool unknown = false;  // more switches may have changed: the line was lost, or the controller did not report them
 };
 
-// The controller's program reported something unasked (manual 109) P:C, 110) P:T).
+// The program stored in the controller sent a notice (manual 109) P:C, 110) P:T).
 struct ProgramNotice {
   enum class Kind { ended, trigger };
   Kind kind = Kind::ended;
-  std::int64_t count = 1;  // how often it was reported since the last of these
+  std::int64_t count = 1;  // number of identical notices since the last ProgramNotice event
 };
 
-// A line is about to be written, its CR LF included. For the recorder and metrics, as are the other events of the line
-// itself.
+// A line is about to be written, with its CR LF. This and the other events of the line are for the recorder and the
+// metrics.
 struct BytesWritten {
   std::string bytes;
-  // Counts from 1 with each command sent, and belongs to what closes it, too. 0: a probe that belongs to none.
+  // Number of the exchange, from 1 for each command sent; the exchange's closing question has the same number. 0: a
+  // probe outside any exchange.
   std::uint64_t exchange = 0;
-  std::string who;  // who requested it; empty: the line itself
+  std::string who;  // caller; empty: the line itself
   Lane lane = Lane::question;
-  AxisSet completes{};    // the axes whose numbers may come from now on
-  MotionId motion = 0;    // whose line it is; 0: of none
-  bool closed = false;    // an !:S follows an answer that could be such a number
-  bool question = false;  // it changes nothing
-  AxisSet axes{};         // that the line is about; of a question: empty
+  AxisSet completes{};    // axes whose completions may come from now on
+  MotionId motion = 0;    // motion to which the line belongs; 0: none
+  bool closed = false;    // an !:S follows, since the answer could be mistaken for a completion
+  bool question = false;  // the line changes nothing
+  AxisSet axes{};         // axes that the line concerns; empty for a question
 };
 
-// What came in, cut as the driver cut it.
+// Received bytes, in the pieces that the driver delivered.
 struct BytesReceived {
   std::string bytes;
 };
 
-// A time ran out: of a reply, of a probe in a barrier, or of a command that waited to be sent.
+// A time limit passed: for a reply, for a probe in a barrier, or for a command that waited to be sent.
 struct TimeLimitPassed {
   enum class Kind { reply, probe, queue };
   Kind kind = Kind::reply;
 };
-std::string_view name(TimeLimitPassed::Kind kind);  // "reply", "probe", "queue", as metric labels have it
+std::string_view name(TimeLimitPassed::Kind kind);  // "reply", "probe", "queue", as in metric labels
 
 // One exchange on the line ended. For metrics and the live view of the line; not a fact with a revision.
 struct ExchangeEnded {
   enum class Outcome { ok, ok_d, ng, ng_i, data, timed_out, garbled, link_lost };
-  std::string_view command;  // the table's name for the row
+  std::string_view command;  // name of the row in the command table
   std::string line, reply;
   Lane lane = Lane::question;
   Outcome outcome = Outcome::ok;
   Duration latency{};          // from the write to the reply's last byte
-  bool closed = false;         // the reply was known only when an !:S behind it had been answered
+  bool closed = false;         // the reply became certain only when the !:S after it had been answered
   std::uint64_t exchange = 0;  // as in BytesWritten
-  std::string who;             // who asked first; empty: the line itself
-  Duration waited{};           // from the asking to the write
+  std::string who;             // first caller who asked; empty: the line itself
+  Duration waited{};           // from the request to the write
 };
-std::string_view name(ExchangeEnded::Outcome outcome);  // "ok", "ok_d", "timed_out", ..., as metric labels have it
+std::string_view name(ExchangeEnded::Outcome outcome);  // "ok", "ok_d", "timed_out", ..., as in metric labels
 
 struct BarrierEntered {
   std::string why;
 };
 
-// What became known of the line, where it changes what may be sent, or what a number that comes may mean.
+// The line's core learned something that changes what it may send, or how it interprets a received number.
 struct LineLearned {
   enum class What {
-    barrier_passed,   // also the one after a connect
-    same_controller,  // a suspected restart was none
-    ready,            // the axes are stationary: their numbers may come for a little longer
-    busy,             // they are not
+    barrier_passed,   // also the barrier after a connect
+    same_controller,  // a suspected restart had not happened
+    ready,            // the axes are stationary: their completions may come for a short time longer
+    busy,             // the axes are not stationary
   };
   What what = What::barrier_passed;
-  AxisSet axes{};  // of ready and busy
+  AxisSet axes{};  // for ready and busy
 };
 
-// A line that nothing waited for: dropped, and counted. Device text: escape before showing.
+// An unexpected line: discarded, and counted. The text comes from the device: escape it before showing it.
 struct UnexpectedLine {
   std::string text;
 };
 
-// A state machine was given an event that its table does not have: an internal error of the gateway. Its line is
-// disconnected, and everything is stopped.
+// A state machine received an event that its table does not have: an internal error of the gateway. The gateway
+// disconnects the line and stops everything.
 struct IllegalTransition {
   std::string_view machine, state, event;
 };
 
-// Positions, mode, excitation or the like are newer; ask StageController::state().
+// The positions, mode, excitation or another part of the state are newer; read them with StageController::state().
 struct StateChanged {};
 
 using Event = std::variant<MotionChanged, CompletionSeen, PathProgress, LinkChanged, StopRequested, StopChanged,
@@ -192,7 +194,8 @@ class EventSink {
   virtual ~EventSink() = default;
   // Called on the controller's strand; must not call back into the controller.
   virtual void on_event(const Event& event, TimePoint now) = 0;
-  // Whether somebody follows the state as it changes. If nobody does, it is read less often. As on_event().
+  // Reports whether anybody follows the state as it changes. If nobody does, the controller reads the state less often.
+  // Threads as for on_event().
   virtual bool state_followed() const { return true; }
 };
 

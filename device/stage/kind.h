@@ -1,4 +1,4 @@
-// What a kind of stage controller brings along. A controller's folder implements it; server/kinds.cc lists all of them.
+// The interface of a kind of stage controller. The controller's folder implements it; server/kinds.cc lists all kinds.
 #pragma once
 
 #include <cstdint>
@@ -23,74 +23,75 @@
 
 namespace axisgate::stage {
 
-// A key of the device's table in the configuration that this kind alone has.
+// A KindSetting is a configuration key of the device's table that only this kind has.
 struct KindSetting {
   std::string_view key;
-  std::span<const std::string_view> words;  // what it may say; empty: true or false
-  std::string_view otherwise;               // without the key: one of the words, or "true" or "false"
+  std::span<const std::string_view> words;  // allowed values; empty: true or false
+  std::string_view otherwise;               // default: one of the words, or "true" or "false"
 };
 
-// What changes a controller for all its callers, and so is for administrators unless the configuration leaves it out.
+// An AdminCommand changes a controller for all its callers. Only administrators may use it unless the configuration
+// leaves it out of its list.
 struct AdminCommand {
   enum class Request { none, clear_errors, reset };
 
-  std::string_view name;            // how its lines begin; of a kind without lines, any word
-  Request request = Request::none;  // the one that sends it
+  std::string_view name;            // beginning of its lines; any word for a kind without lines
+  Request request = Request::none;  // request that sends the command
 };
 
-// Words by key: those of KindSettings, or the options of a simulation.
+// Values by key: of KindSettings, or of the options of a simulation.
 using Words = std::map<std::string, std::string, std::less<>>;
 
-// A device that exists in this process only.
+// A Simulation is a device that exists in this process only.
 class Simulation : public LineMachine {
  public:
-  // What a person does and sees at the device; the answer is for people. invalid_request.
+  // Carries out a command of a person at the device. Returns text for people. Fails with invalid_request.
   virtual Result<std::string> operate(std::string_view command, TimePoint now) = 0;
 };
 
-// Stateless; from any thread.
+// A Kind is stateless and may be used from any thread.
 class Kind {
  public:
   virtual ~Kind() = default;
 
-  virtual std::string_view name() const = 0;  // what `kind` says in the configuration
+  virtual std::string_view name() const = 0;  // value of `kind` in the configuration
   virtual std::span<const KindSetting> settings() const = 0;
 
-  // `settings` holds a permitted word for each of settings(). The others outlive the controller.
+  // `settings` has an allowed value for each of settings(). The other arguments must outlive the controller.
   virtual std::unique_ptr<StageController> make_controller(const Profile& profile, const Words& settings,
                                                            ByteLink& link, EventSink& events,
                                                            Permission& permission) const = 0;
 
-  // Checks a caller's own lines, as far as the lines themselves allow it: malformed_line, unknown_command,
-  // incomplete_transaction, invalid_request.
+  // Checks a caller's own lines, as far as the lines alone allow. Fails with malformed_line, unknown_command,
+  // incomplete_transaction or invalid_request.
   virtual Result<void> check_lines(const std::vector<std::string>& lines) const = 0;
-  // Whether checked lines move or change something. Not where one of them is a stop, which waits for nothing.
+  // Reports whether checked lines move or change something. False if one of them is a stop, which never waits.
   virtual bool changes_something(const std::vector<std::string>&) const { return false; }
 
-  // From here to read_position(): what a kind need not have. Nothing, where it has none of it.
+  // The functions from here to read_position() are optional; by default a kind has none of these features.
   virtual std::vector<CommandInfo> commands() const;  // in the manual's order
 
   virtual std::span<const AdminCommand> admin_commands() const;
 
-  // The lines of one transaction that set it, in their order; none, where nothing is to change. out_of_range,
-  // not_representable; invalid_request, where there is no such setting.
+  // Returns the lines of one transaction that make the setting, in order; empty if nothing has to change. Fails with
+  // out_of_range or not_representable; with invalid_request if the kind has no such setting.
   virtual Result<std::vector<std::string>> lines_for(const Setting& setting, const State& state) const;
 
-  // The lines that ask for Settings, each a transaction of its own; and what the answer to one adds to them. Of an
-  // answer that is none nothing is taken.
+  // The lines that ask for Settings, each sent as its own transaction. read_setting() adds the answer of one line to
+  // `settings`, and ignores an answer that it cannot read.
   virtual std::span<const std::string_view> setting_questions() const;
   virtual void read_setting(std::string_view question, std::string_view answer, const State& state,
                             Settings& settings) const;
 
-  // What is sent about a position that it keeps; and the coordinates in pulses, by axis, in the answer to
-  // PositionLines::tell: empty where it is none.
+  // Returns the lines for a saved position. read_position() returns the coordinates in pulses by axis from the answer
+  // to PositionLines::tell; empty if the answer has none.
   virtual std::optional<PositionLines> position_lines(const PositionSlot& slot) const;
   virtual std::map<int, std::int64_t> read_position(const PositionSlot& slot, std::string_view answer,
                                                     const State& state) const;
 
-  // One option of a simulation; what is wrong with it names what may be chosen.
+  // Checks one option of a simulation; the error names the allowed values.
   virtual Result<void> check_option(std::string_view name, std::string_view value) const = 0;
-  // Of checked options. `line` outlives it.
+  // Makes a simulation from checked options. `line` must outlive it.
   virtual std::unique_ptr<Simulation> make_simulation(const Words& options, ByteLink& line) const = 0;
 };
 

@@ -1,4 +1,4 @@
-// A motion: one thing that a caller asked the stage to do, from the asking to its outcome.
+// A motion: one request to move, from its acceptance to its outcome.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,30 @@
 
 namespace axisgate::stage {
 
-using MotionId = std::uint64_t;  // 0 is none; of each device they ascend
+using MotionId = std::uint64_t;  // 0: none; ascending for each device
 
 enum class MotionKind { move, home, return_to_origin, path, execute, jog, scan };
 
-// queued: accepted, its starting line not yet written. running: the controller accepted the start.
-// An outcome is one of the last four, and unknown is said when it is so.
+// queued: accepted, but the starting line is not written yet. running: the controller has accepted the start. The last
+// four are outcomes; the outcome unknown is reported as such.
 enum class MotionState { queued, running, stopping, succeeded, stopped, failed, unknown };
 
 inline bool is_outcome(MotionState state) { return state >= MotionState::succeeded; }
 
 struct AxisResult {
   int axis = 0;
-  std::optional<std::int64_t> target_pulses;   // in the frame of the start; nothing before it is known
+  std::optional<std::int64_t> target_pulses;   // in the frame at the start; nullopt if unknown
   std::optional<std::int64_t> command_pulses;  // the command counter at the end
-  bool completion_seen = false;                // the completion was received
+  bool completion_seen = false;
 };
 
-// What a scan came to, in drive pulses of the axis.
+// Result of a scan, in drive pulses of the axis.
 struct ScanResult {
-  std::int64_t run_from = 0, run_to = 0;  // where it started its run, and where it stopped
-  // Trigger pulses due in the whole run and in its range; of scale pulses nothing where the scale's are not known.
+  std::int64_t run_from = 0, run_to = 0;  // start and end of the run
+  // Trigger pulses due in the whole run and in its range; nullopt for scale pulses if the scale's resolution is
+  // unknown.
   std::optional<std::int64_t> expected, expected_in_range;
-  std::optional<std::int64_t> observed;  // by the distance that the counter was seen to travel; nothing before the end
+  std::optional<std::int64_t> observed;  // computed from the distance that the counter moved; nullopt before the end
 };
 
 struct Motion {
@@ -43,23 +44,23 @@ struct Motion {
   MotionState state = MotionState::queued;
   AxisSet axes;
   std::vector<AxisResult> results;  // one per axis, ascending
-  std::optional<Problem> problem;   // why it failed, was stopped or is unknown
-  bool written = false;             // a line of its own has gone out, so that its start may have
-  std::string who;                  // the caller
+  std::optional<Problem> problem;   // reason for failure, stop, or unknown outcome
+  bool written = false;             // a line of this motion was sent, so it may have started
+  std::string who;
   std::string request_id;
   TimePoint created{}, started{}, ended{};
-  std::optional<TimePoint> due;  // it should be over by then; nothing where that is not known
-  int segments_total = 0;        // a path's
+  std::optional<TimePoint> due;  // expected end; nullopt if unknown
+  int segments_total = 0;        // of a path
   int segments_done = 0;
   int underruns = 0;
   std::optional<ScanResult> scan;
 };
 
-// What others wait for, as they are shown it.
+// An Occupation describes a motion to the callers who wait for its axes.
 struct Occupation {
   std::string by;                // "move by unix bert"
-  std::string before, after;     // of what stands in parentheses: "axis 1 is in motion 1312", ""
-  std::optional<TimePoint> due;  // it should be over by then; nothing where that is not known
+  std::string before, after;     // text around the parentheses: "axis 1 is in motion 1312", ""
+  std::optional<TimePoint> due;  // expected end; nullopt if unknown
 };
 // "axis 1 is in motion 1312 (move by unix bert, 4 s left)".
 std::string text_of(const Occupation& occupation, TimePoint now);

@@ -1,11 +1,11 @@
-// Who asks where no caller does.
+// The caller name of the gateway's own questions.
 #pragma once
 
 #include <string>
 
 namespace axisgate::stage {
 
-// The name in events and recordings of what the gateway asks for itself: no person's.
+// Name in events and recordings for questions that the gateway asks for itself; no caller has this name.
 inline const std::string kGateway = "gateway";
 
 }  // namespace axisgate::stage

@@ -1,5 +1,6 @@
-// Who may use which axes: the seam through which server/access speaks to a controller. It is asked before a request is
-// taken, and again as the bytes of a motion go out, so that no byte follows the loss of the right to send it.
+// The right to use axes: the interface through which server/access controls a stage controller. The controller calls it
+// before it takes a request, and again when it sends the bytes of a motion, so that no byte is sent after the caller
+// has lost the right.
 #pragma once
 
 #include <cstdint>
@@ -14,33 +15,33 @@
 
 namespace axisgate::stage {
 
-// One caller's business with some axes.
+// A Use is one caller's use of some axes.
 struct Use {
   std::string who;
-  std::uint64_t lease = 0;  // the fencing token; 0: none, the axes are borrowed for the motion's own duration
+  std::uint64_t lease = 0;  // fencing token; 0: no lease, the axes are borrowed for the duration of the motion
   AxisSet axes;
-  MotionId motion = 0;  // of a mill, its job; 0: not yet one
-  // The program that asks, over whatever connections: its stop does not hold its own motions back. Empty: unknown. It
-  // gives no rights.
+  MotionId motion = 0;  // motion id, or a mill's job; 0: not created yet
+  // Session of the calling program, over all of its connections: a stop by the session does not block the session's own
+  // motions. Empty: unknown. It gives no rights.
   std::string session{};
 };
 
-// Axes that are to be stopped, since their user may not move them any longer.
+// A StopOrder stops axes whose caller has lost the right to move them.
 struct StopOrder {
   std::uint64_t id = 0;
   AxisSet axes;
-  std::string who;  // on whose behalf, for people
+  std::string who;  // person or caller on whose behalf, as text
 };
 
-// A lease under which nothing moves any more, whose holder had changed settings that would outlast it.
+// A lease under which nothing moves any longer, and whose holder changed settings that must be restored.
 struct EndedLease {
   std::uint64_t token = 0;
   std::string who;
 };
 
 struct Orders {
-  std::vector<StopOrder> stops;       // each is answered by stopped(), whatever became of it
-  std::vector<EndedLease> restoring;  // each by settings_restored(); its axes are nobody's until then
+  std::vector<StopOrder> stops;       // each is answered by stopped(), whatever the result
+  std::vector<EndedLease> restoring;  // each is answered by settings_restored(); nobody has its axes until then
 };
 
 // Not thread safe: called on the controller's strand, and must not call back into the controller.
@@ -48,31 +49,32 @@ class Permission {
  public:
   virtual ~Permission() = default;
 
-  // lease_held, lease_lost or stopped_by, where the caller may not use all of these axes now.
+  // Fails with lease_held, lease_lost or stopped_by if the caller may not use all of these axes now.
   virtual Result<void> authorize(const Use& use, TimePoint now) = 0;
 
-  // The motion has its turn on its axes; should be over by then; and has left them, whatever became of it. What others
-  // are shown of it is `occupation`.
+  // Report the progress of a motion: begin() when it has its turn on its axes, due() when its expected end is known,
+  // end() when it has left its axes, with any outcome. `occupation` is the text that other callers are shown.
   virtual void begin(const Use& use, Occupation occupation, TimePoint now) = 0;
   virtual void due(MotionId motion, TimePoint over) = 0;
   virtual void end(MotionId motion, TimePoint now) = 0;
 
-  // A stop of these axes was requested. `waiting`: motions on them that have not had their turn, and never will.
+  // Reports that a stop of these axes was requested. `waiting`: motions on these axes that have not had their turn and
+  // will never start.
   virtual void stop_asked(const Use& stop, const std::vector<Use>& waiting, TimePoint now) = 0;
-  // The controller may have restarted: what was promised about it before is void.
+  // Reports that the controller may have restarted: rights from before the restart are void.
   virtual void device_restarted(TimePoint now) = 0;
 
-  // Under that lease a setting was changed that is to be what it was when the lease has ended.
+  // Reports that a setting was changed under this lease which must be restored when the lease ends.
   virtual void settings_changed(std::uint64_t lease) = 0;
 
-  // Lets time pass, and fetches what is to be done.
+  // Advances the time and returns the orders to carry out.
   virtual Orders advance(TimePoint now) = 0;
   virtual void stopped(std::uint64_t order, TimePoint now) = 0;
   virtual void settings_restored(std::uint64_t lease, TimePoint now) = 0;
   virtual std::optional<TimePoint> next_deadline() const = 0;
 };
 
-// Where nobody keeps leases.
+// A Permission that allows everything, for a gateway without leases.
 Permission& everybody_may();
 
 }  // namespace axisgate::stage

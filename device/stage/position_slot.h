@@ -1,4 +1,4 @@
-// Where a controller keeps a position: by number only, and of two sorts.
+// A position that the controller saves, by number only and in two kinds.
 #pragma once
 
 #include <string>
@@ -6,14 +6,14 @@
 namespace axisgate::stage {
 
 struct PositionSlot {
-  bool place = true;  // a place of the stage; else a set of coordinates
+  bool place = true;  // true: a place of the stage; false: a set of coordinates
   int number = 0;     // 1 to 20
 };
 
-// What is done with it beside going there.
+// Command lines for a saved position, except the one that moves to it.
 struct PositionLines {
-  std::string save;  // where the stage stands
-  std::string tell;  // its coordinates
+  std::string save;  // saves the present position
+  std::string tell;  // asks for the coordinates
   std::string forget;
 };
 

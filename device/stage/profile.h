@@ -1,4 +1,4 @@
-// The configuration of one axis and what it carries, checked before the daemon starts.
+// The configuration of a controller's axes and stages, checked before the daemon starts.
 #pragma once
 
 #include <array>
@@ -12,47 +12,47 @@
 
 namespace axisgate::stage {
 
-// How far and how fast an axis may be moved; checked before anything is sent.
+// Travel and speed limits of an axis, checked before anything is sent.
 struct AxisLimits {
   std::optional<Quantity> travel_minimum;  // inclusive, in the axis's frame
   std::optional<Quantity> travel_maximum;
   std::optional<Quantity> maximum_speed;  // per second
-  bool require_homing = false;            // no other motion before it has homed
+  bool require_homing = false;            // refuse any other motion until the axis has homed
 };
 
-// For some callers it is less. What is left out, or wider than everybody's, changes nothing.
+// Stricter limits for some callers. A limit that is absent or less strict than the general one has no effect.
 struct LimitOverride : AxisLimits {
-  std::string whose;  // a role, "operator", or a caller, "token student"
+  std::string whose;  // role ("operator") or caller ("token student")
 };
 
-// Which stage an axis has. How far and how fast that may go is in the axis's own limits.
+// The stage model mounted on an axis. Its travel and speed limits are in the axis's own limits.
 struct StageProfile {
-  std::string model;              // "OSMS20-85"; for people
-  Scale pulse;                    // what ?:P must say of the axis (manual 10))
-  std::optional<Decimal> modulo;  // degrees of one turn, of a rotary stage; above 0
+  std::string model;              // "OSMS20-85", shown to people
+  Scale pulse;                    // resolution that ?:P must report for the axis (manual 10))
+  std::optional<Decimal> modulo;  // degrees of one turn of a rotary stage; above 0
 };
 
 struct AxisProfile : AxisLimits {
   std::string name;               // shown beside the number; may be empty
-  Unit unit = Unit::micrometers;  // how positions are shown, and what a bare number in a request means
+  Unit unit = Unit::micrometers;  // unit in which positions are shown, and of numbers without a unit in a request
   std::optional<StageProfile> stage;
   std::vector<LimitOverride> overrides;
 
   bool rotary() const { return stage ? stage->pulse.rotary : unit == Unit::degrees; }
 };
 
-// What becomes of the motions that run when the gateway ends: they are stopped by L:, or waited for.
+// Treatment of running motions when the gateway ends: stop them by L:, or wait for them.
 enum class AtExit { stop, finish };
 
-// What a lease's holder has set for good (manual 89) D:, 96) O:, 97) to 101) T:): when the lease has ended, the
-// previous value is restored, or the new one is kept.
+// Treatment of the settings that a lease's holder has changed (manual 89) D:, 96) O:, 97) to 101) T:) when the lease
+// ends: restore the previous values, or keep the new ones.
 enum class AtLeaseEnd { restored, kept };
 
-// The configuration of a stage controller of any kind. Its kind's own profile adds to it.
+// The configuration of a stage controller of any kind. Each kind adds its own profile.
 struct Profile {
   std::string name = "stage";
-  std::string serial_number;  // empty: any unit is accepted, and then stays the one until the daemon ends
-  int baud = 38400;           // for the time that a line takes
+  std::string serial_number;  // empty: any controller is accepted; the first one is then required until the daemon ends
+  int baud = 38400;           // used to compute the transmission time of a line
   Duration reply_limit = std::chrono::milliseconds(500);  // from the last byte sent to the reply's last byte
   Duration idle_poll = std::chrono::seconds(1);
   Duration moving_poll = std::chrono::milliseconds(100);

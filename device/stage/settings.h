@@ -1,5 +1,5 @@
-// What a controller is set to beside its motion, as callers change it and read it. Which of it there is, and within
-// what ranges, is the kind's to say.
+// Settings of a controller other than its motion, for callers to change and read. The kind decides which of them exist,
+// and their ranges.
 #pragma once
 
 #include <cstdint>
@@ -15,7 +15,7 @@
 
 namespace axisgate::stage {
 
-// Of one axis. Speeds are in pulses/s.
+// Settings of one axis. Speeds are in pulses/s.
 struct SetClosedLoop {
   int axis = 0;
   bool closed = false;
@@ -27,7 +27,7 @@ struct SetExcitation {
 struct SetDivisions {
   int axis = 0, divisions = 0;
 };
-struct SetSpeeds {  // what is not given stays, but that S follows a lower F
+struct SetSpeeds {  // absent values stay unchanged, except that S is lowered to a lower F
   int axis = 0;
   std::optional<std::int64_t> minimum{}, maximum{};
   std::optional<int> acceleration_ms{};
@@ -37,7 +37,7 @@ struct SetOriginSpeeds {
   SpeedSetting speeds{};
 };
 
-// Of the controller.
+// Settings of the controller.
 struct SetDisplay {
   bool lit = false;
 };
@@ -63,7 +63,7 @@ struct SetFormat {
   std::string format;
 };
 
-// Another coordinate of the place where axes stand.
+// Settings that give the present position of axes another coordinate.
 struct SetCoordinates {
   std::map<int, std::int64_t> pulses;  // by axis
 };
@@ -74,16 +74,16 @@ struct UnsetOrigin {
   AxisSet axes;
 };
 
-// Done once.
+// Actions without a lasting value.
 struct FireTrigger {};
 struct ResetController {};
 
-// Axes in it are 1 to kAxisCount.
+// All axis numbers in a Setting are 1 to kAxisCount.
 using Setting = std::variant<SetClosedLoop, SetExcitation, SetDivisions, SetSpeeds, SetOriginSpeeds, SetDisplay,
                              SetBeep, SetSettling, SetOutputs, SetTrigger, SetSleep, SetMode, SetFormat, SetCoordinates,
                              SetOrigin, UnsetOrigin, FireTrigger, ResetController>;
 
-// What was reported; nothing where it was not.
+// Values that the controller reported; nullopt or empty if it did not report them.
 struct AxisSettings {
   std::optional<bool> excited{}, closed_loop{};
   std::optional<SpeedSetting> speeds{}, origin_speeds{};

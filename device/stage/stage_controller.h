@@ -1,5 +1,4 @@
-// A stage controller of any kind, as the gateway sees it: a machine on a line that moves axes and says what became of
-// it.
+// A stage controller of any kind: a device on a line that moves axes and reports the outcomes.
 #pragma once
 
 #include <chrono>
@@ -20,18 +19,19 @@
 
 namespace axisgate::stage {
 
-// Not thread safe: every member is called on the device's strand. Callbacks are called on it too, after the call that
-// took them has returned or from within it, once each (ExecuteEvents until `ended`).
+// Not thread safe: every member must be called on the device's strand. Callbacks run on the strand too, during or after
+// the call that took them, once each (OnExecute until `ended`).
 class StageController : public LineMachine {
  public:
   virtual const Profile& profile() const = 0;
   virtual const State& state() const = 0;
 
-  // The state, read again from the device when it is older than `max_age`; link_down while the device is not up.
+  // Returns the state, read again from the device if it is older than `max_age`. Fails with link_down while the device
+  // is not up.
   using OnState = std::function<void(Result<State>)>;
   virtual void refresh(Duration max_age, const RequestContext& context, TimePoint now, OnState done) = 0;
 
-  // Answers once the motion has started (state running or already beyond), or with the problem that kept it from it.
+  // Called once the motion has started (state running or later), or with the problem that prevented the start.
   using OnStarted = std::function<void(Result<Motion>)>;
   virtual void move(MoveRequest request, TimePoint now, OnStarted started) = 0;
   virtual void home(HomeRequest request, TimePoint now, OnStarted started) = 0;
@@ -40,36 +40,37 @@ class StageController : public LineMachine {
   virtual void scan(ScanRequest request, TimePoint now, OnStarted started) = 0;
   virtual void go_to_position(GoToPositionRequest request, TimePoint now, OnStarted started) = 0;
 
-  // The axes run for as long as renew_jog() comes, at most kJogSilence apart: beyond that, at the end of the caller's
-  // right to them, and before a travel limit they are stopped. Answers as move() does; with the motion's number
-  // at once, 0 where it was refused.
+  // Runs axes as long as renew_jog() is called at least every kJogSilence. Otherwise, when the caller loses the right
+  // to the axes, and before a travel limit, the axes are stopped. `started` is called as for move(). Returns the
+  // motion's number at once; 0 if it was refused.
   static constexpr Duration kJogSilence = std::chrono::milliseconds(500);
   virtual MotionId jog(JogRequest request, TimePoint now, OnStarted started) = 0;
-  // Lets it run on; at other speeds for the axes of `speeds` (directions do not count). unknown_axis, too_fast,
-  // out_of_range, not_found once it has ended.
+  // Continues the jog; at other speeds for the axes of `speeds` (directions are ignored). Fails with unknown_axis,
+  // too_fast, out_of_range, or not_found if the jog has ended.
   virtual Result<void> renew_jog(MotionId id, const std::vector<JogRequest::Axis>& speeds, TimePoint now) = 0;
-  // Stops it: succeeded where the caller wanted that, else stopped, with the reason.
+  // Stops the jog. The outcome is succeeded if the caller ended it (`why` is nullopt), else stopped with the reason.
   virtual void end_jog(MotionId id, std::optional<Problem> why, TimePoint now) = 0;
 
-  // Whether the caller may change something of these axes now: lease_held, lease_lost, outside_lease, stopped_by,
+  // Checks that the caller may change these axes now. Fails with lease_held, lease_lost, outside_lease, stopped_by or
   // epoch_passed.
   virtual Result<void> check_use(const RequestContext& context, AxisSet axes) = 0;
 
-  // Whether the device can be commanded now: link_down; wrong_mode if a person must first correct something at its
-  // front panel; not_sent after wind_down().
+  // Checks that the device can take commands now. Fails with link_down; with wrong_mode if a person must first correct
+  // something at the front panel; with not_sent after wind_down().
   virtual Result<void> check_up() const = 0;
 
-  // The same checks as the calls above, and nothing is sent.
+  // Make the same checks as the calls above, and send nothing.
   virtual Result<void> check(const MoveRequest& request) const = 0;
   virtual Result<void> check(const PathRequest& request) const = 0;
   virtual Result<void> check(const ScanRequest& request) const = 0;
   virtual Result<void> check(const GoToPositionRequest& request) const = 0;
 
-  // Answers when the axes are stationary or the wait for that has run out; the stop itself stays open until they were
-  // seen stationary, and is repeated over reconnects. Empty: all controllable axes. Needs no lease.
+  // Stops axes; empty: all controllable axes. `done` is called when the axes are stationary or the wait for that has
+  // timed out. The stop itself stays open, and is repeated across reconnects, until the axes are confirmed stationary.
+  // Needs no lease.
   using OnStopped = std::function<void(StopReport)>;
   virtual void stop(AxisSet axes, const RequestContext& context, TimePoint now, OnStopped done) = 0;
-  // The same for all axes. From now on all motion is refused, until clear_errors() for all axes.
+  // Stops all axes in the same way, and refuses all motion until clear_errors() for all axes.
   virtual void emergency_stop(const RequestContext& context, TimePoint now, OnStopped done) = 0;
 
   using OnDone = std::function<void(Result<void>)>;
@@ -82,26 +83,27 @@ class StageController : public LineMachine {
   using OnExecute = std::function<void(const ExecuteEvent&)>;
   virtual void execute(ExecuteRequest request, TimePoint now, OnExecute event) = 0;
 
-  // The newest kMotionsKept motions; unfinished ones are always kept.
+  // Return the newest kMotionsKept motions; unfinished motions are always kept.
   static constexpr std::size_t kMotionsKept = 1000;
   virtual std::vector<Motion> motions() const = 0;  // oldest first
   virtual std::optional<Motion> find_motion(MotionId id) const = 0;
   virtual void cancel_motion(MotionId id, const RequestContext& context, TimePoint now, OnDone done) = 0;
 
   virtual std::size_t queued(Lane lane) const = 0;
-  // Answers to abandoned probes of the line that may still come.
+  // Number of answers to abandoned probes that may still come.
   virtual int outstanding_answers() const = 0;
 
-  // Before link_up(): what the run before this one left. Its motions are stopped, or finish if the profile's at_exit
-  // lets motions finish; a jog is always stopped. UnfinishedJudged says what was found.
+  // Takes over the state that the previous run left. Call before link_up(). Motions of that run are stopped, or may
+  // finish if the profile's at_exit allows; a jog is always stopped. UnfinishedJudged reports the decision.
   virtual void inherit(const Inheritance&, TimePoint /*now*/) {}
-  // Once, before the first request: the next motion has the number behind this one. Otherwise they count from 1.
+  // Sets the number after which motions are numbered. Call once, before the first request. Without this call, motions
+  // count from 1.
   virtual void number_motions_after(MotionId last) = 0;
 
-  // The end, called once. From now on everything but a stop is refused with not_sent, and so end motions that wait.
-  // Motions that run are stopped, or with AtExit::finish waited for and stopped when kFinishLimit has passed. Answers
-  // when all have their outcomes, which are unknown after kStopLimit, and the exchange on the wire has ended; nothing
-  // but a stop is written any more then.
+  // Ends the controller's work; called once. From then on every request but a stop is refused with not_sent, and
+  // waiting motions end in the same way. Running motions are stopped, or with AtExit::finish waited for and stopped
+  // after kFinishLimit. `done` is called when every motion has its outcome (unknown after kStopLimit) and the exchange
+  // in flight has ended; from then on only stops are written.
   static constexpr Duration kFinishLimit = std::chrono::seconds(60), kStopLimit = std::chrono::seconds(10);
   using OnWoundDown = std::function<void(WindDownReport)>;
   virtual void wind_down(TimePoint now, OnWoundDown done) = 0;

@@ -1,4 +1,4 @@
-// The trigger output: one setting of a controller.
+// The trigger output of a controller.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@ namespace axisgate::stage {
 struct Trigger {
   enum class Target { none, drive_pulses, timer, scale_plus, scale_minus };
   Target target = Target::none;
-  int axis = 0;               // 1 to 3; 0 for a timer and for none
+  int axis = 0;               // 1 to 3; 0 for timer and none
   std::int64_t interval = 0;  // 2 to 30,000 pulses; 1 to 10,000 times 0.01 s for a timer
 
   friend bool operator==(const Trigger&, const Trigger&) = default;

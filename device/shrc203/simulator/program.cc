@@ -13,7 +13,7 @@ constexpr std::int64_t kTriggerMinimum = 2;
 constexpr std::int64_t kTriggerPulsesMax = 30'000;
 constexpr std::int64_t kTriggerHundredthsMax = 10'000;
 
-// The fields of one line from the left. A field that is missing or out of range makes the whole line invalid.
+// The fields of one line, from the left. A field that is missing or out of range makes the whole line invalid.
 class Fields {
  public:
   explicit Fields(std::string_view text) : rest_(text) {}
@@ -71,7 +71,7 @@ void read_output_speed_and_wait(Fields& fields, Instruction& line) {
   line.wait_tenths = fields.small(0, kWaitMax);
 }
 
-// tm, and behind it ta and tv in those modes that have them (manual 114) (1)).
+// Reads tm, and after it ta and tv in the modes that have them (manual 114) (1)).
 void read_trigger(Fields& fields, Instruction& line) {
   Trigger& trigger = line.trigger;
   trigger.mode = fields.small(0, Trigger::kAsBefore);
@@ -104,7 +104,7 @@ void read_continuous(Fields& fields, Instruction& line) {
   fields.require(line.trigger.mode != 1);
 }
 
-// Manual 114) (3) to (8). The shapes come in pairs, one for each sense of rotation.
+// Manual 114) (3) to (8). The shapes come in pairs, one for each direction of rotation.
 void read_circle(Fields& fields, Instruction& line) {
   const bool helix = line.pattern == Pattern::helix;
   line.axes = fields.axes();
@@ -116,7 +116,7 @@ void read_circle(Fields& fields, Instruction& line) {
   arc.direction = mode % 2;
   for (int point = 0; point < (shape == 2 ? 4 : 2); ++point) arc.points.push_back(fields.coordinate());
   if (shape == 1) arc.angle = Number{fields.number(0, helix ? 360'000 : 360), 0};
-  // Three points on a straight line are no arc (manual 73)).
+  // Three points on a straight line do not form an arc (manual 73)).
   if (shape == 2) fields.require(arc.points[0] * arc.points[3] != arc.points[1] * arc.points[2]);
   if (helix) arc.points.push_back(fields.coordinate());
   if (helix && shape == 0) arc.turns = fields.small(1, 1000);

@@ -1,4 +1,4 @@
-// Programs as P:SET stores them and P:GET reads them back (manual 112) to 116)), and how far one has run.
+// Programs as P:SET stores them and P:GET reads them (manual 112) to 116)), and the progress of a running program.
 #pragma once
 
 #include <array>
@@ -15,7 +15,7 @@
 
 namespace axisgate::shrc203::simulator {
 
-// Manual 114) (1) to (17), in its order.
+// Kinds of program lines, in the order of manual 114) (1) to (17).
 enum class Pattern {
   relative,
   absolute,
@@ -46,7 +46,7 @@ struct Trigger {
 
 struct Instruction {
   Pattern pattern = Pattern::none;
-  std::string text = "NONE";  // as P:GET answers
+  std::string text = "NONE";  // answer to P:GET
   Axes axes;
   std::array<std::int64_t, kAxes> values{};  // ap1 to ap3, or the registration number of each axis
   std::optional<Arc> arc;
@@ -59,33 +59,33 @@ struct Instruction {
   int repeats = 0;
 };
 
-// What follows P:SET,n, or nothing where the manual allows no such line. In upper case and without blanks.
+// Reads the text after P:SET,n, in upper case and without blanks. nullopt if the manual allows no such line.
 std::optional<Instruction> read_instruction(std::string_view text);
 
 class Program {
  public:
   static constexpr int kLines = 4000;
 
-  // Manual 114) (16) and (17): END in the first line, NONE in the others.
+  // Creates a program with END in the first line and NONE in the others (manual 114) (16) and (17)).
   Program();
 
   Instruction at(int line) const;
-  void set(int line, const Instruction& instruction);  // NONE deletes it
+  void set(int line, const Instruction& instruction);  // NONE deletes the line
   void add_missing_end();                              // manual 112)
-  int next_registered(int line) const;                 // from this line on; kLines + 1 when there is none
+  int next_registered(int line) const;  // first line from this one on that is not NONE; kLines + 1 if there is none
 
  private:
-  std::map<int, Instruction> lines_;  // those that are not NONE
+  std::map<int, Instruction> lines_;  // lines that are not NONE
 };
 
 struct ProgramRun {
   static constexpr int kNests = 9;
 
-  // The digit of ?:L (manual 41)); from other_axes on: stopped while processing.
+  // Digit of ?:L (manual 41)); other_axes and later: the program stopped during processing.
   enum class Status { not_executed, executing, paused, one_line, other_axes, error, unexpected, unexcited, busy };
   enum class Step { between_lines, moving, waiting, input };
   struct Loop {
-    int line = 0;  // of its F, 0 when none was met
+    int line = 0;  // line of its F; 0 if there was none
     int left = 0;
   };
 
@@ -94,20 +94,20 @@ struct ProgramRun {
   Status status = Status::not_executed;
   Step step = Step::between_lines;
   int line = 1;
-  Axes axes;        // that this line moves
-  TimePoint due{};  // when the next line begins, or the wait of this one is over
+  Axes axes;        // axes that this line moves
+  TimePoint due{};  // start of the next line, or end of this line's wait
   std::array<Loop, kNests> loops{};
-  Trigger trigger;                       // of the last line that has set one
-  std::optional<TimePoint> trigger_due;  // when the trigger output is looked at next
-  std::int64_t triggers_reported = 0;    // of those that the trigger output has emitted
+  Trigger trigger;                       // of the last line that set one
+  std::optional<TimePoint> trigger_due;  // next check of the trigger output
+  std::int64_t triggers_reported = 0;    // pulses emitted up to the last check
 };
 
-// Program mode (manual 102) to 116)), but for ?:MODE, which the rig keeps.
+// Program mode (manual 102) to 116)), except ?:MODE, which the Rig keeps.
 struct ProgramMode {
   static constexpr int kPrograms = 8;
-  static constexpr std::size_t kNoticesMax = 1000;  // that wait to be written; more are lost
+  static constexpr std::size_t kNoticesMax = 1000;  // notices waiting to be written; further ones are lost
 
-  void power_on();  // the programs are kept, what P:OFF has not saved is lost
+  void power_on();  // keeps the programs; changes that P:OFF has not saved are lost
   Program& chosen() { return programs[static_cast<std::size_t>(number - 1)]; }
   const Program& chosen() const { return programs[static_cast<std::size_t>(number - 1)]; }
   void tell(std::string_view notice);
@@ -117,7 +117,7 @@ struct ProgramMode {
   bool reports_completion = false;  // manual 109)
   bool reports_trigger = false;     // manual 110)
   bool editing = false;             // manual 111)
-  Program edited;                   // the chosen one while it is edited
+  Program edited;                   // copy of the chosen program during editing
   ProgramRun run;
   std::vector<std::string> notices;  // COMP and TRIG that are due on the line
 };

@@ -11,9 +11,9 @@ namespace {
 using Status = ProgramRun::Status;
 using Step = ProgramRun::Step;
 
-// Each line takes this long, so that no program loops for ever in no time.
+// Duration of each line, so that no program loops forever in no time.
 constexpr Duration kLineTime = std::chrono::milliseconds(1);
-// How often the trigger output is looked at: TRIG comes no more often.
+// Interval between checks of the trigger output; TRIG is sent at most this often.
 constexpr Duration kTriggerTick = std::chrono::milliseconds(1);
 
 Duration tenths(int count) { return std::chrono::milliseconds(100) * count; }
@@ -48,7 +48,7 @@ void disarm_triggers(Rig& rig) {
   rig.program.run.trigger_due.reset();
 }
 
-// Also while the program pauses, up to the end of the motion.
+// Continues while the program pauses, until the motion ends.
 void tell_triggers_when_due(Rig& rig) {
   ProgramRun& run = rig.program.run;
   if (!run.trigger_due || *run.trigger_due > rig.now) return;
@@ -64,7 +64,7 @@ void end_triggers(Rig& rig) {
   tell_triggers(rig);
 }
 
-// --- from line to line -----------------------------------------------------------------------------------------------
+// --- sequence of lines -----------------------------------------------------------------------------------------------
 
 void leave(Rig& rig, Status status) {
   if (rig.program.run.step == Step::moving) disarm_triggers(rig);
@@ -76,7 +76,7 @@ void complete(Rig& rig) {
   if (rig.program.reports_completion) rig.program.tell("COMP");
 }
 
-// Lines that are NONE take no time.
+// Goes to the next line that is not NONE; lines that are NONE take no time.
 void go_to(Rig& rig, int line) {
   ProgramRun& run = rig.program.run;
   const int next = rig.program.chosen().next_registered(line);
@@ -103,7 +103,7 @@ void wait_after(Rig& rig, const Instruction& line) {
 
 // --- lines that move -------------------------------------------------------------------------------------------------
 
-// What prevents these axes from beginning or continuing, as ?:L reports it (manual 41)).
+// Returns the reason for which these axes cannot start or continue, as ?:L reports it (manual 41)).
 std::optional<Status> obstacle(const Rig& rig, const Axes& axes) {
   if (!axes.within(rig.controllable)) return Status::other_axes;
   for (const int number : axes.list()) {
@@ -142,8 +142,8 @@ Kind kind_of(Pattern pattern) {
   }
 }
 
-// Nothing for a position that nobody has registered, and for a helix that does not rise along axis 3: E:3 to E:5 know
-// none (manual 74)).
+// Returns nullopt for a position that is not registered, and for a helix that does not rise along axis 3: E:3 to E:5
+// have no such helix (manual 74)).
 std::optional<Setting> setting_of(const Rig& rig, const Instruction& line) {
   Setting setting;
   setting.kind = kind_of(line.pattern);
@@ -205,7 +205,7 @@ void begin_loop(Rig& rig, const Instruction& line) {
   end_line(rig);
 }
 
-// Manual 114) (15). An N without its F is no line that was to be expected here.
+// Manual 114) (15). An N without its F is an unexpected line.
 void repeat_loop(Rig& rig, const Instruction& line) {
   ProgramRun::Loop& loop = loop_of(rig, line);
   if (loop.line == 0) {
@@ -272,7 +272,7 @@ bool any_emergency(const Rig& rig) {
   return std::any_of(list.begin(), list.end(), [&](int number) { return rig.axis(number).emergency; });
 }
 
-// Continues the program where nothing keeps it waiting any longer. What moves when it pauses continues to move.
+// Continues the program if it has nothing left to wait for. A motion that runs when the program pauses continues.
 void progress(Rig& rig) {
   ProgramRun& run = rig.program.run;
   if (!run.active()) return;

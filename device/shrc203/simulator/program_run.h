@@ -1,4 +1,5 @@
-// What happens by itself: the axes' events, and a program's lines between them (manual 105) to 110), 114)).
+// Events that occur without a command: those of the axes, and the lines of a program between them (manual 105) to 110),
+// 114)).
 #pragma once
 
 #include <optional>
@@ -10,17 +11,17 @@
 
 namespace axisgate::shrc203::simulator {
 
-// What is due on the line since the last call, in order: COMP and TRIG.
+// Returns the notices that became due on the line since the last call, in order: COMP and TRIG.
 std::vector<std::string> take_notices(Rig& rig);
 
 std::optional<TimePoint> next_due(const Rig& rig);
 
-// Every event up to `now`, in order and each at its own time.
+// Processes every event up to `now`, in order and each at its own time.
 void run_until(Rig& rig, TimePoint now);
 
-bool in_program_mode(const Rig& rig);  // its edit mode included
+bool in_program_mode(const Rig& rig);  // includes its edit mode
 
-// From line 1 on. With one_line it pauses behind the first one (manual 106)).
+// Starts at line 1. With one_line, the program pauses after the first line (manual 106)).
 void start_program(Rig& rig, bool one_line);
 void pause_program(Rig& rig);
 void resume_program(Rig& rig, bool one_line);

@@ -1,4 +1,4 @@
-// Everything that a command can see or change.
+// The whole state that a command can see or change.
 #pragma once
 
 #include <array>
@@ -24,20 +24,20 @@ struct Rig {
   Axis& axis(int number) { return axes[index_of(number)]; }
   const Axis& axis(int number) const { return axes[index_of(number)]; }
 
-  // "In the case of Busy": of these axes, or of any, as busy_scope has it.
+  // Reports whether the named axes, or with busy_scope "controller" all axes, are free ("In the case of Busy").
   bool is_free(const Axes& named) const;
   bool is_excited(const Axes& named) const;
-  bool can_move(const Axes& named) const;  // excited, awake, no error but a limit's
+  bool can_move(const Axes& named) const;  // excited, awake, no error except a limit error
 
   std::optional<std::int64_t> to_pulses(Number number, char unit, int axis_number) const;
 
-  // Settings go back to what the memory switches say; the stages stay where they are.
+  // Resets settings to the values of the memory switches; the stages stay where they are.
   void power_on();
 
   const Options options;
   MemorySwitches memory;
   int axis_setting = 6;  // manual 44)
-  Axes controllable;     // what it means
+  Axes controllable;     // axes of axis_setting
   std::array<Axis, kAxes> axes;
   Motions motions;
   Triggers triggers{axes};

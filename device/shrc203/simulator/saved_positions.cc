@@ -25,7 +25,7 @@ SavedPosition here(const Rig& rig, bool place) {
   return position;
 }
 
-// Manual 129): a place reads what the counter would show there now. S: leaves the stage its place.
+// Manual 129): a place is reported as the coordinate that the counter would show there now. S: does not move the place.
 std::int64_t coordinate_of(const Rig& rig, const SavedPosition& position, bool place, int number) {
   const std::int64_t pulses = position.pulses[index_of(number)];
   if (!place) return pulses;
@@ -48,7 +48,7 @@ Answer move_to(Rig& rig, const SavedPosition& position, bool place, bool reports
 Answer use(Rig& rig, Reader reader, bool place) {
   Table& table = place ? rig.saved.places : rig.saved.coordinates;
   if (rig.motions.busy(rig.controllable)) return Answer::ng;
-  // GRT before G, which it begins with.
+  // GRT comes before G, since it begins with G.
   for (const std::string_view verb : {"DEL", "SET", "GRT", "G"}) {
     if (!reader.take_text(verb)) continue;
     const auto index = take_index(reader);

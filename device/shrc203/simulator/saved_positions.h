@@ -1,5 +1,4 @@
-// The registered positions: PIT: (manual 127) to 131)) keeps where the stage stands, PAV: (manual 132) to 136)) what
-// the counter reads.
+// Saved positions: PIT: (manual 127) to 131)) saves the stage's position, PAV: (manual 132) to 136)) the counter's.
 #pragma once
 
 #include <array>
@@ -14,7 +13,7 @@ namespace axisgate::shrc203::simulator {
 
 struct Rig;
 
-// PIT: an axis's place and the DIVIDE whose pulses it counts; PAV: the coordinate.
+// For PIT:, the position of each axis and the DIVIDE that defines its pulses; for PAV:, the coordinate.
 struct SavedPosition {
   std::array<std::int64_t, kAxes> pulses{};
   std::array<std::int64_t, kAxes> divide{};
@@ -24,11 +23,11 @@ struct SavedPositions {
   static constexpr int kCount = 20;
   using Table = std::array<std::optional<SavedPosition>, kCount>;
 
-  Table places;       // PIT:, gone after a reboot (manual 128))
-  Table coordinates;  // PAV:, of which the manual does not say so: kept
+  Table places;       // PIT:, lost after a reboot (manual 128))
+  Table coordinates;  // PAV:, kept: the manual does not say that they are lost
 };
 
-// PIT:GET,n and PAV:GET,n: coordinates of today's counter, or nothing for NG.
+// Answers PIT:GET,n and PAV:GET,n with coordinates of the present counter; nullopt for NG.
 std::optional<std::string> answer_saved_position(const Rig& rig, std::string_view line);
 
 }  // namespace axisgate::shrc203::simulator

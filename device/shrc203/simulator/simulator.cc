@@ -11,7 +11,7 @@ class Simulator::Device : public Machine {
  public:
   using Machine::Machine;
 
-  // Something happened other than through the line: its immediate effects are reported now.
+  // Reports the immediate effects of a change that did not come through the line.
   void settle_consequences() {
     run_until(rig(), rig().now);
     send_completions();

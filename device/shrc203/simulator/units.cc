@@ -9,7 +9,7 @@ __extension__ using Wide = __int128;
 
 constexpr int kDecimalsShown = 9;
 
-// Millionths of a nanometre in one of the unit; 0 for pulses.
+// Returns the size of the unit in millionths of a nanometre; 0 for pulses.
 std::int64_t unit_size(char unit) {
   switch (unit) {
     case 'N':
@@ -30,7 +30,7 @@ std::int64_t power_of_ten(int exponent) {
   return power;
 }
 
-// A non-negative numerator over a positive denominator, as decimals, the last one rounded.
+// Converts a non-negative numerator over a positive denominator to decimals; the last decimal is rounded.
 std::string decimal_text(Wide numerator, Wide denominator) {
   const Wide scaled = (numerator * power_of_ten(kDecimalsShown) * 2 + denominator) / (denominator * 2);
   const auto whole = static_cast<std::int64_t>(scaled / power_of_ten(kDecimalsShown));

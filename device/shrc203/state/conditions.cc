@@ -11,7 +11,7 @@ namespace {
 using stage::Condition;
 using stage::ConditionBits;
 
-// Adds the axis to the change that several axes have in common.
+// Adds the axis to the change; one change lists all axes that it concerns.
 void add(Conditions::Changes& changes, Condition condition, int axis, bool begun) {
   const auto same = std::ranges::find_if(
       changes, [&](const ConditionChanged& change) { return change.condition == condition && change.begun == begun; });

@@ -19,15 +19,17 @@ class Conditions {
   using Changes = std::vector<ConditionChanged>;
   using ByAxis = std::map<int, stage::ConditionBits>;
 
-  // A status bit or the state of a motor has changed when two readings in a row show it, since one flipped bit of the
-  // line makes another number. The time of the first of the two counts.
+  // Compares a reading with the known state. A status bit or the state of a motor has changed when two readings in a
+  // row show the change, since one flipped bit on the line makes another number. The time of the first of the two
+  // counts.
   Changes status_read(const ByAxis& shown, TimePoint now) { return status_.compare(shown, now); }
   Changes motors_read(const ByAxis& shown, TimePoint now) { return motors_.compare(shown, now); }
-  // No flipped bit makes one mode of another, so that one reading decides. Q: is answered in HOST only (manual 4.).
+  // Compares the mode or the command format with the known one. One reading decides, since no flipped bit turns one
+  // mode into another. Q: is answered in HOST only (manual 4.).
   Changes mode_read(std::string_view mode, TimePoint now);
   Changes format_read(std::string_view format, TimePoint now);
 
-  // Whether the last reading differs from what is known, so that another one should follow soon.
+  // Reports whether the last reading differs from the known state, so that another one should follow soon.
   bool status_doubtful() const { return status_.doubtful(); }
   bool motors_doubtful() const { return motors_.doubtful(); }
   TimePoint motors_last_read() const { return motors_.read; }
@@ -37,10 +39,10 @@ class Conditions {
     Changes compare(const ByAxis& shown, TimePoint now);
     bool doubtful() const;
 
-    std::array<stage::ConditionBits, kAxisCount> known{}, differing{};  // `differing`: of the last reading
-    TimePoint read{}, before{};                                         // the last reading, and the one before
+    std::array<stage::ConditionBits, kAxisCount> known{}, differing{};  // `differing`: in the last reading
+    TimePoint read{}, before{};                                         // times of the last reading and the one before
   };
-  // What the front panel selects, as text.
+  // A Selected is a front panel setting, as text.
   struct Selected {
     Changes compare(stage::Condition condition, std::string_view now_selected, TimePoint now);
 

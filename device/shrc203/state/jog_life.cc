@@ -15,7 +15,7 @@ std::string_view name(JogEvent event) {
                                                                       "must_end", "stop_asked",  "stop_answered"};
   return kNames.at(static_cast<std::size_t>(event));
 }
-// As README.md draws it.
+// README.md has a drawing of this table.
 std::optional<JogPhase> next(JogPhase phase, JogEvent event) {
   using Phase = JogPhase;
   using Event = JogEvent;

@@ -1,5 +1,5 @@
-// The life of a jog, from its asking to its stop: one enum, changed in one place by the table of README.md. What the
-// motion of it has come to otherwise stands in motion_life.h.
+// State machine of a jog, from its request to its stop: one enum, changed in one place by the table of README.md. The
+// state of its motion is in motion_life.h.
 #pragma once
 
 #include <cstddef>
@@ -15,45 +15,45 @@
 namespace axisgate::shrc203 {
 
 enum class JogPhase {
-  preparing,       // its G: has not gone out
-  running,         // its G: may have gone out
-  changing_speed,  // and a JD: is on its way
-  ending,          // it must end, and no stop is on its way
-  stopping,        // a stop is on its way
+  preparing,       // its G: has not been sent
+  running,         // its G: may have been sent
+  changing_speed,  // running, and a JD: is in flight
+  ending,          // must end; no stop is in flight
+  stopping,        // must end; a stop is in flight
 };
 inline constexpr std::size_t kJogPhases = 5;
 
 enum class JogEvent {
-  begun,           // its G: goes out
-  speed_asked,     // a JD: goes out
-  speed_answered,  // or will not be
-  must_end,        // its caller wants it, or the gateway
+  begun,           // its G: is about to be sent
+  speed_asked,     // a JD: is about to be sent
+  speed_answered,  // the JD: was answered, or will not be
+  must_end,        // its caller or the gateway ends it
   stop_asked,
-  stop_answered,  // the jog may run on all the same
+  stop_answered,  // the jog may still run
 };
 inline constexpr std::size_t kJogEvents = 6;
 
 std::string_view name(JogPhase phase);  // "preparing", as in README.md
 std::string_view name(JogEvent event);
-// The phase after the event; nothing where the table has none.
+// Returns the phase after the event; nullopt if the table has no such transition.
 std::optional<JogPhase> next(JogPhase phase, JogEvent event);
 
-// What a jog needs beside its motion.
+// A Jog is the state of a jog in addition to its motion's.
 struct Jog {
   explicit Jog(Executor& executor) : changed(executor) {}
 
   bool must_end() const { return phase >= JogPhase::ending; }
 
-  JogPhase phase = JogPhase::preparing;  // changed by Motions::change() alone
-  Signal changed;                        // a renewal, a new speed, its start, its end
+  JogPhase phase = JogPhase::preparing;  // changed by Motions::jog_changed() only
+  Signal changed;                        // notified by a renewal, a new speed, the start and the end
   TimePoint renewed{};
-  TimePoint begun{};                    // when its G: may have been written; of one that is preparing nothing
-  std::uint64_t epoch = 0;              // of the device, when the jog was requested
-  std::map<int, int> directions;        // by axis
-  std::map<int, std::int64_t> speeds;   // requested, by axis; in pulses/s
-  std::map<int, std::int64_t> sent;     // the last that JD: was accepted with
-  std::map<int, std::int64_t> fastest;  // that the axis may run at by now
-  std::optional<Problem> why;           // it must end; nothing: its caller wants it
+  TimePoint begun{};                    // time at which its G: may have been written; zero while preparing
+  std::uint64_t epoch = 0;              // device epoch of the request
+  std::map<int, int> directions;        // 1 or -1, by axis
+  std::map<int, std::int64_t> speeds;   // pulses/s, requested, by axis
+  std::map<int, std::int64_t> sent;     // pulses/s, from the last accepted JD:, by axis
+  std::map<int, std::int64_t> fastest;  // pulses/s, highest speed that the axis may have now
+  std::optional<Problem> why;           // reason why the jog must end; nullopt if its caller ends it
 };
 
 }  // namespace axisgate::shrc203

@@ -1,4 +1,4 @@
-// A motion without an outcome yet, and what its procedure needs to know of it.
+// A motion without an outcome yet, with the data of its procedure.
 #pragma once
 
 #include <cstdint>
@@ -18,25 +18,25 @@
 
 namespace axisgate::shrc203 {
 
-// What READY must show for a success.
+// Condition at READY for success.
 enum class Goal {
-  targets,     // every axis at its target
-  round_trip,  // likewise, and it was seen to run: it began there, so that standing there shows nothing
-  none,        // not all of it was started, so that standing at its target is no success
+  targets,     // every axis is at its target
+  round_trip,  // likewise, and the axes were seen to move: the motion began at its target, which alone shows nothing
+  none,        // never a success: a part of the motion was not started
 };
 
-// What a scan needs besides.
+// A Scan is the trigger of a scan.
 struct Scan {
-  Trigger trigger;                       // that it runs with
-  Trigger before;                        // that is restored
-  std::optional<std::int64_t> armed_at;  // by the counter that the trigger counts
+  Trigger trigger;                       // trigger during the scan
+  Trigger before;                        // trigger to restore
+  std::optional<std::int64_t> armed_at;  // counter value at arming, of the counter that the trigger counts
 };
 
 struct LiveMotion {
   LiveMotion(Executor& executor, Motion record, RequestContext from)
       : motion(std::move(record)), context(std::move(from)), changed(executor) {}
 
-  // An axis number of it has come.
+  // A Completion is a received completion of one of the motion's axes.
   struct Completion {
     int axis = 0;
     bool doubtful = false;
@@ -47,22 +47,22 @@ struct LiveMotion {
   bool completed_by_all() const { return completed == motion.axes; }
 
   Motion motion;
-  MotionLife life;  // changed by Motions alone
+  MotionLife life;  // changed by Motions only
   RequestContext context;
-  Signal changed;    // a completion of its axes, a stop, the loss of the line
-  int wake_ups = 0;  // how often all its axis numbers had come, or a stop
+  Signal changed;    // notified by a completion of its axes, a stop, the loss of the line
+  int wake_ups = 0;  // number of times that all completions had arrived, or a stop
   StageController::OnStarted on_started;
-  AxisSet uses;     // what it needs the right to: its axes, or all for a command that concerns the whole controller
-  AxisSet excited;  // the axes whose motors must be on
+  AxisSet uses;     // axes that the motion needs the right to: its own, or all if it concerns the controller
+  AxisSet excited;  // axes whose motors must be on
   Goal goal = Goal::targets;
-  int segments = 1;                // the axis numbers of all but the last come before its end
-  std::int64_t slack = 0;          // pulses by which its end may lie beside its targets (manual 72))
-  commands::Speeds speeds_before;  // restored when it has its outcome; none: it changes no speeds
+  int segments = 1;                // completions of all segments but the last arrive before its end
+  std::int64_t slack = 0;          // pulses by which its end may differ from its targets (manual 72))
+  commands::Speeds speeds_before;  // to restore after the outcome; empty if it changes no speeds
 
-  std::deque<Completion> completions;  // not yet looked at by the procedure
-  AxisSet completed;                   // axes whose number has come at least once
+  std::deque<Completion> completions;  // not yet processed by the procedure
+  AxisSet completed;                   // axes with at least one completion
   std::function<void(int axis)> on_completion;
-  std::function<void()> on_success;  // before the outcome is reported
+  std::function<void()> on_success;  // called before the outcome is reported
   std::optional<Jog> jog;
   std::optional<Scan> scan;
 };

@@ -47,7 +47,7 @@ void MotionGate::let_go(AxisSet axes) {
 void MotionGate::withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem) {
   queue_.drain([&](const Entry& entry) { return chosen(entry.id); },
                [&](Entry entry) { entry.answer.deliver(tl::unexpected<Problem>(problem)); });
-  admit();  // what they kept out
+  admit();  // the withdrawn motions may have kept others out
 }
 
 void MotionGate::expire(const std::function<std::string(AxisSet)>& inside) {
@@ -64,7 +64,7 @@ void MotionGate::expire(const std::function<std::string(AxisSet)>& inside) {
   admit();
 }
 
-// Where no motion has its axes. For people.
+// Returns text about what goes before the entry. Call if no motion has the entry's axes.
 std::string MotionGate::what_goes_first(const Entry& entry) const {
   if (held().touches(entry.axes)) return fmt::format("a stop of {} is not over yet", to_string(held()));
   const auto waited = [now = tasks_.now()](TimePoint since) { return for_people(now - since); };
@@ -104,12 +104,13 @@ AxisSet MotionGate::busy() const {
   return axes;
 }
 
-// Motions that have waited since then, or longer, are not overtaken.
+// Returns the time limit of overtaking: motions that have waited since then, or longer, are not overtaken.
 TimePoint MotionGate::overdue_since() const {
   return guarded(Guard::motions_not_overtaken) ? tasks_.now() - kTurnAfter : TimePoint::min();
 }
 
-// Those that need an axis for which another has waited so long, and whose turn comes after that one's.
+// Returns the motions that need an axis for which another motion has waited too long, and whose turn comes after that
+// motion's.
 std::set<MotionId> MotionGate::overtaking(AxisSet busy) const {
   std::set<MotionId> later;
   const TimePoint overdue = overdue_since();

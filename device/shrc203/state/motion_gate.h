@@ -1,5 +1,6 @@
-// Who may set and start a motion next. The manual does not say whether one busy axis refuses the others' commands, so
-// by default one motion at a time goes through; with busy_scope = axis, motions of different axes do.
+// Gate for motions: it decides which motion may set and start next. The manual does not say whether one busy axis
+// refuses the commands of the others. So by default one motion at a time passes; with busy_scope = axis, motions of
+// different axes do.
 #pragma once
 
 #include <functional>
@@ -20,30 +21,31 @@ namespace axisgate::shrc203 {
 
 class MotionGate {
  public:
-  // `question`: for whose sake motions wait (question_turn.h).
+  // `question` returns the question that motions wait for (question_turn.h).
   MotionGate(Tasks& tasks, Scope busy_scope, QuestionTurn::Waiting question)
       : tasks_(tasks), busy_scope_(busy_scope), question_turn_(std::move(question)) {}
 
-  // `not_after` may be TimePoint::max(), for ever. co_await yields nothing once entered, or the problem that kept it
-  // out: queue_full, deadline_passed, or what withdraw() was given. Callers take turns. A motion that needs axes which
-  // are never free at once, since others use them in turn, is not overtaken there once it has waited kTurnAfter.
+  // Waits for the motion's turn. `not_after` may be TimePoint::max() for no limit. Fails with queue_full,
+  // deadline_passed, or the problem given to withdraw(). Callers take turns. A motion of several axes that others use
+  // in turn, so that they are never free at once, is no longer overtaken once it has waited kTurnAfter.
   OneShot<Result<void>> enter(MotionId id, AxisSet axes, const std::string& caller, TimePoint not_after);
   void leave(MotionId id);
-  // What no other motion may set meanwhile: the axes of one inside, or all where one at a time goes through.
+  // Returns the axes that no other motion may set meanwhile: those of the motion, or all if one motion at a time
+  // passes. Empty if the motion is not inside.
   AxisSet axes_of(MotionId id) const;
   bool others_inside(MotionId id) const { return inside_.size() > inside_.count(id); }
 
-  // Until a stop of these axes is over nothing new is set on them: it would be taken for what the stop left behind, and
-  // stopped. Stops may overlap.
+  // Keeps new motions out while a stop of these axes is open: the stop would take a new setpoint for a stale one and
+  // stop it. Stops may overlap.
   void hold(AxisSet axes);
   void let_go(AxisSet axes);
 
-  // Turns away the waiting ones for which chosen(id) holds.
+  // Refuses the waiting motions for which chosen(id) is true.
   void withdraw(const std::function<bool(MotionId)>& chosen, const Problem& problem);
-  // Turns away those whose time has passed. inside(axes) says which motions inside have these axes, for people; empty
-  // where none has.
+  // Refuses the waiting motions whose time has passed. inside(axes) returns text about the motions inside that have
+  // these axes; empty if none has.
   void expire(const std::function<std::string(AxisSet)>& inside);
-  // To be called after whatever may have let a question go that keeps motions out.
+  // Admits all motions that may enter. Call it after any change that may end a question's turn.
   void admit();
   std::optional<TimePoint> next_deadline() const;
   std::size_t waiting() const { return queue_.size(Lane::motion); }

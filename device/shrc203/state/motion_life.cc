@@ -8,7 +8,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// What it does not name changes nothing.
+// Other combinations change nothing.
 constexpr auto kInterrupted = std::to_array<Transition<Interruption, InterruptionEvent>>({
     {Interruption::none, InterruptionEvent::stop_asked, Interruption::stop},
     {Interruption::none, InterruptionEvent::line_lost, Interruption::line_lost},
@@ -37,7 +37,7 @@ std::string_view name(Interruption interruption) {
 }
 std::string_view name(InterruptionEvent event) { return kInterruptionEventNames.at(static_cast<std::size_t>(event)); }
 
-// As README.md draws it.
+// README.md has a drawing of this table.
 std::optional<MotionPhase> next(MotionPhase phase, MotionEvent event) {
   using Phase = MotionPhase;
   using Event = MotionEvent;

@@ -147,7 +147,7 @@ void Motions::end(LiveMotion& live, MotionState outcome, std::optional<Problem> 
   ended_or_left_.notify();
 }
 
-// Nobody else has the right to axes that may still be moving.
+// Ends the motion's right to its axes, unless they may still be moving.
 void Motions::has_left(MotionId id) {
   restoring_.erase(id);
   gate_.leave(id);
@@ -219,7 +219,7 @@ void Motions::line_lost(const std::string& why) {
   for (const auto& [id, live] : live_) {
     if (!live->life.has_turn()) continue;
     live->life.lose_line(why);
-    // What it wrote last may have been its start, though no answer has come.
+    // The newest line may have been its start, even without a reply.
     if (live->life.has_written() && guarded(Guard::moving_unknown)) store_.may_move_unseen();
     live->changed.notify();
   }
@@ -233,7 +233,7 @@ void Motions::expire_waiting() {
   gate_.expire([this](AxisSet axes) { return occupation_of(axes); });
 }
 
-// By the motions inside, for people; empty where none has any of them.
+// Returns text about the motions inside that have any of the axes; empty if there are none.
 std::string Motions::occupation_of(AxisSet axes) const {
   std::string text;
   for (const auto& [id, live] : live_) {

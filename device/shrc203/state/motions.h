@@ -1,5 +1,5 @@
-// The motions: those without an outcome, their turns on the axes, and the newest of those that have ended. What changes
-// a motion's life, and what reports it.
+// All motions: those without an outcome, their turns on the axes, and the newest ended ones. Only this class changes
+// and reports the life of a motion.
 #pragma once
 
 #include <deque>
@@ -28,68 +28,70 @@ class Motions {
   Motions(StateStore& store, const Line& line, Registers& registers, Rights& rights, Tasks& tasks,
           Violations& violations);
 
-  // Before the first: the next has the number behind this one.
+  // Numbers the next motion last + 1. Call before the first motion.
   void number_after(MotionId last) { last_ = last; }
-  // A new one, which waits for enter().
+  // Creates a motion, which is queued by enter().
   LiveMotionPtr create(MotionKind kind, AxisSet axes, RequestContext context, OnStarted started);
-  // Its turn. `prebuffer`: it will set prebuffers, which belong to one motion unless the profile says that each axis
-  // has its own. queue_full, deadline_passed, what Rights refuse, stopped, not_sent.
+  // Waits for the motion's turn. `prebuffer`: the motion will set prebuffers, which belong to one motion unless the
+  // profile gives each axis its own. Fails with queue_full, deadline_passed, stopped, not_sent, or a refusal of Rights.
   Task<Result<void>> enter(LiveMotionPtr live, bool prebuffer);
-  // A line of its own goes out.
+  // Called when one of the motion's lines is about to be sent.
   void written(LiveMotion& live);
-  // Its start was accepted, or its axes were seen to move. Nothing where it is running already.
+  // Called when the motion's start was accepted, or its axes were seen to move. No effect if the motion is already
+  // shown as running.
   void started(LiveMotion& live);
-  // It should be over by then.
+  // Notes the time by which the motion should be over.
   void due(LiveMotion& live, TimePoint over);
   void jog_changed(LiveMotion& live, JogEvent event);
 
-  // The jog must end: `why`, or nothing where its caller wants it. Not where it must already, or was stopped.
+  // Ends the jog. `why` is nullopt if its caller ends it. No effect if the jog must already end, or was stopped.
   void end_jog(LiveMotion& live, std::optional<Problem> why);
 
-  // Its outcome; only the first counts.
+  // Sets the outcome; only the first one counts.
   void end(LiveMotion& live, MotionState outcome, std::optional<Problem> problem);
-  // Before anything of it was sent: stopped where that is the problem, else failed.
+  // Ends a motion of which nothing was sent: STOPPED if that is the problem's reason, otherwise FAILED.
   void refuse(LiveMotion& live, const Problem& problem);
-  // A step of it did not succeed: stopped where a stop was requested, otherwise failed.
+  // Ends a motion after a failed step: STOPPED if a stop was requested, otherwise FAILED.
   void disconnect(LiveMotion& live, const Problem& problem);
-  // Of one that restores something: all of that is over.
+  // Makes the motion leave its axes once its settings are restored.
   void leave(LiveMotion& live);
 
-  // From outside. A caller wants these axes to stop: the keeper of leases learns of it before anything is stopped.
+  // Reports a caller's stop of these axes to the keeper of leases, before anything is stopped.
   void stop_requested(const RequestContext& by, AxisSet axes);
   void stop_asked(LiveMotion& live, const std::string& who);
-  // All on these axes. Those that it has stopped.
+  // Notes a stop in all motions on these axes. Returns these motions.
   std::vector<MotionId> stop_asked(AxisSet axes, const std::string& who);
-  // All that have their turn; and those that wait for it are refused.
+  // Notes the loss of the line in all motions that have their turn, and refuses those that wait for it.
   void line_lost(const std::string& why);
   void completion_seen(int axis, bool doubtful, bool deduced);
 
-  // A reading showed these axes stationary: motions that ended UNKNOWN now leave them.
+  // Called when a reading showed these axes stationary. Motions that ended UNKNOWN leave them.
   void seen_stationary(AxisSet axes);
-  // The axes of a motion that ended UNKNOWN and were not seen stationary since.
+  // Returns the axes of a motion that ended UNKNOWN and that were not seen stationary since.
   AxisSet left_moving(MotionId id) const;
 
   const Live& live() const { return live_; }
-  LiveMotionPtr find_live(MotionId id) const;  // null: none
+  LiveMotionPtr find_live(MotionId id) const;  // null if there is none
   std::optional<Motion> find(MotionId id) const;
   std::vector<Motion> all() const;  // oldest first
   const std::deque<Motion>& ended() const { return ended_; }
 
-  // The axes of motions that are shown as running, and of those that have their turn.
+  // Returns the axes of motions that are shown as running, and of those that have their turn.
   AxisSet running() const;
   AxisSet inside() const;
-  // Also of motions that have their outcome, and restore what they changed.
+  // Returns the axes of inside(), and of motions that have their outcome and restore settings.
   AxisSet occupied() const;
-  bool anything_moves() const;  // also somebody else's
+  bool anything_moves() const;  // also in foreign motion
   bool others_inside(const LiveMotion& live) const { return gate_.others_inside(live.motion.id); }
   AxisSet axes_to_itself(const LiveMotion& live) const { return gate_.axes_of(live.motion.id); }
-  // In a chain the completions follow one another, so that they cannot be distinguished before its end.
+  // Reports whether a motion may be a chain: its completions follow one another and cannot be distinguished before its
+  // end.
   bool any_chain() const;
 
   MotionGate& gate() { return gate_; }
-  // Those that have waited for their turn as long as they may end.
+  // Refuses the motions whose time limit for waiting has passed.
   void expire_waiting();
-  // Notified when the pace of the polls may be another.
+  // Notified when the pace of the polls may have changed.
   Signal& pace_changed() { return pace_changed_; }
   // Notified when a motion has its outcome, and when it has left its axes.
   Signal& ended_or_left() { return ended_or_left_; }
@@ -109,14 +111,14 @@ class Motions {
   Signal pace_changed_, ended_or_left_;
   Live live_;
   std::deque<Motion> ended_;
-  std::map<MotionId, AxisSet> left_moving_;  // ended UNKNOWN, and were not seen stationary since
+  std::map<MotionId, AxisSet> left_moving_;  // ended UNKNOWN, and not seen stationary since
   std::map<MotionId, AxisSet> restoring_;
   MotionId last_ = 0;
 };
 
-// Its axes' places; those of others may go on moving.
+// Returns the positions of the motion's axes only: other axes may still move.
 Positions places_of(const LiveMotion& live, const State& state);
-// stopped: by whom.
+// Returns the problem `stopped`, which names who stopped the motion.
 Problem stopped_by(const LiveMotion& live);
 
 }  // namespace axisgate::shrc203

@@ -35,8 +35,8 @@ std::string_view name(NonHostEvent event) {
       "began", "entered_host", "entered_switches", "entered_program", "entered_edit", "returned"};
   return kNames.at(static_cast<std::size_t>(event));
 }
-// As drawn in README.md. What a caller's lines do there is up to the caller, so every mode may be entered once one has
-// begun to leave.
+// README.md has a drawing of this table. A caller's lines may enter any mode, so every mode may be entered once a visit
+// has begun.
 std::optional<NonHostPhase> next(NonHostPhase phase, NonHostEvent event) {
   using Phase = NonHostPhase;
   using Event = NonHostEvent;

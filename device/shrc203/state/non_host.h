@@ -1,5 +1,5 @@
-// Whether somebody's transaction has led the controller out of HOST (manual 102) to 126)): one enum, changed in one
-// place by the table of README.md. Nobody else is answered meanwhile.
+// State machine of a visit to a non-host mode by a transaction (manual 102) to 126)): one enum, changed in one place by
+// the table of README.md. Other callers get no replies during a visit.
 #pragma once
 
 #include <cstddef>
@@ -13,8 +13,8 @@
 namespace axisgate::shrc203 {
 
 enum class NonHostPhase {
-  host,             // nobody has
-  leaving,          // a transaction is about to, or is about to come back
+  host,             // no transaction has left HOST
+  leaving,          // a transaction is about to leave HOST, or to return
   memory_switches,  // MS:ON
   program,          // P:R
   program_edit,     // P:ON
@@ -22,8 +22,8 @@ enum class NonHostPhase {
 inline constexpr std::size_t kNonHostPhases = 5;
 
 enum class NonHostEvent {
-  began,         // the first line that leads out is about to go out
-  entered_host,  // a line was accepted that leads to HOST, or may have been; likewise
+  began,         // the first line that leaves HOST is about to be sent
+  entered_host,  // a line that leads to HOST was accepted, or may have been; likewise for the others
   entered_switches,
   entered_program,
   entered_edit,
@@ -33,7 +33,7 @@ inline constexpr std::size_t kNonHostEvents = 6;
 
 std::string_view name(NonHostPhase phase);  // "host", as in README.md
 std::string_view name(NonHostEvent event);
-// The phase after the event; nothing where the table has none.
+// Returns the phase after the event; nullopt if the table has no such transition.
 std::optional<NonHostPhase> next(NonHostPhase phase, NonHostEvent event);
 
 class NonHost {
@@ -48,11 +48,11 @@ class NonHost {
   bool away() const { return phase_ != NonHostPhase::host; }
   bool in_program() const { return phase_ == NonHostPhase::program; }
   bool in_switches() const { return phase_ == NonHostPhase::memory_switches; }
-  // No Q: is answered there, and nothing moves (manual 111), 117)).
+  // Reports whether the mode is an edit mode, in which Q: is not answered and nothing moves (manual 111), 117)).
   bool edits() const { return in_switches() || phase_ == NonHostPhase::program_edit; }
   Mode mode() const;
 
-  // Why nobody else is answered: wrong_mode.
+  // Returns the problem for other callers: wrong_mode.
   Problem problem() const;
 
  private:

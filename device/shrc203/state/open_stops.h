@@ -1,5 +1,5 @@
-// The stops that were not seen to be obeyed yet, and the latch of an emergency stop: what forbids motion until somebody
-// has seen the axes stationary.
+// Stops that are not confirmed yet, and the latch of an emergency stop. Both forbid motion until the axes were seen
+// stationary.
 #pragma once
 
 #include <optional>
@@ -20,15 +20,15 @@ class OpenStops {
   OpenStops(StateStore& store, const Tasks& tasks, Violations& violations)
       : store_(store), tasks_(tasks), violations_(violations) {}
 
-  // Takes over what the run before left open.
+  // Takes over the open stops of the previous run.
   std::vector<StopJobPtr> inherit(const std::vector<Stop>& stops, StopId last);
 
   StopJobPtr open(AxisSet axes, StopKind kind, const RequestContext& context);
-  // Notes who requested it.
+  // Adds a caller who requested the stop.
   void note_caller(StopJob& job, const std::string& who);
-  // Notes that a caller was notified that the stop stays open.
+  // Notes that a caller was notified of the stop staying open.
   void note_late(StopJob& job);
-  // Notes whether a prebuffer keeps a segment although the axes rest.
+  // Notes whether a prebuffer still has a segment although the axes are stationary.
   void note_stale(StopJob& job, bool stale);
   void change(const StopJobPtr& job, StopEvent event);
 
@@ -39,7 +39,7 @@ class OpenStops {
   // Returns an open stop that includes these axes; null if none does.
   StopJobPtr including(AxisSet axes, StopKind kind) const;
 
-  // The latch. An emergency stop sets it, whatever becomes of the stop.
+  // Sets the latch of an emergency stop, whatever becomes of the stop.
   void latch(const std::string& who);
   void inherit(const EmergencyLatch& latch);
   void unlatch(const std::string& who);

@@ -24,7 +24,7 @@ std::optional<Value> speed_at(const PendingRestores::Speeds& speeds, int axis) {
   return found == speeds.end() ? std::nullopt : std::optional<Value>(found->second);
 }
 
-// As it is known to be set now.
+// Returns the present value of the setting; nullopt if unknown.
 std::optional<Value> value_now(const PendingRestore& one, const State& state) {
   switch (one.setting) {
     case RestoredSetting::speeds:
@@ -41,9 +41,9 @@ std::optional<Value> value_now(const PendingRestore& one, const State& state) {
 
 bool is_off(const Value& value) { return value == Value(0) || value == Value(Trigger{}); }
 
-// After what may have been a restart, outputs that are off and a trigger that is none are left as they are: nothing is
-// switched on in a controller that has just started. Nor is what somebody else has set by then replaced; and a scan
-// never replaces it.
+// Reports whether the setting is not restored: it has its old value, or its axis is not controllable. After a possible
+// restart, outputs and triggers that are off stay off, since nothing is switched on in a controller that has just
+// started; and a value that somebody has set meanwhile stays. Both always apply to the trigger of a scan.
 bool left_as_it_is(const PendingRestore& one, const State& state) {
   const auto now = value_now(one, state);
   if (now == one.before) return true;
@@ -98,7 +98,7 @@ void PendingRestores::remember(std::uint64_t lease, const Change& change, const 
   }
   if (change.outputs) remember_one(RestoredSetting::outputs, 0, state.outputs, change.outputs);
   if (!change.trigger) return;
-  // What a scan has left armed is nobody's.
+  // A trigger left armed by a scan is not a caller's setting, so the trigger before the scan is restored.
   const PendingRestore* scans = find(RestoredSetting::trigger, 0, 0);
   const bool left = scans && state.trigger && scans->set == Value(*state.trigger);
   remember_one(RestoredSetting::trigger, 0, left ? std::optional(scans->before) : state.trigger, change.trigger);
@@ -214,7 +214,7 @@ const PendingRestore* PendingRestores::find(RestoredSetting setting, int axis, s
   return found == list_.end() ? nullptr : &*found;
 }
 
-// The oldest value before stays, and the newest that was set.
+// Adds the entry. An existing entry keeps its old value to restore and takes over the newest value that was set.
 void PendingRestores::add(const PendingRestore& one) {
   const auto found = std::ranges::find_if(list_, [&](const PendingRestore& other) {
     return other.setting == one.setting && other.axis == one.axis && other.lease == one.lease;

@@ -1,6 +1,7 @@
-// A question whose answer could be taken for a completion waits until none is possible. Where motions follow one
-// another without a pause, that is never. So after kTurnAfter it has its turn: no motion enters the gate before it was
-// sent. What is inside is not interrupted: it ends, and a path continues, with its refills.
+// Turn of a question whose reply could be taken for a completion. Such a question waits until no completion is
+// possible, which may never happen while motions follow one another without a pause. So after kTurnAfter it has its
+// turn: no motion enters the gate until the question was sent. Motions inside are not interrupted: they end, and a path
+// continues, with its refills.
 //
 //   asked ── kTurnAfter ── a motion could enter: kept out ── the last completion, READY, settled ── sent: all may enter
 //                            └ for kTurnLimit at most. Then all may enter, and the next turn is kTurnAfter later
@@ -16,24 +17,25 @@ namespace axisgate::shrc203 {
 
 class QuestionTurn {
  public:
-  // The question that has waited longest, as Line::held_question().
+  // Returns the longest waiting question, like Line::held_question().
   using Waiting = std::function<std::optional<HeldQuestion>()>;
 
   explicit QuestionTurn(Waiting waiting) : waiting_(std::move(waiting)) {}
 
-  // Whether it keeps out a motion that could enter now. Its limit counts from the first such motion.
+  // Reports whether a question keeps out a motion that could enter now. The time limit of its turn counts from the
+  // first such motion.
   bool keeps_out(TimePoint now);
-  // No motion could enter now.
+  // Called when no motion could enter now.
   void keeps_nobody_out() { since_.reset(); }
 
-  // The question that keeps a motion out, and until when at most; nothing where none does.
+  // Return the question that keeps a motion out, and the end of its turn; nullopt if there is none.
   std::optional<HeldQuestion> question() const { return since_ ? waiting_() : std::nullopt; }
   std::optional<TimePoint> limit() const;
 
  private:
   Waiting waiting_;
-  std::optional<TimePoint> since_;  // it has kept a motion out since then
-  TimePoint next_{};                // not before
+  std::optional<TimePoint> since_;  // time since when a motion has been kept out
+  TimePoint next_{};                // earliest time of the next turn
 };
 
 }  // namespace axisgate::shrc203

@@ -16,12 +16,12 @@ constexpr Register kCleared[] = {Register::m, Register::a, Register::k, Register
 constexpr Register kLasting[] = {Register::j,  Register::mp, Register::ap, Register::kp,
                                  Register::ep, Register::wt, Register::wi};
 
-// Holds one line or curve of several axes.
+// Reports whether the register contains one line or curve of several axes.
 bool is_shared(Register reg) {
   return reg == Register::k || reg == Register::e || reg == Register::kp || reg == Register::ep;
 }
 
-// The place of an axis among a reply's fields: all three, or the controllable ones only.
+// Returns the index of an axis among a reply's fields, which are of all three axes or of the controllable ones only.
 std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet controllable) {
   std::size_t place = 0;
   const auto named = reply.fields.size() == kAxisCount ? AxisSet::all() : controllable;
@@ -33,11 +33,11 @@ std::optional<std::size_t> field_of(const Reply& reply, int axis, AxisSet contro
   return {};
 }
 
-// ?:K and its like name their axes: K, KP by the first field, E, EP by the second (manual 22) to 25)).
+// Returns the axes named in the reply to ?:K, ?:KP (first field), ?:E or ?:EP (second field) (manual 22) to 25)).
 AxisSet interpolation_axes(const Reply& reply, Register reg) {
   const std::size_t place = reg == Register::e || reg == Register::ep ? 1 : 0;
   if (reply.fields.size() <= place || reply.fields[place].size() != 1) return AxisSet::all();
-  // A helix takes axis 3 along (manual 74)).
+  // A helix also moves axis 3 (manual 74)).
   if (place == 1 && reply.fields[0] >= "3") return AxisSet::all();
   return from_command_letter(reply.fields[place][0], AxisSet::all()).value_or(AxisSet::all());
 }
@@ -114,7 +114,7 @@ std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet cont
 
 namespace {
 
-// ?:J reports the sign of each axis (manual 31)).
+// Compares the reply to ?:J, which reports the sign of each axis (manual 31)), with the setter.
 Held held_jog(const Reply& reply, const Command& setter, AxisSet controllable) {
   std::vector<std::string> wanted;
   for (const auto& [letter, value] : setter.arguments.values()) {
@@ -136,7 +136,8 @@ bool same_amount(std::string_view reported, std::string_view set) {
   return one && other ? *one == *other : reported == set;
 }
 
-// ?:EP reports its kind, axes and rotation, and then all amounts in the order in which they were set (manual 23)).
+// Compares the reply to ?:EP with the setter. The reply has the kind, the axes and the rotation, and then all amounts
+// in the order in which they were set (manual 23)).
 Held held_curve(const Reply& reply, const Command& setter) {
   if (reply.text == "NS") return Held::nothing;
   std::vector<std::string> wanted = {std::to_string(static_cast<int>(*setter.row->curve))};

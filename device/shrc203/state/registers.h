@@ -1,4 +1,4 @@
-// The settings that a G may start (manual 85)): a stale setpoint in them would run on somebody else's G.
+// Contents of the registers that a G: may start (manual 85)): another caller's G: would run a stale setpoint in them.
 #pragma once
 
 #include <cstdint>
@@ -15,53 +15,53 @@ namespace axisgate::shrc203 {
 
 class Registers {
  public:
-  // In the order of their questions.
+  // Returns all registers, in the order of their questions.
   static std::span<const Register> all();
 
-  // After a connect, foreign traffic, a set or a go in doubt, a stop: nobody knows.
+  // Makes the contents unknown: after a connect, foreign traffic, a setting or G: in doubt, or a stop.
   void forget();
   bool known() const { return known_; }
 
-  // The answers of one reader to the questions of all(). Several may read at once, each with its own answers.
+  // A Reading is one reader's replies to the questions of all(). Several readers may read at once, each with its own
+  // replies.
   class Reading {
    public:
     void take(Register reg, const Reply& reply, AxisSet controllable);
-    // The axes on which any register that was read is set.
+    // Returns the axes on which any of the registers read is set.
     AxisSet set() const;
 
    private:
     friend class Registers;
     explicit Reading(std::uint64_t begun) : begun_(begun) {}
-    std::uint64_t begun_;  // forgotten so often then
+    std::uint64_t begun_;  // value of forgotten_ at the beginning
     std::map<Register, AxisSet> set_;
   };
   Reading begin_reading() const { return Reading(forgotten_); }
-  // All questions were answered. What was forgotten meanwhile is not known for that.
+  // Takes over the contents when all questions were answered. They stay unknown if forget() was called meanwhile.
   void end_reading(Reading reading);
 
-  // The axes on which one of these is set.
+  // Returns the axes on which the register is set.
   AxisSet set_in(Register reg) const;
   bool any() const;
 
-  // The axes with a stale setpoint that GC: deletes (manual 87)): in M, A, E or K.
+  // Returns the axes with a stale setpoint that GC: deletes (manual 87)): in M, A, E or K.
   AxisSet clearable() const;
-  // The axes with one that no command is documented to clear: in the prebuffers, WT:, WI: or J:.
+  // Returns the axes with a stale setpoint that no command is documented to clear: in the prebuffers, WT:, WI: or J:.
   AxisSet lasting() const;
-  // GC: for these axes was accepted. A line or curve is gone only if they hold all of its axes: nobody knows what
-  // becomes of it otherwise (manual 87)).
+  // Called when GC: for these axes was accepted. A line or curve is cleared only if `axes` includes all of its axes;
+  // otherwise the result is unknown (manual 87)).
   void cleared(AxisSet axes);
 
  private:
   bool known_ = false;
-  std::uint64_t forgotten_ = 0;  // times
+  std::uint64_t forgotten_ = 0;  // number of calls of forget()
   std::map<Register, AxisSet> set_;
 };
 
-// The amount that an axis question (?:MP ...) reports for the axis; nothing for NS.
+// Returns the amount that an axis question (?:MP ...) reports for the axis; nullopt for NS.
 std::optional<std::int64_t> amount_of(const Reply& reply, int axis, AxisSet controllable);
 
-// Whether a register holds what `setter` wrote, or nothing, or something else, by the answer to the register's
-// question.
+// Content of a register according to the reply to its question: what `setter` wrote, nothing, or something else.
 enum class Held { as_set, nothing, other };
 Held held(const Reply& reply, const Command& setter, AxisSet controllable);
 

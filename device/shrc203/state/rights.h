@@ -1,4 +1,4 @@
-// Whether a caller may use axes: the epochs that the request names, and what the keeper of leases says
+// Check whether a caller may use axes: the epochs that the request names, and the decision of the keeper of leases
 // (device/stage/permission.h).
 #pragma once
 
@@ -18,19 +18,20 @@ class Rights {
   Rights(Permission& permission, const StateStore& store, const Tasks& tasks)
       : permission_(permission), store_(store), tasks_(tasks) {}
 
-  // epoch_passed, where the request was meant for another.
+  // Fails with epoch_passed if the request names another device or frame epoch.
   Result<void> check_epochs(const RequestContext& context) const;
-  // Also what the keeper of leases refuses: before anything is queued.
+  // Fails like check_epochs(), or with a refusal of the keeper of leases. Call before anything is queued.
   Result<void> authorize(const RequestContext& context, AxisSet axes);
-  // The same for a motion, or a line that sets or starts one. Also emergency_stopped, stop_unconfirmed, stale_setpoint.
+  // Checks the same for a motion, or for a line that sets or starts one. Also fails with emergency_stopped,
+  // stop_unconfirmed or stale_setpoint.
   Result<void> authorize_motion(const RequestContext& context, AxisSet axes);
-  // Why nobody may move these axes now: the latch of an emergency stop, or a stop that was not seen to be obeyed.
-  // nullopt if somebody may, and for no axes.
+  // Returns the reason why nobody may move these axes now: the latch of an emergency stop, or a late stop that is not
+  // confirmed. nullopt if there is no such reason, or `axes` is empty.
   std::optional<Problem> motion_forbidden(AxisSet axes) const;
-  // What the keeper alone refuses.
+  // Fails with a refusal of the keeper of leases.
   Result<void> still_authorized(const Use& use) { return permission_.authorize(use, tasks_.now()); }
 
-  // A motion has its turn, should be over by then, or has left its axes.
+  // Report to the keeper that a motion has its turn, when it should be over, and that it has left its axes.
   void begin(const Use& use, const Motion& motion) { permission_.begin(use, occupation_by(motion), tasks_.now()); }
   void due(MotionId motion, TimePoint over) { permission_.due(motion, over); }
   void end(MotionId motion) { permission_.end(motion, tasks_.now()); }

@@ -16,7 +16,7 @@ std::string_view name(SegmentEvent event) {
       "refill_doubted", "ended",          "became_stationary", "found"};
   return kNames.at(static_cast<std::size_t>(event));
 }
-// As README.md draws it.
+// README.md has a drawing of this table.
 std::optional<SegmentPhase> next(SegmentPhase phase, SegmentEvent event) {
   using Phase = SegmentPhase;
   using Event = SegmentEvent;

@@ -47,7 +47,7 @@ void StateStore::lost() {
   state_.outputs.reset();
   state_.trigger.reset();
   for (auto& axis : state_.axes) {
-    // It may be nobody's here that moves.
+    // The busy axis may be in foreign motion.
     state_.moving_unknown = state_.moving_unknown || (axis.busy.value_or(false) && guarded(Guard::moving_unknown));
     axis.position_pulses.reset();
     axis.busy.reset();

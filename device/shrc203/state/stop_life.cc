@@ -12,7 +12,7 @@ std::string_view name(StopEvent event) {
   return kNames.at(static_cast<std::size_t>(event));
 }
 
-// As README.md draws it.
+// README.md has a drawing of this table.
 std::optional<StopState> next(StopState state, StopEvent event) {
   using State = StopState;
   using Event = StopEvent;

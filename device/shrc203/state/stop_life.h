@@ -1,4 +1,4 @@
-// The life of a stop: one enum (stage::StopState), changed in one place by the table of README.md.
+// State machine of a stop: one enum (stage::StopState), changed in one place by the table of README.md.
 #pragma once
 
 #include <cstddef>
@@ -23,13 +23,13 @@ enum class StopEvent {
 inline constexpr std::size_t kStopEvents = 5;
 
 std::string_view name(StopEvent event);  // "wrote", as in README.md
-// Returns the state after the event; nullopt if the table has none.
+// Returns the state after the event; nullopt if the table has no such transition.
 std::optional<StopState> next(StopState state, StopEvent event);
 
-// A stop and the callers who wait for it.
+// A StopJob is a stop and the callers who wait for it.
 struct StopJob {
   struct Caller {
-    AxisSet axes;  // that this caller named
+    AxisSet axes;  // axes that this caller named
     TimePoint asked{};
     std::optional<TimePoint> answer_by{};
     StageController::OnStopped done;  // empty once answered
@@ -38,18 +38,18 @@ struct StopJob {
   AxisSet excluded() const { return stop.kind == StopKind::emergency ? AxisSet::all() : stop.axes; }
   bool open() const { return is_open(stop.state); }
 
-  Stop stop;               // its state is changed by OpenStops alone
-  RequestContext context;  // of the first caller
+  Stop stop;               // its state is changed by OpenStops only
+  RequestContext context;  // the first caller's
   std::vector<Caller> callers;
-  StopReport report;           // of all its axes
-  TimePoint write_at{};        // TimePoint::max(): not before a line is received
-  bool taken = false;          // the newest write was received, so that one READY is enough
-  bool named_several = false;  // the newest write was not answered yet, and NG may be due to one of its axes
+  StopReport report;           // report for all its axes
+  TimePoint write_at{};        // TimePoint::max(): wait until a line is received
+  bool taken = false;          // the newest write was certainly received, so one READY is enough
+  bool named_several = false;  // the newest write names several axes and is not answered; NG may be due to one of them
   bool kept_waiting = false;   // the mode took no stop: it is written only if an axis is busy on the return to HOST
-  bool stationary = false;     // the newest reading showed it
+  bool stationary = false;     // the newest reading showed the axes stationary
   int stationary_looks = 0;    // readings in a row that showed it
-  TimePoint rest_since{};      // of the first of them
-  int kept_looks = 0;          // readings that showed a segment in a prebuffer although the axes rest
+  TimePoint rest_since{};      // time of the first of these readings
+  int kept_looks = 0;          // readings that showed a segment in a prebuffer of stationary axes
 };
 using StopJobPtr = std::shared_ptr<StopJob>;
 

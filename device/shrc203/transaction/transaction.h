@@ -1,4 +1,4 @@
-// One caller's transaction, while it runs: what its steps share.
+// A caller's transaction while it runs, with the data that its steps share.
 #pragma once
 
 #include <set>
@@ -15,7 +15,7 @@ namespace axisgate::shrc203 {
 
 struct Transaction {
   enum class Started { no, accepted, in_doubt };
-  // What its lines may have left otherwise than it is known.
+  // State that the lines may have changed and that must be read again.
   enum class Changed { memory_switches, scale, everything };  // everything: the controller was reset
 
   const std::string& who() const { return request.context.who; }
@@ -24,14 +24,14 @@ struct Transaction {
   ExecuteRequest request;
   std::vector<Command> commands;
   StageController::OnExecute tell;
-  LiveMotionPtr live{};     // null: questions and settings that may come between another's lines
-  Positions destination{};  // a saved position, where it goes to one
+  LiveMotionPtr live{};     // null: questions and settings that may come between another caller's lines
+  Positions destination{};  // saved position to which the transaction moves, if any
   Started started = Started::no;
   std::set<Changed> changed{};
   SwitchAudit audit{};
 };
 
-// Of a question for a saved position: not_found.
+// Returns not_found, for a question about a saved position.
 Problem nothing_saved(const Command& question);
 
 }  // namespace axisgate::shrc203

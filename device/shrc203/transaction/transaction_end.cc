@@ -8,7 +8,8 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Which leaves motors and positions as they are (manual 89) D: to 92) DR:, 94) B:).
+// Reports whether the lines set only speeds, which leaves motors and positions unchanged (manual 89) D: to 92) DR:, 94)
+// B:).
 bool sets_speeds_only(const Transaction& transaction) {
   return std::ranges::all_of(transaction.commands, [](const Command& command) {
     return command.row->effect == Effect::setting && command.row->sets_speeds != SetsSpeeds::no;
@@ -58,7 +59,7 @@ Task<void> TransactionEnd::finish(Transaction& transaction, bool sent_all) {
   transaction.tell_end(live->motion.state == MotionState::succeeded ? std::nullopt : live->motion.problem);
 }
 
-// A pulse is another distance after S: (manual 55)).
+// The resolution changes after S: (manual 55)).
 Task<Result<void>> TransactionEnd::read_what_is_set(Transaction& transaction) {
   const LiveMotionPtr live = transaction.live;
   if (transaction.changed.contains(Transaction::Changed::scale) && !live->life.line_lost()) {

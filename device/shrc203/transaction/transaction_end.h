@@ -1,5 +1,5 @@
-// The end of a transaction that had a turn: what started is watched, what may be another now is read again, and the
-// controller comes back to HOST.
+// The end of a transaction that had its turn: watches the motion that was started, reads again what may have changed,
+// and brings the controller back to HOST.
 #pragma once
 
 #include "device/core/tasks.h"
@@ -28,7 +28,7 @@ class TransactionEnd {
         motions_(motions),
         tasks_(tasks) {}
 
-  // `sent_all`: otherwise the caller has already received its end.
+  // Ends the transaction. If `sent_all` is false, the caller has already received the end.
   Task<void> end(Transaction& transaction, bool sent_all);
 
  private:

@@ -35,7 +35,7 @@ ExchangeRequest TransactionLines::request_for(const Transaction& transaction, co
   request.caller = transaction.who();
   request.not_after = transaction.request.context.not_after;
   if (non_host_.away()) {
-    request.not_after = std::max(request.not_after, tasks_.now() + kStepWriteLimit);  // it must come back
+    request.not_after = std::max(request.not_after, tasks_.now() + kStepWriteLimit);  // it must come back to HOST
   }
   request.motion = live ? live->motion.id : 0;
   if (!live) {
@@ -43,7 +43,7 @@ ExchangeRequest TransactionLines::request_for(const Transaction& transaction, co
     request.lease = transaction.request.context.lease;
     request.uses = axes_used({command}, store_.controllable());
   }
-  const bool waits = command.row->reg != Register::none;  // no number of its own is documented for its end
+  const bool waits = command.row->reg != Register::none;  // no separate completion is documented for the end of a wait
   if (command.row->moves() && !waits && completes(transaction.commands)) request.completes = live->motion.axes;
   return request;
 }
@@ -69,7 +69,7 @@ Task<ExchangeResult> TransactionLines::exchange(Transaction& transaction, Comman
       co_return result;
     }
     note_completions(answers.take(numbers));
-    // Among numbers of several axes the answer may be any of them, and be missing.
+    // If the candidates belong to several axes, the answer may be any of them, or missing.
     const bool alone = std::ranges::count(numbers, numbers.front()) == std::ssize(numbers);
     if (!alone && guarded(Guard::answers_come_alone)) {
       before.reset();
@@ -89,7 +89,8 @@ Task<ExchangeResult> TransactionLines::exchange(Transaction& transaction, Comman
   co_return result;
 }
 
-// Before the line goes out: to another mode, or back.
+// Prepares a line that changes the mode: records the memory switches before the controller leaves HOST or returns to
+// it.
 Task<Result<void>> TransactionLines::leave_host(Transaction& transaction, Command command) {
   if (command.row->enters && !non_host_.away()) non_host_visit_.leave_host(transaction.live->motion.id);
   const auto known = co_await non_host_visit_.read_switches_before(transaction.live, transaction.audit, command);
@@ -129,7 +130,7 @@ Task<bool> TransactionLines::send(Transaction& transaction, std::size_t index) {
   co_return accepted;
 }
 
-// What is another now. Where the answer was lost, the line may have been taken.
+// Notes what the line has changed. If the answer was lost, the controller may have accepted the line.
 void TransactionLines::note(Transaction& transaction, const Command& command, const ExchangeResult& result) {
   const CommandRow& row = *command.row;
   const AxisSet axes = command.axes(store_.controllable());
@@ -157,7 +158,7 @@ void TransactionLines::note_start(Transaction& transaction, const ExchangeResult
   motions_.started(*transaction.live);
 }
 
-// A setting of somebody's own takes the place of what was pending there.
+// A caller's own setting replaces the pending restore of the same speeds.
 void TransactionLines::note_speeds(const Command& command, const ExchangeResult& result) {
   const AxisSet sped = axes_sped({command}, SetsSpeeds::of_motion, store_.controllable());
   store_.forget_speeds(sped);
@@ -169,7 +170,7 @@ void TransactionLines::note_mode(Transaction& transaction, Mode mode) {
   if (mode == Mode::memory_switches) transaction.changed.insert(Transaction::Changed::memory_switches);
 }
 
-// NG to a question is its answer where nothing says why.
+// NG is the answer to the question itself if no reason for a refusal is found.
 Task<bool> TransactionLines::was_answered(Transaction& transaction, Command question, bool refused) {
   if (!refused) co_return true;
   const bool saved = question.row->meaning == Meaning::saved_position;

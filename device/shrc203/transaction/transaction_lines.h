@@ -1,4 +1,4 @@
-// A transaction's lines, one after the other: each is written, its answer is reported, and its changes are noted.
+// Sends a transaction's lines one after the other, reports each reply, and notes the changes.
 #pragma once
 
 #include <cstddef>
@@ -36,7 +36,7 @@ class TransactionLines {
         motions_(motions),
         tasks_(tasks) {}
 
-  // False: a line was not accepted, or a stop came. The caller has received the reason.
+  // Sends all lines. False: a line was not accepted, or a stop came, and the caller has received the reason.
   Task<bool> send_all(Transaction& transaction);
 
  private:

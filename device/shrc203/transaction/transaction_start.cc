@@ -59,14 +59,15 @@ Task<Result<void>> TransactionStart::take_turn(Transaction& transaction) {
   co_return check_envelope(transaction);
 }
 
-// The speeds that its lines set have to be known, to be restored. DS: and the like set a part of what is pending.
+// Speeds that the lines set must be known first, so that they can be restored. Pending restores come before lines such
+// as DS:, which set only a part of the speeds.
 Task<Result<void>> TransactionStart::learn_speeds(Transaction& transaction) {
   const bool moves = !transaction.live->motion.axes.empty();
   const AxisSet sped = axes_sped(transaction.commands, SetsSpeeds::of_motion, store_.controllable());
   if (!moves) co_await restorer_.restore_speeds(sped, transaction.who());
   if (sped.empty()) co_return Result<void>();
   const auto learned = co_await reader_.learn_speeds(sped, transaction.who());
-  // A D: by itself can correct impossible speeds.
+  // A D: without motion can correct impossible speeds, so it does not need the present ones.
   if (!learned && moves) co_return learned;
   co_return Result<void>();
 }

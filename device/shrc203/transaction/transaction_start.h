@@ -1,4 +1,4 @@
-// A transaction's turn, and what must be known before its first line.
+// The start of a transaction: waits for its turn, and reads the state that must be known before the first line.
 #pragma once
 
 #include "device/shrc203/motion/entry.h"
@@ -25,7 +25,8 @@ class TransactionStart {
         store_(store),
         motions_(motions) {}
 
-  // False: it was refused, and has its end. `transaction` outlives the task, as everywhere in this folder.
+  // Begins the transaction. False: it was refused, and the caller has received its end. `transaction` must outlive the
+  // task, as in all classes of this folder.
   Task<bool> begin(Transaction& transaction);
 
  private:

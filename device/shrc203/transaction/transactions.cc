@@ -11,7 +11,7 @@
 namespace axisgate::shrc203 {
 namespace {
 
-// Of a trigger's axis the manual says nothing.
+// Settings of the whole controller are excluded: the manual does not say that a trigger's axis must be controllable.
 Result<void> check_axes_there(const std::vector<Command>& commands, const Envelope& envelope) {
   const AxisSet controllable = envelope.state().controllable();
   for (const Command& command : commands) {
@@ -22,7 +22,7 @@ Result<void> check_axes_there(const std::vector<Command>& commands, const Envelo
   return {};
 }
 
-// Whether an input pin could start a motion after them.
+// Reports whether an input could start a motion after these lines.
 bool arms_inputs(const std::vector<Command>& commands) {
   return std::ranges::any_of(commands, [](const Command& one) {
     const bool step =

@@ -1,4 +1,5 @@
-// A caller's own lines as one transaction: checked by the table, and nobody else's motion between them.
+// Runs a caller's own lines as one transaction: checked by the command table, without another caller's motion between
+// them.
 #pragma once
 
 #include <vector>
@@ -33,7 +34,7 @@ class Transactions {
         ending_(ending),
         tasks_(tasks) {}
 
-  // StageController::execute(). A stop goes its own way.
+  // Carries out StageController::execute(). A stop does not become a transaction.
   void execute(ExecuteRequest request, OnExecute event);
 
  private:

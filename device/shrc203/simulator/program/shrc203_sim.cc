@@ -1,4 +1,4 @@
-// shrc203-sim: the simulated SHRC-203 behind a pseudo terminal, for a gateway or any other program to open.
+// shrc203-sim: the simulated SHRC-203 on a pseudo-terminal, for a gateway or any other program to open.
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
@@ -101,7 +101,7 @@ Result<std::optional<SocketFile>> open_control(const std::string& path) {
   return SocketFile::open(path);
 }
 
-// The simulated device with its line, and the people at it.
+// The simulated device with its line and its control socket.
 class Device {
  public:
   Device(const Pacing& pacing, const simulator::Options& options, std::shared_ptr<PtyLine> line)
@@ -137,16 +137,16 @@ class Device {
   }
 
   std::shared_ptr<PtyLine> line_;
-  simulator::Simulator* simulator_ = nullptr;  // of paced_
+  simulator::Simulator* simulator_ = nullptr;  // owned by paced_
   PacedLine paced_;
   std::shared_ptr<ControlServer> server_;
 };
 
 int run(const Arguments& arguments, const simulator::Options& options) {
   boost::asio::io_context context(1);
-  // Before the link exists, so that anybody who sees it can end this program cleanly.
+  // Before the link exists, so that a program that sees the link can already end this one cleanly.
   boost::asio::signal_set signals(context, SIGINT, SIGTERM, SIGHUP);
-  // Before the link is made: it may be that of a program that still runs.
+  // Before the link is created, which may replace the link of a program that still runs.
   auto control = open_control(arguments.control);
   if (!control) return complain(kExitFailed, control.error());
   auto opened = open_line(boost::asio::make_strand(context), arguments.pty);
