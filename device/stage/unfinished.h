@@ -1,5 +1,5 @@
-// What a run of the gateway leaves to the next one: motions that it had started when it was killed, stops that were not
-// seen to be obeyed, and the latch of an emergency stop.
+// State that one run of the gateway leaves to the next: motions that were running when it was killed, stops that were
+// not confirmed, and the latch of an emergency stop.
 #pragma once
 
 #include <optional>
@@ -12,17 +12,17 @@
 namespace axisgate::stage {
 
 struct Unfinished {
-  std::string serial_number;  // of the controller
-  AxisSet moving;             // that moved, or whose start had been written
-  AxisSet jogged;             // of these, by jogs
-  std::string motions;        // for people: "motion 12 (move, asked by unix anna)"
-  // The lines that the controller may have received last, without their ends: the newest that was answered, and all
-  // different ones since.
+  std::string serial_number;  // serial number of the controller
+  AxisSet moving;             // axes that moved, or whose start had been written
+  AxisSet jogged;             // axes of `moving` that a jog moved
+  std::string motions;        // text for people: "motion 12 (move, asked by unix anna)"
+  // Lines that the controller may have received last, without their line ends: the newest answered line, and all
+  // different lines since then.
   std::vector<std::string> last_lines;
 };
 
 struct Inheritance {
-  std::optional<Unfinished> unfinished;  // nullopt: nothing moved
+  std::optional<Unfinished> unfinished;  // nullopt: no axis moved
   std::vector<Stop> open_stops;
   std::optional<EmergencyLatch> emergency;
   StopId last_stop = 0;

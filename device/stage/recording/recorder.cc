@@ -9,9 +9,9 @@ namespace {
 using Item = RecordedItem::Kind;
 using Remark = RecordedRemark::Kind;
 
-// What a USB adapter at its usual latency timer would have handed over at once.
+// Longest piece: a USB adapter with the usual latency timer delivers these bytes together.
 constexpr Duration kOnePiece = std::chrono::milliseconds(16);
-constexpr std::size_t kPieceBytes = 256;  // more than any line has
+constexpr std::size_t kPieceBytes = 256;  // longer than any line
 
 }  // namespace
 
@@ -55,14 +55,14 @@ void Recorder::tell(const BytesReceived& received) {
     piece_began_ = now_;
   }
   RecordedItem& piece = open_->items.back();
-  // The line was whole with its CR.
+  // A line is complete with its CR, so its LF does not change its time.
   if (!joined || !rest_of_end) piece.after = now_ - open_->at;
   piece.text += received.bytes;
   last_byte_ = received.bytes.back();
   complete_ = complete_ || (open_->exchange == 0 && received.bytes.ends_with('\n'));
 }
 
-// A whole line is a piece with its LF and no more: when it came may decide how long the line must be silent.
+// A piece ends with a line's LF, since the line's arrival time may decide how long the line must be silent.
 bool Recorder::continues_piece(bool rest_of_end) const {
   if (open_->items.empty() || now_ - piece_began_ > kOnePiece) return false;
   const RecordedItem& last = open_->items.back();
@@ -127,7 +127,8 @@ void Recorder::begin(std::uint64_t exchange) {
   open_->exchange = exchange;
 }
 
-// What belongs to the exchange in flight, or to none, is added to the line under way or begins a further one.
+// Makes sure that a line is open for the exchange in flight, or for bytes outside any exchange: continues the current
+// line or begins another.
 void Recorder::go_on() {
   const bool full = open_ && open_->items.size() >= kItemsMax;
   if (!open_ || full || (open_->exchange != in_flight_ && !complete_)) begin(in_flight_);

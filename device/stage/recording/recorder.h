@@ -1,4 +1,4 @@
-// Turns the events of a controller into the lines of a recording.
+// Converts the events of a controller to the lines of a recording.
 #pragma once
 
 #include <functional>
@@ -10,24 +10,24 @@
 
 namespace axisgate::stage {
 
-// Not thread safe: lives on the controller's strand, between it and its other listeners.
+// Not thread safe: runs on the controller's strand, between the controller and its other listeners.
 //
-// A line is finished when the next one begins, so the newest stays here until then; flush() fetches it. An exchange
-// that is interrupted, or has very many pieces, continues in a further line with its number.
+// A line is finished when the next one begins, so the newest line stays here until then; flush() finishes it early. An
+// exchange that is interrupted, or has more than kItemsMax pieces, continues in another line with the same number.
 class Recorder : public EventSink {
  public:
-  // Takes a finished line without its newline, in order. Must not call back.
+  // Called with each finished line, without its newline, in order. Must not call back.
   using Take = std::function<void(std::string line)>;
 
-  // `began` is time 0 of all lines; no event is older.
+  // `began` is time 0 of all lines; no event may be older.
   Recorder(RecordingHeader header, TimePoint began, Take take);
 
   void on_event(const Event& event, TimePoint now) override;
 
-  // Finishes the line under way: before a recording is read or a file is closed.
+  // Finishes the current line. Call before reading the recording or closing its file.
   void flush();
 
-  // Heads a recording that begins with the next line to be finished.
+  // Returns the header for a recording that begins with the next finished line.
   const RecordingHeader& header() const { return header_; }
 
  private:
@@ -42,12 +42,12 @@ class Recorder : public EventSink {
   void tell(const BarrierEntered& barrier);
   void tell(const LineLearned& learned);
   template <class Other>
-  void tell(const Other&) {}  // not of the line
+  void tell(const Other&) {}  // not an event of the line
 
   void begin(std::uint64_t exchange);
   void go_on();
   void add(RecordedItem::Kind kind, std::string text);
-  // Bytes that come in now belong to what came in last.
+  // Reports whether bytes received now belong to the last received piece.
   bool continues_piece(bool rest_of_end) const;
   void remark(RecordedRemark::Kind kind, AxisSet axes, std::string text);
   void finish(const RecordedEvent& event);
@@ -55,12 +55,12 @@ class Recorder : public EventSink {
   RecordingHeader header_;
   TimePoint began_;
   Take take_;
-  Duration now_{};  // since began_
+  Duration now_{};  // time since began_
   std::optional<RecordedExchange> open_;
   Duration piece_began_{};
-  char last_byte_ = '\0';        // that came in
-  bool complete_ = false;        // what comes in next begins a line of its own
-  std::uint64_t in_flight_ = 0;  // the exchange to which what comes in belongs; 0: none
+  char last_byte_ = '\0';        // last byte received
+  bool complete_ = false;        // the next bytes received begin a new line
+  std::uint64_t in_flight_ = 0;  // exchange to which received bytes belong; 0: none
 };
 
 }  // namespace axisgate::stage

@@ -1,7 +1,8 @@
-// A recording of the line: text, one line an exchange, made to be read and diffed. README.md shows one.
+// A recording of the line: text with one exchange per line, made to be read and compared. device/shrc203/README.md
+// shows an example.
 //
-// What it holds is all that went over the line, byte for byte, who caused it, and what the gateway made of it; it is
-// enough to feed the line's core with it again (replay.h).
+// A recording has every byte on the line, the caller who caused it, and the gateway's interpretation; it is enough to
+// feed the line's core again (replay.h).
 #pragma once
 
 #include <cstdint>
@@ -19,59 +20,60 @@
 
 namespace axisgate::stage {
 
-// All times of a recording are in microseconds, truncated.
+// A RecordingHeader describes the device and the start of the recording. All times of a recording are in microseconds,
+// truncated.
 struct RecordingHeader {
-  std::string kind = "shrc203";  // as in the configuration; parse_recording() knows this one alone
-  std::string device{};          // its name in the configuration
-  std::string serial_number{};   // the configured one; may be empty
+  std::string kind = "shrc203";  // kind of device in the configuration; parse_recording() accepts only this one
+  std::string device{};          // name of the device in the configuration
+  std::string serial_number{};   // configured serial number; may be empty
   int baud = Profile{}.baud;
   Duration reply_limit = Profile{}.reply_limit;
-  std::string started{};  // the wall time of time 0, for people
+  std::string started{};  // wall time at time 0, for people
 
-  // Of a recording that begins when the line is up: the controllable axes, and those whose numbers may come because
-  // they were started before.
+  // For a recording that begins when the line is up: the controllable axes, and the axes whose completions may come
+  // because they were started earlier.
   std::optional<AxisSet> axes{};
   AxisSet may_complete{};
 };
 
 struct RecordedItem {
   enum class Kind {
-    written,   // bytes
-    received,  // bytes; what came within 16 ms, up to the end of a line, is one piece, at the time of its last byte, of
-               // a line its CR
-    ended,     // the exchange; text: the outcome's name
-    completion,  // a completion was received; text: the number
-    unexpected,  // a line that nothing waited for
+    written,     // bytes
+    received,    // bytes; all bytes within 16 ms, up to the end of a line, form one piece, with the time of the last
+                 // byte, or of the CR for a whole line
+    ended,       // end of the exchange; text: name of the outcome
+    completion,  // completion; text: axis number
+    unexpected,  // unexpected line
   };
-  Duration after{};  // since RecordedExchange::at
+  Duration after{};  // time since RecordedExchange::at
   Kind kind = Kind::written;
   std::string text;
 
   friend bool operator==(const RecordedItem&, const RecordedItem&) = default;
 };
 
-// What belongs together, in the order in which it happened.
+// The items of one exchange, in the order in which they happened.
 struct RecordedExchange {
-  Duration at{};               // since the recording's beginning
-  std::uint64_t exchange = 0;  // 0: a probe of a barrier, or bytes that came by themselves
-  // Set with the bytes that begin an exchange; not where it continues after another line of the recording.
+  Duration at{};               // time since the beginning of the recording
+  std::uint64_t exchange = 0;  // 0: a probe of a barrier, or bytes outside any exchange
+  // Set with the bytes that begin an exchange; nullopt if the exchange continues after another line of the recording.
   std::optional<Lane> lane;
   std::string who;      // empty: the line itself
-  Duration waited{};    // from the asking to the write
-  AxisSet completes{};  // the axes whose numbers may come from then on
-  bool closed = false;  // an !:S follows an answer that could be such a number
+  Duration waited{};    // from the request to the write
+  AxisSet completes{};  // axes whose completions may come from then on
+  bool closed = false;  // an !:S follows, since the answer could be mistaken for a completion
   std::vector<RecordedItem> items;
 
   friend bool operator==(const RecordedExchange&, const RecordedExchange&) = default;
 };
 
-// What happened to the line as a whole, or, in `note`, any other line that begins with #.
+// An event of the line as a whole, or, as a `note`, any other line that begins with #.
 struct RecordedRemark {
   enum class Kind { connecting, up, down, barrier, barrier_passed, same_controller, ready, busy, note };
-  Duration at{};  // not of a note
+  Duration at{};  // unset for a note
   Kind kind = Kind::note;
-  AxisSet axes{};    // of up, ready and busy
-  std::string text;  // why, of down and barrier; of a note what stands behind the #
+  AxisSet axes{};    // for up, ready and busy
+  std::string text;  // reason, for down and barrier; for a note the text after the #
 
   friend bool operator==(const RecordedRemark&, const RecordedRemark&) = default;
 };
@@ -79,7 +81,7 @@ struct RecordedRemark {
 using RecordedEvent = std::variant<RecordedExchange, RecordedRemark>;
 
 struct RecordedLine {
-  int number = 0;  // in the text, from 1
+  int number = 0;  // line number in the text, from 1
   RecordedEvent event;
 };
 
@@ -88,17 +90,17 @@ struct Recording {
   std::vector<RecordedLine> lines;
 };
 
-// The header's lines, each ended by a newline.
+// Returns the header's lines, each with a newline.
 std::string to_text(const RecordingHeader& header);
-// One line, without its newline.
+// Returns one line, without a newline.
 std::string to_text(const RecordedEvent& event);
 
-// invalid_request names the line of the text and what is wrong with it.
+// Parses a recording. Fails with invalid_request, which names the line and its error.
 Result<Recording> parse_recording(std::string_view text);
 
-// Makes of the header of a recording that begins with this event that of one which begins behind it.
+// Changes the header of a recording that begins with this event into the header of one that begins after it.
 void pass(RecordingHeader& header, const RecordedEvent& event);
-// The same for a finished line of text, as a ring of the newest lines drops them.
+// Does the same for a finished line of text; used by a ring buffer that drops its oldest lines.
 void pass(RecordingHeader& header, std::string_view line);
 
 }  // namespace axisgate::stage

@@ -1,4 +1,4 @@
-// A recording's text, read strictly: a slip in it is an error that names its line.
+// Parses a recording's text strictly: an error names the line.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,10 +13,10 @@
 namespace axisgate::stage {
 namespace {
 
-// Longer than any uptime, and far from overflow.
+// Upper limit for times: longer than any uptime, and far from overflow.
 constexpr std::int64_t kRecordingSecondsMax = 1'000'000'000;
 
-// Takes one line apart from its front. The first mistake stays; after it nothing more is taken.
+// A Cursor reads one line from its beginning. It keeps the first mistake and reads nothing after it.
 class Cursor {
  public:
   explicit Cursor(std::string_view text) : rest_(text) {}
@@ -42,7 +42,7 @@ class Cursor {
     if (!at_end()) fail_here("the line should end");
   }
 
-  // Up to the next blank.
+  // Returns the text up to the next blank.
   std::string_view word() {
     const auto taken = rest_.substr(0, rest_.find(' '));
     rest_.remove_prefix(taken.size());
@@ -134,7 +134,7 @@ RecordedItem parse_item(Cursor& line, Duration after) {
   return item;
 }
 
-// Whose exchange it is; omitted where it continues.
+// Parses the lane and caller of an exchange, which are omitted if the exchange continues.
 void parse_cause(Cursor& line, RecordedExchange& exchange) {
   const auto lane =
       std::ranges::find_if(kLaneNames, [&](std::string_view one) { return line.take(fmt::format("{} ", one)); });
@@ -184,7 +184,7 @@ RecordedExchange parse_exchange(Cursor& line) {
   return exchange;
 }
 
-// Notes are free, but what begins with a time is none.
+// Reports whether the line begins with a time; a note never does.
 bool has_time(std::string_view text) {
   if (!text.starts_with("# ")) return false;
   const auto end = text.find_first_not_of("0123456789", 2);
@@ -258,7 +258,7 @@ class Reader {
     recording_.lines.push_back({number, std::move(event)});
   }
 
-  // False: the line is a note.
+  // Returns false if the line is a note.
   bool take_key(std::string_view line) {
     Cursor cursor(line);
     if (!cursor.take("# ")) return false;

@@ -25,7 +25,7 @@ inline std::string_view word(RecordedItem::Kind kind) {
   return kWords[static_cast<std::size_t>(kind)];
 }
 
-// Those of a happening: all but a note. None begins another that stands behind it.
+// Kinds that have a time: all but notes. No word in this order is a prefix of a later one.
 inline constexpr std::array kRemarkKinds = {RecordedRemark::Kind::connecting, RecordedRemark::Kind::up,
                                             RecordedRemark::Kind::down,       RecordedRemark::Kind::barrier_passed,
                                             RecordedRemark::Kind::barrier,    RecordedRemark::Kind::same_controller,
